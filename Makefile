@@ -1,0 +1,64 @@
+# make run | test | lint | bench | clean; ARGS='...' is handed on to the program that a target runs.
+#
+# What it needs: Linux, make, and a Python of 3.11 or later with venv. It builds .venv beside this file and changes
+# nothing else. Where ROS 2 Jazzy is sourced, that is used; everywhere else Jazzy comes as wheels.
+
+SHELL := /bin/bash
+VENV := .venv
+BIN := $(VENV)/bin
+
+# ROS counts as sourced where its own Python imports it; a ROS_DISTRO left behind alone does not.
+SOURCED := $(shell [ "$$ROS_DISTRO" = jazzy ] && python3 -c 'import rclpy' 2>/dev/null && echo yes)
+
+ifeq ($(SOURCED),yes)
+  PYTHON ?= python3
+  EXTRAS := test
+  VENV_OPTIONS := --system-site-packages
+  STAMP := $(VENV)/.made-for-sourced-jazzy
+else
+  # The first that is recent enough and can make environments (Debian splits ensurepip off into python3-venv).
+  PYTHON ?= $(shell for name in python3.13 python3.12 python3.11 python3; do \
+	    $$name -c 'import ensurepip, sys, venv; sys.exit(sys.version_info < (3, 11))' 2>/dev/null \
+	      && echo $$name && break; \
+	  done)
+  EXTRAS := jazzy,test
+  STAMP := $(VENV)/.made-of-wheels
+  # The wheels put their libraries onto LD_LIBRARY_PATH in random order, so those of another ROS could win, and the
+  # mark that they have done so is inherited from other environments. They have Fast DDS and no other middleware.
+  unexport LD_LIBRARY_PATH PYTHONPATH AMENT_PREFIX_PATH COLCON_PREFIX_PATH RMW_IMPLEMENTATION
+  unexport _ROS_WHEELS_BOOTSTRAP_COMPLETE
+endif
+
+.PHONY: run test lint bench clean
+
+run: $(STAMP)
+	@echo 'The world `demo`. Where to look:'
+	@echo '  Rerun     opens by itself where there is a display, else at the address printed below'
+	@echo '  RViz      fixed frame `world`, add MarkerArray /physsim/markers'
+	@echo '  ros2      topics and services under /physsim'
+	@echo 'Ctrl-C ends it.'
+	@exec $(BIN)/physsim --ros-args -p world_file:=demo $(ARGS)
+
+test: $(STAMP)
+	$(BIN)/python -m pytest $(ARGS)
+
+lint: $(STAMP)
+	$(BIN)/ruff check
+	$(BIN)/ruff format --check
+	$(BIN)/mypy physsim_ros
+	$(BIN)/lint-imports
+	$(BIN)/python -m pytest -q test/style
+
+bench: $(STAMP)
+	$(BIN)/python -m test.bench $(ARGS)
+
+clean:
+	rm -rf $(VENV) build install log dist *.egg-info .hypothesis .import_linter_cache .mypy_cache .pytest_cache .ruff_cache
+	find . -name __pycache__ -type d -prune -exec rm -rf {} +
+
+# The stamp is written last, so an interrupted installation starts over; a new setup.py is installed on top.
+$(STAMP): setup.py
+	@[ -n '$(PYTHON)' ] || { echo 'No Python of 3.11 or later with venv; name one: make PYTHON=/path/to/python' >&2; exit 1; }
+	[ -e $@ ] || $(PYTHON) -m venv --clear $(VENV_OPTIONS) $(VENV)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[$(EXTRAS)]'
+	@touch $@

@@ -1,0 +1,88 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+How many steps are due: play, pause and speed, against a time that is handed in.
+
+Laws: no clock is read here. Steps are never skipped: what the machine cannot do in time is given
+up, so that simulation time slows down, and is counted.
+"""
+
+from __future__ import annotations
+
+import math
+
+# As many frames may be made up for in a row before simulation time slows down instead: a tenth of
+# a second at 60 Hz, longer than a garbage collection, shorter than a person's patience.
+MOST_BEHIND = 6
+
+
+class Clock:
+    """
+    Turns a steady time into steps.
+
+    :param physics_rate: steps a second at speed 1 [Hz]
+    :param frame_steps: steps in a publish period
+    :param speed: simulation seconds a second
+    """
+
+    def __init__(self, *, physics_rate: float, frame_steps: int, speed: float = 1.0) -> None:
+        self._physics_rate = physics_rate
+        self._frame_steps = frame_steps
+        self._speed = speed
+        # Where the time line is nailed down: at that steady time [ns], that step.
+        self._anchor: tuple[int, int] | None = None
+        # Frames that were due and could not be made in time.
+        self.late_frames = 0
+
+    @property
+    def speed(self) -> float:
+        """Simulation seconds a second; 0 is paused."""
+        return self._speed
+
+    @speed.setter
+    def speed(self, speed: float) -> None:
+        self._speed = speed
+        self._anchor = None
+
+    def restart(self) -> None:
+        """Count from the next call on, whatever was due."""
+        self._anchor = None
+
+    def due(self, now_ns: int, step: int) -> int:
+        """
+        Return how many steps the next frame has; 0 where none is due yet.
+
+        At whole speeds a frame ends on a multiple of the publish period, and a timer's jitter of
+        less than half a period changes nothing.
+
+        :param now_ns: steady time, never going back [ns]
+        :param step: the world's step
+        """
+        if self._speed == 0.0:
+            return 0
+        if self._anchor is None:
+            self._anchor = (now_ns, step)
+        quota = self._frame_steps * self._speed
+        anchor_ns, anchor_step = self._anchor
+        target = anchor_step + (now_ns - anchor_ns) * 1e-9 * self._physics_rate * self._speed
+        behind = (target - step) / quota
+        if behind > MOST_BEHIND:
+            self.late_frames += math.floor(behind) - 1
+            target = step + quota
+            self._anchor = (now_ns, step)
+        if self._speed.is_integer():
+            frames = min(round(target / self._frame_steps), (step + quota) // self._frame_steps)
+            return max(0, int(frames) * self._frame_steps - step)
+        return max(0, min(math.floor(target), step + math.ceil(quota)) - step)

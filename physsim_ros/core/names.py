@@ -1,0 +1,54 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Names of bodies: `<namespace>/<id>`, as markers have them, one spelling a name.
+"""
+
+from __future__ import annotations
+
+from physsim_ros.core.errors import Malformed
+
+# The background's own name in joints, contacts and frames.
+WORLD = 'world'
+# What frame names and message strings can reasonably hold.
+LONGEST_NAME = 1000
+
+
+def check_name(name: str) -> None:
+    """
+    Refuse a name that is not `<namespace>/<id>`, the id a 32-bit whole number.
+
+    :raises Malformed: it is not, or is too long, or holds a character no message can
+    """
+    namespace, id_ = split_name(name)
+    if not namespace:
+        raise Malformed(f'{name!r} is not a name: <namespace>/<id>', field='name')
+    if len(name) > LONGEST_NAME:
+        raise Malformed(f'a name has at most {LONGEST_NAME} characters', field='name')
+    if '\0' in name or not name.isprintable():
+        raise Malformed(f'{name!r} holds a character that cannot be printed', field='name')
+    if not -(2**31) <= id_ < 2**31:
+        raise Malformed(f'the id of {name!r} does not fit into 32 bits', field='name')
+
+
+def split_name(name: str) -> tuple[str, int]:
+    """Return namespace and id of a name; the namespace is '' where it is no name."""
+    namespace, _, id_ = name.rpartition('/')
+    try:
+        number = int(id_)
+    except ValueError:
+        return '', 0
+    # One spelling a name: '7', not '07' or '+7', so that a marker leads back to it.
+    return (namespace, number) if str(number) == id_ else ('', 0)

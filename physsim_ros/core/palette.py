@@ -1,0 +1,34 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Colours for bodies that ask for none: distinct on white and on black, also for the colour-blind.
+
+The ten colours of Tableau 10 (https://www.tableau.com/blog/colors-upgrade-tableau-10-56782).
+"""
+
+from __future__ import annotations
+
+from physsim_ros.core.shapes import Color
+
+_PALETTE = (
+    '#4c78a8', '#f58518', '#e45756', '#72b7b2', '#54a24b',
+    '#eeca3b', '#b279a2', '#ff9da6', '#9d755d', '#bab0ac',
+)  # fmt: skip
+
+
+def color_of(number: int) -> Color:
+    """Return the colour of the n-th body."""
+    red, green, blue = bytes.fromhex(_PALETTE[number % len(_PALETTE)][1:])
+    return red / 255, green / 255, blue / 255, 1.0

@@ -1,0 +1,206 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+What a body is like apart from its shape: material, motion, role.
+
+One table holds every key with its check, so that markers, world files and parameters agree.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, fields
+import difflib
+import math
+from typing import Any
+
+from physsim_ros.core.errors import BadProperty, Malformed, UnknownProperty
+
+# Faster than anything in a room by far; a body at this speed still moves by whole metres a step,
+# which float64 positions resolve.
+FASTEST = 1e5
+# From a dust grain to a mountain; the engine's impulses stay finite between any two of these.
+LIGHTEST, HEAVIEST = 1e-9, 1e12
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Properties:
+    """
+    The properties that a request names; None is *not said*.
+
+    :param mass: [kg], excludes density
+    :param density: [kg/m²], excludes mass
+    :param friction: coefficient, 0 .. 10
+    :param elasticity: coefficient of restitution, 0 .. 1
+    :param velocity: of the centre of mass, world axes [m/s]
+    :param spin: [rad/s], counter-clockwise
+    :param anchored: fixed to the background
+    :param kinematic: moves as commanded whatever it touches
+    :param group: bodies of the same non-zero group pass through each other
+    :param sensor: reports contacts, pushes nothing
+    :raises Malformed: a number is not finite or an array has the wrong length
+    :raises BadProperty: a value is of the wrong kind or out of range
+    """
+
+    mass: float | None = None
+    density: float | None = None
+    friction: float | None = None
+    elasticity: float | None = None
+    velocity: tuple[float, float] | None = None
+    spin: float | None = None
+    anchored: bool | None = None
+    kinematic: bool | None = None
+    group: int | None = None
+    sensor: bool | None = None
+
+    def __post_init__(self) -> None:
+        for name, check in _CHECKS.items():
+            value = getattr(self, name)
+            if value is not None:
+                object.__setattr__(self, name, check(value, name))
+        if self.mass is not None and self.density is not None:
+            raise BadProperty('a body has a mass or a density, not both', field='mass')
+        if self.anchored and self.kinematic:
+            raise BadProperty('a body is anchored or kinematic, not both', field='kinematic')
+
+    def said(self) -> dict[str, Any]:
+        """Return what was said, key by key."""
+        pairs = ((each.name, getattr(self, each.name)) for each in fields(self))
+        return {name: value for name, value in pairs if value is not None}
+
+
+def properties_from(mapping: Mapping[Any, Any]) -> Properties:
+    """
+    Return the properties that a YAML mapping names.
+
+    :raises UnknownProperty: a key is not a property; the nearest one is named
+    :raises Malformed: a number is not finite or an array has the wrong length
+    :raises BadProperty: a value is null, of the wrong kind, or out of range
+    """
+    known = list(_CHECKS)
+    for key, value in mapping.items():
+        check_key(key, known)
+        if value is None:
+            raise BadProperty(f'{key} has no value', field=str(key))
+    return Properties(**mapping)
+
+
+def check_key(key: object, known: list[str]) -> None:
+    """
+    Refuse a key that is not known, and name the nearest that is.
+
+    :raises UnknownProperty: the key is not one of the known
+    """
+    if key in known:
+        return
+    near = difflib.get_close_matches(str(key), known, n=1, cutoff=0.0)
+    raise UnknownProperty(
+        f'there is no property {str(key)!r}; nearest is {near[0]!r}', field=str(key)
+    )
+
+
+def number(value: object, name: str) -> float:
+    """
+    Return a finite number.
+
+    :raises BadProperty: it is not a number
+    :raises Malformed: it is not finite
+    """
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise BadProperty(f'{name} must be a number, not {value!r}', field=name)
+    try:
+        result = float(value)
+    except OverflowError:
+        result = math.inf
+    if not math.isfinite(result):
+        raise Malformed(f'{name} is {value}, not a finite number', field=name)
+    return result
+
+
+def check_finite(values: tuple[float, ...], count: int, name: str) -> None:
+    """
+    Refuse values that are not the right count of finite numbers.
+
+    :raises Malformed: they are not
+    """
+    if len(values) != count:
+        raise Malformed(f'{name} needs {count} numbers, not {len(values)}', field=name)
+    if not all(map(math.isfinite, values)):
+        raise Malformed(f'{name} is not finite', field=name)
+
+
+def within(low: float, high: float, unit: str = '') -> Callable[[object, str], float]:
+    """Return a check that a number lies in a closed range."""
+
+    def check(value: object, name: str) -> float:
+        result = number(value, name)
+        if not low <= result <= high:
+            raise BadProperty(
+                f'{name} is {result:g}; it must lie between {low:g} and {high:g} {unit}'.rstrip(),
+                field=name,
+            )
+        return result
+
+    return check
+
+
+def pair(value: object, name: str) -> tuple[float, float]:
+    """
+    Return two finite numbers.
+
+    :raises Malformed: there are not two of them, or one is not finite
+    :raises BadProperty: it is no list of numbers
+    """
+    if not isinstance(value, list | tuple):
+        raise BadProperty(f'{name} must be a list of two numbers, not {value!r}', field=name)
+    if len(value) != 2:
+        raise Malformed(f'{name} needs two numbers, not {len(value)}', field=name)
+    return number(value[0], name), number(value[1], name)
+
+
+def _velocity(value: object, name: str) -> tuple[float, float]:
+    velocity = pair(value, name)
+    if math.hypot(*velocity) > FASTEST:
+        raise BadProperty(f'{name} is faster than {FASTEST:g} m/s', field=name)
+    return velocity
+
+
+def _flag(value: object, name: str) -> bool:
+    if not isinstance(value, bool):
+        raise BadProperty(f'{name} must be true or false, not {value!r}', field=name)
+    return value
+
+
+def _group(value: object, name: str) -> int:
+    if isinstance(value, bool) or not isinstance(value, int):
+        raise BadProperty(f'{name} must be a whole number, not {value!r}', field=name)
+    # The engine keeps groups in an unsigned 64-bit word; negative ones wrap to distinct words.
+    if not -(2**31) <= value < 2**31:
+        raise BadProperty(f'{name} must fit into 32 bits', field=name)
+    return value
+
+
+_CHECKS: dict[str, Callable[[object, str], Any]] = {
+    'mass': within(LIGHTEST, HEAVIEST, 'kg'),
+    'density': within(LIGHTEST, HEAVIEST, 'kg/m²'),
+    'friction': within(0.0, 10.0),
+    'elasticity': within(0.0, 1.0),
+    'velocity': _velocity,
+    'spin': within(-FASTEST, FASTEST, 'rad/s'),
+    'anchored': _flag,
+    'kinematic': _flag,
+    'group': _group,
+    'sensor': _flag,
+}

@@ -1,0 +1,214 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+What may be asked of the world: frozen values, complete in themselves.
+
+A request says what somebody wants; whether the world can do it is decided when it is applied.
+Poses are (x, y, yaw) in metres and radians, in the world or, where `frame` names a body, relative
+to that body as it is when the request is applied.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+import math
+from typing import Any
+
+from physsim_ros.core.errors import BadProperty, Malformed
+from physsim_ros.core.names import check_name
+from physsim_ros.core.properties import check_finite, FASTEST, HEAVIEST, Properties
+from physsim_ros.core.settings import check_setting
+from physsim_ros.core.shapes import Color, Point, Pose, Shape
+from physsim_ros.core.snapshot import WorldState
+
+# 10 000 km: beyond it float64 positions are coarser than a nanometre.
+FARTHEST = 1e7
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Spawn:
+    """
+    Add a body, or change the body of that name in place.
+
+    A change takes over the shape, the pose, the colour where one is given, the lifetime where it
+    is not zero, and the properties that are said; all else is kept, motion too.
+
+    :param name: of the body
+    :param shape: what it is made of
+    :param pose: of the body's origin
+    :param frame: '' for the world, or a body's name
+    :param color: red, green, blue, alpha, each 0 .. 1; None chooses one
+    :param lifetime: simulation time after which the body goes [s]; 0 is for ever
+    :param properties: material, motion and role, as far as said
+    :raises Malformed: a number is not finite, or the name is empty or too long
+    :raises BadProperty: a pose, colour or lifetime is out of range
+    """
+
+    name: str
+    shape: Shape
+    pose: Pose = (0.0, 0.0, 0.0)
+    frame: str = ''
+    color: Color | None = None
+    lifetime: float = 0.0
+    properties: Properties = field(default_factory=Properties)
+
+    def __post_init__(self) -> None:
+        check_name(self.name)
+        check_pose(self.pose, 'pose')
+        if self.color is not None:
+            check_finite(self.color, 4, 'color')
+            if not all(0.0 <= channel <= 1.0 for channel in self.color):
+                raise BadProperty('each channel of color must lie in 0 .. 1', field='color')
+        check_finite((self.lifetime,), 1, 'lifetime')
+        if self.lifetime < 0:
+            raise BadProperty('lifetime must not be negative', field='lifetime')
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Delete:
+    """Remove the body of that name."""
+
+    name: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DeleteAll:
+    """
+    Remove all bodies, or all of a namespace.
+
+    :param namespace: what stands before the last slash of the names; None is every body
+    """
+
+    namespace: str | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Anchor:
+    """Fix the topmost body under a point [m] to the background."""
+
+    point: Point
+    frame: str = ''
+
+    def __post_init__(self) -> None:
+        check_point(self.point, 'point')
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Release:
+    """Free the topmost body under a point [m] from the background."""
+
+    point: Point
+    frame: str = ''
+
+    def __post_init__(self) -> None:
+        check_point(self.point, 'point')
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Command:
+    """
+    Set poses, twists or wrenches of named bodies; all of it or nothing.
+
+    :param names: the bodies, each once
+    :param poses: (x, y, yaw) for each, or empty
+    :param twists: (vx, vy, spin) for each, world axes [m/s, rad/s], or empty
+    :param wrenches: (fx, fy, torque) for each, world axes [N, N m], or empty; acts at the centre
+        of mass until the next one, at most for the world's `command_timeout`
+    :param frame: of the poses: '' for the world, or a body's name
+    :raises Malformed: lengths do not fit, a name comes twice, a number is not finite
+    :raises BadProperty: a value is out of range
+    """
+
+    names: tuple[str, ...]
+    poses: tuple[Pose, ...] = ()
+    twists: tuple[Pose, ...] = ()
+    wrenches: tuple[Pose, ...] = ()
+    frame: str = ''
+
+    def __post_init__(self) -> None:
+        if not self.names:
+            raise Malformed('the command names no body', field='joint_names')
+        if len(set(self.names)) != len(self.names):
+            raise Malformed('the command names a body twice', field='joint_names')
+        for name, rows in (
+            ('transforms', self.poses),
+            ('twist', self.twists),
+            ('wrench', self.wrenches),
+        ):
+            if rows and len(rows) != len(self.names):
+                raise Malformed(
+                    f'{name} has {len(rows)} entries for {len(self.names)} bodies', field=name
+                )
+        for pose in self.poses:
+            check_pose(pose, 'transforms')
+        for twist in self.twists:
+            check_finite(twist, 3, 'twist')
+            if math.hypot(*twist[:2]) > FASTEST or abs(twist[2]) > FASTEST:
+                raise BadProperty(f'twist is faster than {FASTEST:g} m/s or rad/s', field='twist')
+        for wrench in self.wrenches:
+            check_finite(wrench, 3, 'wrench')
+            if max(map(abs, wrench)) > HEAVIEST:
+                raise BadProperty(f'wrench exceeds {HEAVIEST:g} N or N m', field='wrench')
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Configure:
+    """
+    Change settings of the world.
+
+    :param changes: names of WorldSettings and their new values
+    """
+
+    changes: Mapping[str, Any]
+
+    def __post_init__(self) -> None:
+        for name in self.changes:
+            check_setting(name)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Restore:
+    """Replace the whole world by a saved state."""
+
+    state: WorldState
+
+
+Request = Spawn | Delete | DeleteAll | Anchor | Release | Command | Configure | Restore
+
+
+def check_point(point: Point, name: str) -> None:
+    """
+    Refuse a point that is not finite or too far away.
+
+    :raises Malformed: it is not finite
+    :raises BadProperty: it is too far away
+    """
+    check_finite(point, 2, name)
+    if max(map(abs, point)) > FARTHEST:
+        raise BadProperty(f'{name} is further away than {FARTHEST:g} m', field=name)
+
+
+def check_pose(pose: Pose, name: str) -> None:
+    """
+    Refuse a pose that is not finite or too far away.
+
+    :raises Malformed: it is not finite
+    :raises BadProperty: it is too far away
+    """
+    check_finite(pose, 3, name)
+    check_point(pose[:2], name)
+    if abs(pose[2]) > FARTHEST:
+        raise BadProperty(f'the yaw of {name} is too large', field=name)

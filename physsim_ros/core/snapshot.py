@@ -1,0 +1,280 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+What is so: arrays and values that leave the world.
+
+Law: what crosses the border is an immutable value or a fresh array, never an engine object.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from physsim_ros.core.errors import Refusal
+from physsim_ros.core.settings import WorldSettings
+from physsim_ros.core.shapes import Color, Pose, Shape
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Body:
+    """
+    What a body is, apart from where it is.
+
+    :param name: unique in its world
+    :param shape: geometry in the body's frame
+    :param color: red, green, blue, alpha, each 0 .. 1
+    :param mass: as given [kg], or None where the density counts
+    :param density: [kg/m²]
+    :param friction: of its material
+    :param elasticity: of its material
+    :param anchored: fixed to the background
+    :param kinematic: moves as commanded whatever it touches
+    :param group: bodies of the same non-zero group pass through each other
+    :param sensor: reports contacts, pushes nothing
+    :param expires: step at whose end the body goes; None is never
+    """
+
+    name: str
+    shape: Shape
+    color: Color
+    mass: float | None
+    density: float
+    friction: float
+    elasticity: float
+    anchored: bool
+    kinematic: bool
+    group: int
+    sensor: bool
+    expires: int | None
+
+    @property
+    def weight(self) -> float:
+        """The mass that counts [kg]."""
+        return self.density * self.shape.form.area if self.mass is None else self.mass
+
+    @property
+    def fixed(self) -> bool:
+        """Whether forces do not move it."""
+        return self.anchored or self.kinematic
+
+
+class Motion(NamedTuple):
+    """
+    The engine's own numbers for a body: enough to go on from to the bit.
+
+    x, y [m], yaw [rad] of the engine's origin; vx, vy [m/s], spin [rad/s] as the engine has them;
+    whether the body is in free flight.
+    """
+
+    x: float
+    y: float
+    yaw: float
+    vx: float
+    vy: float
+    spin: float
+    free: bool
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BodyState:
+    """
+    A body and all that it goes on from.
+
+    :param body: what it is; `expires` counts from the moment of the state
+    :param pose: of its origin in the world [m, rad]
+    :param twist: velocity of the centre of mass [m/s] and spin [rad/s]
+    :param motion: the engine's numbers for these two; None where they come from a person
+    :param wrench: force [N] and torque [N m] that act on it
+    :param wrench_steps: steps for which the wrench still acts; None is for ever
+    """
+
+    body: Body
+    pose: Pose
+    twist: Pose = (0.0, 0.0, 0.0)
+    motion: Motion | None = None
+    wrench: Pose = (0.0, 0.0, 0.0)
+    wrench_steps: int | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WorldState:
+    """
+    A whole world at a moment, as it is saved and restored; it has no time of its own.
+
+    :param settings: of the world
+    :param bodies: in spawn order
+    """
+
+    settings: WorldSettings
+    bodies: tuple[BodyState, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Scene:
+    """
+    Everything about a world that stays while it steps; one object until something changes.
+
+    Compare scenes by identity: a frame with the same scene as the one before has the same bodies
+    in the same order.
+
+    :param bodies: in spawn order
+    :param settings: of the world
+    """
+
+    bodies: tuple[Body, ...]
+    settings: WorldSettings
+
+    @cached_property
+    def key(self) -> bytes:
+        """Everything of it as bytes, for digests."""
+        return repr((self.bodies, self.settings)).encode()
+
+    @cached_property
+    def names(self) -> tuple[str, ...]:
+        """Names of the bodies, in spawn order."""
+        return tuple(body.name for body in self.bodies)
+
+    @cached_property
+    def inertia(self) -> Floats:
+        """(n, 2) float64: mass [kg], moment [kg m²]; zero for bodies that forces do not move."""
+        rows = [
+            (0.0, 0.0) if body.fixed else (body.weight, body.weight * body.shape.form.gyration)
+            for body in self.bodies
+        ]
+        return np.array(rows, dtype=np.float64).reshape(-1, 2)
+
+    @cached_property
+    def centroids(self) -> Floats:
+        """(n, 2) float64: centre of mass in the body's frame [m]."""
+        rows = [body.shape.form.centroid for body in self.bodies]
+        return np.array(rows, dtype=np.float64).reshape(-1, 2)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Contacts:
+    """
+    The pairs that touched during a frame, each pair once, in a stable order.
+
+    :param pairs: (m, 2) int64: rows of the two bodies in the scene, the earlier spawned first;
+        -1, always second, is the walls of `bounds`
+    :param points: (m, 2) float64: mean of the latest contact points, world [m]
+    :param normals: (m, 2) float64: unit vector from the first to the second body, world
+    :param impulses: (m, 2) float64: what the first gave the second over the frame, world [N s]
+    """
+
+    pairs: Ints
+    points: Floats
+    normals: Floats
+    impulses: Floats
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Answer:
+    """
+    What became of one request, or what happened without one.
+
+    :param topic: where the request came from, as '~/spawn'; or what happened, as 'divergence'
+    :param subject: the body concerned, '' where there is none
+    :param message: a sentence
+    :param code: '' for success, else the stable code of the refusal
+    :param field: the offending field of a refusal
+    """
+
+    topic: str
+    subject: str = ''
+    message: str = ''
+    code: str = ''
+    field: str = ''
+
+    @classmethod
+    def refused(cls, refusal: Refusal, *, topic: str, subject: str = '') -> Answer:
+        """Make the answer that tells of a refusal."""
+        return cls(
+            topic=topic,
+            subject=subject,
+            message=str(refusal),
+            code=refusal.code,
+            field=refusal.field,
+        )
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Snapshot:
+    """
+    Where everything is after a step.
+
+    :param step: number of steps since the world began
+    :param stamp: simulation time, step / physics_rate [ns]
+    :param scene: what the rows are
+    :param poses: (n, 3) float64: x, y [m], yaw [rad] of each body's origin
+    :param twists: (n, 3) float64: vx, vy [m/s] of each centre of mass, spin [rad/s]; world axes
+    """
+
+    step: int
+    stamp: int
+    scene: Scene
+    poses: Floats
+    twists: Floats
+
+    @cached_property
+    def centers(self) -> Floats:
+        """(n, 2) float64: centres of mass, world [m]."""
+        x, y = self.scene.centroids.T
+        cos, sin = np.cos(self.poses[:, 2]), np.sin(self.poses[:, 2])
+        return self.poses[:, :2] + np.column_stack((cos * x - sin * y, sin * x + cos * y))
+
+    @cached_property
+    def kinetic_energy(self) -> float:
+        """Of all bodies that forces move [J]."""
+        mass, moment = self.scene.inertia.T
+        speed2 = (self.twists[:, :2] ** 2).sum(axis=1)
+        return float((mass * speed2 + moment * self.twists[:, 2] ** 2).sum() / 2)
+
+    @cached_property
+    def potential_energy(self) -> float:
+        """In the field of gravity, zero at the origin [J]."""
+        return float(-(self.scene.inertia[:, 0] @ (self.centers @ self.scene.settings.gravity)))
+
+    @cached_property
+    def momentum(self) -> tuple[float, float]:
+        """Of all bodies that forces move [kg m/s]."""
+        x, y = (self.scene.inertia[:, 0] @ self.twists[:, :2]).tolist()
+        return x, y
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Frame:
+    """
+    All that leaves the simulation at once: state, contacts and answers.
+
+    :param snapshot: where everything is
+    :param contacts: what touched since the frame before; None where nobody asked
+    :param answers: to the requests that were applied, in their order
+    :param speed: at which time runs; 0 is paused
+    :param moved: whether time went on since the frame before
+    """
+
+    snapshot: Snapshot
+    contacts: Contacts | None
+    answers: tuple[Answer, ...] = field(default=())
+    speed: float = 1.0
+    moved: bool = True

@@ -1,0 +1,371 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+The node: subscriptions, services, parameters and one timer around a Simulation.
+
+It wires and reports, and decides nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+import gc
+from pathlib import Path
+import signal
+import sys
+import time
+from typing import Any
+
+from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import PointStamped
+from physsim_ros import conversions, parameters, world_file
+from physsim_ros.core.errors import PhysSimError, Refusal
+from physsim_ros.core.requests import Configure, DeleteAll, Request
+from physsim_ros.core.simulation import Simulation
+from physsim_ros.core.snapshot import Answer, Frame
+from physsim_ros.diagnostics import Meter
+from physsim_ros.streams import Streams
+from physsim_ros.viewer import Viewer, ViewerMode
+from rcl_interfaces.msg import SetParametersResult
+import rclpy
+from rclpy.clock import Clock as RosClock
+from rclpy.clock import ClockType
+from rclpy.context import Context
+from rclpy.experimental import EventsExecutor
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from rclpy.qos import HistoryPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.signals import SignalHandlerOptions
+from sensor_msgs.msg import MultiDOFJointState
+from std_msgs.msg import Float64
+from std_srvs.srv import Trigger
+from visualization_msgs.msg import Marker, MarkerArray
+
+# A burst of thousands must lose nothing.
+_REQUESTS = QoSProfile(history=HistoryPolicy.KEEP_ALL, reliability=ReliabilityPolicy.RELIABLE)
+
+
+class PhysSimNode(Node):
+    """
+    A physics world on the ROS graph.
+
+    :param context: of ROS; None is the default one
+    :param parameter_overrides: values that come before those of the command line
+    :raises PhysSimError: a parameter or the world file is refused
+    """
+
+    def __init__(
+        self,
+        *,
+        context: Context | None = None,
+        parameter_overrides: list[Parameter] | None = None,
+    ) -> None:
+        super().__init__('physsim', context=context, parameter_overrides=parameter_overrides)
+        self._values = parameters.declare(self)
+        self.simulation = Simulation(
+            physics_rate=self._values['physics_rate'],
+            publish_rate=self._values['publish_rate'],
+            settings=parameters.world_settings(self._values),
+            speed=self._values['speed'],
+        )
+        self._frame_id: str = self._values['frame_id']
+        self._world_dir = Path(self._values['world_dir'])
+        self._streams = Streams(
+            self, frame_id=self._frame_id, publish_clock=self._values['publish_clock']
+        )
+        self._meter = Meter()
+        self._diagnostics = self.create_publisher(DiagnosticArray, '/diagnostics', 10)
+        self._viewer: Viewer | None = None
+        # The last one that was delivered.
+        self.frame: Frame | None = None
+        self._started = False
+        if self._values['world_file']:
+            self.load_world(confined=False)
+        self._subscribe()
+        self._serve()
+        self.add_on_set_parameters_callback(self._check_parameters)
+        self.add_post_set_parameters_callback(self._take_parameters)
+
+    def start(self) -> None:
+        """Let time run: frames at the publish rate of a steady clock, and a viewer."""
+        self._started = True
+        self._open_viewer()
+        # The node that publishes the clock must not wait for it.
+        steady = RosClock(clock_type=ClockType.STEADY_TIME)
+        period = 1.0 / self._values['publish_rate']
+        self.create_timer(period, lambda: self.tick(time.monotonic_ns()), clock=steady)
+        self.create_timer(1.0, self._diagnose, clock=steady)
+        self.get_logger().info(f'ready: {len(self.simulation.world)} bodies')
+
+    def tick(self, now_ns: int) -> None:
+        """
+        Go on by what is due at a steady time, and deliver the frames.
+
+        :param now_ns: steady time, never going back [ns]
+        """
+        began = time.perf_counter_ns()
+        self._watch()
+        frames = self.simulation.advance(now_ns)
+        stepped = time.perf_counter_ns()
+        for frame in frames:
+            self.deliver(frame)
+        if not frames:
+            self._streams.welcome()
+            return
+        last = frames[-1]
+        if last.moved:
+            self._meter.add(
+                now_ns=now_ns,
+                stamp=last.snapshot.stamp,
+                step_ns=stepped - began,
+                frame_ns=time.perf_counter_ns() - began,
+            )
+        else:
+            self._meter.pause()
+
+    def deliver(self, frame: Frame) -> None:
+        """Send a frame to topics and viewer."""
+        self.frame = frame
+        for answer in frame.answers:
+            self._report(answer)
+        self._streams.publish(frame)
+        if self._viewer is not None:
+            self._viewer.show(frame, real_time_factor=self._meter.real_time_factor)
+
+    def advance_frame(self) -> None:
+        """Go on by one publish period, whatever the clock says, and deliver the frame."""
+        self._watch()
+        self.deliver(self.simulation.advance_frame())
+
+    def apply(self) -> None:
+        """Carry out what was asked while time stands still."""
+        self._watch()
+        frame = self.simulation.settle()
+        if frame is not None:
+            self.deliver(frame)
+
+    @property
+    def frame_period(self) -> float:
+        """Simulation time from one frame to the next at speed 1 [s]."""
+        return self.simulation.frame_steps * self.simulation.world.dt
+
+    def _watch(self) -> None:
+        """Have contacts read where somebody looks."""
+        self.simulation.watch_contacts(self._streams.wants_contacts or self._viewer is not None)
+
+    def destroy_node(self) -> None:
+        """Close the viewer, then everything of ROS."""
+        if self._viewer is not None:
+            self._viewer.close()
+            self._viewer = None
+        super().destroy_node()
+
+    # Requests
+
+    def _subscribe(self) -> None:
+        def listen(kind: type, topic: str, convert: Callable[..., Request]) -> None:
+            def callback(message: Any) -> None:
+                self._submit(message, topic, convert)
+
+            self.create_subscription(kind, topic, callback, _REQUESTS)
+
+        listen(Marker, '~/spawn', conversions.body_request)
+        listen(PointStamped, '~/anchor', conversions.anchor_request)
+        listen(PointStamped, '~/release', conversions.release_request)
+        listen(MultiDOFJointState, '~/command', conversions.command_request)
+        self.create_subscription(MarkerArray, '~/spawn_array', self._spawn_array, _REQUESTS)
+        self.create_subscription(Float64, '~/speed', self._speed, _REQUESTS)
+
+    def _submit(self, message: Any, topic: str, convert: Callable[..., Request]) -> None:
+        try:
+            request = convert(message, frame_id=self._frame_id)
+        except Refusal as refusal:
+            subject = conversions.name_of(message) if isinstance(message, Marker) else ''
+            self._report(Answer.refused(refusal, topic=topic, subject=subject))
+            return
+        self.simulation.submit(request, topic=topic)
+
+    def _spawn_array(self, message: MarkerArray) -> None:
+        for marker in message.markers:
+            self._submit(marker, '~/spawn_array', conversions.body_request)
+
+    def _speed(self, message: Float64) -> None:
+        result = self.set_parameters([Parameter('speed', value=message.data)])[0]
+        code = '' if result.successful else result.reason.partition(':')[0]
+        text = f'speed {message.data:g}' if result.successful else result.reason
+        self._report(Answer(topic='~/speed', message=text, code=code, field='speed'))
+
+    def _report(self, answer: Answer) -> None:
+        self._streams.report(answer)
+        if answer.code:
+            self.get_logger().warning(
+                f'{answer.topic}: {answer.code}: {answer.message}', throttle_duration_sec=1.0
+            )
+
+    # Services
+
+    def _serve(self) -> None:
+        for name, act in {
+            'play': lambda: self._run_at(1.0, 'playing'),
+            'pause': lambda: self._run_at(0.0, 'paused'),
+            'step': self._step,
+            'reset': self._reset,
+            'clear': lambda: self.simulation.perform(DeleteAll()),
+            'load_world': lambda: self.load_world(confined=True),
+            'save_world': self._save,
+        }.items():
+            self.create_service(Trigger, f'~/{name}', self._answering(act))
+
+    def _answering(self, act: Callable[[], str]) -> Callable[..., Trigger.Response]:
+        def callback(_: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+            try:
+                response.message = act()
+                response.success = True
+            except PhysSimError as error:
+                response.message = str(error)
+                response.success = False
+            return response
+
+        return callback
+
+    def _run_at(self, speed: float, message: str) -> str:
+        self.set_parameters([Parameter('speed', value=speed)])
+        return message
+
+    def _step(self) -> str:
+        if self.simulation.speed != 0:
+            raise PhysSimError('running; pause first')
+        self.advance_frame()
+        return f'at {self.simulation.world.stamp * 1e-9:.6f} s'
+
+    def _reset(self) -> str:
+        message = self.simulation.reset()
+        self._tell_parameters()
+        return message
+
+    def load_world(self, *, confined: bool) -> str:
+        """
+        Replace the world by that of parameter `world_file`, and say what was loaded.
+
+        :param confined: whether only files below `world_dir` and the shipped worlds may be read
+        :raises BadWorldFile: there is no such file, or it is refused
+        """
+        name = self._values['world_file']
+        directory = self._world_dir
+        path = world_file.find(name, world_dir=directory, confined=confined)
+        world = self.simulation.world
+        state = world_file.load(path, settings=world.settings, physics_rate=world.physics_rate)
+        message = self.simulation.load(state)
+        self._tell_parameters()
+        return f'{message} from {path.name}'
+
+    def _save(self) -> str:
+        world = self.simulation.world
+        path = world_file.save(
+            world.save(),
+            self._values['world_file'],
+            world_dir=self._world_dir,
+            physics_rate=world.physics_rate,
+        )
+        return f'saved {len(world)} bodies to {path.name}'
+
+    # Parameters
+
+    def _check_parameters(self, changed: list[Parameter]) -> SetParametersResult:
+        try:
+            for parameter in changed:
+                parameters.check(parameter)
+            self.simulation.world.settings_with(parameters.world_changes(changed))
+        except Refusal as refusal:
+            return SetParametersResult(successful=False, reason=f'{refusal.code}: {refusal}')
+        return SetParametersResult(successful=True)
+
+    def _take_parameters(self, changed: list[Parameter]) -> None:
+        for parameter in changed:
+            self._values[parameter.name] = parameter.value
+        changes = parameters.world_changes(changed)
+        world = self.simulation.world
+        if world.settings_with(changes) != world.settings:
+            self.simulation.perform(Configure(changes=changes))
+        names = {parameter.name for parameter in changed}
+        if 'speed' in names:
+            self.simulation.speed = self._values['speed']
+        if 'publish_clock' in names:
+            self._streams.publish_clock = self._values['publish_clock']
+        if 'viewer' in names and self._started:
+            self._open_viewer()
+
+    def _tell_parameters(self) -> None:
+        """Let the parameters say what the world has been set to."""
+        self.set_parameters(parameters.world_parameters(self.simulation.world.settings))
+
+    # Watching
+
+    def _open_viewer(self) -> None:
+        if self._viewer is not None:
+            self._viewer.close()
+            self._viewer = None
+        mode = ViewerMode(self._values['viewer'])
+        if mode is ViewerMode.NONE and not self._values['record_file']:
+            return
+        self._viewer = Viewer(
+            mode=mode, url=self._values['viewer_url'], record_file=self._values['record_file']
+        )
+
+    def _diagnose(self) -> None:
+        if self._viewer is not None:
+            for answer in self._viewer.poll():
+                self._report(answer)
+        if self.frame is None or self._diagnostics.get_subscription_count() == 0:
+            return
+        self._diagnostics.publish(
+            self._meter.report(
+                self.frame.snapshot,
+                stamp=self.get_clock().now().to_msg(),
+                speed=self.simulation.speed,
+                late_frames=self.simulation.late_frames,
+                viewer='none' if self._viewer is None else self._viewer.state,
+            )
+        )
+
+
+def main() -> None:
+    """Run the node until it is interrupted."""
+    # A busy Python thread beside it (the viewer's) would otherwise hold a step of 0.6 ms up for
+    # 6 ms: the default switch interval is 5 ms.
+    sys.setswitchinterval(0.0005)
+    stopped: list[int] = []
+    # rclpy's own handler raises wherever the interpreter is, which can abort it while it ends.
+    rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, lambda received, _: stopped.append(received))
+    try:
+        node = PhysSimNode()
+    except PhysSimError as error:
+        rclpy.shutdown()
+        sys.exit(f'physsim: {error}')
+    executor = EventsExecutor()
+    executor.add_node(node)
+    node.start()
+    # What exists now stays; the collector need not look at it in every frame.
+    gc.collect()
+    gc.freeze()
+    # `spin` of this executor never returns; spin_once ends, and raises what callbacks raise.
+    while not stopped:
+        executor.spin_once(timeout_sec=0.1)
+    executor.remove_node(node)
+    executor.shutdown()
+    node.destroy_node()
+    rclpy.shutdown()

@@ -1,0 +1,262 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Every ROS parameter, declared once: its default, meaning, unit and range.
+
+Law: a value outside its range is refused with a reason and changes nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, fields
+import math
+from typing import Any
+
+from physsim_ros.core.errors import BadProperty, Malformed
+from physsim_ros.core.settings import WorldSettings
+from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+
+Type = Parameter.Type
+VIEWERS = ('none', 'spawn', 'web', 'connect', 'auto')
+_WORLD = {each.name for each in fields(WorldSettings)}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Spec:
+    """
+    What a parameter is.
+
+    :param default: also tells its type
+    :param meaning: one line, with its unit
+    :param low: least value
+    :param high: greatest value
+    :param choices: allowed values, empty for any
+    :param read_only: fixed once the node runs
+    """
+
+    default: Any
+    meaning: str
+    low: float | None = None
+    high: float | None = None
+    choices: tuple[str, ...] = ()
+    read_only: bool = False
+
+    @property
+    def type(self) -> Type:
+        """The ROS type."""
+        if isinstance(self.default, list):
+            return Type.DOUBLE_ARRAY
+        return Type.from_parameter_value(self.default)
+
+    @property
+    def descriptor(self) -> ParameterDescriptor:
+        """The description that tools show."""
+        descriptor = ParameterDescriptor(
+            description=self.meaning,
+            read_only=self.read_only,
+            # Whole numbers come as integers from the command line; `coerced` makes them what
+            # they should be.
+            dynamic_typing=True,
+            type=int(self.type.value),
+        )
+        if self.choices:
+            descriptor.additional_constraints = 'one of ' + ', '.join(self.choices)
+        elif self.low is not None and self.high is not None:
+            if self.type == Type.INTEGER:
+                span = IntegerRange(from_value=int(self.low), to_value=int(self.high))
+                descriptor.integer_range = [span]
+            elif self.type == Type.DOUBLE:
+                spans = FloatingPointRange(from_value=float(self.low), to_value=float(self.high))
+                descriptor.floating_point_range = [spans]
+            else:
+                descriptor.additional_constraints = f'each {self.low:g} .. {self.high:g}'
+        return descriptor
+
+
+SPECS: dict[str, Spec] = {
+    'frame_id': Spec(default='world', meaning='name of the world frame', read_only=True),
+    'world_file': Spec(
+        default='',
+        meaning='world loaded at start and by ~/load_world, written by ~/save_world: a path, or '
+        'the name of one in config/worlds',
+    ),
+    'world_dir': Spec(
+        default='.',
+        meaning='after start, worlds are read and written only below this directory',
+        read_only=True,
+    ),
+    'physics_rate': Spec(
+        default=240.0,
+        meaning='fixed step of the physics [Hz]',
+        low=60.0,
+        high=10000.0,
+        read_only=True,
+    ),
+    'publish_rate': Spec(
+        default=60.0,
+        meaning='frames out [Hz]; divides physics_rate',
+        low=1.0,
+        high=10000.0,
+        read_only=True,
+    ),
+    'iterations': Spec(default=10, meaning='solver iterations', low=1, high=1000),
+    'speed': Spec(
+        default=1.0, meaning='simulation seconds a second; 0 is paused', low=0.0, high=64.0
+    ),
+    'gravity': Spec(default=[0.0, -9.81], meaning='[m/s²]'),
+    'damping': Spec(
+        default=0.0, meaning='share of velocity lost to the air each second', low=0.0, high=1.0
+    ),
+    'bounds': Spec(
+        default=[], meaning='[xmin, ymin, xmax, ymax] of walls around the world [m]; [] is none'
+    ),
+    'density': Spec(
+        default=1.0, meaning='of what is made next without saying [kg/m²]', low=1e-9, high=1e12
+    ),
+    'friction': Spec(
+        default=0.5, meaning='of what is made next without saying', low=0.0, high=10.0
+    ),
+    'elasticity': Spec(
+        default=0.5, meaning='of what is made next without saying', low=0.0, high=1.0
+    ),
+    'command_timeout': Spec(
+        default=0.5,
+        meaning='of a wrench [s of simulation time]; 0 means no limit',
+        low=0.0,
+        high=1e9,
+    ),
+    'publish_clock': Spec(default=True, meaning='whether the clock is published'),
+    'viewer': Spec(
+        default='auto',
+        meaning='none, spawn (native Rerun), web (served on localhost), connect (to viewer_url), '
+        'auto (spawn where there is a display, else web)',
+        choices=VIEWERS,
+    ),
+    'viewer_url': Spec(default='', meaning='Rerun server to connect to', read_only=True),
+    'record_file': Spec(default='', meaning='.rrd file written beside any viewer', read_only=True),
+    'max_bodies': Spec(default=20000, meaning='a spawn past it is refused', low=0, high=1_000_000),
+}
+
+
+def declare(node: Node) -> dict[str, Any]:
+    """
+    Declare every parameter on a node and return their values.
+
+    :raises PhysSimError: a value that the node was started with is out of range
+    """
+    node.add_pre_set_parameters_callback(coerced)
+    for name, spec in SPECS.items():
+        node.declare_parameter(
+            name, Parameter(name, spec.type, spec.default).value, spec.descriptor
+        )
+    values = {}
+    for name, spec in SPECS.items():
+        given = node.get_parameter(name)
+        parameter = _coerced(given)
+        check(parameter)
+        if parameter is not given and not spec.read_only:
+            node.set_parameters([parameter])
+        values[name] = _plain(parameter.value, spec)
+    world_settings(values)
+    return values
+
+
+def coerced(parameters: Iterable[Parameter]) -> list[Parameter]:
+    """Give whole numbers, as the command line writes them, the type of their parameter."""
+    return [_coerced(parameter) for parameter in parameters]
+
+
+def check(parameter: Parameter) -> None:
+    """
+    Refuse a parameter whose value is of the wrong type or out of range.
+
+    :raises BadProperty: it is
+    :raises Malformed: a number is not finite
+    """
+    spec = SPECS.get(parameter.name)
+    if spec is None:
+        return
+    name, value = parameter.name, parameter.value
+    if parameter.type_ != spec.type:
+        raise BadProperty(
+            f'{name} must be a {spec.type.name.lower()}, not {parameter.type_.name.lower()}',
+            field=name,
+        )
+    numbers = value if isinstance(value, list) else [value]
+    for each in numbers:
+        if isinstance(each, float) and not math.isfinite(each):
+            raise Malformed(f'{name} is not finite', field=name)
+        if spec.low is not None and spec.high is not None and not spec.low <= each <= spec.high:
+            raise BadProperty(
+                f'{name} is {each:g}; it must lie between {spec.low:g} and {spec.high:g}',
+                field=name,
+            )
+    if spec.choices and value not in spec.choices:
+        raise BadProperty(f'{name} must be one of {", ".join(spec.choices)}', field=name)
+
+
+def world_changes(parameters: Iterable[Parameter]) -> dict[str, Any]:
+    """Return what the parameters among these that are the world's set, as its settings have it."""
+    return {
+        parameter.name: _setting(parameter.name, parameter.value)
+        for parameter in parameters
+        if parameter.name in _WORLD
+    }
+
+
+def world_settings(values: Mapping[str, Any]) -> WorldSettings:
+    """
+    Return the world's settings among parameter values.
+
+    :raises PhysSimError: they do not fit
+    """
+    return WorldSettings(**{name: _setting(name, values[name]) for name in _WORLD})
+
+
+def world_parameters(settings: WorldSettings) -> list[Parameter]:
+    """Return the parameters that tell of the world's settings."""
+    parameters = []
+    for name in sorted(_WORLD):
+        value = getattr(settings, name)
+        if isinstance(value, tuple):
+            value = list(value)
+        parameters.append(Parameter(name, SPECS[name].type, [] if value is None else value))
+    return coerced(parameters)
+
+
+def _coerced(parameter: Parameter) -> Parameter:
+    spec = SPECS.get(parameter.name)
+    if spec is None or parameter.type_ == spec.type:
+        return parameter
+    value = parameter.value
+    if spec.type == Type.DOUBLE and parameter.type_ == Type.INTEGER:
+        return Parameter(parameter.name, Type.DOUBLE, float(value))
+    if spec.type == Type.DOUBLE_ARRAY and (not value or parameter.type_ == Type.INTEGER_ARRAY):
+        # An empty list has no type of its own; rclpy takes it for bytes.
+        return Parameter(parameter.name, Type.DOUBLE_ARRAY, [float(each) for each in value or ()])
+    return parameter
+
+
+def _plain(value: Any, spec: Spec) -> Any:
+    return list(value) if isinstance(spec.default, list) else value
+
+
+def _setting(name: str, value: Any) -> Any:
+    if name == 'bounds' and len(value) == 0:
+        return None
+    return tuple(value) if isinstance(SPECS[name].default, list) else value

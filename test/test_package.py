@@ -1,0 +1,287 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+The package as others get it: installed by pip, and built, run and tested by colcon.
+
+Everything happens in a copy of the source tree below pytest's temporary directory.
+"""
+
+import ast
+from contextlib import contextmanager
+from importlib.metadata import Distribution, version
+from importlib.util import find_spec
+import os
+from pathlib import Path
+import queue
+import shutil
+import signal
+import subprocess
+import sys
+import threading
+import time
+from xml.etree import ElementTree as ET
+
+from packaging.requirements import Requirement
+from packaging.version import Version
+import pytest
+
+ROOT = Path(__file__).parents[1]
+CONFIG = sorted(path.relative_to(ROOT) for path in ROOT.glob('config/**/*.yaml'))
+
+# Left out of the copy: what was built, and what a clone does not have.
+NOT_SOURCE = shutil.ignore_patterns(
+    '.*', '__pycache__', '*.egg-info', 'build', 'install', 'log', 'dist'
+)
+
+# Ten times what each takes here, in seconds.
+BUILD = 60
+READY = 30
+EXIT = 10
+
+
+def _run(*command, **options):
+    """Run a command to its end; what it printed is the message where it fails."""
+    done = subprocess.run(  # noqa: PLW1510  the assertion below says more than check would
+        command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, **options
+    )
+    assert done.returncode == 0, f'{command}\n{done.stdout}'
+    return done.stdout
+
+
+@pytest.fixture(scope='module')
+def workspace(tmp_path_factory):
+    """Lay out a colcon workspace with this package in it as source."""
+    workspace = tmp_path_factory.mktemp('workspace')
+    shutil.copytree(ROOT, workspace / 'src' / 'physsim_ros', ignore=NOT_SOURCE)
+    return workspace
+
+
+@pytest.fixture(scope='module')
+def colcon():
+    """Find the colcon of this interpreter's environment, else the one on the path."""
+    beside = Path(sys.executable).parent
+    found = shutil.which('colcon', path=f'{beside}{os.pathsep}{os.environ["PATH"]}')
+    assert found is not None, 'colcon is not installed'
+    return found
+
+
+@pytest.fixture(scope='module')
+def overlay(workspace, colcon):
+    """Build the workspace; give the environment that its local_setup leaves."""
+    _run(colcon, 'build', cwd=workspace, timeout=BUILD)
+    # The plain sh file cannot find out where it lies.
+    printed = _run(
+        'sh',
+        '-c',
+        '. "$COLCON_CURRENT_PREFIX/local_setup.sh" && env -0',
+        env={**os.environ, 'COLCON_CURRENT_PREFIX': str(workspace / 'install')},
+        timeout=BUILD,
+    )
+    return dict(line.split('=', 1) for line in printed.split('\0') if line)
+
+
+@contextmanager
+def _running(*command, **options):
+    """Start a program; its lines come through the queue, then None. Killed if still there."""
+    lines = queue.SimpleQueue()
+
+    def read():
+        for line in process.stdout:
+            lines.put(line)
+        lines.put(None)
+
+    with subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, **options
+    ) as process:
+        reader = threading.Thread(target=read, daemon=True)
+        reader.start()
+        try:
+            yield process, lines
+        finally:
+            process.kill()
+            reader.join()
+
+
+def _wait_for(word, lines, timeout):
+    """Return the first line with that word; fail with all lines until then."""
+    seen = []
+    deadline = time.monotonic() + timeout
+    while not seen or word not in seen[-1]:
+        try:
+            line = lines.get(timeout=max(deadline - time.monotonic(), 0))
+        except queue.Empty:
+            pytest.fail(f'no {word!r} within {timeout} s of:\n{"".join(seen)}')
+        if line is None:
+            pytest.fail(f'ended without {word!r}:\n{"".join(seen)}')
+        seen.append(line)
+    return seen[-1]
+
+
+def _manifest():
+    return ET.parse(ROOT / 'package.xml').getroot()  # noqa: S314  our own file
+
+
+@pytest.fixture(scope='module')
+def installed(tmp_path_factory):
+    """Let pip install a copy into a tree of its own, and no dependencies."""
+    if find_spec('wheel') is None and Version(version('setuptools')) < Version('70.1'):
+        pytest.skip('pip cannot build a wheel: it takes setuptools 70.1, or wheel')
+    source = tmp_path_factory.mktemp('source') / 'physsim_ros'
+    shutil.copytree(ROOT, source, ignore=NOT_SOURCE)
+    prefix = tmp_path_factory.mktemp('prefix')
+    offline = ['--no-index', '--no-deps', '--no-build-isolation']
+    pip = [sys.executable, '-m', 'pip', '--disable-pip-version-check', 'install']
+    _run(*pip, *offline, '--ignore-installed', '--prefix', prefix, source, timeout=BUILD)
+    return prefix
+
+
+@pytest.fixture(scope='module')
+def distribution(installed):
+    (info,) = installed.glob('**/*.dist-info')
+    return Distribution.at(info)
+
+
+def test_pip_installs_the_executable_and_the_pytest_plugin(installed, distribution):
+    points = {(point.group, point.name, point.value) for point in distribution.entry_points}
+
+    assert points == {
+        ('console_scripts', 'physsim', 'physsim_ros.node:main'),
+        ('pytest11', 'physsim', 'physsim_ros.testing'),
+    }
+    assert (installed / 'bin' / 'physsim').is_file()
+
+
+def test_pip_is_told_what_rosdep_cannot_bring(distribution):
+    requirements = [Requirement(text) for text in distribution.requires]
+    always = {each.name.lower(): each.specifier for each in requirements if each.marker is None}
+    extras = {str(each.marker) for each in requirements if each.marker is not None}
+
+    assert set(always) == {'numpy', 'pymunk', 'pyyaml', 'rerun-sdk'}
+    assert '1.26.4' not in always['numpy']
+    assert '8.0.0' not in always['pymunk']
+    assert extras == {'extra == "jazzy"', 'extra == "test"'}
+
+
+def test_the_wheels_of_ros_come_with_their_middleware(distribution):
+    jazzy = {
+        requirement.name: requirement.extras
+        for requirement in map(Requirement, distribution.requires)
+        if str(requirement.marker) == 'extra == "jazzy"'
+    }
+
+    assert jazzy == {'ros-jazzy-common-interfaces': set(), 'ros-jazzy-rclpy': {'fastrtps'}}
+
+
+def test_pip_and_ros_are_told_the_same_version_and_licence(distribution):
+    manifest = _manifest()
+
+    assert distribution.version == manifest.findtext('version')
+    assert manifest.findtext('license') == 'Apache-2.0'
+    assert 'Apache-2.0' in distribution.metadata.get_all('License-Expression', []) + (
+        distribution.metadata.get_all('License', [])
+    )
+
+
+def test_pip_installs_every_world_the_manifest_and_the_marker(installed):
+    share = installed / 'share'
+
+    missing = [str(path) for path in CONFIG if not (share / 'physsim_ros' / path).is_file()]
+
+    assert missing == []
+    assert (share / 'physsim_ros' / 'package.xml').is_file()
+    assert (share / 'ament_index/resource_index/packages/physsim_ros').is_file()
+
+
+def test_pip_installs_no_tests(installed):
+    assert list(installed.glob('lib*/**/test')) == []
+
+
+def test_the_manifest_names_every_ros_package_that_is_imported():
+    declared = {element.text for element in _manifest().iter('exec_depend')}
+    imported = set()
+    for path in ROOT.glob('physsim_ros/**/*.py'):
+        for node in ast.walk(ast.parse(path.read_bytes())):
+            if isinstance(node, ast.Import):
+                imported |= {alias.name.split('.')[0] for alias in node.names}
+            elif isinstance(node, ast.ImportFrom) and node.module and not node.level:
+                imported.add(node.module.split('.')[0])
+    of_ros = {
+        name
+        for name in imported
+        if name in {'rclpy', 'std_srvs', 'ament_index_python'}
+        or name.endswith(('_msgs', '_interfaces'))
+    }
+
+    assert of_ros - declared == set()
+
+
+def test_colcon_installs_every_world(workspace, overlay):
+    share = Path(overlay['AMENT_PREFIX_PATH'].split(os.pathsep)[0]) / 'share' / 'physsim_ros'
+
+    missing = [str(path) for path in CONFIG if not (share / path).is_file()]
+
+    assert share.is_relative_to(workspace)
+    assert missing == []
+
+
+def test_the_executable_that_colcon_installs_runs_until_interrupted(workspace, overlay, tmp_path):
+    executable = workspace / 'install/physsim_ros/lib/physsim_ros/physsim'
+    # A domain of its own below 102, where the ports of DDS stay clear of ephemeral ones.
+    alone = {
+        'ROS_DOMAIN_ID': str(1 + os.getpid() % 101),
+        'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
+        'ROS_LOG_DIR': str(tmp_path),
+    }
+    parameters = ['viewer:=none', 'world_file:=demo']
+    arguments = [word for parameter in parameters for word in ('-p', parameter)]
+
+    # Elsewhere than in the source tree, so that only what is installed is found.
+    with _running(
+        executable, '--ros-args', *arguments, cwd=tmp_path, env={**overlay, **alone}
+    ) as (node, lines):
+        _wait_for('ready', lines, READY)
+        node.send_signal(signal.SIGINT)
+
+        code = node.wait(EXIT)
+
+        assert code == 0, ''.join(iter(lines.get, None))
+
+
+def test_the_overlay_hides_the_source_tree(workspace, overlay, tmp_path):
+    program = 'import physsim_ros; print(physsim_ros.__file__)'
+
+    printed = _run(sys.executable, '-c', program, env=overlay, cwd=tmp_path, timeout=READY)
+
+    assert Path(printed.strip()).is_relative_to(workspace / 'install')
+
+
+def test_colcon_test_runs_the_tests(workspace, colcon, overlay):
+    # One fast test, and none of these here, which would start over.
+    manifest = 'test/style/test_xmllint.py::test_the_manifest_keeps_the_rules_of_rep_149'
+
+    _run(
+        colcon,
+        'test',
+        '--return-code-on-test-failure',
+        '--pytest-args',
+        manifest,
+        cwd=workspace,
+        env=overlay,
+        timeout=BUILD,
+    )
+
+    assert '1 test, 0 errors, 0 failures, 0 skipped' in _run(
+        colcon, 'test-result', '--all', cwd=workspace, timeout=READY
+    )
