@@ -60,7 +60,7 @@ class Meter:
         self.real_time_factor = 0.0
 
     def report(
-        self, snapshot: Snapshot, *, stamp: Time, speed: float, late_frames: int, viewer: str
+        self, snapshot: Snapshot, *, speed: float, late_frames: int, viewer: str
     ) -> DiagnosticArray:
         """Return what to publish, and begin the next second."""
         late, self._late_told = late_frames - self._late_told, late_frames
@@ -91,5 +91,6 @@ class Meter:
             values=[KeyValue(key=key, value=str(value)) for key, value in values.items()],
         )
         array = DiagnosticArray(status=[status])
-        array.header.stamp = stamp
+        seconds, nanoseconds = divmod(snapshot.stamp, 1_000_000_000)
+        array.header.stamp = Time(sec=seconds, nanosec=nanoseconds)
         return array

@@ -202,10 +202,15 @@ class PhysSimNode(Node):
             self._submit(marker, '~/spawn_array', conversions.body_request)
 
     def _speed(self, message: Float64) -> None:
-        result = self.set_parameters([Parameter('speed', value=message.data)])[0]
-        code = '' if result.successful else result.reason.partition(':')[0]
-        text = f'speed {message.data:g}' if result.successful else result.reason
-        self._report(Answer(topic='~/speed', message=text, code=code, field='speed'))
+        speed = Parameter('speed', value=message.data)
+        try:
+            # Here too, since rclpy refuses what is out of range in words without a code.
+            parameters.check(speed)
+        except Refusal as refusal:
+            self._report(Answer.refused(refusal, topic='~/speed'))
+            return
+        self.set_parameters([speed])
+        self._report(Answer(topic='~/speed', message=f'speed {message.data:g}'))
 
     def _report(self, answer: Answer) -> None:
         self._streams.report(answer)
@@ -233,6 +238,9 @@ class PhysSimNode(Node):
             try:
                 response.message = act()
                 response.success = True
+            except Refusal as refusal:
+                response.message = f'{refusal.code}: {refusal}'
+                response.success = False
             except PhysSimError as error:
                 response.message = str(error)
                 response.success = False
@@ -333,7 +341,6 @@ class PhysSimNode(Node):
         self._diagnostics.publish(
             self._meter.report(
                 self.frame.snapshot,
-                stamp=self.get_clock().now().to_msg(),
                 speed=self.simulation.speed,
                 late_frames=self.simulation.late_frames,
                 viewer='none' if self._viewer is None else self._viewer.state,
@@ -348,7 +355,11 @@ def main() -> None:
     sys.setswitchinterval(0.0005)
     stopped: list[int] = []
     # rclpy's own handler raises wherever the interpreter is, which can abort it while it ends.
-    rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
+    try:
+        rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
+    except RuntimeError as error:
+        # rcl's own: arguments that it cannot read.
+        sys.exit(f'physsim: {error}')
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda received, _: stopped.append(received))
     try:

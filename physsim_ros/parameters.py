@@ -69,9 +69,6 @@ class Spec:
         descriptor = ParameterDescriptor(
             description=self.meaning,
             read_only=self.read_only,
-            # Whole numbers come as integers from the command line; `coerced` makes them what
-            # they should be.
-            dynamic_typing=True,
             type=int(self.type.value),
         )
         if self.choices:
@@ -159,20 +156,23 @@ def declare(node: Node) -> dict[str, Any]:
 
     :raises PhysSimError: a value that the node was started with is out of range
     """
-    node.add_pre_set_parameters_callback(coerced)
-    for name, spec in SPECS.items():
-        node.declare_parameter(
-            name, Parameter(name, spec.type, spec.default).value, spec.descriptor
-        )
     values = {}
     for name, spec in SPECS.items():
+        default = Parameter(name, spec.type, spec.default).value
+        # At first of any type and range: what was given is put right and checked here, and what
+        # is refused is refused in one way.
+        node.declare_parameter(name, default, ParameterDescriptor(dynamic_typing=True))
         given = node.get_parameter(name)
+        if given.type_ == Type.NOT_SET:
+            # That is what an empty list on the command line, or in a file, comes as.
+            given = Parameter(name, Type.BYTE_ARRAY, [])
         parameter = _coerced(given)
         check(parameter)
-        if parameter is not given and not spec.read_only:
-            node.set_parameters([parameter])
+        node.set_parameters([parameter])
+        node.set_descriptor(name, spec.descriptor)
         values[name] = _plain(parameter.value, spec)
     world_settings(values)
+    node.add_pre_set_parameters_callback(coerced)
     return values
 
 
@@ -194,7 +194,7 @@ def check(parameter: Parameter) -> None:
     name, value = parameter.name, parameter.value
     if parameter.type_ != spec.type:
         raise BadProperty(
-            f'{name} must be a {spec.type.name.lower()}, not {parameter.type_.name.lower()}',
+            f'{name} must be of type {spec.type.name.lower()}, not {parameter.type_.name.lower()}',
             field=name,
         )
     numbers = value if isinstance(value, list) else [value]
@@ -246,9 +246,10 @@ def _coerced(parameter: Parameter) -> Parameter:
     value = parameter.value
     if spec.type == Type.DOUBLE and parameter.type_ == Type.INTEGER:
         return Parameter(parameter.name, Type.DOUBLE, float(value))
-    if spec.type == Type.DOUBLE_ARRAY and (not value or parameter.type_ == Type.INTEGER_ARRAY):
-        # An empty list has no type of its own; rclpy takes it for bytes.
-        return Parameter(parameter.name, Type.DOUBLE_ARRAY, [float(each) for each in value or ()])
+    # An empty list has no type of its own; rclpy takes it for bytes, ros2cli for booleans.
+    empty = parameter.type_.name.endswith('_ARRAY') and len(value) == 0
+    if spec.type == Type.DOUBLE_ARRAY and (empty or parameter.type_ == Type.INTEGER_ARRAY):
+        return Parameter(parameter.name, Type.DOUBLE_ARRAY, [float(each) for each in value])
     return parameter
 
 

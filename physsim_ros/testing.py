@@ -36,7 +36,7 @@ import pytest
 if TYPE_CHECKING:
     from diagnostic_msgs.msg import DiagnosticStatus
     from geometry_msgs.msg import PointStamped
-    from physsim_ros.core.snapshot import Snapshot
+    from physsim_ros.core.snapshot import Answer, Snapshot
     from rclpy.context import Context
     from rclpy.node import Node
     from sensor_msgs.msg import MultiDOFJointState
@@ -123,8 +123,12 @@ class PhysSim:
         """
         from rclpy.parameter import Parameter
 
-        self.node.set_parameters([Parameter('world_file', value=str(world))])
+        # As everywhere in Python, a path counts from where the interpreter was started.
+        given = Path(world)
+        path = given.resolve() if given.suffix and given.is_file() else world
+        self.node.set_parameters([Parameter('world_file', value=str(path))])
         self.node.load_world(confined=False)
+        self.node.apply()
         self.settle()
 
     def add(self, node: Node) -> None:
@@ -171,7 +175,7 @@ class PhysSim:
 
     def spawn(self, marker: Marker | MarkerArray) -> str:
         """
-        Publish a marker, or an array of them, and return the message of the (last) answer.
+        Publish a marker, or an array of them, and return the name of the (last) body.
 
         :raises Refused: with the code; of an array, the first refusal
         """
@@ -197,7 +201,7 @@ class PhysSim:
 
     def command(self, command: MultiDOFJointState) -> str:
         """
-        Set poses, twists or wrenches.
+        Set poses, twists or wrenches, and return the body's name where it is one.
 
         :raises Refused: with the code
         """
@@ -205,20 +209,31 @@ class PhysSim:
 
     def _ask(self, topic: str, message: Any, answers: int = 1) -> str:
         """Publish a request, have it carried out while time stands still, return the body."""
+        # What other nodes have asked before is answered before, and not meant here.
+        self.settle()
+        earlier = sum(answer.topic == f'~/{topic}' for answer in self._apply())
         received = self._client.listen(topic)
         self._client.publish(topic, message)
 
         def answered() -> bool:
             self.node.apply()
-            return len(received) >= answers
+            return len(received) >= earlier + answers
 
         self._spin_until(answered, f'no answer to {topic}')
         self.settle()
+        received = received[earlier : earlier + answers]
         for status in received:
             if status.level != b'\x00':
                 values = {pair.key: pair.value for pair in status.values}
                 raise Refused(values['code'], status.message, values.get('field', ''))
         return received[-1].hardware_id if received else ''
+
+    def _apply(self) -> tuple[Answer, ...]:
+        """Carry out what waits, and return the answers, which are on their way."""
+        last = self.node.frame
+        self.node.apply()
+        frame = self.node.frame
+        return () if frame is None or frame is last else frame.answers
 
     # Reading
 
@@ -254,7 +269,7 @@ class PhysSim:
         if frame is None or frame.contacts is None:
             return []
         found = frame.contacts
-        names = [*self.names, 'world']
+        names = [*frame.snapshot.scene.names, 'world']
         contacts = [
             Contact(names[a], names[b], (impulse[0], impulse[1]))
             for (a, b), impulse in zip(found.pairs.tolist(), found.impulses.tolist(), strict=True)
@@ -323,6 +338,7 @@ class _Client:
         from diagnostic_msgs.msg import DiagnosticStatus
         from geometry_msgs.msg import PointStamped
         from rclpy.node import Node
+        from rclpy.qos import HistoryPolicy, QoSProfile, ReliabilityPolicy
         from sensor_msgs.msg import MultiDOFJointState
         from visualization_msgs.msg import Marker, MarkerArray
 
@@ -338,8 +354,12 @@ class _Client:
             topic: self.node.create_publisher(kind, f'/physsim/{topic}', 10)
             for topic, kind in kinds.items()
         }
+        # An array of thousands is answered in one go.
+        all_of_them = QoSProfile(
+            history=HistoryPolicy.KEEP_ALL, reliability=ReliabilityPolicy.RELIABLE
+        )
         self._events = self.node.create_subscription(
-            DiagnosticStatus, '/physsim/events', self._hear, 1000
+            DiagnosticStatus, '/physsim/events', self._hear, all_of_them
         )
         # Contacts are read only where somebody subscribes.
         self._contacts = self.node.create_subscription(

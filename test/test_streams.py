@@ -310,12 +310,18 @@ def test_the_clock_can_be_switched_off_and_on(bench):
     assert bench.streams.publish_clock
     bench.streams.publish_clock = False
     bench.streams.publish(frame_of(scene, 1))
+    bench.streams.publish(frame_of(scene, 2))
     bench.streams.welcome()
     bench.streams.publish_clock = True
     bench.streams.welcome()
-    bench.streams.publish(frame_of(scene, 2))
+    bench.streams.publish(frame_of(scene, 3))
     bench.settle()
-    assert [message.clock.nanosec // 1_000_000 for message in clocks] == [1, 2]
+    assert [message.clock.nanosec // 1_000_000 for message in clocks] == [2, 3]
+
+
+def test_the_clock_may_be_off_from_the_start(bench):
+    streams = Streams(bench.listener, frame_id='map', publish_clock=False)
+    assert not streams.publish_clock
 
 
 def test_a_refusal_is_reported_with_its_code_and_field(bench):

@@ -15,21 +15,28 @@
 """
 What touches: the engine's contacts, summed over the steps of a frame, read in batch.
 
-A Python callback a contact would double the cost of a step.
+A Python callback a contact would double the cost of a step, so every step reads only pairs and
+impulses, and the last one of a frame their places. A pair that has parted before the frame ends
+keeps its place from the frame before, or from its first touch.
 """
 
 from __future__ import annotations
 
 import numpy as np
-from physsim_ros.core.snapshot import Contacts, Floats, Ints
-
-Ids = NDArray[np.uintp]
+from numpy.typing import NDArray
 import pymunk
 from pymunk import batch
 
+from physsim_ros.core.snapshot import Contacts, Floats, Ints
+
+Ids = NDArray[np.uint64]
+
 _F = batch.ArbiterFields
-_PAIR_AND_IMPULSE = _F.BODY_A_ID | _F.BODY_B_ID | _F.TOTAL_IMPULSE
-_PLACE = _F.NORMAL | _F.CONTACT_COUNT | _F.POINT_A_1 | _F.POINT_B_1 | _F.POINT_A_2 | _F.POINT_B_2
+_PAIRS_AND_IMPULSES = _F.BODY_A_ID | _F.BODY_B_ID | _F.TOTAL_IMPULSE
+_PLACES = _F.NORMAL | _F.CONTACT_COUNT | _F.POINT_A_1 | _F.POINT_B_1 | _F.POINT_A_2 | _F.POINT_B_2
+# Ids are addresses of 16-byte blocks. Multiples of the golden ratio keep as far apart as any can
+# (the three-distance theorem), so that a * GOLDEN + b differs for all pairs of a 32 GiB heap.
+_ALIGNMENT, _GOLDEN = np.uint64(4), np.uint64(0x9E3779B97F4A7C15)
 
 
 class ContactLog:
@@ -43,21 +50,29 @@ class ContactLog:
     def __init__(self, space: pymunk.Space) -> None:
         self._space = space
         self._buffer = batch.Buffer()
-        # Runs of steps with the same pairs: ids (m, 2), impulse sums (m, 2), places (m, 10).
-        self._runs: list[tuple[Ids, Floats, Floats]] = []
+        # Runs of steps with the same pairs: ids (m, 2), sums of impulses on the first (m, 2).
+        self._runs: list[tuple[Ids, Floats]] = []
+        # Where pairs touched at the end of the last frame, by ascending key: normal, count of
+        # points, mean point; and at the first touches since then.
+        self._keys: Ids = np.empty(0, np.uint64)
+        self._places: Floats = np.empty((0, 5))
+        self._begun: dict[tuple[int, int], tuple[float, ...]] = {}
+
+    def begin(self, arbiter: pymunk.Arbiter) -> None:
+        """Remember where two shapes touched first, should they part before the frame ends."""
+        a, b = arbiter.bodies
+        points = [(each.point_a + each.point_b) / 2 for each in arbiter.contact_point_set.points]
+        x, y = sum(points, pymunk.Vec2d(0, 0)) / max(1, len(points))
+        self._begun[a.id, b.id] = (*arbiter.normal, len(points), x, y)
 
     def add_step(self) -> None:
         """Add the contacts of the step that has just been made."""
-        ints, floats = self._read(_PAIR_AND_IMPULSE)
-        ids, impulses = ints.reshape(-1, 2), floats.reshape(-1, 2)
+        ints, impulses = self._read(_PAIRS_AND_IMPULSES)
+        ids, impulses = ints.reshape(-1, 2), impulses.reshape(-1, 2)
         if self._runs and np.array_equal(self._runs[-1][0], ids):
             self._runs[-1][1].__iadd__(impulses)
-        elif len(ids):
-            self._runs.append((ids, impulses, self._places()))
-
-    def clear(self) -> None:
-        """Forget all steps."""
-        self._runs.clear()
+        else:
+            self._runs.append((ids, impulses))
 
     def take(self, ids: Ids, rows: Ints, centers: Floats) -> Contacts:
         """
@@ -70,51 +85,63 @@ class ContactLog:
         """
         runs, self._runs = self._runs, []
         if not runs or len(ids) == 0:
+            self._begun.clear()
             return NO_CONTACTS
-        touching = np.concatenate([run[0] for run in runs])
-        places = np.concatenate([run[2] for run in runs])
-        at = np.minimum(np.searchsorted(ids, touching), len(ids) - 1)
-        pairs = np.where(ids[at] == touching, rows[at], -1)
-        # Normal and impulse side by side; the engine's impulse acts on the first body, the log
-        # tells what the first gives.
-        vectors = np.column_stack((places[:, :2], -np.concatenate([run[1] for run in runs])))
-        swap = (pairs[:, 1] >= 0) & ((pairs[:, 0] > pairs[:, 1]) | (pairs[:, 0] < 0))
-        pairs[swap] = pairs[swap, ::-1]
-        vectors[swap] *= -1.0
-        known = np.flatnonzero(pairs[:, 0] >= 0)
-        # One key a pair; a stable sort keeps the steps of a pair in their order.
-        keys = pairs[known, 0] * (len(ids) + 1) + pairs[known, 1]
-        order = known[np.argsort(keys, kind='stable')]
-        if len(order) == 0:
-            return NO_CONTACTS
-        new = (pairs[order[1:]] != pairs[order[:-1]]).any(axis=1)
-        first = np.concatenate(([0], np.flatnonzero(new) + 1))
-        last = order[np.concatenate((first[1:], [len(order)])) - 1]
-        contacts = Contacts(
-            pairs=pairs[last],
-            points=places[last, 3:5],
-            normals=vectors[last, :2],
-            impulses=np.add.reduceat(vectors[order, 2:], first, axis=0),
-        )
-        _place_overlaps(contacts, places[last, 2] == 0, centers)
-        return contacts
+        last = runs[-1][0]
+        keys, first = np.unique(_keys(last), return_index=True)
+        touching, places = last[first], self._read_places()[first]
+        sums = np.zeros((len(keys), 2))
+        gone: list[tuple[Ids, Floats]] = []
+        for pairs, impulses in runs:
+            run_keys = _keys(pairs)
+            at, here = _find(keys, run_keys)
+            for axis in (0, 1):
+                weights = np.where(here, impulses[:, axis], 0.0)
+                sums[:, axis] += np.bincount(at, weights, len(keys))[: len(keys)]
+            if not here.all():
+                gone.append((pairs[~here], impulses[~here]))
+        parted = self._parted(gone) if gone else None
+        self._keys, self._places = keys, places
+        self._begun.clear()
+        if parted is not None:
+            touching, places, sums = map(
+                np.concatenate, zip((touching, places, sums), parted, strict=True)
+            )
+        return _in_rows(touching, places, sums, ids, rows, centers)
 
-    def _places(self) -> Floats:
+    def _parted(self, gone: list[tuple[Ids, Floats]]) -> tuple[Ids, Floats, Floats]:
+        """Return pairs, places and impulses of what touched and parted within the frame."""
+        pairs = np.concatenate([each[0] for each in gone])
+        keys, first, which = np.unique(_keys(pairs), return_index=True, return_inverse=True)
+        sums = np.zeros((len(keys), 2))
+        np.add.at(sums, which, np.concatenate([each[1] for each in gone]))
+        at, before = _find(self._keys, keys)
+        places = np.zeros((len(keys), 5))
+        places[before] = self._places[at[before]]
+        for row in np.flatnonzero(~before):
+            a, b = pairs[first[row]].tolist()
+            # A body that has gone takes its first touch with it.
+            places[row] = self._begun.get((a, b), (1.0, 0.0, 0.0, 0.0, 0.0))
+        return pairs[first], places, sums
+
+    def _read_places(self) -> Floats:
         """Return (m, 5) float64: normal, count of points, mean point, of the last step."""
-        ints, floats = self._read(_PLACE)
-        count = ints.astype(np.float64)
+        ints, floats = self._read(_PLACES)
         numbers = floats.reshape(-1, 10)
-        normal = numbers[:, :2]
-        first = (numbers[:, 2:4] + numbers[:, 4:6]) / 2
-        second = (numbers[:, 6:8] + numbers[:, 8:10]) / 2
-        point = np.where(count[:, None] > 1, (first + second) / 2, first)
-        return np.column_stack((normal, count, point))
+        points = numbers[:, 2:].reshape(-1, 4, 2)
+        first = (points[:, 0] + points[:, 1]) / 2
+        both = (points[:, 0] + points[:, 1] + points[:, 2] + points[:, 3]) / 4
+        places = np.empty((len(ints), 5))
+        places[:, :2] = numbers[:, :2]
+        places[:, 2] = ints
+        places[:, 3:] = np.where((ints > 1)[:, None], both, first)
+        return places
 
     def _read(self, fields: batch.ArbiterFields) -> tuple[Ids, Floats]:
         # The buffer is reused (a new one a call would leak), so what leaves is a copy.
         self._buffer.clear()
         batch.get_space_arbiters(self._space, fields, self._buffer)
-        ints = np.frombuffer(self._buffer.int_buf(), dtype=np.uintp).copy()
+        ints = np.frombuffer(self._buffer.int_buf(), dtype=np.uint64).copy()
         return ints, np.frombuffer(self._buffer.float_buf(), dtype=np.float64).copy()
 
 
@@ -124,6 +151,50 @@ NO_CONTACTS = Contacts(
     normals=np.empty((0, 2)),
     impulses=np.empty((0, 2)),
 )
+
+
+def _keys(ids: Ids) -> Ids:
+    """Return one number for each pair of ids."""
+    blocks = ids >> _ALIGNMENT
+    keys: Ids = blocks[:, 0] * _GOLDEN + blocks[:, 1]
+    return keys
+
+
+def _find(keys: Ids, wanted: Ids) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
+    """Return where ascending keys hold the wanted ones, and which of them they do hold."""
+    if len(keys) == 0:
+        return np.zeros(len(wanted), np.intp), np.zeros(len(wanted), np.bool_)
+    at = np.minimum(np.searchsorted(keys, wanted), len(keys) - 1)
+    return at, keys[at] == wanted
+
+
+def _in_rows(
+    touching: Ids, places: Floats, sums: Floats, ids: Ids, rows: Ints, centers: Floats
+) -> Contacts:
+    """Turn engine ids into rows of the scene, the earlier spawned first, in order."""
+    at, known = _find(ids, touching.ravel())
+    pairs = np.where(known, rows[at], -1).reshape(-1, 2)
+    swap = (pairs[:, 1] >= 0) & ((pairs[:, 0] > pairs[:, 1]) | (pairs[:, 0] < 0))
+    pairs = np.where(swap[:, None], pairs[:, ::-1], pairs)
+    # The engine's impulse acts on the first body; the log tells what the first gives.
+    sign = np.where(swap, -1.0, 1.0)[:, None]
+    normals, impulses = places[:, :2] * sign, sums * -sign
+    # The engine may list a pair both ways round; it is one pair still.
+    keys = pairs[:, 0] * (len(ids) + 1) + pairs[:, 1]
+    order = np.argsort(keys, kind='stable')
+    order = order[pairs[order, 0] >= 0]
+    first = np.flatnonzero(np.diff(keys[order], prepend=-2))
+    if len(first) < len(order):
+        impulses[order[first]] = np.add.reduceat(impulses[order], first, axis=0)
+        order = order[first]
+    contacts = Contacts(
+        pairs=pairs[order],
+        points=places[order, 3:],
+        normals=normals[order],
+        impulses=impulses[order],
+    )
+    _place_overlaps(contacts, places[order, 2] == 0, centers)
+    return contacts
 
 
 def _place_overlaps(contacts: Contacts, pointless: NDArray[np.bool_], centers: Floats) -> None:

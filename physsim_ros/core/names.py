@@ -12,9 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""
-Names of bodies: `<namespace>/<id>`, as markers have them, one spelling a name.
-"""
+"""Names of bodies: `<namespace>/<id>`, as markers have them, one spelling a name."""
 
 from __future__ import annotations
 

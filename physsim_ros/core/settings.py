@@ -12,9 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""
-What holds for the whole world, and what bodies are made of when they do not say.
-"""
+"""What holds for the whole world, and what bodies are made of when they do not say."""
 
 from __future__ import annotations
 

@@ -25,6 +25,7 @@ from __future__ import annotations
 
 import contextlib
 from dataclasses import dataclass, field
+import itertools
 import math
 
 import numpy as np
@@ -188,8 +189,7 @@ class Chain:
         corners: list[Point] = list(map(tuple, points.tolist()))
         object.__setattr__(self, 'points', tuple(corners))
         pieces = tuple(
-            Capsule(start, end, self.thickness / 2)
-            for start, end in zip(corners, corners[1:], strict=False)
+            Capsule(start, end, self.thickness / 2) for start, end in itertools.pairwise(corners)
         )
         object.__setattr__(self, 'form', _form(pieces))
 

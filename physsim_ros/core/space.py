@@ -29,7 +29,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from physsim_ros.core import rigid_body, sweep
+from physsim_ros.core import rigid_body, stillness, sweep
 from physsim_ros.core.contacts import ContactLog, Ids
 from physsim_ros.core.errors import (
     Anchored,
@@ -102,6 +102,7 @@ class _Layout:
     :param offsets: (n, 2): the engine's origin in the body's frame [m]
     :param lead: (n, 3): how far the engine's velocity leads in free flight
     :param free: (n,) bool: in free flight; changes from frame to frame
+    :param ground: what `stillness` has to know of the bodies
     """
 
     scene: Scene
@@ -115,6 +116,7 @@ class _Layout:
     offsets: Floats
     lead: Floats
     free: NDArray[np.bool_]
+    ground: stillness.Ground
 
 
 class World:
@@ -130,6 +132,7 @@ class World:
     ) -> None:
         self.physics_rate = physics_rate
         self.dt = 1.0 / physics_rate
+        self._calm_steps = max(1, round(physics_rate / stillness.RATE))
         self.step_count = 0
         # Whether contacts are read; reading them costs a tenth of a step.
         self.watching = False
@@ -148,9 +151,13 @@ class World:
         self._space.collision_slop = SLOP
         # The engine lists contacts of the last step only, and forgets at once what parted.
         self._space.collision_persistence = 1
-        self._space.on_collision(begin=sweep.relieve, data=SLOP)
+        self._space.on_collision(begin=self._begin)
         self._walls: list[pymunk.Shape] = []
         self._contacts = ContactLog(self._space)
+        self._stillness = stillness.Stillness(self._space)
+        # Steps since the space was empty: what is done every so many steps counts from there, so
+        # that a restored state goes on alike at whatever step it is restored.
+        self._age = 0
         self._configure(self._settings)
 
     # Reading
@@ -282,8 +289,11 @@ class World:
             self._push_all()
             layout = self._lay_out()
             before = self._read(_TWIST, 3)
+            if self._age % self._calm_steps == 0:
+                self._stillness.calm(layout.ground, before)
             self._arrest(layout, before)
             self._space.step(self.dt)
+            self._age += 1
             self.step_count += 1
             if self.watching:
                 self._contacts.add_step()
@@ -539,6 +549,12 @@ class World:
                 fx, fy, rigid.engine.torque = rigid.wrench
                 rigid.engine.force = fx, fy
 
+    def _begin(self, arbiter: pymunk.Arbiter, space: pymunk.Space, _: object) -> None:
+        """Look at two shapes that touch for the first time."""
+        sweep.relieve(arbiter, space, SLOP)
+        if self.watching:
+            self._contacts.begin(arbiter)
+
     def _arrest(self, layout: _Layout, before: Floats) -> None:
         """Shorten the coming step of the bodies that are too fast for the engine."""
         fast = (before[:, 0] ** 2 + before[:, 1] ** 2) > layout.safe2
@@ -610,6 +626,7 @@ class World:
             offsets=np.array([rigid.offset for rigid in rigids]).reshape(-1, 2),
             lead=np.array([rigid.lead(gravity, self.dt) for rigid in rigids]).reshape(-1, 3),
             free=np.array([rigid.free for rigid in rigids], dtype=np.bool_),
+            ground=stillness.ground(listed, listing, self._settings.friction),
         )
         self._expiries: dict[int, list[str]] = {}
         for rigid in rigids:

@@ -1,0 +1,168 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+What a frame costs, side by side in one run: the node, the bare engine, and the naive way.
+
+Every figure is a median over frames that take turns, so that a machine whose speed drifts does not
+favour one of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+import math
+from pathlib import Path
+import random
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+
+from geometry_msgs.msg import Pose, PoseArray
+from physsim_ros.core.properties import Properties
+from physsim_ros.core.requests import Configure, Spawn
+from physsim_ros.core.shapes import Box, Disc
+from physsim_ros.core.space import World
+from physsim_ros.node import PhysSimNode
+from physsim_ros.testing import own_domain
+import rclpy
+from rclpy.parameter import Parameter
+
+FRAMES = 120
+SETTLE = 20.0  # simulated seconds until a pile has come to rest, but for its last tremors
+# Subscribes to everything from another process, as serialised bytes: what a viewer costs is its
+# own affair.
+LISTENER = """
+import sys, rclpy
+from rclpy.experimental import EventsExecutor
+from diagnostic_msgs.msg import DiagnosticStatus
+from geometry_msgs.msg import PoseArray
+from rosgraph_msgs.msg import Clock
+from visualization_msgs.msg import MarkerArray
+rclpy.init(domain_id=int(sys.argv[1]))
+node = rclpy.create_node('listener')
+for kind, topic in ((PoseArray, 'poses'), (MultiDOFJointState, 'states'),
+                    (MultiDOFJointState, 'contacts'), (MarkerArray, 'markers'),
+                    (DiagnosticStatus, 'events')):
+    node.create_subscription(kind, f'/physsim/{topic}', lambda _: None, 5, raw=True)
+node.create_subscription(Clock, '/clock', lambda _: None, 5, raw=True)
+executor = EventsExecutor()
+executor.add_node(node)
+while rclpy.ok():
+    executor.spin_once(timeout_sec=0.1)
+"""
+
+
+def fill(world: World, count: int) -> None:
+    """Let a pile of discs and boxes fall into a bin and come to rest."""
+    rng = random.Random(count)
+    half = math.sqrt(count) * 0.6
+    world.apply(Configure(changes={'bounds': (-half, 0.0, half, 1000.0)}))
+    for number in range(count):
+        world.apply(
+            Spawn(
+                name=f'body/{number}',
+                shape=Disc(radius=0.25) if number % 2 else Box(width=0.5, height=0.5),
+                pose=(rng.uniform(0.3 - half, half - 0.3), 0.5 + number * 1.2 / half, 0.0),
+                properties=Properties(elasticity=0.0),
+            )
+        )
+    world.step(round(SETTLE * world.physics_rate))
+
+
+class Bare:
+    """The engine alone: four plain calls of `Space.step`."""
+
+    def __init__(self, count: int) -> None:
+        self.world = World()
+        fill(self.world, count)
+
+    def frame(self) -> None:
+        """Make four steps."""
+        for _ in range(4):
+            self.world._space.step(1 / 240)
+
+
+class Naive(Bare):
+    """The engine, read attribute by attribute into message objects, one a body."""
+
+    def __init__(self, count: int, node: PhysSimNode) -> None:
+        super().__init__(count)
+        self._poses = node.create_publisher(PoseArray, 'naive', 5)
+
+    def frame(self) -> None:
+        """Make four steps and publish the poses, one stream of the six."""
+        super().frame()
+        message = PoseArray()
+        for rigid in self.world._bodies.values():
+            pose = Pose()
+            pose.position.x, pose.position.y = rigid.engine.position
+            pose.orientation.z = math.sin(rigid.engine.angle / 2)
+            pose.orientation.w = math.cos(rigid.engine.angle / 2)
+            message.poses.append(pose)
+        self._poses.publish(message)
+
+
+def timed(act: Callable[[], None]) -> float:
+    """Return how long something takes [ms]."""
+    began = time.perf_counter()
+    act()
+    return (time.perf_counter() - began) * 1e3
+
+
+def measure(count: int, directory: Path, domain: int) -> None:
+    """Print a row for a count of bodies."""
+    record = str(directory / f'{count}.rrd')
+    overrides = [
+        Parameter('viewer', value='none'),
+        Parameter('record_file', value=record),
+        Parameter('speed', value=0.0),
+    ]
+    node = PhysSimNode(parameter_overrides=overrides)
+    node.start()
+    fill(node.simulation.world, count)
+    listener = subprocess.Popen([sys.executable, '-c', LISTENER, str(domain)])
+    try:
+        while not node.count_subscribers('/physsim/markers'):
+            time.sleep(0.01)
+        bare, naive = Bare(count), Naive(count, node)
+        times: dict[str, list[float]] = {'bare': [], 'node': [], 'naive': []}
+        for _ in range(FRAMES):
+            times['bare'].append(timed(bare.frame))
+            times['node'].append(timed(node.advance_frame))
+            times['naive'].append(timed(naive.frame))
+    finally:
+        listener.terminate()
+        listener.wait()
+        node.destroy_node()
+    base, ours, plain = (statistics.median(times[name]) for name in ('bare', 'node', 'naive'))
+    size = Path(record).stat().st_size / FRAMES / count
+    print(
+        f'{count:6} {base:10.2f} {ours:10.2f} {ours / base:10.2f} {plain / base:11.2f} {size:17.0f}',
+        flush=True,
+    )
+
+
+def table(counts: list[int]) -> None:
+    """Print a row for each count of bodies."""
+    sys.setswitchinterval(0.0005)
+    print('A frame of 4 steps of a settled pile, all streams subscribed, recorded by Rerun')
+    print('bodies  bare [ms]  node [ms]  node/bare  naive/bare  bytes/body/frame')
+    with own_domain() as domain, tempfile.TemporaryDirectory() as directory:
+        rclpy.init(domain_id=domain)
+        for count in counts:
+            measure(count, Path(directory), domain)
+        rclpy.shutdown()

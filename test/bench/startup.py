@@ -1,0 +1,123 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""How soon the node is there, and how much memory it takes: the executable, seen from outside."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+import os
+from pathlib import Path
+import signal
+import statistics
+import subprocess
+import sys
+import time
+
+from geometry_msgs.msg import PoseArray
+from physsim_ros.testing import own_domain
+import rclpy
+from rclpy.experimental import EventsExecutor
+from rclpy.node import Node
+from visualization_msgs.msg import Marker, MarkerArray
+
+RUNS = 5
+BODIES = 1000
+
+
+@contextmanager
+def executable(domain: int) -> Iterator[subprocess.Popen[bytes]]:
+    """Run the installed node on a domain."""
+    process = subprocess.Popen(
+        [Path(sys.executable).with_name('physsim'), '--ros-args', '-p', 'viewer:=none'],
+        env=os.environ | {'ROS_DOMAIN_ID': str(domain)},
+        stderr=subprocess.DEVNULL,
+    )
+    try:
+        yield process
+    finally:
+        process.send_signal(signal.SIGINT)
+        process.wait()
+
+
+class Watcher:
+    """Another process's end: what it hears of the poses."""
+
+    def __init__(self, domain: int) -> None:
+        self._context = rclpy.Context()
+        rclpy.init(context=self._context, domain_id=domain)
+        self.node = Node('watcher', context=self._context)
+        self._executor = EventsExecutor(context=self._context)
+        self._executor.add_node(self.node)
+        self.bodies = -1
+        self.node.create_subscription(PoseArray, '/physsim/poses', self._hear, 5)
+
+    def _hear(self, message: PoseArray) -> None:
+        self.bodies = len(message.poses)
+
+    def wait(self, bodies: int) -> None:
+        """Spin until a message with at least so many poses has come."""
+        while self.bodies < bodies:
+            self._executor.spin_once(timeout_sec=0.1)
+
+    def close(self) -> None:
+        """Leave the graph."""
+        self._executor.shutdown()
+        self.node.destroy_node()
+        self._context.shutdown()
+
+
+def first_pose() -> float:
+    """Return the seconds from the command to the first message elsewhere."""
+    with own_domain() as domain:
+        watcher = Watcher(domain)
+        began = time.perf_counter()
+        with executable(domain):
+            watcher.wait(0)
+            elapsed = time.perf_counter() - began
+        watcher.close()
+    return elapsed
+
+
+def memory() -> float:
+    """Return the resident memory of the node with its bodies [MB]."""
+    with own_domain() as domain, executable(domain) as process:
+        watcher = Watcher(domain)
+        publisher = watcher.node.create_publisher(MarkerArray, '/physsim/spawn_array', 10)
+        watcher.wait(0)
+        while publisher.get_subscription_count() == 0:
+            time.sleep(0.01)
+        array = MarkerArray()
+        for number in range(BODIES):
+            marker = Marker(id=number, type=Marker.SPHERE)
+            marker.scale.x = marker.scale.y = 0.5
+            marker.pose.position.x, marker.pose.position.y = number % 40.0, number // 40.0
+            array.markers.append(marker)
+        publisher.publish(array)
+        watcher.wait(BODIES)
+        status = Path(f'/proc/{process.pid}/status').read_text(encoding='ascii')
+        watcher.close()
+    kilobytes = next(line for line in status.splitlines() if line.startswith('VmRSS')).split()[1]
+    return int(kilobytes) / 1024
+
+
+def table() -> None:
+    """Print both figures."""
+    times = [first_pose() for _ in range(RUNS)]
+    print(
+        f'\nFrom the command to the first pose elsewhere: median {statistics.median(times):.2f} s,'
+        f' {min(times):.2f} .. {max(times):.2f} s in {RUNS} runs'
+    )
+    print(f'Resident memory with {BODIES} bodies, no viewer: {memory():.0f} MB')
