@@ -33,7 +33,7 @@ from physsim_ros.core.errors import (
     Refusal,
     UnknownShape,
 )
-from physsim_ros.core.properties import Properties, properties_from
+from physsim_ros.core.properties import check_finite, Properties, properties_from
 from physsim_ros.core.requests import Anchor, Command, Delete, DeleteAll, Release, Spawn
 from physsim_ros.core.shapes import (
     Box,
@@ -57,6 +57,8 @@ NAMESPACE = 'body'
 MOST_TILT = 1e-3
 # All properties with all their digits fit ten times over; longer text is an accident.
 LONGEST_TEXT = 10_000
+# PyYAML takes a second for a thousand brackets in each other; a velocity and its mapping are two.
+MOST_BRACKETS = 50
 
 # A shape's own fields, as the marker calls them.
 _FIELDS = {
@@ -73,6 +75,14 @@ _FIELDS = {
 def name_of(marker: Marker) -> str:
     """Return the body's name that a marker means."""
     return f'{marker.ns or NAMESPACE}/{marker.id}'
+
+
+def subject_of(message: Marker | PointStamped | MultiDOFJointState) -> str:
+    """Return the one body that a message names, or ''."""
+    if isinstance(message, Marker):
+        return name_of(message)
+    names = getattr(message, 'joint_names', ())
+    return str(names[0]) if len(names) == 1 else ''
 
 
 def body_request(marker: Marker, *, frame_id: str) -> Spawn | Delete | DeleteAll:
@@ -184,6 +194,8 @@ def _color(marker: Marker) -> Color | None:
 def _properties(text: str) -> Properties:
     if len(text) > LONGEST_TEXT:
         raise Malformed(f'text is longer than {LONGEST_TEXT} characters', field='text')
+    if text.count('[') + text.count('{') > MOST_BRACKETS:
+        raise Malformed(f'text has more than {MOST_BRACKETS} brackets', field='text')
     return properties_from(load_mapping(text, field='text'))
 
 
@@ -210,6 +222,7 @@ def _shape_of_type(marker: Marker) -> Shape:
         case Marker.TRIANGLE_LIST:
             # RViz scales the points of this type; a scale that was left out counts as one.
             x, y = scale.x or 1.0, scale.y or 1.0
+            check_finite((x, y), 2, 'scale')
             if not (x > 0 and y > 0):
                 raise BadSize('scale must be positive', field='scale')
             points = _points(marker.points)
@@ -225,6 +238,7 @@ def _shape_of_type(marker: Marker) -> Shape:
 
 def _disc(marker: Marker) -> Disc:
     disc = Disc(radius=marker.scale.x / 2)
+    check_finite((marker.scale.y,), 1, 'scale.y')
     if marker.scale.y != marker.scale.x:
         raise BadSize('a disc is round: scale.x and scale.y must be equal', field='scale.y')
     return disc

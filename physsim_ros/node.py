@@ -192,8 +192,8 @@ class PhysSimNode(Node):
         try:
             request = convert(message, frame_id=self._frame_id)
         except Refusal as refusal:
-            subject = conversions.name_of(message) if isinstance(message, Marker) else ''
-            self._report(Answer.refused(refusal, topic=topic, subject=subject))
+            subject = conversions.subject_of(message)
+            self.simulation.refuse(refusal, topic=topic, subject=subject)
             return
         self.simulation.submit(request, topic=topic)
 

@@ -61,7 +61,8 @@ class Spec:
         """The ROS type."""
         if isinstance(self.default, list):
             return Type.DOUBLE_ARRAY
-        return Type.from_parameter_value(self.default)
+        kind: Type = Type.from_parameter_value(self.default)
+        return kind
 
     @property
     def descriptor(self) -> ParameterDescriptor:

@@ -45,7 +45,7 @@ from physsim_ros.core.shapes import (
     Triangles,
 )
 from physsim_ros.core.snapshot import BodyState, Motion, WorldState
-from physsim_ros.core.space import World
+from physsim_ros.core.world import World
 from physsim_ros.yaml_text import load_mapping
 import yaml
 

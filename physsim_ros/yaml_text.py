@@ -16,18 +16,68 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 import re
-from typing import Any
+from typing import Any, ClassVar
 
 from physsim_ros.core.errors import Malformed
 import yaml
 
+_TAG = 'tag:yaml.org,2002:'
+
 
 class _Loader(yaml.SafeLoader):
-    """The safe loader with the plain scalars of the YAML 1.2 core schema."""
+    """
+    The safe loader with the types of the YAML 1.2 core schema, and keys that come once.
+
+    PyYAML's own constructors raise whatever Python raises at a tag that does not fit, as in
+    `!!bool maybe`; these raise its own errors or ValueError, and there are no others.
+    """
 
     yaml_implicit_resolvers: dict[str, list[tuple[str, re.Pattern[str]]]] = {}  # noqa: RUF012
+    yaml_constructors: ClassVar[dict[Any, Callable[..., Any]]] = {
+        None: yaml.SafeLoader.construct_undefined,
+        _TAG + 'map': yaml.SafeLoader.construct_yaml_map,
+        _TAG + 'seq': yaml.SafeLoader.construct_yaml_seq,
+    }
 
+    def construct_mapping(
+        self,
+        node: yaml.MappingNode,
+        deep: bool = False,  # noqa: FBT001, FBT002 - PyYAML's own
+    ) -> dict[Any, Any]:
+        """Return the mapping, unless a key comes twice."""
+        entries = node.value if isinstance(node, yaml.MappingNode) else ()
+        keys = set()
+        for key in (key.value for key, _ in entries if isinstance(key, yaml.ScalarNode)):
+            if key in keys:
+                raise yaml.constructor.ConstructorError(None, None, f'{key} comes twice')
+            keys.add(key)
+        return super().construct_mapping(node, deep)
+
+
+def _bool(text: str) -> bool:
+    if text.lower() not in ('true', 'false'):
+        raise ValueError(f'{text} is not true or false')
+    return text.lower() == 'true'
+
+
+def _float(text: str) -> float:
+    return float(text.replace('.', '') if text.lower().endswith(('.inf', '.nan')) else text)
+
+
+def _scalar(make: Callable[[str], object]) -> Callable[[_Loader, yaml.ScalarNode], object]:
+    return lambda loader, node: make(str(loader.construct_scalar(node)))
+
+
+for _name, _make in (
+    ('bool', _bool),
+    ('null', lambda _: None),
+    ('int', int),
+    ('float', _float),
+    ('str', str),
+):
+    _Loader.add_constructor(_TAG + _name, _scalar(_make))
 
 _NUMBER = list('-+0123456789.')
 for _tag, _pattern, _first in (
@@ -37,9 +87,7 @@ for _tag, _pattern, _first in (
     ('float', r'[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?', _NUMBER),
     ('float', r'[-+]?\.(inf|Inf|INF)|\.(nan|NaN|NAN)', _NUMBER),
 ):
-    _Loader.add_implicit_resolver(
-        f'tag:yaml.org,2002:{_tag}', re.compile(f'^(?:{_pattern})$'), _first
-    )
+    _Loader.add_implicit_resolver(_TAG + _tag, re.compile(f'^(?:{_pattern})$'), _first)
 
 
 def load_mapping(text: str, *, field: str) -> dict[Any, Any]:
@@ -53,8 +101,10 @@ def load_mapping(text: str, *, field: str) -> dict[Any, Any]:
     try:
         value = yaml.load(text, Loader=_Loader)  # noqa: S506 - a subclass of SafeLoader
     except (yaml.YAMLError, ValueError, RecursionError) as error:
-        # What PyYAML says may span lines and repeat the text; its first line says what is wrong.
-        reason = str(error).partition('\n')[0] or type(error).__name__
+        # What PyYAML says may span lines and repeat the text; its problem, where it has one, does
+        # not.
+        text = getattr(error, 'problem', None) or str(error) or type(error).__name__
+        reason = text.partition('\n')[0]
         raise Malformed(f'{field} is not YAML: {reason[:200]}', field=field) from error
     if value is None:
         return {}

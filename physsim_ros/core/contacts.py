@@ -22,21 +22,23 @@ keeps its place from the frame before, or from its first touch.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
+from physsim_ros.core.snapshot import Contacts, Floats, Ints
 import pymunk
 from pymunk import batch
-
-from physsim_ros.core.snapshot import Contacts, Floats, Ints
 
 Ids = NDArray[np.uint64]
 
 _F = batch.ArbiterFields
 _PAIRS_AND_IMPULSES = _F.BODY_A_ID | _F.BODY_B_ID | _F.TOTAL_IMPULSE
 _PLACES = _F.NORMAL | _F.CONTACT_COUNT | _F.POINT_A_1 | _F.POINT_B_1 | _F.POINT_A_2 | _F.POINT_B_2
-# Ids are addresses of 16-byte blocks. Multiples of the golden ratio keep as far apart as any can
-# (the three-distance theorem), so that a * GOLDEN + b differs for all pairs of a 32 GiB heap.
-_ALIGNMENT, _GOLDEN = np.uint64(4), np.uint64(0x9E3779B97F4A7C15)
+# More pairs than this that come and go in a step, and looking for what stayed is no longer cheaper
+# than sorting all of them.
+_MOST_EDITS = 32
 
 
 class ContactLog:
@@ -50,13 +52,18 @@ class ContactLog:
     def __init__(self, space: pymunk.Space) -> None:
         self._space = space
         self._buffer = batch.Buffer()
-        # Runs of steps with the same pairs: ids (m, 2), sums of impulses on the first (m, 2).
-        self._runs: list[tuple[Ids, Floats]] = []
-        # Where pairs touched at the end of the last frame, by ascending key: normal, count of
-        # points, mean point; and at the first touches since then.
-        self._keys: Ids = np.empty(0, np.uint64)
-        self._places: Floats = np.empty((0, 5))
+        # Of the last step, in the engine's order: ids of each pair, and the sums of its impulses.
+        self._ids: Ids = np.empty((0, 2), np.uint64)
+        self._sums: Floats = np.empty((0, 2))
+        # Steps since the frame began.
+        self._steps = 0
+        # The same of pairs that have parted since the frame began.
+        self._gone: list[tuple[Ids, Floats]] = []
+        # Where pairs touched at the end of the last frame, and first since then: normal, count of
+        # points, mean point.
+        self._places: tuple[Ids, Floats] = (self._ids, np.empty((0, 5)))
         self._begun: dict[tuple[int, int], tuple[float, ...]] = {}
+        self._listing: _Listing | None = None
 
     def begin(self, arbiter: pymunk.Arbiter) -> None:
         """Remember where two shapes touched first, should they part before the frame ends."""
@@ -67,12 +74,20 @@ class ContactLog:
 
     def add_step(self) -> None:
         """Add the contacts of the step that has just been made."""
-        ints, impulses = self._read(_PAIRS_AND_IMPULSES)
-        ids, impulses = ints.reshape(-1, 2), impulses.reshape(-1, 2)
-        if self._runs and np.array_equal(self._runs[-1][0], ids):
-            self._runs[-1][1].__iadd__(impulses)
+        ints, sums = self._read(_PAIRS_AND_IMPULSES)
+        ids, sums = ints.reshape(-1, 2), sums.reshape(-1, 2)
+        if np.array_equal(self._ids, ids):
+            self._sums += sums
         else:
-            self._runs.append((ids, impulses))
+            stays = np.zeros(len(self._ids), np.bool_)
+            for start, new_start, count in _common_runs(self._ids, ids):
+                sums[new_start : new_start + count] += self._sums[start : start + count]
+                stays[start : start + count] = True
+            # What parts in the first step of a frame has not touched in it.
+            if self._steps > 0 and not stays.all():
+                self._gone.append((self._ids[~stays], self._sums[~stays]))
+            self._ids, self._sums = ids, sums
+        self._steps += 1
 
     def take(self, ids: Ids, rows: Ints, centers: Floats) -> Contacts:
         """
@@ -83,46 +98,34 @@ class ContactLog:
             the walls of `bounds`, or to a body that has gone since
         :param centers: (n, 2) float64: centres of mass, between which overlaps with sensors lie
         """
-        runs, self._runs = self._runs, []
-        if not runs or len(ids) == 0:
-            self._begun.clear()
+        if self._steps == 0:
             return NO_CONTACTS
-        last = runs[-1][0]
-        keys, first = np.unique(_keys(last), return_index=True)
-        touching, places = last[first], self._read_places()[first]
-        sums = np.zeros((len(keys), 2))
-        gone: list[tuple[Ids, Floats]] = []
-        for pairs, impulses in runs:
-            run_keys = _keys(pairs)
-            at, here = _find(keys, run_keys)
-            for axis in (0, 1):
-                weights = np.where(here, impulses[:, axis], 0.0)
-                sums[:, axis] += np.bincount(at, weights, len(keys))[: len(keys)]
-            if not here.all():
-                gone.append((pairs[~here], impulses[~here]))
-        parted = self._parted(gone) if gone else None
-        self._keys, self._places = keys, places
+        gone, self._gone = self._gone, []
+        touching, sums, places = self._ids, self._sums, self._read_places()
+        if gone:
+            parted = np.concatenate([each[0] for each in gone])
+            touching = np.concatenate((touching, parted))
+            sums = np.concatenate((sums, *(each[1] for each in gone)))
+            places = np.concatenate((places, self._last_places(parted)))
+        self._places = (self._ids, places[: len(self._ids)])
+        self._sums = np.zeros_like(self._sums)
+        self._steps = 0
         self._begun.clear()
-        if parted is not None:
-            touching, places, sums = map(
-                np.concatenate, zip((touching, places, sums), parted, strict=True)
-            )
-        return _in_rows(touching, places, sums, ids, rows, centers)
+        if len(ids) == 0 or len(touching) == 0:
+            return NO_CONTACTS
+        if self._listing is None or not self._listing.holds(touching, ids):
+            self._listing = _list(touching, ids, rows)
+        return self._listing.contacts(places, sums, centers)
 
-    def _parted(self, gone: list[tuple[Ids, Floats]]) -> tuple[Ids, Floats, Floats]:
-        """Return pairs, places and impulses of what touched and parted within the frame."""
-        pairs = np.concatenate([each[0] for each in gone])
-        keys, first, which = np.unique(_keys(pairs), return_index=True, return_inverse=True)
-        sums = np.zeros((len(keys), 2))
-        np.add.at(sums, which, np.concatenate([each[1] for each in gone]))
-        at, before = _find(self._keys, keys)
-        places = np.zeros((len(keys), 5))
-        places[before] = self._places[at[before]]
-        for row in np.flatnonzero(~before):
-            a, b = pairs[first[row]].tolist()
-            # A body that has gone takes its first touch with it.
-            places[row] = self._begun.get((a, b), (1.0, 0.0, 0.0, 0.0, 0.0))
-        return pairs[first], places, sums
+    def _last_places(self, pairs: Ids) -> Floats:
+        """Return (m, 5) float64: where pairs that have parted touched last, as far as known."""
+        ids, known = self._places
+        rows = []
+        for a, b in pairs.tolist():
+            at = np.flatnonzero((ids[:, 0] == a) & (ids[:, 1] == b))
+            place = tuple(known[at[0]]) if len(at) else (1.0, 0.0, 0.0, 0.0, 0.0)
+            rows.append(self._begun.get((a, b), place))
+        return np.array(rows)
 
     def _read_places(self) -> Floats:
         """Return (m, 5) float64: normal, count of points, mean point, of the last step."""
@@ -153,48 +156,97 @@ NO_CONTACTS = Contacts(
 )
 
 
-def _keys(ids: Ids) -> Ids:
-    """Return one number for each pair of ids."""
-    blocks = ids >> _ALIGNMENT
-    keys: Ids = blocks[:, 0] * _GOLDEN + blocks[:, 1]
-    return keys
+def _common_runs(old: Ids, new: Ids) -> Iterator[tuple[int, int, int]]:
+    """
+    Yield runs of rows that two listings share: start in the old, in the new, and length.
+
+    The engine's listing keeps its order but for what comes and goes. A row that is not matched
+    counts as gone and come; whoever adds up both has lost nothing.
+    """
+    at = new_at = 0
+    for _ in range(_MOST_EDITS):
+        length = min(len(old) - at, len(new) - new_at)
+        differ = (old[at : at + length] != new[new_at : new_at + length]).any(axis=1)
+        count = int(differ.argmax()) if differ.any() else length
+        if count:
+            yield at, new_at, count
+        at, new_at = at + count, new_at + count
+        if at >= len(old) or new_at >= len(new):
+            return
+        # Whichever comes again sooner in the other listing, the rows before it came or went.
+        ahead = _ahead(old[at:], new[new_at])
+        behind = _ahead(new[new_at:], old[at])
+        if ahead <= behind:
+            at += ahead
+        else:
+            new_at += behind
 
 
-def _find(keys: Ids, wanted: Ids) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
-    """Return where ascending keys hold the wanted ones, and which of them they do hold."""
-    if len(keys) == 0:
-        return np.zeros(len(wanted), np.intp), np.zeros(len(wanted), np.bool_)
-    at = np.minimum(np.searchsorted(keys, wanted), len(keys) - 1)
-    return at, keys[at] == wanted
+def _ahead(ids: Ids, wanted: Ids) -> int:
+    """Return how far ahead a pair is listed; past the end where it is not."""
+    found = np.flatnonzero((ids[:, 0] == wanted[0]) & (ids[:, 1] == wanted[1]))
+    return int(found[0]) if len(found) else len(ids)
 
 
-def _in_rows(
-    touching: Ids, places: Floats, sums: Floats, ids: Ids, rows: Ints, centers: Floats
-) -> Contacts:
-    """Turn engine ids into rows of the scene, the earlier spawned first, in order."""
-    at, known = _find(ids, touching.ravel())
-    pairs = np.where(known, rows[at], -1).reshape(-1, 2)
+@dataclass(frozen=True, slots=True, eq=False)
+class _Listing:
+    """
+    Which rows of the scene touch, in order; the same from frame to frame in a pile at rest.
+
+    :param touching: (k, 2): the engine's ids of pairs, as they come
+    :param ids: (n,): the engine's ids of all bodies
+    :param pairs: (m, 2): rows of each pair, the earlier spawned first
+    :param order: (l,): where the contacts of the pairs are among those that come, pair by pair
+    :param first: (m,): where in that order each pair begins
+    :param sign: (k, 1): -1 where the engine has a pair the other way round
+    """
+
+    touching: Ids
+    ids: Ids
+    pairs: Ints
+    order: NDArray[np.intp]
+    first: NDArray[np.intp]
+    sign: Floats
+
+    def holds(self, touching: Ids, ids: Ids) -> bool:
+        """Tell whether the same touch as when this was made."""
+        return self.ids is ids and np.array_equal(self.touching, touching)
+
+    def contacts(self, places: Floats, sums: Floats, centers: Floats) -> Contacts:
+        """Return the contacts, from what is known of each in the engine's order."""
+        # The engine's impulse acts on the first body; the log tells what the first gives.
+        impulses = (sums * -self.sign)[self.order]
+        latest = self.order[self.first]
+        if len(latest) < len(self.order):
+            impulses = np.add.reduceat(impulses, self.first, axis=0)
+        contacts = Contacts(
+            pairs=self.pairs,
+            points=places[latest, 3:],
+            normals=places[latest, :2] * self.sign[latest],
+            impulses=impulses,
+        )
+        _place_overlaps(contacts, places[latest, 2] == 0, centers)
+        return contacts
+
+
+def _list(touching: Ids, ids: Ids, rows: Ints) -> _Listing:
+    """Find the rows of what touches."""
+    at = np.minimum(np.searchsorted(ids, touching), len(ids) - 1)
+    pairs = np.where(ids[at] == touching, rows[at], -1)
     swap = (pairs[:, 1] >= 0) & ((pairs[:, 0] > pairs[:, 1]) | (pairs[:, 0] < 0))
     pairs = np.where(swap[:, None], pairs[:, ::-1], pairs)
-    # The engine's impulse acts on the first body; the log tells what the first gives.
-    sign = np.where(swap, -1.0, 1.0)[:, None]
-    normals, impulses = places[:, :2] * sign, sums * -sign
-    # The engine may list a pair both ways round; it is one pair still.
     keys = pairs[:, 0] * (len(ids) + 1) + pairs[:, 1]
     order = np.argsort(keys, kind='stable')
     order = order[pairs[order, 0] >= 0]
     first = np.flatnonzero(np.diff(keys[order], prepend=-2))
-    if len(first) < len(order):
-        impulses[order[first]] = np.add.reduceat(impulses[order], first, axis=0)
-        order = order[first]
-    contacts = Contacts(
-        pairs=pairs[order],
-        points=places[order, 3:],
-        normals=normals[order],
-        impulses=impulses[order],
+    return _Listing(
+        touching=touching,
+        ids=ids,
+        pairs=pairs[order[first]],
+        order=order,
+        first=first,
+        sign=np.where(swap, -1.0, 1.0)[:, None],
     )
-    _place_overlaps(contacts, places[order, 2] == 0, centers)
-    return contacts
 
 
 def _place_overlaps(contacts: Contacts, pointless: NDArray[np.bool_], centers: Floats) -> None:

@@ -24,6 +24,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields
 import difflib
 import math
+import reprlib
 from typing import Any
 
 from physsim_ros.core.errors import BadProperty, Malformed, UnknownProperty
@@ -33,6 +34,12 @@ from physsim_ros.core.errors import BadProperty, Malformed, UnknownProperty
 FASTEST = 1e5
 # From a dust grain to a mountain; the engine's impulses stay finite between any two of these.
 LIGHTEST, HEAVIEST = 1e-9, 1e12
+
+# A few aliases of YAML make a value whose whole text would fill the memory.
+_LONGEST_SHOWN = 60
+_SHORT = reprlib.Repr()
+_SHORT.maxlevel = 2
+_SHORT.maxstring = _SHORT.maxother = _SHORT.maxlong = _LONGEST_SHOWN
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -107,8 +114,14 @@ def check_key(key: object, known: list[str]) -> None:
         return
     near = difflib.get_close_matches(str(key), known, n=1, cutoff=0.0)
     raise UnknownProperty(
-        f'there is no property {str(key)!r}; nearest is {near[0]!r}', field=str(key)
+        f'there is no property {shown(str(key))}; nearest is {near[0]!r}',
+        field=str(key)[:_LONGEST_SHOWN],
     )
+
+
+def shown(value: object) -> str:
+    """Return a value as a message shows it: short, whatever somebody has put into it."""
+    return _SHORT.repr(value)
 
 
 def number(value: object, name: str) -> float:
@@ -119,13 +132,13 @@ def number(value: object, name: str) -> float:
     :raises Malformed: it is not finite
     """
     if isinstance(value, bool) or not isinstance(value, int | float):
-        raise BadProperty(f'{name} must be a number, not {value!r}', field=name)
+        raise BadProperty(f'{name} must be a number, not {shown(value)}', field=name)
     try:
         result = float(value)
     except OverflowError:
         result = math.inf
     if not math.isfinite(result):
-        raise Malformed(f'{name} is {value}, not a finite number', field=name)
+        raise Malformed(f'{name} is {shown(value)}, not a finite number', field=name)
     return result
 
 
@@ -164,7 +177,7 @@ def pair(value: object, name: str) -> tuple[float, float]:
     :raises BadProperty: it is no list of numbers
     """
     if not isinstance(value, list | tuple):
-        raise BadProperty(f'{name} must be a list of two numbers, not {value!r}', field=name)
+        raise BadProperty(f'{name} must be a list of two numbers, not {shown(value)}', field=name)
     if len(value) != 2:
         raise Malformed(f'{name} needs two numbers, not {len(value)}', field=name)
     return number(value[0], name), number(value[1], name)
@@ -179,13 +192,13 @@ def _velocity(value: object, name: str) -> tuple[float, float]:
 
 def _flag(value: object, name: str) -> bool:
     if not isinstance(value, bool):
-        raise BadProperty(f'{name} must be true or false, not {value!r}', field=name)
+        raise BadProperty(f'{name} must be true or false, not {shown(value)}', field=name)
     return value
 
 
 def _group(value: object, name: str) -> int:
     if isinstance(value, bool) or not isinstance(value, int):
-        raise BadProperty(f'{name} must be a whole number, not {value!r}', field=name)
+        raise BadProperty(f'{name} must be a whole number, not {shown(value)}', field=name)
     # The engine keeps groups in an unsigned 64-bit word; negative ones wrap to distinct words.
     if not -(2**31) <= value < 2**31:
         raise BadProperty(f'{name} must fit into 32 bits', field=name)

@@ -21,7 +21,7 @@ from dataclasses import dataclass
 import math
 
 from physsim_ros.core.errors import BadProperty, Malformed
-from physsim_ros.core.properties import HEAVIEST, LIGHTEST, pair, within
+from physsim_ros.core.properties import HEAVIEST, LIGHTEST, pair, shown, within
 from physsim_ros.core.shapes import LARGEST, Point
 
 Bounds = tuple[float, float, float, float]
@@ -74,7 +74,7 @@ def _bounds(value: object, name: str) -> Bounds | None:
     if value is None:
         return None
     if not isinstance(value, list | tuple):
-        raise BadProperty(f'{name} must be a list of four numbers, not {value!r}', field=name)
+        raise BadProperty(f'{name} must be a list of four numbers, not {shown(value)}', field=name)
     if len(value) != 4:
         raise Malformed(f'{name} needs 4 numbers, not {len(value)}', field=name)
     left, bottom, right, top = (within(-LARGEST, LARGEST, 'm')(each, name) for each in value)

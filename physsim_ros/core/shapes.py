@@ -283,7 +283,8 @@ def _distinct(points: NDArray[np.float64], *, closed: bool) -> NDArray[np.float6
     keep = (points != before).any(axis=1)
     if len(points) and (not closed or not keep.any()):
         keep[0] = True
-    return points[keep]
+    kept: NDArray[np.float64] = points[keep]
+    return kept
 
 
 def _cross(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -25,10 +25,10 @@ from collections import deque
 
 from physsim_ros.core.clock import Clock
 from physsim_ros.core.errors import BadProperty, Refusal
-from physsim_ros.core.requests import Request, Restore
+from physsim_ros.core.requests import Command, Delete, Request, Restore, Spawn
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.snapshot import Answer, Frame, WorldState
-from physsim_ros.core.space import World
+from physsim_ros.core.world import World
 
 # Frames in one call: the one that is due, and one to make up for a late one.
 _FRAMES_A_CALL = 2
@@ -64,7 +64,7 @@ class Simulation:
         self.world = World(physics_rate=physics_rate, settings=settings)
         self._beginning = self.world.save()
         self._clock = Clock(physics_rate=physics_rate, frame_steps=self.frame_steps, speed=speed)
-        self._requests: deque[tuple[Request, str]] = deque()
+        self._requests: deque[tuple[Request | Refusal, str, str]] = deque()
         self._answers: list[Answer] = []
         self._changed = True
 
@@ -88,7 +88,15 @@ class Simulation:
 
     def submit(self, request: Request, *, topic: str) -> None:
         """Queue a request; nothing moves until the next frame, which carries the answer."""
-        self._requests.append((request, topic))
+        subject = ''
+        match request:
+            case Spawn(name=subject) | Delete(name=subject) | Command(names=(subject,)):
+                pass
+        self._requests.append((request, topic, subject))
+
+    def refuse(self, refusal: Refusal, *, topic: str, subject: str) -> None:
+        """Queue the answer to what could not even be a request, so that answers keep the order."""
+        self._requests.append((refusal, topic, subject))
 
     def perform(self, request: Request) -> str:
         """
@@ -149,10 +157,11 @@ class Simulation:
 
     def _apply_all(self) -> None:
         while self._requests:
-            request, topic = self._requests.popleft()
+            request, topic, subject = self._requests.popleft()
             self._changed = True
-            subject = getattr(request, 'name', '')
             try:
+                if isinstance(request, Refusal):
+                    raise request
                 subject, message = self.world.apply(request)
             except Refusal as refusal:
                 answer = Answer.refused(refusal, topic=topic, subject=subject)

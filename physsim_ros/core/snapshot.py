@@ -240,7 +240,8 @@ class Snapshot:
         """(n, 2) float64: centres of mass, world [m]."""
         x, y = self.scene.centroids.T
         cos, sin = np.cos(self.poses[:, 2]), np.sin(self.poses[:, 2])
-        return self.poses[:, :2] + np.column_stack((cos * x - sin * y, sin * x + cos * y))
+        turned: Floats = np.column_stack((cos * x - sin * y, sin * x + cos * y))
+        return self.poses[:, :2] + turned
 
     @cached_property
     def kinetic_energy(self) -> float:

@@ -16,25 +16,106 @@
 Fast bodies: the engine looks only at where a step ends, this looks at the way there.
 
 Law: a body that moves more than half of its own inner radius a step is swept along its way first;
-where it would touch something, the step ends there. The engine then finds the contact and
-resolves it with the full velocity. What a slower body overshoots at a first touch is taken back in
-`relieve`. Neither changes a velocity.
+where it would enter something, the step ends there. The engine then finds the contact and
+resolves it with the full velocity. What a kinematic body would run over is carried along to where
+the step ends. What a slower body overshoots at a first touch is taken back in `relieve`. None of
+these changes a velocity.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 import math
 
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.core.rigid_body import RigidBody
 import pymunk
+from pymunk import Vec2d
 
 # A body that moves less than this share of its inner radius a step is safe without a sweep: its
 # centre stays on the side it came from.
 SAFE_SHARE = 0.5
-# So deep a swept body is let in, for the engine to see the contact; well inside its slop of 5 mm.
-TOUCH = 1e-3
+# Who is stopped may stand in the way of who follows: so many in a row, touching, at most.
+ROUNDS = 16
+# What overlaps by this share of the skin is in it, whichever way the sweep to the skin rounded.
+ALREADY = 0.99
+# Of a body that turns fast so many poses along its way are looked at, half of its inner radius
+# apart, and so often is the part between the last clear one and the next halved.
+MOST_POSES = 200
+HALVINGS = 8
+
+
+@dataclass(frozen=True, slots=True)
+class _Move:
+    """
+    What a body does in the coming step.
+
+    :param way: of the centre of mass [m]
+    :param turn: [rad]
+    """
+
+    way: Vec2d
+    turn: float
+
+    def __mul__(self, share: float) -> _Move:
+        return _Move(self.way * share, self.turn * share)
+
+
+@dataclass(frozen=True, slots=True)
+class _Mover:
+    """
+    A body that is swept.
+
+    :param engine: it
+    :param move: as the engine would make it
+    :param depth: how far it may enter something before the engine mistakes the side [m]
+    :param skin: how far it is let in, for the engine to see the contact [m]; what overlaps less
+        on its way, as a body that slides over tiles does, is not in the way
+    :param reach: greatest distance of a point of it from its centre [m]
+    """
+
+    engine: pymunk.Body
+    move: _Move
+    depth: float
+    skin: float
+    reach: float
+
+    @property
+    def turns(self) -> bool:
+        """Whether its outermost point turns so fast that the turn counts too."""
+        return abs(self.move.turn) * self.reach > self.depth
+
+
+@dataclass(frozen=True, slots=True)
+class _Pair:
+    """
+    Two shapes that could meet in the coming step.
+
+    :param own: of the body that is swept
+    :param other: of another body
+    :param overlap: how deep they lie in each other at the start [m]
+    :param normal: from own to other, where they overlap at the start
+    """
+
+    own: pymunk.Shape
+    other: pymunk.Shape
+    overlap: float
+    normal: Vec2d
+
+
+@dataclass(frozen=True, slots=True)
+class _Stop:
+    """
+    Where a move ends.
+
+    :param at: share of the way
+    :param move: what is made of the move
+    """
+
+    at: float
+    move: _Move
 
 
 def safe_depth(rigid: RigidBody) -> float:
@@ -42,19 +123,56 @@ def safe_depth(rigid: RigidBody) -> float:
     return rigid.body.shape.form.inner * SAFE_SHARE
 
 
-def arrest(space: pymunk.Space, movers: list[RigidBody], dt: float) -> None:
-    """
-    Shorten the coming step of fast bodies so that it ends where they first touch something.
+def safe_spin(rigid: RigidBody) -> float:
+    """Return how far a body may turn in a step without a sweep [rad]."""
+    form = rigid.body.shape.form
+    # A disc covers the same ground however it turns.
+    return math.inf if form.inner >= form.outer else safe_depth(rigid) / form.outer
 
-    :param movers: bodies that would move further than their safe depth
-    :param dt: of the coming step [s]
+
+def arrest(
+    space: pymunk.Space,
+    fast: list[RigidBody],
+    dt: float,
+    *,
+    slop: float,
+    reach: float,
+    rigid_of: Callable[[pymunk.Body], RigidBody | None],
+) -> None:
     """
-    # All ways are measured before the first body is put back, or two would miss each other.
-    shares = [_clear_share(space, rigid.engine, safe_depth(rigid), dt) for rigid in movers]
-    for rigid, share in zip(movers, shares, strict=True):
-        if share < 1.0:
-            # The engine will add the whole way; put the body back by what it may not go.
-            rigid.engine.position += rigid.engine.velocity * (dt * (share - 1.0))
+    Shorten the coming step of fast bodies so that it ends where they first enter something.
+
+    :param fast: bodies that would move further than is safe
+    :param dt: of the coming step [s]
+    :param slop: overlap that the engine leaves standing [m]
+    :param reach: as far as any body moves in the step [m]
+    :param rigid_of: finds the body that an engine body plays; None is the background
+    """
+    pushers = {rigid.engine: _mover(rigid, dt, slop) for rigid in fast if rigid.body.fixed}
+    movers = {rigid.engine: _mover(rigid, dt, slop) for rigid in fast if not rigid.body.fixed}
+    for pusher in pushers.values():
+        for pair in _near(space, pusher, reach):
+            rigid = rigid_of(pair.other.body)
+            if rigid is not None and not rigid.body.fixed and rigid.engine not in movers:
+                movers[rigid.engine] = _mover(rigid, dt, slop)
+    near = {engine: list(_near(space, mover, reach)) for engine, mover in movers.items()}
+    moves = {engine: mover.move for engine, mover in (pushers | movers).items()}
+    for number in range(ROUNDS):
+        # All are measured before the first is stopped, or two would miss each other.
+        stops = {
+            engine: stop
+            for engine, mover in movers.items()
+            if (stop := _stop(space, mover, near[engine], moves, dt, carried=number == 0))
+        }
+        if not stops:
+            break
+        moves |= {engine: stop.move for engine, stop in stops.items()}
+    for engine, mover in movers.items():
+        move = moves[engine]
+        if move is not mover.move:
+            # The engine will add the whole move; put the body back by what it may not go.
+            engine.position += move.way - mover.move.way
+            engine.angle += move.turn - mover.move.turn
 
 
 def relieve(arbiter: pymunk.Arbiter, space: pymunk.Space, slop: float) -> None:
@@ -66,96 +184,224 @@ def relieve(arbiter: pymunk.Arbiter, space: pymunk.Space, slop: float) -> None:
     one, other = arbiter.shapes
     if one.sensor or other.sensor:
         return
-    depth = -min(point.distance for point in arbiter.contact_point_set.points)
+    depth = _depth(arbiter.contact_point_set)
     if depth <= slop:
         return
     a, b = one.body, other.body
     normal = arbiter.normal
     dt = space.current_time_step
-    approach = (a.velocity - b.velocity).dot(normal) * dt
-    excess = min(depth - slop, approach)
-    if excess <= 0:
+    ahead_a, ahead_b = a.velocity.dot(normal) * dt, -b.velocity.dot(normal) * dt
+    excess = min(depth - slop, ahead_a + ahead_b)
+    # Each gives back of what it went itself, or what stands would be pushed through what is
+    # behind it; a kinematic body gives nothing.
+    give_a = max(ahead_a, 0.0) if a.body_type == pymunk.Body.DYNAMIC else 0.0
+    give_b = max(ahead_b, 0.0) if b.body_type == pymunk.Body.DYNAMIC else 0.0
+    if b.body_type == pymunk.Body.KINEMATIC and a.body_type == pymunk.Body.DYNAMIC:
+        give_a, give_b = excess, 0.0
+    elif a.body_type == pymunk.Body.KINEMATIC and b.body_type == pymunk.Body.DYNAMIC:
+        give_a, give_b = 0.0, excess
+    if excess <= 0 or give_a + give_b <= 0:
         return
-    give_a = 1 / a.mass if a.body_type == pymunk.Body.DYNAMIC else 0.0
-    give_b = 1 / b.mass if b.body_type == pymunk.Body.DYNAMIC else 0.0
-    if give_a + give_b == 0.0:
-        return
-    shift = normal * (excess / (give_a + give_b))
-    if give_a:
-        a.position -= shift * give_a
-    if give_b:
-        b.position += shift * give_b
+    share = min(1.0, excess / (give_a + give_b))
+    for body, give in ((a, -give_a * share), (b, give_b * share)):
+        if give:
+            body.position += normal * give
+            # Further shapes of it, and further contacts, are found where it is now.
+            for shape in body.shapes:
+                shape.cache_bb()
 
 
-def _clear_share(space: pymunk.Space, body: pymunk.Body, depth: float, dt: float) -> float:
-    """Return the share of the coming step that the body may go, 0 .. 1."""
-    way = body.velocity * dt
-    share = 1.0
-    for own in body.shapes:
+def _mover(rigid: RigidBody, dt: float, slop: float) -> _Mover:
+    engine, depth = rigid.engine, safe_depth(rigid)
+    turn = engine.angular_velocity * dt
+    return _Mover(
+        engine=engine,
+        move=_Move(engine.velocity * dt, 0.0 if math.isinf(safe_spin(rigid)) else turn),
+        depth=depth,
+        skin=min(slop, depth),
+        reach=rigid.body.shape.form.outer,
+    )
+
+
+def _near(space: pymunk.Space, mover: _Mover, reach: float) -> Iterator[_Pair]:
+    """Yield what a body could meet in the coming step."""
+    engine, way = mover.engine, mover.move.way
+    apart = {
+        joint.b if joint.a is engine else joint.a
+        for joint in engine.constraints
+        if not joint.collide_bodies
+    }
+    for own in engine.shapes:
         if own.sensor:
             continue
+        touching = _contacts(space, own)
         start = own.bb
-        end = pymunk.BB(
-            start.left + way.x, start.bottom + way.y, start.right + way.x, start.top + way.y
+        if mover.turns:
+            start = pymunk.BB.newForCircle(engine.position, mover.reach)
+        left, right = min(0.0, way.x) - reach, max(0.0, way.x) + reach
+        bottom, top = min(0.0, way.y) - reach, max(0.0, way.y) + reach
+        around = pymunk.BB(
+            start.left + left, start.bottom + bottom, start.right + right, start.top + top
         )
-        for other in space.bb_query(start.merge(end), own.filter):
-            if other.sensor or other.body is body:
-                continue
-            relative = way - other.body.velocity * dt
-            touch = _first_touch(own, other, relative)
-            if touch is None:
-                continue
-            at, approach = touch
-            # Grazing contacts that the engine sees in time are left to it: stopping for them
-            # would brake a body that slides over tiles.
-            if (1.0 - at) * approach > depth:
-                share = min(share, at + TOUCH / approach)
-    return share
+        for other in space.bb_query(around, own.filter):
+            if not (other.sensor or other.body is engine or other.body in apart):
+                contact = touching.get(other)
+                yield _Pair(
+                    own,
+                    other,
+                    0.0 if contact is None else _depth(contact),
+                    Vec2d.zero() if contact is None else contact.normal,
+                )
 
 
-def _first_touch(
-    own: pymunk.Shape, other: pymunk.Shape, way: pymunk.Vec2d
+def _stop(
+    space: pymunk.Space,
+    mover: _Mover,
+    near: list[_Pair],
+    moves: dict[pymunk.Body, _Move],
+    dt: float,
+    *,
+    carried: bool,
+) -> _Stop | None:
+    """
+    Return where a body's move ends early; None where it does not.
+
+    :param moves: what bodies do as far as it is known; others go on as they are
+    :param carried: whether kinematic bodies carry it along
+    """
+    engine, move = mover.engine, moves[mover.engine]
+    first: _Stop | None = None
+    for pair in near:
+        other = pair.other
+        pusher = other.body.body_type == pymunk.Body.KINEMATIC
+        if pusher and not carried:
+            continue
+        theirs = moves.get(other.body) or _Move(
+            other.body.velocity * dt, other.body.angular_velocity * dt
+        )
+        relative = move.way - theirs.way
+        if mover.turns or (pusher and theirs.turn):
+            touch = _touch_turning(space, pair, mover, move, theirs)
+        elif pair.overlap > ALREADY * mover.skin:
+            approach = relative.dot(pair.normal)
+            touch = (0.0, approach) if approach > 0.0 else None
+        else:
+            touch = _touch(pair.own, other, relative, mover.skin)
+        if touch is None:
+            continue
+        at, approach = touch
+        # What the engine sees in time is left to it.
+        if (1.0 - at) * approach <= mover.depth or (first is not None and first.at <= at):
+            continue
+        made = move * at
+        if pusher:
+            rest = theirs * (1.0 - at)
+            arm = engine.position - other.body.position
+            made = _Move(made.way + rest.way + arm.rotated(rest.turn) - arm, made.turn)
+        first = _Stop(at, made)
+    return first
+
+
+def _touch(
+    own: pymunk.Shape, other: pymunk.Shape, way: Vec2d, skin: float
 ) -> tuple[float, float] | None:
     """
-    Return when shapes that are apart meet, if they do.
+    Return when shapes come to overlap by the skin, if they do, neither turning.
 
-    :return: share of the way until they touch, and the length of the way along the normal there
+    :param way: of the first, seen from the second [m]
+    :return: share of the way until then, and the length of the way along the normal there
     """
+    if isinstance(own, pymunk.Poly) and isinstance(other, pymunk.Poly):
+        return _touch_convex(_corners(own), _corners(other), np.array(way), skin)
+    # What is round meets with a corner, an end or a centre, on one of the two sides.
+    touches = [*_cast(own, other, way, skin), *_cast(other, own, -way, skin)]
+    return min(touches, default=None)
+
+
+def _cast(
+    own: pymunk.Shape, other: pymunk.Shape, way: Vec2d, skin: float
+) -> Iterator[tuple[float, float]]:
+    """Yield when the corners, ends or centre of a shape meet another."""
+    place = own.body.local_to_world
+    own_radius = 0.0 if isinstance(own, pymunk.Poly) else own.radius
+    other_radius = 0.0 if isinstance(other, pymunk.Poly) else other.radius
+    radius = max(own_radius - skin, -other_radius)
     if isinstance(own, pymunk.Circle):
-        start = own.body.local_to_world(own.offset)
-        hit = other.segment_query(start, start + way, own.radius)
-    elif isinstance(other, pymunk.Circle):
-        start = other.body.local_to_world(other.offset)
-        hit = own.segment_query(start, start - way, other.radius)
+        points = [place(own.offset)]
+    elif isinstance(own, pymunk.Segment):
+        points = [place(own.a), place(own.b)]
     else:
-        return _sweep_convex(_vertices(own), _vertices(other), np.array(way))
-    if hit is None or hit.shape is None:
-        return None
-    return hit.alpha, abs(way.dot(hit.normal))
+        points = [place(corner) for corner in own.get_vertices()]
+    for point in points:
+        hit = other.segment_query(point, point + way, radius)
+        # At 0 the engine tells of a start inside, and that with a normal of either sign.
+        if hit is not None and hit.alpha > 0.0:
+            approach = -way.dot(hit.normal)
+            if approach > 0.0:
+                yield hit.alpha, approach
 
 
-def _vertices(shape: pymunk.Shape) -> NDArray[np.float64]:
-    """Return the corners of a polygon, or of the rectangle around a segment, in the world."""
-    if isinstance(shape, pymunk.Poly):
-        corners = shape.get_vertices()
-    else:
-        assert isinstance(shape, pymunk.Segment)  # noqa: S101 - the engine has no fourth kind
-        along = (shape.b - shape.a).normalized() * shape.radius
-        across = along.perpendicular()
-        corners = [
-            shape.a - along - across,
-            shape.b + along - across,
-            shape.b + along + across,
-            shape.a - along + across,
-        ]
-    return np.array([shape.body.local_to_world(corner) for corner in corners])
-
-
-def _sweep_convex(
-    a: NDArray[np.float64], b: NDArray[np.float64], way: NDArray[np.float64]
+def _touch_turning(
+    space: pymunk.Space, pair: _Pair, mover: _Mover, move: _Move, theirs: _Move
 ) -> tuple[float, float] | None:
     """
-    Move a convex outline towards another and find when they meet, by separating axes.
+    Return when shapes come to overlap by the skin, if they do, one of them turning fast.
+
+    :return: share of the way until then, and the length of the way of the outermost point
+    """
+    # One shape moves as it is seen from the other, which stays as the space knows it.
+    shape, other, way, turn = pair.own, pair.other, move.way - theirs.way, move.turn
+    reach = mover.reach
+    if not mover.turns:
+        shape, other, way, turn = other, shape, -way, theirs.turn
+        reach += (shape.body.position - other.body.position).length
+    body = shape.body
+    place, angle = body.position, body.angle
+    # What overlaps from the start may leave; only deeper is a touch.
+    limit = max(mover.skin, pair.overlap + (1.0 - ALREADY) * mover.skin)
+
+    def touches(share: float) -> bool:
+        body.position, body.angle = place + way * share, angle + turn * share
+        contact = _contacts(space, shape).get(other)
+        return contact is not None and _depth(contact) > limit
+
+    length = way.length + abs(turn) * reach
+    count = min(MOST_POSES, math.ceil(length / mover.depth))
+    at = next((number / count for number in range(1, count + 1) if touches(number / count)), None)
+    if at is not None:
+        clear = at - 1.0 / count
+        for _ in range(HALVINGS):
+            middle = (clear + at) / 2
+            clear, at = (clear, middle) if touches(middle) else (middle, at)
+    body.position, body.angle = place, angle
+    shape.cache_bb()
+    return None if at is None else (at, length)
+
+
+def _contacts(
+    space: pymunk.Space, shape: pymunk.Shape
+) -> dict[pymunk.Shape, pymunk.ContactPointSet]:
+    """Return what a shape overlaps where it is now, with normals that lead away from it."""
+    # Not `shapes_collide`: it asserts that there is a contact.
+    hits = space.shape_query(shape)
+    return {hit.shape: hit.contact_point_set for hit in hits if hit.shape is not None}
+
+
+def _depth(contact: pymunk.ContactPointSet) -> float:
+    """Return how deep shapes lie in each other [m]."""
+    return -min(point.distance for point in contact.points)
+
+
+def _corners(shape: pymunk.Poly) -> NDArray[np.float64]:
+    """Return the corners of a polygon in the world, (n, 2) float64."""
+    return np.array([shape.body.local_to_world(corner) for corner in shape.get_vertices()])
+
+
+def _touch_convex(
+    a: NDArray[np.float64], b: NDArray[np.float64], way: NDArray[np.float64], skin: float
+) -> tuple[float, float] | None:
+    """
+    Return when convex outlines come to overlap by the skin, by separating axes.
 
     Two convex outlines overlap when their shadows on every side's normal do, so they meet when
     the last pair of shadows does.
@@ -165,8 +411,8 @@ def _sweep_convex(
     normals /= np.hypot(edges[:, 0], edges[:, 1])[:, None]
     shadow_a, shadow_b = a @ normals.T, b @ normals.T
     speed = normals @ way
-    ahead = shadow_b.min(axis=0) - shadow_a.max(axis=0)
-    behind = shadow_b.max(axis=0) - shadow_a.min(axis=0)
+    ahead = shadow_b.min(axis=0) - shadow_a.max(axis=0) + skin
+    behind = shadow_b.max(axis=0) - shadow_a.min(axis=0) - skin
     still = speed == 0.0
     if (still & ((ahead > 0) | (behind < 0))).any():
         return None

@@ -35,7 +35,7 @@ from geometry_msgs.msg import Pose, PoseArray
 from physsim_ros.core.properties import Properties
 from physsim_ros.core.requests import Configure, Spawn
 from physsim_ros.core.shapes import Box, Disc
-from physsim_ros.core.space import World
+from physsim_ros.core.world import World
 from physsim_ros.node import PhysSimNode
 from physsim_ros.testing import own_domain
 import rclpy
@@ -51,6 +51,7 @@ from rclpy.experimental import EventsExecutor
 from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import PoseArray
 from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import MultiDOFJointState
 from visualization_msgs.msg import MarkerArray
 rclpy.init(domain_id=int(sys.argv[1]))
 node = rclpy.create_node('listener')
@@ -93,7 +94,7 @@ class Bare:
     def frame(self) -> None:
         """Make four steps."""
         for _ in range(4):
-            self.world._space.step(1 / 240)
+            self.world._space._space.step(1 / 240)
 
 
 class Naive(Bare):
@@ -107,7 +108,7 @@ class Naive(Bare):
         """Make four steps and publish the poses, one stream of the six."""
         super().frame()
         message = PoseArray()
-        for rigid in self.world._bodies.values():
+        for rigid in self.world._space.bodies.values():
             pose = Pose()
             pose.position.x, pose.position.y = rigid.engine.position
             pose.orientation.z = math.sin(rigid.engine.angle / 2)

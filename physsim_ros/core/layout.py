@@ -1,0 +1,124 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Rows: what is constant about all bodies until one comes, goes or changes, in arrays.
+
+The world lists bodies in spawn order, the engine in an order of its own that changes whenever one
+comes or goes; here the two meet.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from physsim_ros.core import stillness, sweep
+from physsim_ros.core.contacts import Ids
+from physsim_ros.core.rigid_body import RigidBody
+from physsim_ros.core.settings import WorldSettings
+from physsim_ros.core.snapshot import Floats, Ints, Scene
+
+
+@dataclass(slots=True, eq=False)
+class Layout:
+    """
+    What is constant for the rows of all bodies until one comes, goes or changes.
+
+    :param scene: the bodies, in spawn order
+    :param rows: name -> row
+    :param ids: (n,): the engine's ids of the bodies, ascending
+    :param id_rows: (n,): the row of each of them
+    :param order: for each row, its place in the engine's own listing
+    :param listed: for each place in the engine's listing, its body; None for walls
+    :param safe2: for each place, the squared speed up to which no sweep is needed [m²/s²]
+    :param safe_spin: for each place, the spin up to which no sweep is needed [rad/s]
+    :param loose: (n,) bool: whether forces move the body
+    :param offsets: (n, 2): the engine's origin in the body's frame [m]
+    :param lead: (n, 3): how far the engine's velocity leads in free flight
+    :param free: (n,) bool: in free flight; changes from frame to frame
+    :param ground: what `stillness` has to know of the bodies
+    :param expiries: step -> names of the bodies that go at its end
+    :param state: (n, 6): poses and velocities of the engine's origins; None where they have
+        changed since they were read
+    """
+
+    scene: Scene
+    rows: dict[str, int]
+    ids: Ids
+    id_rows: Ints
+    order: NDArray[np.intp]
+    listed: tuple[RigidBody | None, ...]
+    safe2: Floats
+    safe_spin: Floats
+    loose: NDArray[np.bool_]
+    offsets: Floats
+    lead: Floats
+    free: NDArray[np.bool_]
+    ground: stillness.Ground
+    expiries: dict[int, list[str]]
+    state: Floats | None = None
+
+    def flatten_flight(self) -> None:
+        """Give every body its own note of whether it is in free flight."""
+        for place, free in zip(self.order.tolist(), self.free.tolist(), strict=True):
+            rigid = self.listed[place]
+            if rigid is not None:
+                rigid.free = free
+
+
+def lay_out(
+    rigids: Sequence[RigidBody], listing: Sequence[int], settings: WorldSettings, dt: float
+) -> Layout:
+    """
+    Lay bodies out in rows.
+
+    :param rigids: in spawn order
+    :param listing: the engine's ids, in the order of its own listing
+    :param settings: of the world
+    :param dt: of a step [s]
+    """
+    places = {id_: place for place, id_ in enumerate(listing)}
+    ids = np.array([rigid.engine.id for rigid in rigids], dtype=np.uintp)
+    order = [places[id_] for id_ in ids.tolist()]
+    ascending = np.argsort(ids)
+    listed: list[RigidBody | None] = [None] * len(listing)
+    safe2, safe_spin = np.full((2, len(listing)), np.inf)
+    expiries: dict[int, list[str]] = {}
+    for rigid, place in zip(rigids, order, strict=True):
+        listed[place] = rigid
+        if not rigid.body.anchored and not rigid.body.sensor:
+            safe2[place] = (sweep.safe_depth(rigid) / dt) ** 2
+            safe_spin[place] = sweep.safe_spin(rigid) / dt
+        if rigid.body.expires is not None:
+            expiries.setdefault(rigid.body.expires, []).append(rigid.body.name)
+    leads = [rigid.lead(settings.gravity, dt) for rigid in rigids]
+    return Layout(
+        scene=Scene(bodies=tuple(rigid.body for rigid in rigids), settings=settings),
+        rows={rigid.body.name: row for row, rigid in enumerate(rigids)},
+        ids=ids[ascending],
+        id_rows=ascending,
+        order=np.array(order, dtype=np.intp),
+        listed=tuple(listed),
+        safe2=safe2,
+        safe_spin=safe_spin,
+        loose=np.array([not rigid.body.fixed for rigid in rigids], dtype=np.bool_),
+        offsets=np.array([rigid.offset for rigid in rigids]).reshape(-1, 2),
+        lead=np.array(leads).reshape(-1, 3),
+        free=np.array([rigid.free for rigid in rigids], dtype=np.bool_),
+        ground=stillness.ground(listed, listing, settings.friction),
+        expiries=expiries,
+    )

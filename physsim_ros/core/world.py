@@ -1,0 +1,343 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+The world: requests go in, snapshots come out.
+
+Laws: the world changes only between steps and only in `apply`; a refusal changes nothing; the same
+requests at the same steps give the same bits, in another process too.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+import hashlib
+import math
+from typing import Any
+
+from physsim_ros.core.errors import (
+    Anchored,
+    BadProperty,
+    NothingThere,
+    UnknownBody,
+    UnknownFrame,
+    WorldFull,
+)
+from physsim_ros.core.names import split_name
+from physsim_ros.core.palette import color_of
+from physsim_ros.core.properties import HEAVIEST, LIGHTEST
+from physsim_ros.core.requests import (
+    Anchor,
+    check_pose,
+    Command,
+    Configure,
+    Delete,
+    DeleteAll,
+    Release,
+    Request,
+    Restore,
+    Spawn,
+)
+from physsim_ros.core.rigid_body import REST, RigidBody, rotated
+from physsim_ros.core.settings import WorldSettings
+from physsim_ros.core.shapes import Point, Pose
+from physsim_ros.core.snapshot import Body, BodyState, Contacts, Snapshot, WorldState
+from physsim_ros.core.space import Space
+
+
+class World:
+    """
+    A world of bodies, stepped at a fixed rate.
+
+    :param physics_rate: steps a second of simulation time [Hz]
+    :param settings: what holds at the start
+    """
+
+    def __init__(
+        self, *, physics_rate: float = 240.0, settings: WorldSettings | None = None
+    ) -> None:
+        self.physics_rate = physics_rate
+        self.dt = 1.0 / physics_rate
+        self.step_count = 0
+        # Whether contacts are read; reading them costs a tenth of a step.
+        self.watching = False
+        self._settings = settings or WorldSettings()
+        self._space = Space(self._settings, self.dt)
+        self._spawned = 0
+
+    # Reading
+
+    def __len__(self) -> int:
+        return len(self._space.bodies)
+
+    def __contains__(self, name: str) -> bool:
+        return name in self._space.bodies
+
+    @property
+    def settings(self) -> WorldSettings:
+        """What holds for the whole world."""
+        return self._settings
+
+    def settings_with(self, changes: Mapping[str, Any]) -> WorldSettings:
+        """
+        Return the settings as they would be with some changed.
+
+        :raises Refusal: they would not fit
+        """
+        return replace(self._settings, **changes)
+
+    @property
+    def stamp(self) -> int:
+        """Simulation time [ns]."""
+        return round(self.step_count * 1e9 / self.physics_rate)
+
+    def snapshot(self) -> Snapshot:
+        """Return where everything is."""
+        scene, poses, twists = self._space.rows()
+        return Snapshot(
+            step=self.step_count, stamp=self.stamp, scene=scene, poses=poses, twists=twists
+        )
+
+    def contacts(self, snapshot: Snapshot) -> Contacts:
+        """Return what touched since the last call while the world was being watched."""
+        return self._space.contacts(snapshot.centers)
+
+    def digest(self) -> str:
+        """Return a hash of everything that decides how the world goes on."""
+        digest = hashlib.blake2b(digest_size=16)
+        digest.update(f'{self.step_count} {self.physics_rate!r}'.encode())
+        for part in self._space.essence():
+            digest.update(part)
+        return digest.hexdigest()
+
+    def body_at(self, point: Point) -> str | None:
+        """Return the topmost body, that spawned last, which covers a point of the world [m]."""
+        return self._space.body_at(point)
+
+    def save(self) -> WorldState:
+        """Return everything that the world goes on from, save the engine's contact memory."""
+        now = self.step_count
+        bodies = []
+        for rigid in self._space.bodies.values():
+            body, until = rigid.body, rigid.wrench_until
+            if body.expires is not None:
+                body = replace(body, expires=body.expires - now)
+            bodies.append(
+                BodyState(
+                    body=body,
+                    pose=rigid.pose,
+                    twist=self._space.twist(rigid),
+                    motion=rigid.motion,
+                    wrench=rigid.wrench,
+                    wrench_steps=None if until is None else until - now,
+                )
+            )
+        return WorldState(settings=self._settings, bodies=tuple(bodies))
+
+    # Changing
+
+    def apply(self, request: Request) -> tuple[str, str]:
+        """
+        Carry out a request.
+
+        :return: the body concerned, or '', and a sentence that says what was done
+        :raises Refusal: and nothing is changed
+        """
+        match request:
+            case Spawn():
+                return self._spawn(request)
+            case Delete(name=name):
+                self._space.remove(self._known(name).body.name)
+                return name, f'deleted {name}'
+            case DeleteAll(namespace=namespace):
+                return '', self._delete_all(namespace)
+            case Anchor(point=point, frame=frame):
+                return self._hold(point, frame, anchored=True)
+            case Release(point=point, frame=frame):
+                return self._hold(point, frame, anchored=False)
+            case Command():
+                return self._command(request)
+            case Configure(changes=changes):
+                self._configure(self.settings_with(changes))
+                return '', f'set {", ".join(changes)}'
+            case Restore(state=state):
+                self._restore(state)
+                return '', f'loaded {len(state.bodies)} bodies'
+
+    def step(self, count: int) -> tuple[str, ...]:
+        """
+        Go on by a number of steps.
+
+        :return: bodies that left the range of numbers and were removed
+        """
+        for remaining in range(count, 0, -1):
+            self._space.step(self.step_count, watching=self.watching, last=remaining == 1)
+            self.step_count += 1
+        return self._space.drop_lost()
+
+    # Requests
+
+    def _spawn(self, request: Spawn) -> tuple[str, str]:
+        name, said = request.name, request.properties
+        old = self._space.bodies.get(name)
+        if old is None and len(self._space.bodies) >= self._settings.max_bodies:
+            raise WorldFull(f'the world holds {len(self._space.bodies)} bodies, the most it may')
+        pose = self._in_world(request.pose, request.frame)
+        body = self._described(request, old.body if old else None)
+        _check_weight(body)
+        moves = (said.velocity or (0.0, 0.0)) != (0.0, 0.0) or bool(said.spin)
+        if body.anchored and moves:
+            raise Anchored(f'{name} is anchored; it has no velocity', field='velocity')
+        twist = REST if old is None or old.body.anchored else self._space.twist(old)
+        if said.velocity is not None:
+            twist = (*said.velocity, twist[2])
+        if said.spin is not None:
+            twist = (twist[0], twist[1], said.spin)
+        if body.anchored:
+            twist = REST
+        if old is not None:
+            self._space.change(old, body, pose, twist)
+            return name, f'changed {name}'
+        self._space.add(body, self._spawned, pose, twist)
+        self._spawned += 1
+        return name, f'spawned {name}'
+
+    def _described(self, request: Spawn, old: Body | None) -> Body:
+        """Return the body that a spawn asks for: what it says, else what was, else defaults."""
+        said = request.properties
+        if old is None:
+            old = Body(
+                name=request.name,
+                shape=request.shape,
+                color=request.color or color_of(self._spawned),
+                mass=None,
+                density=self._settings.density,
+                friction=self._settings.friction,
+                elasticity=self._settings.elasticity,
+                anchored=False,
+                kinematic=False,
+                group=0,
+                sensor=False,
+                expires=None,
+            )
+        changes = said.said()
+        for motion in ('velocity', 'spin'):
+            changes.pop(motion, None)
+        if said.density is not None:
+            changes['mass'] = None
+        if request.color is not None:
+            changes['color'] = request.color
+        if request.lifetime > 0:
+            changes['expires'] = self._step_after(request.lifetime)
+        return replace(old, shape=request.shape, **changes)
+
+    def _hold(self, point: Point, frame: str, *, anchored: bool) -> tuple[str, str]:
+        x, y, _ = self._in_world((*point, 0.0), frame)
+        name = self.body_at((x, y))
+        if name is None:
+            raise NothingThere(f'there is no body at ({x:g}, {y:g})', field='point')
+        rigid = self._space.bodies[name]
+        if rigid.body.anchored != anchored:
+            body = replace(rigid.body, anchored=anchored)
+            self._space.change(rigid, body, rigid.pose, REST)
+        return name, f'{"anchored" if anchored else "released"} {name}'
+
+    def _delete_all(self, namespace: str | None) -> str:
+        names = [
+            name
+            for name in self._space.bodies
+            if namespace is None or split_name(name)[0] == namespace
+        ]
+        for name in names:
+            self._space.remove(name)
+        return f'deleted {len(names)} bodies'
+
+    def _command(self, request: Command) -> tuple[str, str]:
+        rigids = [self._known(name) for name in request.names]
+        for rigid in rigids:
+            if rigid.body.anchored and (request.twists or request.wrenches):
+                raise Anchored(
+                    f'{rigid.body.name} is anchored; it takes a pose only', field='joint_names'
+                )
+            if rigid.body.kinematic and request.wrenches:
+                raise BadProperty(
+                    f'{rigid.body.name} is kinematic; forces do not move it', field='wrench'
+                )
+        poses = [self._in_world(pose, request.frame) for pose in request.poses]
+        for rigid, pose in zip(rigids, poses, strict=False):
+            self._space.set_pose(rigid, pose)
+        for rigid, twist in zip(rigids, request.twists, strict=False):
+            self._space.set_twist(rigid, twist)
+        timeout = self._settings.command_timeout
+        until = self._step_after(timeout) if timeout > 0 else None
+        for rigid, wrench in zip(rigids, request.wrenches, strict=False):
+            self._space.push(rigid, wrench, until)
+        if len(rigids) == 1:
+            return request.names[0], f'commanded {request.names[0]}'
+        return '', f'commanded {len(rigids)} bodies'
+
+    def _configure(self, settings: WorldSettings) -> None:
+        self._settings = settings
+        self._space.configure(settings)
+
+    def _restore(self, state: WorldState) -> None:
+        # A space of its own for every state: what was in the old one leaves no trace.
+        self._settings = state.settings
+        self._space = Space(state.settings, self.dt)
+        self._spawned = 0
+        now = self.step_count
+        for saved in state.bodies:
+            body, steps = saved.body, saved.wrench_steps
+            if body.expires is not None:
+                body = replace(body, expires=body.expires + now)
+            rigid = self._space.add(body, self._spawned, saved.pose, saved.twist)
+            self._spawned += 1
+            if saved.wrench != REST:
+                self._space.push(rigid, saved.wrench, None if steps is None else now + steps)
+            if saved.motion is not None:
+                self._space.set_motion(rigid, saved.motion)
+
+    def _known(self, name: str) -> RigidBody:
+        if name not in self._space.bodies:
+            raise UnknownBody(f'there is no body {name!r}', field='name')
+        return self._space.bodies[name]
+
+    def _in_world(self, pose: Pose, frame: str) -> Pose:
+        if not frame:
+            return pose
+        if frame not in self._space.bodies:
+            raise UnknownFrame(
+                f'frame {frame!r} is neither the world nor a body', field='header.frame_id'
+            )
+        x, y, yaw = self._space.bodies[frame].pose
+        turned_x, turned_y = rotated((pose[0], pose[1]), yaw)
+        result = (x + turned_x, y + turned_y, yaw + pose[2])
+        check_pose(result, 'pose')
+        return result
+
+    def _step_after(self, seconds: float) -> int:
+        # Less a billionth: 0.1 s at 240 Hz is 24 steps, not 25 for the last bit of 0.1.
+        return self.step_count + max(1, math.ceil(seconds * self.physics_rate - 1e-9))
+
+
+def _check_weight(body: Body) -> None:
+    """Refuse a body whose size and density make it too light or too heavy."""
+    if not LIGHTEST <= body.weight <= HEAVIEST:
+        field = 'density' if body.mass is None else 'mass'
+        raise BadProperty(
+            f'the body would weigh {body.weight:g} kg; {LIGHTEST:g} to {HEAVIEST:g} kg can be '
+            'simulated',
+            field=field,
+        )

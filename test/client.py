@@ -1,0 +1,113 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""A node beside a test's world: it sends what it is told, and hears every answer."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+import time
+from typing import Any, NamedTuple
+
+from diagnostic_msgs.msg import DiagnosticStatus
+from physsim_ros.testing import PhysSim
+from rclpy.node import Node
+from rclpy.qos import HistoryPolicy, QoSProfile, ReliabilityPolicy
+from std_srvs.srv import Trigger
+
+# Ten times what discovery takes where it loses its first message [s].
+PATIENCE = 25.0
+
+
+class Event(NamedTuple):
+    """An answer on `~/events`."""
+
+    level: int
+    name: str
+    hardware_id: str
+    message: str
+    code: str
+    field: str
+
+
+class Client:
+    """A node that asks the world of a test, and hears everything that the world answers."""
+
+    def __init__(self, physsim: PhysSim) -> None:
+        self.physsim = physsim
+        self.node = Node('client', context=physsim.context)
+        self.qos = QoSProfile(
+            history=HistoryPolicy.KEEP_ALL, reliability=ReliabilityPolicy.RELIABLE
+        )
+        self.events: list[Event] = []
+        self.node.create_subscription(DiagnosticStatus, '/physsim/events', self._hear, self.qos)
+        self._publishers: dict[str, Any] = {}
+        physsim.add(self.node)
+        self.spin_until(lambda: self.node.count_publishers('/physsim/events'))
+
+    def _hear(self, status: DiagnosticStatus) -> None:
+        values = {pair.key: pair.value for pair in status.values}
+        code, field = values.pop('code'), values.pop('field', '')
+        assert not values
+        level = status.level[0]
+        self.events.append(
+            Event(level, status.name, status.hardware_id, status.message, code, field)
+        )
+
+    def spin_until(self, predicate: Callable[[], object]) -> None:
+        deadline = time.monotonic() + PATIENCE
+        while not predicate():
+            assert time.monotonic() < deadline, 'it did not come about in time'
+            self.physsim.settle()
+
+    def publish(self, topic: str, message: Any) -> None:
+        """Publish on one of the world's topics, named as in `~/spawn`."""
+        if topic not in self._publishers:
+            name = topic.replace('~', '/physsim')
+            self._publishers[topic] = self.node.create_publisher(type(message), name, self.qos)
+            self.spin_until(self._publishers[topic].get_subscription_count)
+        self._publishers[topic].publish(message)
+
+    def ask(self, topic: str, message: Any) -> list[Event]:
+        """Publish a request, let the world carry it out, and return all that it answers."""
+        before = len(self.events)
+        self.publish(topic, message)
+        # What has arrived is carried out twice, so that a second answer would be heard.
+        for _ in range(2):
+            self.physsim.settle()
+            self.physsim.node.apply()
+        self.physsim.settle()
+        return self.events[before:]
+
+    def listen(self, kind: type, topic: str, qos: Any = None) -> list[Any]:
+        """Return the list that the messages of a topic come into from now on."""
+        received: list[Any] = []
+        subscription = self.node.create_subscription(
+            kind, topic.replace('~', '/physsim'), received.append, qos or self.qos
+        )
+        self.spin_until(subscription.get_publisher_count)
+        return received
+
+    def call(self, service: str) -> Any:
+        """Call one of the world's services of type Trigger, and return its response."""
+        return self.request(Trigger, service, Trigger.Request())
+
+    def request(self, kind: Any, service: str, request: Any) -> Any:
+        """Call a service of the world's node, and return its response."""
+        client = self.node.create_client(kind, service.replace('~', '/physsim'))
+        self.spin_until(client.service_is_ready)
+        future = client.call_async(request)
+        self.spin_until(future.done)
+        self.node.destroy_client(client)
+        return future.result()

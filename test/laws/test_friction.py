@@ -1,0 +1,145 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Laws 10 to 13: friction holds, brakes and sets rolling as Coulomb's law has it."""
+
+import math
+
+import numpy as np
+from physsim_ros.core.requests import Command
+from physsim_ros.core.shapes import Box, Disc
+import pytest
+
+from test.laws.scenes import floor, G, run, simulation, spawn, turned
+
+DIRECTIONS = [-1, 1]
+
+
+def _on_incline(shape, height, degrees, direction, **settings):
+    """
+    Lay a body on an incline that falls to the left (1) or to the right (-1).
+
+    :param height: of its centre above the incline [m]
+    :return: the simulation, the row of the body, and the unit vector downhill
+    """
+    sim = simulation(**settings)
+    angle = direction * math.radians(degrees)
+    floor(sim, angle=angle)
+    row = spawn(sim, 'body/0', shape, (*turned((0.0, height), angle), angle))
+    return sim, row, turned((-direction, 0.0), angle)
+
+
+def _way_in_5_s(box, degrees, direction):
+    sim, row, downhill = _on_incline(box, box.height / 2, degrees, direction)
+    start = sim.world.snapshot().poses[row, :2]
+    return (run(sim, 5.0).poses[row, :2] - start) @ downhill
+
+
+BOXES = [Box(width=1.0, height=1.0), Box(width=0.3, height=0.3), Box(width=2.0, height=0.5)]
+
+
+@pytest.mark.parametrize('direction', DIRECTIONS)
+@pytest.mark.parametrize('box', BOXES, ids=repr)
+def test_a_block_slides_from_the_angle_whose_tangent_is_its_friction(report, box, direction):
+    exact = math.degrees(math.atan(0.5))
+    sticks, slides = exact - 0.1, exact + 0.1
+    # Within 5 s a block that sticks at all keeps to a millimetre, one that slides goes 0.2 m at
+    # a tenth of a degree above.
+    assert abs(_way_in_5_s(box, sticks, direction)) < 1e-3
+    assert _way_in_5_s(box, slides, direction) > 0.1
+    for _ in range(4):
+        middle = (sticks + slides) / 2
+        if _way_in_5_s(box, middle, direction) < 1e-3:
+            sticks = middle
+        else:
+            slides = middle
+
+    report.check(10, 'incline, friction 0.5, sliding begins', slides, exact, 0.1, '°')
+
+
+@pytest.mark.parametrize('direction', DIRECTIONS)
+@pytest.mark.parametrize('degrees', [10, 20, 26])
+def test_a_block_that_sticks_does_not_creep(report, degrees, direction):
+    sim, row, downhill = _on_incline(BOXES[0], 0.5, degrees, direction)
+    settled = run(sim, 1.0).poses[row, :2]
+
+    crept = (run(sim, 10.0).poses[row, :2] - settled) @ downhill
+
+    report.check(10, 'incline, friction 0.5, creep in 10 s', crept, 0.0, 1e-6, 'm')
+
+
+@pytest.mark.parametrize('direction', DIRECTIONS)
+@pytest.mark.parametrize('box', BOXES, ids=repr)
+@pytest.mark.parametrize('degrees', [27, 35, 45, 60])
+def test_a_block_that_slides_has_the_acceleration_of_the_formula(report, degrees, box, direction):
+    sim, row, downhill = _on_incline(box, box.height / 2, degrees, direction)
+
+    first = run(sim, 0.5).twists[row, :2] @ downhill
+    last = run(sim, 1.0).twists[row, :2] @ downhill
+
+    angle = math.radians(degrees)
+    exact = G * (math.sin(angle) - 0.5 * math.cos(angle))
+    report.check(11, f'sliding down {degrees}°, friction 0.5', last - first, exact, 1e-4, 'm/s²')
+
+
+@pytest.mark.parametrize('direction', DIRECTIONS)
+@pytest.mark.parametrize('radius', [0.05, 0.5, 2.0])
+@pytest.mark.parametrize('degrees', [5, 20, 40])
+def test_a_disc_rolls_down_with_two_thirds(report, degrees, radius, direction):
+    sim, row, downhill = _on_incline(Disc(radius=radius), radius, degrees, direction)
+
+    first = run(sim, 0.5).twists[row]
+    last = run(sim, 1.0).twists[row]
+
+    exact = 2 / 3 * G * math.sin(math.radians(degrees))
+    measured = (last - first)[:2] @ downhill
+    report.check(12, f'disc rolling down {degrees}°', measured, exact, 1e-9, 'm/s²')
+    slip = last[:2] @ downhill - direction * last[2] * radius
+    report.check(12, 'disc rolling, slip', slip, 0.0, 1e-9, 'm/s')
+
+
+@pytest.mark.parametrize('elasticity', [0.5, 0.0])
+def test_a_disc_that_rolls_on_a_floor_goes_on_for_ever(report, elasticity):
+    sim = simulation(elasticity=elasticity)
+    floor(sim)
+    disc = spawn(sim, 'disc/0', Disc(radius=0.5), (0.0, 0.5, 0.0), velocity=(0.05, 0.0), spin=-0.1)
+
+    end = run(sim, 10.0)
+
+    report.check(12, 'disc rolling on a floor at 5 cm/s', end.twists[disc, 0], 0.05, 1e-9, 'm/s')
+
+
+@pytest.mark.parametrize('direction', DIRECTIONS)
+@pytest.mark.parametrize('radius', [0.1, 0.5])
+@pytest.mark.parametrize('speed', [2.0, 5.0])
+def test_a_disc_that_slides_comes_to_roll_at_two_thirds_of_its_speed(
+    report, speed, radius, direction
+):
+    sim = simulation(friction=0.3)
+    floor(sim)
+    disc = spawn(sim, 'disc/0', Disc(radius=radius), (0.0, radius, 0.0))
+    run(sim, 1.0)
+    sim.perform(Command(names=('disc/0',), twists=((direction * speed, 0.0, 0.0),)))
+
+    rolls_at = None
+    for step in range(2 * 240):
+        sim.world.step(1)
+        vx, _, spin = sim.world.snapshot().twists[disc]
+        if rolls_at is None and abs(vx + spin * radius) < 1e-6:
+            rolls_at = (step + 1) / 240
+
+    exact = speed / (3 * 0.3 * G)
+    report.check(13, 'disc set sliding, rolls after', rolls_at, exact, 0.02, 's/s', relative=True)
+    vx = np.abs(sim.world.snapshot().twists[disc, 0])
+    report.check(13, 'the same, speed then', vx, speed * 2 / 3, 1e-3, '–', relative=True)

@@ -1,0 +1,92 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Laws 18 and 19: what is stacked stands, and does not sink, creep or sway."""
+
+import random
+
+import numpy as np
+from physsim_ros.core.shapes import Box
+import pytest
+
+from test.laws.scenes import floor, run, simulation, spawn, walls
+
+ORDERS = {
+    'bottom up': list(range(10)),
+    'top down': list(range(9, -1, -1)),
+    'shuffled': random.Random(1).sample(range(10), 10),
+}
+
+
+def _stack(size, order, ground=floor):
+    """Stack boxes that touch exactly; return the simulation and their rows from the bottom up."""
+    sim = simulation()
+    ground(sim)
+    rows = {
+        level: spawn(
+            sim, f'box/{level}', Box(width=size, height=size), (0, size * (level + 0.5), 0)
+        )
+        for level in order
+    }
+    return sim, [rows[level] for level in range(10)]
+
+
+@pytest.mark.parametrize('order', ORDERS.values(), ids=ORDERS.keys())
+@pytest.mark.parametrize('size', [1.0, 0.5, 0.3])
+def test_a_stack_of_ten_boxes_stands_still(report, size, order):
+    sim, rows = _stack(size, order)
+
+    at_5 = run(sim, 5.0)
+    fastest = 0.0
+    for _ in range(300):
+        end = sim.advance_frame().snapshot
+        fastest = max(fastest, float(np.hypot(*end.twists[rows, :2].T).max()))
+
+    sunk = size * (np.arange(10) + 0.5) - end.poses[rows, 1]
+    report.check(18, '10 boxes, sink in 10 s', float(np.abs(sunk).max()), 0.0, 3e-3, 'm')
+    crept = float(np.abs(end.poses[rows] - at_5.poses[rows]).max())
+    report.check(18, '10 boxes, creep from 5 s to 10 s', crept, 0.0, 1e-4, 'm, rad')
+    report.check(18, '10 boxes, speed after 5 s', fastest, 0.0, 1e-3, 'm/s')
+    tilt = float(np.abs(end.poses[rows, 2]).max())
+    report.check(18, '10 boxes, tilt', tilt, 0.0, 2e-3, 'rad')
+
+
+def test_a_stack_stands_on_the_walls_of_the_world_too(report):
+    sim, rows = _stack(0.5, ORDERS['bottom up'], lambda sim: walls(sim, -5.0, 0.0, 5.0, 20.0))
+
+    end = run(sim, 6.0)
+
+    speed = float(np.hypot(*end.twists[rows, :2].T).max())
+    report.check(18, '10 boxes, speed after 5 s', speed, 0.0, 1e-3, 'm/s')
+
+
+@pytest.mark.parametrize('size', [1.0, 0.3])
+@pytest.mark.parametrize('gap', [0.0, 0.1])
+def test_a_pyramid_of_105_boxes_stands_still(report, gap, size):
+    sim = simulation()
+    floor(sim)
+    box = Box(width=size, height=size)
+    heights = []
+    for level in range(14):
+        for place in range(14 - level):
+            x = (place - (13 - level) / 2) * size * (1 + gap)
+            heights.append(size * (level + 0.5))
+            spawn(sim, f'box/{len(heights)}', box, (x, heights[-1], 0.0))
+
+    end = run(sim, 10.0)
+
+    sunk = float(np.abs(np.array(heights) - end.poses[1:, 1]).max())
+    report.check(19, 'pyramid of 105, sink in 10 s', sunk, 0.0, 2e-3, 'm')
+    speed = float(np.hypot(*end.twists[1:, :2].T).max())
+    report.check(19, 'pyramid of 105, speed after 10 s', speed, 0.0, 1e-3, 'm/s')

@@ -1,0 +1,127 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Processes beside the test's own: the world as people start it, and programs that talk to it."""
+
+from __future__ import annotations
+
+from contextlib import ExitStack
+import os
+from pathlib import Path
+import queue
+import shutil
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import pytest
+
+# Ten times what a start and discovery take, where that loses its first message [s].
+PATIENCE = 40.0
+ROOT = Path(__file__).resolve().parents[1]
+
+
+class Program:
+    """A process and the lines that it prints."""
+
+    def __init__(self, *command: object, env: dict[str, str], cwd: Path) -> None:
+        self.started = time.monotonic()
+        self.process = subprocess.Popen(
+            [str(word) for word in command],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            env=env,
+            cwd=cwd,
+        )
+        self.lines: list[str] = []
+        self._queue: queue.SimpleQueue[str | None] = queue.SimpleQueue()
+        self._reader = threading.Thread(target=self._read, daemon=True)
+        self._reader.start()
+
+    def _read(self) -> None:
+        assert self.process.stdout is not None
+        for line in self.process.stdout:
+            self._queue.put(line)
+        self._queue.put(None)
+
+    def wait_for(self, word: str, timeout: float = PATIENCE) -> str:
+        """Return the next line with that word."""
+        deadline = time.monotonic() + timeout
+        while True:
+            try:
+                line = self._queue.get(timeout=max(0.0, deadline - time.monotonic()))
+            except queue.Empty:
+                pytest.fail(f'no {word!r} within {timeout} s of:\n{"".join(self.lines)}')
+            if line is None:
+                pytest.fail(f'ended without {word!r}:\n{"".join(self.lines)}')
+            self.lines.append(line)
+            if word in line:
+                return line
+
+    def finish(self, timeout: float = PATIENCE) -> int:
+        """Wait for the end, take in what is left to read, and return the exit code."""
+        code = self.process.wait(timeout)
+        self._reader.join(timeout)
+        self.lines += iter(self._queue.get, None)
+        return code
+
+    def interrupt(self, number: int = signal.SIGINT) -> int:
+        """Send a signal, and return the exit code."""
+        self.process.send_signal(number)
+        return self.finish()
+
+    def close(self) -> None:
+        """End the process, whatever it does."""
+        self.process.kill()
+        self.finish()
+
+
+class Outside:
+    """
+    Processes beside this one that share a ROS domain of their own.
+
+    :param directory: where they work and log
+    """
+
+    def __init__(self, directory: Path, domain: int, closing: ExitStack) -> None:
+        self.directory = directory
+        self._closing = closing
+        self._environment = os.environ | {
+            'ROS_DOMAIN_ID': str(domain),
+            'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
+            'ROS_LOG_DIR': str(directory),
+            'PYTHONUNBUFFERED': '1',
+        }
+
+    def start(self, *command: object) -> Program:
+        """Start a program."""
+        program = Program(*command, env=self._environment, cwd=self.directory)
+        self._closing.callback(program.close)
+        return program
+
+    def start_world(self, *arguments: str, **parameters: object) -> Program:
+        """Start the world as people do, by its installed executable."""
+        given = {'viewer': 'none'} | parameters
+        words = [word for name, value in given.items() for word in ('-p', f'{name}:={value}')]
+        beside = Path(sys.executable).parent
+        executable = shutil.which('physsim', path=f'{beside}{os.pathsep}{os.environ["PATH"]}')
+        assert executable, 'the package is not installed: make test'
+        return self.start(executable, '--ros-args', *words, *arguments)
+
+    def start_program(self, name: str, *arguments: object) -> Program:
+        """Start one of the programs that know the world by its topics alone."""
+        return self.start(sys.executable, ROOT / 'test' / 'elsewhere' / f'{name}.py', *arguments)
