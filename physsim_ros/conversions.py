@@ -81,8 +81,8 @@ def subject_of(message: Marker | PointStamped | MultiDOFJointState) -> str:
     """Return the one body that a message names, or ''."""
     if isinstance(message, Marker):
         return name_of(message)
-    names = getattr(message, 'joint_names', ())
-    return str(names[0]) if len(names) == 1 else ''
+    names: list[str] = getattr(message, 'joint_names', [])
+    return names[0] if len(names) == 1 else ''
 
 
 def body_request(marker: Marker, *, frame_id: str) -> Spawn | Delete | DeleteAll:

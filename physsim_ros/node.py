@@ -218,6 +218,9 @@ class PhysSimNode(Node):
             self.get_logger().warning(
                 f'{answer.topic}: {answer.code}: {answer.message}', throttle_duration_sec=1.0
             )
+        elif answer.topic == 'viewer':
+            # Where to look is what somebody at the terminal waits for.
+            self.get_logger().info(answer.message)
 
     # Services
 
@@ -325,12 +328,21 @@ class PhysSimNode(Node):
         if self._viewer is not None:
             self._viewer.close()
             self._viewer = None
-        mode = ViewerMode(self._values['viewer'])
+        mode = ViewerMode(self._values['viewer']) if self._started else ViewerMode.NONE
         if mode is ViewerMode.NONE and not self._values['record_file']:
             return
         self._viewer = Viewer(
             mode=mode, url=self._values['viewer_url'], record_file=self._values['record_file']
         )
+
+    def record(self, path: Path) -> None:
+        """
+        Write what happens from now on to a file, beside any viewer.
+
+        :param path: of the `.rrd` file; complete when the node is destroyed
+        """
+        self._values['record_file'] = str(path)
+        self._open_viewer()
 
     def _diagnose(self) -> None:
         if self._viewer is not None:

@@ -142,6 +142,8 @@ class PhysSim:
 
     def step(self, frames: int = 1) -> None:
         """Go on by frames of one publish period each."""
+        # What the test's own publishers have sent comes first.
+        self.settle()
         for _ in range(frames):
             self.node.advance_frame()
             self.settle()

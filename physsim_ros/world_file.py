@@ -86,7 +86,12 @@ def find(name: str, *, world_dir: Path, confined: bool) -> Path:
     if Path(name).name == name and not Path(name).suffix:
         paths = [world_dir / f'{name}.yaml', shipped_worlds() / f'{name}.yaml']
     for path in paths:
-        if path.is_file():
+        try:
+            found = path.is_file()
+        except OSError as error:
+            # Its name is too long, or a directory on the way there is closed.
+            raise BadWorldFile(f'cannot read {name[:99]}: {error}', field='world_file') from error
+        if found:
             if confined and not _below(path, world_dir) and not _below(path, shipped_worlds()):
                 raise BadWorldFile(f'{name} lies outside world_dir', field='world_file')
             return path
@@ -128,7 +133,11 @@ def save(state: WorldState, name: str, *, world_dir: Path, physics_rate: float) 
     if not name:
         raise BadWorldFile('parameter world_file names no file', field='world_file')
     plain = Path(name).name == name and not Path(name).suffix
-    path = (world_dir / (f'{name}.yaml' if plain else name)).resolve()
+    try:
+        path = (world_dir / (f'{name}.yaml' if plain else name)).resolve()
+    except (OSError, RuntimeError, ValueError) as error:
+        # Links in a circle, or a NUL.
+        raise BadWorldFile(f'{name!r} is no path: {error}', field='world_file') from error
     if not _below(path, world_dir):
         raise BadWorldFile(f'{name} lies outside world_dir', field='world_file')
     temporary = None

@@ -79,7 +79,7 @@ def marker(
         action=action,
         pose=Pose(position=Point(x=float(x), y=float(y)), orientation=rotation(yaw)),
         scale=Vector3(**dict(zip('xyz', map(float, scale), strict=False))),
-        color=ColorRGBA(**dict(zip('rgba', color, strict=True))),
+        color=ColorRGBA(**dict(zip('rgba', map(float, color), strict=True))),
         lifetime=Duration(sec=int(seconds), nanosec=round(fraction * 1e9)),
         points=[Point(x=float(x), y=float(y)) for x, y in points],
         text=text,
@@ -108,7 +108,7 @@ def delete_all(namespace: str = '') -> Marker:
 
 
 def point(x: float, y: float, frame: str = '') -> PointStamped:
-    return PointStamped(header=Header(frame_id=frame), point=Point(x=x, y=y))
+    return PointStamped(header=Header(frame_id=frame), point=Point(x=float(x), y=float(y)))
 
 
 def command(

@@ -457,7 +457,6 @@ def test_a_number_that_is_not_finite_is_refused(number: str) -> None:
         ('{group: true}', 'group'),
         ('{group: 4294967296}', 'group'),
         ('{mass: 1, density: 1}', 'mass'),
-        ('{anchored: true, kinematic: true}', 'kinematic'),
         ('{mass: 2001-01-01}', 'mass'),
         ('{mass: 1_000}', 'mass'),
         ('{mass: 0x10}', 'mass'),

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""A marker on `~/spawn` becomes a body, changes it in place, or deletes it, and is answered once."""
+"""A marker on `~/spawn` becomes a body, changes it or deletes it, and is answered once."""
 
 from __future__ import annotations
 
@@ -203,12 +203,12 @@ def test_a_change_takes_the_keys_that_it_names_and_no_others(physsim: PhysSim) -
     assert body_of(physsim, 'body/0').weight == 2.0
 
 
-@pytest.mark.parametrize('later', [False, True], ids=['at birth', 'later'])
+@pytest.mark.parametrize('when', ['at birth', 'later'])
 def test_an_anchored_body_is_moved_recoloured_resized_and_released(
-    physsim: PhysSim, later: bool
+    physsim: PhysSim, when: str
 ) -> None:
-    physsim.spawn(box(text='' if later else '{anchored: true}'))
-    if later:
+    physsim.spawn(box(text='' if when == 'later' else '{anchored: true}'))
+    if when == 'later':
         physsim.step(3)
         physsim.anchor((0.0, 0.0))
     physsim.spawn(box(at=(4.0, 3.0, 0.2), size=(2.0, 0.5), color=(1.0, 0.0, 0.0, 1.0)))
@@ -418,16 +418,16 @@ def test_what_is_kinematic_moves_whatever_it_touches_and_pushes(physsim: PhysSim
     assert physsim.pose('b/0').x == pytest.approx(4.0, abs=0.05)
 
 
-@pytest.mark.parametrize(('one', 'other', 'pass_'), [
-    (0, 0, False), (3, 3, True), (-3, -3, True), (3, 4, False), (3, -3, False), (0, 3, False),
+@pytest.mark.parametrize(('one', 'other', 'what'), [
+    (0, 0, 'meet'), (3, 3, 'pass'), (-3, -3, 'pass'), (3, 4, 'meet'), (3, -3, 'meet'), (0, 3, 'meet'),
 ])  # fmt: skip
 def test_bodies_of_one_group_pass_through_each_other(
-    physsim: PhysSim, one: int, other: int, pass_: bool
+    physsim: PhysSim, one: int, other: int, what: str
 ) -> None:
     physsim.spawn(box('a/0', text=f'{{anchored: true, group: {one}}}'))
     physsim.spawn(disc('b/0', at=(0.0, 2.0), text=f'{{group: {other}, elasticity: 0}}'))
     physsim.run(2.0)
-    assert (physsim.pose('b/0').y < -5.0) is pass_
+    assert (physsim.pose('b/0').y < -5.0) is (what == 'pass')
 
 
 def test_a_sensor_reports_contacts_and_pushes_nothing(physsim: PhysSim) -> None:

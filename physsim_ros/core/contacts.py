@@ -89,6 +89,22 @@ class ContactLog:
             self._ids, self._sums = ids, sums
         self._steps += 1
 
+    def forget(self, body: int) -> None:
+        """
+        Drop the contacts of a body that has gone from the space since the last step.
+
+        The engine lists them no more, and by its id alone it could not be told from the walls.
+
+        :param body: its id in the engine
+        """
+        if self._steps == 0:
+            return
+        stays = (self._ids != body).all(axis=1)
+        self._ids, self._sums = self._ids[stays], self._sums[stays]
+        for number, (ids, sums) in enumerate(self._gone):
+            stays = (ids != body).all(axis=1)
+            self._gone[number] = ids[stays], sums[stays]
+
     def take(self, ids: Ids, rows: Ints, centers: Floats) -> Contacts:
         """
         Return the contacts since the last call, each pair once.

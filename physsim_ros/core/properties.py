@@ -79,8 +79,6 @@ class Properties:
                 object.__setattr__(self, name, check(value, name))
         if self.mass is not None and self.density is not None:
             raise BadProperty('a body has a mass or a density, not both', field='mass')
-        if self.anchored and self.kinematic:
-            raise BadProperty('a body is anchored or kinematic, not both', field='kinematic')
 
     def said(self) -> dict[str, Any]:
         """Return what was said, key by key."""

@@ -219,6 +219,7 @@ class Space:
         self._unlay()
         self._space.remove(rigid.engine, *rigid.engine.shapes)
         del self._names[rigid.engine]
+        self._contacts.forget(rigid.engine.id)
         self._pushed.pop(rigid.body.name, None)
 
     def _raise_walls(self) -> None:

@@ -97,12 +97,14 @@ class _Pair:
     :param other: of another body
     :param overlap: how deep they lie in each other at the start [m]
     :param normal: from own to other, where they overlap at the start
+    :param skin: how far they are let into each other [m]
     """
 
     own: pymunk.Shape
     other: pymunk.Shape
     overlap: float
     normal: Vec2d
+    skin: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -251,6 +253,7 @@ def _near(space: pymunk.Space, mover: _Mover, reach: float) -> Iterator[_Pair]:
                     other,
                     0.0 if contact is None else _depth(contact),
                     Vec2d.zero() if contact is None else contact.normal,
+                    _skin(own, other, mover.skin),
                 )
 
 
@@ -282,11 +285,11 @@ def _stop(
         relative = move.way - theirs.way
         if mover.turns or (pusher and theirs.turn):
             touch = _touch_turning(space, pair, mover, move, theirs)
-        elif pair.overlap > ALREADY * mover.skin:
+        elif pair.overlap > ALREADY * pair.skin:
             approach = relative.dot(pair.normal)
             touch = (0.0, approach) if approach > 0.0 else None
         else:
-            touch = _touch(pair.own, other, relative, mover.skin)
+            touch = _touch(pair.own, other, relative, pair.skin)
         if touch is None:
             continue
         at, approach = touch
@@ -323,9 +326,7 @@ def _cast(
 ) -> Iterator[tuple[float, float]]:
     """Yield when the corners, ends or centre of a shape meet another."""
     place = own.body.local_to_world
-    own_radius = 0.0 if isinstance(own, pymunk.Poly) else own.radius
-    other_radius = 0.0 if isinstance(other, pymunk.Poly) else other.radius
-    radius = max(own_radius - skin, -other_radius)
+    radius = _radius(own) - skin
     if isinstance(own, pymunk.Circle):
         points = [place(own.offset)]
     elif isinstance(own, pymunk.Segment):
@@ -339,6 +340,17 @@ def _cast(
             approach = -way.dot(hit.normal)
             if approach > 0.0:
                 yield hit.alpha, approach
+
+
+def _radius(shape: pymunk.Shape) -> float:
+    """Return the radius by which a shape surrounds its centre, its middle line or its corners."""
+    return shape.radius if isinstance(shape, pymunk.Circle | pymunk.Segment) else 0.0
+
+
+def _skin(own: pymunk.Shape, other: pymunk.Shape, skin: float) -> float:
+    """Return how far shapes are let into each other; never so far that middle lines meet."""
+    rounding = _radius(own) + _radius(other)
+    return min(skin, rounding / 2) if rounding > 0.0 else skin
 
 
 def _touch_turning(
@@ -358,7 +370,7 @@ def _touch_turning(
     body = shape.body
     place, angle = body.position, body.angle
     # What overlaps from the start may leave; only deeper is a touch.
-    limit = max(mover.skin, pair.overlap + (1.0 - ALREADY) * mover.skin)
+    limit = max(pair.skin, pair.overlap + (1.0 - ALREADY) * pair.skin)
 
     def touches(share: float) -> bool:
         body.position, body.angle = place + way * share, angle + turn * share
@@ -389,7 +401,8 @@ def _contacts(
 
 def _depth(contact: pymunk.ContactPointSet) -> float:
     """Return how deep shapes lie in each other [m]."""
-    return -min(point.distance for point in contact.points)
+    # A query gives the distance of a polygon from what is round with the wrong sign.
+    return max(abs(point.distance) for point in contact.points)
 
 
 def _corners(shape: pymunk.Poly) -> NDArray[np.float64]:
