@@ -49,7 +49,8 @@ class Meter:
         self._frame_ns += frame_ns
         if self._last is not None and now_ns > self._last[0]:
             elapsed = now_ns - self._last[0]
-            share = min(1.0, elapsed * 1e-9 / _SMOOTHING)
+            # The first factor that there is counts in full.
+            share = min(1.0, elapsed * 1e-9 / _SMOOTHING) if self.real_time_factor else 1.0
             factor = (stamp - self._last[1]) / elapsed
             self.real_time_factor += share * (factor - self.real_time_factor)
         self._last = (now_ns, stamp)

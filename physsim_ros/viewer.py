@@ -13,45 +13,45 @@
 # limitations under the License.
 
 """
-Frames to Rerun: the viewer's thread, its queue and its sinks.
+The viewer: where frames are shown and recorded.
 
-Law: a viewer that is absent, late, restarted or frozen never slows or stops the world. Frames are
-handed over without waiting; what the thread cannot draw in time is dropped, save for its answers.
+Law: nothing that happens to a viewer or a disk slows or stops the world.
 """
 
 from __future__ import annotations
 
 from collections import deque
-from dataclasses import replace
+from collections.abc import Sequence
 from enum import Enum
+import importlib.util
 import os
 from pathlib import Path
 import shutil
 import socket
 import subprocess
 import sys
-import threading
-from typing import Any, TYPE_CHECKING
-from urllib.parse import urlsplit
+import time
+from typing import TYPE_CHECKING
+from urllib.parse import quote, urlsplit
 
 from physsim_ros.core.snapshot import Answer, Frame
+from physsim_ros.outlet import ANSWERS, Canvas, Outlet, PATIENCE, Tell, Way
 
 if TYPE_CHECKING:
-    from physsim_ros.picture import Picture
+    import rerun as rr
 
-# Frames that may wait, four seconds at 60 Hz: the time Rerun takes to start.
-CAPACITY = 240
-# How often what has gathered is drawn: ten times a second looks alive, and a batch costs little
-# more than a frame [s].
+USUAL_URL = 'rerun+http://127.0.0.1:9876/proxy'
+# What is served to browsers that come late.
+SERVED = '256MiB'
+# A batch is sent on after so long [s]: with Rerun's own 8 ms a software-rendered web viewer falls
+# 18 s behind in 30.
 TICK = 0.1
-# How long the thread waits for a viewer before it calls it lost, or for the file at the end [s].
-PATIENCE = 2.0
-# What a served stream may keep for viewers that come late.
-MEMORY = '256MiB'
+# A window that ends with an error before that was never one [s].
+SETTLING = 10.0
 
 
 class ViewerMode(Enum):
-    """Where frames go."""
+    """Where frames are shown."""
 
     NONE = 'none'
     SPAWN = 'spawn'
@@ -59,191 +59,243 @@ class ViewerMode(Enum):
     CONNECT = 'connect'
     AUTO = 'auto'
 
-    def chosen(self) -> ViewerMode:
-        """Return what is meant: `auto` is a window where there is a display, else a page."""
-        if self is not ViewerMode.AUTO:
-            return self
-        display = os.environ.get('DISPLAY') or os.environ.get('WAYLAND_DISPLAY')
-        return ViewerMode.SPAWN if display else ViewerMode.WEB
-
 
 class Viewer:
     """
-    Shows frames in Rerun, from a thread of its own.
+    Shows frames, and records them.
 
-    :param mode: where to
-    :param url: of the Rerun server, for `connect`
-    :param record_file: `.rrd` file written beside any viewer, '' for none
+    :param mode: where they are shown; with NONE they are recorded only
+    :param url: of the Rerun server for CONNECT; '' is the usual one of this machine
+    :param record_file: `.rrd` file that is written beside any viewer; '' is none
+    :param name: under which Rerun lists what it is shown
     """
 
-    def __init__(self, *, mode: ViewerMode, url: str = '', record_file: str = '') -> None:
-        self._mode = mode.chosen()
-        self._url = url
-        self._record_file = record_file
-        self._frames: deque[Frame] = deque()
-        self._factor = 0.0
-        self._dropped = 0
-        self._shown = 0
-        self._where = 'starting'
-        self._news: deque[Answer] = deque()
-        self._lock = threading.Lock()
-        self._closing = threading.Event()
-        self._child: subprocess.Popen[bytes] | None = None
-        self._thread = threading.Thread(target=self._run, name='viewer', daemon=True)
-        self._thread.start()
+    def __init__(
+        self, *, mode: ViewerMode, url: str = '', record_file: str = '', name: str = 'physsim'
+    ) -> None:
+        self._events: deque[Answer] = deque(maxlen=ANSWERS)
+        tell = self._events.append
+        if mode is ViewerMode.AUTO:
+            mode = ViewerMode.SPAWN if _has_display() else ViewerMode.WEB
+        ways: list[Way] = [_File(name, record_file)] if record_file else []
+        if mode is ViewerMode.CONNECT:
+            ways.append(_Client(name, url or USUAL_URL))
+        elif mode is not ViewerMode.NONE:
+            ways.append(_Server(name, native=mode is ViewerMode.SPAWN, tell=tell))
+        self._outlets = [Outlet(way, tell=tell) for way in ways]
 
     @property
     def state(self) -> str:
-        """Where the frames go and how many went there, in a sentence."""
-        return f'{self._where}; {self._shown} frames, {self._dropped} dropped'
+        """What is shown where, in a sentence."""
+        return '; '.join(outlet.state for outlet in self._outlets) or 'none'
 
     def show(self, frame: Frame, *, real_time_factor: float) -> None:
         """
-        Hand over a frame, without waiting.
+        Show a frame soon; this never blocks.
 
+        :param frame: its arrays are never written again
         :param real_time_factor: simulated seconds a second
         """
-        with self._lock:
-            self._factor = real_time_factor
-            self._frames.append(frame)
-            if len(self._frames) > CAPACITY:
-                # The oldest goes; what it answered is kept with the next.
-                oldest = self._frames.popleft()
-                following = self._frames.popleft()
-                answers = (*oldest.answers, *following.answers)[-CAPACITY:]
-                self._frames.appendleft(replace(following, answers=answers))
-                self._dropped += 1
+        for outlet in self._outlets:
+            outlet.put(frame, real_time_factor=real_time_factor)
 
     def poll(self) -> tuple[Answer, ...]:
-        """Return what has happened to the viewer since the last call."""
-        news = []
-        while self._news:
-            news.append(self._news.popleft())
-        return tuple(news)
+        """Return what has happened to viewers and files since the last call."""
+        return tuple(self._events.popleft() for _ in range(len(self._events)))
 
     def close(self) -> None:
-        """Draw what waits, end the file and the viewer's processes; gives up after a while."""
-        self._closing.set()
-        self._thread.join(PATIENCE)
-        if self._child is not None:
-            self._child.terminate()
+        """Show and write what waits as far as that goes at once, and end."""
+        for outlet in self._outlets:
+            outlet.end()
+        ended = [outlet.join() for outlet in self._outlets]
+        if not all(ended) and 'rerun' in sys.modules:
+            # At exit Rerun waits for every viewer, for a frozen one without end.
+            sys.modules['rerun'].unregister_shutdown()
 
-    # In the thread
 
-    def _run(self) -> None:
-        while not self._closing.is_set():
-            try:
-                recording = self._open()
-            except OSError as error:
-                self._tell(f'waiting for {self._url}: {error}', code='viewer_lost')
-                self._closing.wait(1.0)
-                continue
-            self._draw(recording)
+class _Stream:
+    """A stream of Rerun's and the picture on it."""
 
-    def _draw(self, recording: Any) -> None:
-        from physsim_ros.picture import Picture  # noqa: PLC0415 - Rerun takes a second to import
-
-        picture = Picture(recording)
-        while True:
-            closing = self._closing.wait(TICK)
-            self._draw_waiting(picture)
-            if closing:
-                recording.flush(timeout_sec=PATIENCE)
-                recording.disconnect()
-                return
-            if self._mode is ViewerMode.CONNECT and not self._lives(recording):
-                self._tell(f'lost {self._url}', code='viewer_lost')
-                return
-
-    def _draw_waiting(self, picture: Picture) -> None:
-        with self._lock:
-            frames, factor = list(self._frames), self._factor
-            self._frames.clear()
-        if frames:
-            picture.draw(frames, real_time_factor=factor)
-            self._shown += len(frames)
-
-    def _open(self) -> Any:
-        """
-        Open a recording with its sinks.
-
-        :raises OSError: there is no server to connect to
-        """
-        if self._mode is ViewerMode.CONNECT:
-            _probe(self._url)
-        import rerun as rr  # noqa: PLC0415 - it takes a second
+    def __init__(self, name: str, *sinks: rr.GrpcSink | rr.GrpcServerSink | rr.FileSink) -> None:
+        # Takes a second the first time, so this runs in the outlet's thread.
+        from physsim_ros.picture import Picture
+        import rerun as rr
 
         batching = rr.ChunkBatcherConfig(flush_tick=TICK)
-        recording = rr.RecordingStream('physsim', batcher_config=batching)
-        sinks: list[Any] = []
-        if self._record_file:
-            try:
-                Path(self._record_file).open('wb').close()
-                sinks.append(rr.FileSink(self._record_file))
-            except OSError as error:
-                self._tell(f'cannot record: {error}', code='record_failed')
-        if self._mode is ViewerMode.CONNECT:
-            sinks.append(rr.GrpcSink(self._url))
-            self._tell(f'connected to {self._url}')
-        elif self._mode is not ViewerMode.NONE:
-            server = rr.GrpcServerSink('127.0.0.1', _free_port(), server_memory_limit=MEMORY)
-            sinks.append(server)
-            self._show_served(server.uri)
-        else:
-            self._where = f'recording to {self._record_file}'
-        if sinks:
-            recording.set_sinks(*sinks)
-        return recording
-
-    def _show_served(self, uri: str) -> None:
-        """Start the program that shows a served stream, in a window or as a page."""
-        program = Path(sys.executable).with_name('rerun')
-        command = [str(program) if program.exists() else shutil.which('rerun') or 'rerun']
-        if self._mode is ViewerMode.SPAWN:
-            command += ['--port', 'auto', '--connect', uri]
-            where = f'native viewer of {uri}'
-        else:
-            port = _free_port()
-            command += ['--serve-web', '--bind', '127.0.0.1', '--web-viewer-port', str(port), uri]
-            where = f'web viewer: http://127.0.0.1:{port}?url={uri}'
+        self._recording = rr.RecordingStream(name, batcher_config=batching)
         try:
-            self._child = subprocess.Popen(
+            self._recording.set_sinks(*sinks)
+        except RuntimeError as error:
+            raise ConnectionError(error) from error
+        self._picture = Picture(self._recording)
+
+    def draw(self, frames: Sequence[Frame], *, real_time_factor: float) -> None:
+        self._picture.draw(frames, real_time_factor=real_time_factor)
+
+    def flush(self, patience: float) -> None:
+        try:
+            self._recording.flush(timeout_sec=patience)
+        except RuntimeError as error:
+            # Rerun has one class of error for both.
+            if 'timed out' in str(error):
+                raise TimeoutError(error) from error
+            raise ConnectionError(error) from error
+
+    def close(self) -> None:
+        self._recording.disconnect()
+
+
+class _File(Way):
+    """A file, which is to hold every frame, and takes them as fast as they come."""
+
+    kind = 'record'
+    code = 'record_failed'
+    period, waiting, closing, again = 0.5, sys.maxsize, 10.0, False
+
+    def __init__(self, name: str, path: str) -> None:
+        self._name = name
+        self.where = path
+
+    def open(self) -> Canvas:
+        import rerun as rr
+
+        return _Stream(self._name, rr.FileSink(self.where))
+
+
+class _Client(Way):
+    """Somebody else's Rerun server, which may come late and go again."""
+
+    kind = 'connect'
+
+    def __init__(self, name: str, url: str) -> None:
+        self._name = name
+        self.where = url
+
+    def open(self) -> Canvas | None:
+        import rerun as rr
+
+        try:
+            sink = rr.GrpcSink(self.where)
+        except (RuntimeError, ValueError) as error:
+            raise ConnectionError(error) from error
+        address = urlsplit(self.where)
+        # Rerun would wait 5 s for nobody, and then keep all that it is given.
+        if not _is_open(address.hostname or '127.0.0.1', address.port or 9876):
+            return None
+        return _Stream(self._name, sink)
+
+
+class _Server(Way):
+    """
+    A server of our own on this machine alone, and a program that shows what it serves.
+
+    :param native: in a window, where one can be had; else on a page
+    :param tell: takes what happens
+    """
+
+    def __init__(self, name: str, *, native: bool, tell: Tell) -> None:
+        self._name = name
+        self._tell = tell
+        self.kind = 'spawn' if native else 'web'
+        self._uri = ''
+        self._program: subprocess.Popen[bytes] | None = None
+        self._started = 0.0
+
+    def open(self) -> Canvas:
+        import rerun as rr
+
+        self.close()
+        sink = rr.GrpcServerSink('127.0.0.1', _free_port(), server_memory_limit=SERVED)
+        stream = _Stream(self._name, sink)
+        self._uri = sink.uri
+        if self.kind == 'spawn' and not _has_display():
+            self._fall_back('there is no display')
+        else:
+            self._start()
+        return stream
+
+    def look(self) -> None:
+        if self._program is None or (code := self._program.poll()) is None:
+            return
+        self._program = None
+        if self.kind == 'web':
+            self._tell(self.lost(f'the page server ended ({code}); it is started again'))
+            self._start()
+        elif code and time.monotonic() - self._started < SETTLING:
+            self._fall_back(f'no window could be opened ({code})')
+        else:
+            self._tell(self.lost(f'the window was closed; another one: rerun {self._uri}'))
+
+    def close(self) -> None:
+        program, self._program = self._program, None
+        if program is not None:
+            program.terminate()
+            try:
+                program.wait(PATIENCE)
+            except subprocess.TimeoutExpired:
+                program.kill()
+                program.wait()
+
+    def _fall_back(self, why: str) -> None:
+        self.kind = 'web'
+        self._start()
+        self._tell(self.lost(f'{why}, so this page instead'))
+
+    def _start(self) -> None:
+        if self.kind == 'spawn':
+            self.where = f'window on {self._uri}'
+            arguments = [f'--connect={self._uri}', '--port=auto', '--hide-welcome-screen']
+        else:
+            port = _free_port(9090)
+            self.where = f'http://127.0.0.1:{port}/?url={quote(self._uri, safe="")}'
+            arguments = ['--serve-web', f'--web-viewer-port={port}', self._uri]
+        # On loopback; `rerun.serve_web_viewer` would be open to all the network.
+        command = [_program(), '--bind=127.0.0.1', *arguments]
+        # These two keep it from asking for analytics.
+        environment = {**os.environ, 'CI': '1', 'RERUN_APP_ONLY': 'true'}
+        try:
+            self._program = subprocess.Popen(  # noqa: S603  the command is ours
                 command,
+                env=environment,
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.DEVNULL,
                 stderr=subprocess.DEVNULL,
-                env=os.environ | {'CI': '1', 'RERUN_APP_ONLY': 'true'},
             )
         except OSError as error:
-            where = f'no viewer program ({error}); serving {uri}'
-        self._tell(where)
-
-    def _lives(self, recording: Any) -> bool:
-        try:
-            _probe(self._url)
-            recording.flush(timeout_sec=PATIENCE)
-        except (OSError, RuntimeError):
-            return False
-        return True
-
-    def _tell(self, where: str, *, code: str = '') -> None:
-        if where != self._where:
-            self._where = where
-            self._news.append(Answer(topic='viewer', message=where, code=code))
+            self.where = f'any Rerun viewer at {self._uri}'
+            self._tell(self.lost(f'{command[0]} cannot be run: {error}'))
+        self._started = time.monotonic()
 
 
-def _probe(url: str) -> None:
-    """
-    Find out whether somebody listens: Rerun itself would block for seconds.
-
-    :raises OSError: nobody does
-    """
-    parts = urlsplit(url.removeprefix('rerun+'))
-    socket.create_connection((parts.hostname or '127.0.0.1', parts.port or 9876), 0.5).close()
+def _has_display() -> bool:
+    return bool(os.environ.get('DISPLAY') or os.environ.get('WAYLAND_DISPLAY'))
 
 
-def _free_port() -> int:
+def _is_open(host: str, port: int) -> bool:
+    try:
+        socket.create_connection((host, port), timeout=PATIENCE).close()
+    except OSError:
+        return False
+    return True
+
+
+def _free_port(wanted: int = 0) -> int:
+    """Return a port of this machine that nobody listens on: the one wanted, or any other."""
     with socket.socket() as probe:
-        probe.bind(('127.0.0.1', 0))
+        probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            probe.bind(('127.0.0.1', wanted))
+        except OSError:
+            return _free_port()
         port: int = probe.getsockname()[1]
         return port
+
+
+def _program() -> str:
+    """Return the Rerun viewer of the wheel, or what the path has."""
+    spec = importlib.util.find_spec('rerun_cli')
+    if spec is not None and spec.origin is not None:
+        program = Path(spec.origin).with_name('rerun')
+        if program.exists():
+            return str(program)
+    return shutil.which('rerun') or 'rerun'

@@ -21,7 +21,8 @@ all, and only below the world directory.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import fields, replace
 import os
 from pathlib import Path
@@ -31,8 +32,16 @@ from typing import Any
 
 import numpy as np
 from physsim_ros.core.errors import BadProperty, BadWorldFile, Malformed, Refusal
-from physsim_ros.core.properties import check_key, number, pair, Properties, properties_from
-from physsim_ros.core.requests import Spawn
+from physsim_ros.core.properties import (
+    check_key,
+    number,
+    pair,
+    Properties,
+    properties_from,
+    shown,
+)
+from physsim_ros.core.requests import Command, Spawn
+from physsim_ros.core.rigid_body import rotated
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.shapes import (
     Box,
@@ -41,10 +50,12 @@ from physsim_ros.core.shapes import (
     Compound,
     Disc,
     Polygon,
+    Pose,
     Shape,
     Triangles,
 )
 from physsim_ros.core.snapshot import BodyState, Motion, WorldState
+from physsim_ros.core.space import LOST
 from physsim_ros.core.world import World
 from physsim_ros.yaml_text import load_mapping
 import yaml
@@ -55,6 +66,7 @@ _SETTINGS = [each.name for each in fields(WorldSettings) if each.name != 'max_bo
 _PROPERTIES = [each.name for each in fields(Properties)]
 _SHAPES = ('circle', 'box', 'polygon', 'chain', 'triangles', 'compound')
 _BODY_KEYS = ['name', *_SHAPES, 'at', 'color', 'lifetime', *_PROPERTIES, 'motion', 'wrench']
+_MOTION = ('at', 'velocity', 'spin')
 # Saved numbers and the engine's own may differ by rounding; more, and somebody edited the file.
 _ROUNDING = 1e-9
 
@@ -138,7 +150,8 @@ def save(state: WorldState, name: str, *, world_dir: Path, physics_rate: float) 
     except (OSError, RuntimeError, ValueError) as error:
         # Links in a circle, or a NUL.
         raise BadWorldFile(f'{name!r} is no path: {error}', field='world_file') from error
-    if not _below(path, world_dir):
+    # The directory itself is not below itself.
+    if not _below(path.parent, world_dir):
         raise BadWorldFile(f'{name} lies outside world_dir', field='world_file')
     temporary = None
     try:
@@ -168,7 +181,7 @@ def _below(path: Path, directory: Path) -> bool:
 def _state(content: Mapping[Any, Any], settings: WorldSettings, physics_rate: float) -> WorldState:
     for key in content:
         check_key(key, ['format', 'bodies', 'joints', *_SETTINGS])
-    if content.get('format') != FORMAT:
+    if content.get('format') != FORMAT or isinstance(content['format'], bool):
         raise BadProperty(f'format must be {FORMAT}', field='format')
     if content.get('joints'):
         raise BadProperty('joints cannot be loaded yet', field='joints')
@@ -177,20 +190,48 @@ def _state(content: Mapping[Any, Any], settings: WorldSettings, physics_rate: fl
         changes['bounds'] = None
     # Bodies go through a world of their own, so that a file is held to what a message is.
     world = World(physics_rate=physics_rate, settings=replace(settings, **changes))
-    resumed: dict[str, Mapping[Any, Any]] = {}
-    for entry in _entries(content.get('bodies')):
-        name = entry.get('name')
-        try:
-            spawn = _spawn(entry)
-            if spawn.name in resumed:
+    entries = _spawned(world, _entries(content.get('bodies')))
+    resumed: dict[str, BodyState] = {}
+    for state in world.save().bodies:
+        entry = entries[state.body.name]
+        if 'motion' in entry:
+            with _naming(state.body.name):
+                going_on = _resumed(state, entry)
+                if going_on is None:
+                    world.apply(_spawn(entry))
+                else:
+                    resumed[state.body.name] = going_on
+    saved = world.save()
+    bodies = (resumed.get(state.body.name, state) for state in saved.bodies)
+    return replace(
+        saved, bodies=tuple(_timed(state, entries[state.body.name]) for state in bodies)
+    )
+
+
+def _spawned(world: World, entries: list[dict[Any, Any]]) -> dict[str, dict[Any, Any]]:
+    """Spawn the bodies of a file, those with saved numbers at rest; return them by name."""
+    named: dict[str, dict[Any, Any]] = {}
+    for entry in entries:
+        with _naming(entry.get('name')):
+            # What goes on from saved numbers may have come further and faster than anyone may ask.
+            at_rest = {key: entry[key] for key in entry if key not in _MOTION}
+            spawn = _spawn(at_rest if 'motion' in entry else entry)
+            if spawn.name in named:
                 raise BadProperty('the name comes twice', field='name')
             world.apply(spawn)
-        except Refusal as refusal:
-            raise BadWorldFile(f'body {name!r}: {refusal}', field=refusal.field) from refusal
-        resumed[spawn.name] = entry
-    state = world.save()
-    bodies = tuple(_resumed(body, resumed[body.body.name]) for body in state.bodies)
-    return replace(state, bodies=bodies)
+            if 'wrench' in entry:
+                world.apply(_wrench(spawn.name, entry['wrench']))
+        named[spawn.name] = entry
+    return named
+
+
+@contextmanager
+def _naming(name: object) -> Iterator[None]:
+    """Say of which body a refusal is."""
+    try:
+        yield
+    except Refusal as refusal:
+        raise BadWorldFile(f'body {shown(name)}: {refusal}', field=refusal.field) from refusal
 
 
 def _entries(value: object) -> list[dict[Any, Any]]:
@@ -207,17 +248,30 @@ def _spawn(entry: dict[Any, Any]) -> Spawn:
     name = entry.get('name')
     if not isinstance(name, str):
         raise BadProperty('a body needs a name', field='name')
-    at = entry.get('at', [0.0, 0.0])
-    if not isinstance(at, list) or len(at) not in (2, 3):
-        raise BadProperty('at must be [x, y] or [x, y, yaw]', field='at')
     return Spawn(
         name=name,
         shape=_shape(entry),
-        pose=(*pair(at[:2], 'at'), number(at[2], 'at') if len(at) == 3 else 0.0),
+        pose=_pose(entry),
         color=_color(entry['color']) if 'color' in entry else None,
         lifetime=number(entry.get('lifetime', 0.0), 'lifetime'),
         properties=properties_from({key: entry[key] for key in _PROPERTIES if key in entry}),
     )
+
+
+def _pose(entry: Mapping[Any, Any]) -> Pose:
+    at = entry.get('at', [0.0, 0.0])
+    if not isinstance(at, list) or len(at) not in (2, 3):
+        raise BadProperty('at must be [x, y] or [x, y, yaw]', field='at')
+    return (*pair(at[:2], 'at'), number(at[2], 'at') if len(at) == 3 else 0.0)
+
+
+def _wrench(name: str, value: object) -> Command:
+    wrench = _mapping(value, 'wrench', ['force', 'torque', 'steps'])
+    force, torque = pair(wrench.get('force'), 'force'), number(wrench.get('torque'), 'torque')
+    steps = wrench.get('steps')
+    if steps is not None and (isinstance(steps, bool) or not isinstance(steps, int) or steps < 0):
+        raise BadProperty('steps must be a whole number, not negative', field='steps')
+    return Command(names=(name,), wrenches=((*force, torque),))
 
 
 def _shape(entry: Mapping[Any, Any]) -> Shape:
@@ -270,7 +324,8 @@ def _color(value: object) -> Color:
             channels = bytes.fromhex(digits)
         except ValueError:
             channels = b''
-        if not value.startswith('#') or len(channels) not in (3, 4):
+        # The spaces that bytes.fromhex skips are none of a colour's.
+        if not value.startswith('#') or len(channels) not in (3, 4) or ' ' in digits:
             raise BadProperty(
                 f"color must be '#rrggbb' or '#rrggbbaa', not {value!r}", field='color'
             )
@@ -282,30 +337,40 @@ def _color(value: object) -> Color:
     return red, green, blue, alpha
 
 
-def _resumed(state: BodyState, entry: Mapping[Any, Any]) -> BodyState:
-    """Take over what only the node writes, unless the file has been edited since."""
-    if 'motion' in entry and state.motion is not None:
-        values = entry['motion']
-        if not isinstance(values, list) or len(values) != 7:
-            raise BadProperty('motion has seven entries', field='motion')
-        x, y, yaw, vx, vy, spin = (number(each, 'motion') for each in values[:6])
-        saved = Motion(x, y, yaw, vx, vy, spin, bool(values[6]))
-        lead = np.subtract(state.motion[3:6], state.twist) if saved.free else np.zeros(3)
-        written = (*state.motion[:3], *(state.twist + lead))
-        if 'wrench' in entry or np.allclose(saved[:6], written, rtol=_ROUNDING, atol=_ROUNDING):
-            state = replace(state, motion=saved)
-    if 'wrench' in entry:
-        wrench = _mapping(entry['wrench'], 'wrench', ['force', 'torque', 'steps'])
-        steps = wrench.get('steps')
-        state = replace(
-            state,
-            wrench=(
-                *pair(wrench.get('force'), 'force'),
-                number(wrench.get('torque'), 'torque'),
-            ),
-            wrench_steps=None if steps is None else int(number(steps, 'steps')),
-        )
-    return state
+def _resumed(state: BodyState, entry: Mapping[Any, Any]) -> BodyState | None:
+    """
+    Return a body that goes on from the numbers that only the node writes.
+
+    :param state: the body at the origin, at rest
+    :param entry: the body in the file
+    :return: None where somebody has edited the pose or the velocity since
+    """
+    values = entry['motion']
+    if not isinstance(values, list) or len(values) != 7 or not isinstance(values[6], bool):
+        raise BadProperty('motion must be six numbers and true or false', field='motion')
+    x, y, yaw, vx, vy, spin = (number(each, 'motion') for each in values[:6])
+    saved = Motion(x, y, yaw, vx, vy, spin, values[6])
+    pose = _pose(entry)
+    velocity = pair(entry.get('velocity', [0.0, 0.0]), 'velocity')
+    twist = (*velocity, number(entry.get('spin', 0.0), 'spin'))
+    assert state.motion is not None  # noqa: S101 - a world's own state
+    offset = rotated((state.motion.x, state.motion.y), pose[2])
+    lead = state.motion[3:6] if saved.free else (0.0, 0.0, 0.0)
+    written = (pose[0] + offset[0], pose[1] + offset[1], pose[2], *np.add(twist, lead))
+    if state.body.anchored and any(twist):
+        return None
+    if not np.allclose(saved[:6], written, rtol=_ROUNDING, atol=_ROUNDING):
+        return None
+    if np.abs(saved[:6]).max() > LOST:
+        raise BadProperty('motion is out of range', field='motion')
+    return replace(state, pose=pose, twist=twist, motion=saved)
+
+
+def _timed(state: BodyState, entry: Mapping[Any, Any]) -> BodyState:
+    """Let a wrench act for as long as the file says."""
+    if 'wrench' not in entry:
+        return state
+    return replace(state, wrench_steps=entry['wrench'].get('steps'))
 
 
 # Writing

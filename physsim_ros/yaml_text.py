@@ -41,6 +41,9 @@ class _Loader(yaml.SafeLoader):
         _TAG + 'seq': yaml.SafeLoader.construct_yaml_seq,
     }
 
+    def flatten_mapping(self, node: yaml.MappingNode) -> None:
+        """Merge no mappings: YAML 1.2 knows no such key, and nested merges fill the memory."""
+
     def construct_mapping(
         self,
         node: yaml.MappingNode,

@@ -26,6 +26,7 @@ import subprocess
 import sys
 import threading
 import time
+from typing import Self
 
 import pytest
 
@@ -83,6 +84,12 @@ class Program:
         """Send a signal, and return the exit code."""
         self.process.send_signal(number)
         return self.finish()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
 
     def close(self) -> None:
         """End the process, whatever it does."""

@@ -42,7 +42,7 @@ class Clock:
         self._frame_steps = frame_steps
         self._speed = speed
         # Where the time line is nailed down: at that steady time [ns], that step.
-        self._anchor: tuple[int, int] | None = None
+        self._anchor: tuple[int, float] | None = None
         # Frames that were due and could not be made in time.
         self.late_frames = 0
 
@@ -80,9 +80,14 @@ class Clock:
         behind = (target - step) / quota
         if behind > MOST_BEHIND:
             self.late_frames += math.floor(behind) - 1
-            target = step + quota
-            self._anchor = (now_ns, step)
-        if self._speed.is_integer():
-            frames = min(round(target / self._frame_steps), (step + quota) // self._frame_steps)
-            return max(0, int(frames) * self._frame_steps - step)
-        return max(0, min(math.floor(target), step + math.ceil(quota)) - step)
+            target, behind = step + quota, 1.0
+            self._anchor = (now_ns, target)
+        if not self._speed.is_integer():
+            return max(0, min(math.floor(target), step + math.ceil(quota)) - step)
+        if behind < 0.5:
+            return 0
+        end = int((step + quota) // self._frame_steps) * self._frame_steps
+        if step % self._frame_steps:
+            # Onto the multiples, from where the speed was none; the time line with it.
+            self._anchor = (now_ns, end)
+        return max(0, end - step)

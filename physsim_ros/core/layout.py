@@ -44,8 +44,8 @@ class Layout:
     :param id_rows: (n,): the row of each of them
     :param order: for each row, its place in the engine's own listing
     :param listed: for each place in the engine's listing, its body; None for walls
-    :param safe2: for each place, the squared speed up to which no sweep is needed [m²/s²]
-    :param safe_spin: for each place, the spin up to which no sweep is needed [rad/s]
+    :param safe: for each place, the speed up to which no sweep is needed [m/s]
+    :param arm: for each place, what turns a spin into a speed that counts for that [m]
     :param loose: (n,) bool: whether forces move the body
     :param offsets: (n, 2): the engine's origin in the body's frame [m]
     :param lead: (n, 3): how far the engine's velocity leads in free flight
@@ -62,8 +62,8 @@ class Layout:
     id_rows: Ints
     order: NDArray[np.intp]
     listed: tuple[RigidBody | None, ...]
-    safe2: Floats
-    safe_spin: Floats
+    safe: Floats
+    arm: Floats
     loose: NDArray[np.bool_]
     offsets: Floats
     lead: Floats
@@ -96,13 +96,13 @@ def lay_out(
     order = [places[id_] for id_ in ids.tolist()]
     ascending = np.argsort(ids)
     listed: list[RigidBody | None] = [None] * len(listing)
-    safe2, safe_spin = np.full((2, len(listing)), np.inf)
+    safe, arm = np.full(len(listing), np.inf), np.zeros(len(listing))
     expiries: dict[int, list[str]] = {}
     for rigid, place in zip(rigids, order, strict=True):
         listed[place] = rigid
         if not rigid.body.anchored and not rigid.body.sensor:
-            safe2[place] = (sweep.safe_depth(rigid) / dt) ** 2
-            safe_spin[place] = sweep.safe_spin(rigid) / dt
+            safe[place] = sweep.safe_depth(rigid) / dt
+            arm[place] = sweep.arm(rigid)
         if rigid.body.expires is not None:
             expiries.setdefault(rigid.body.expires, []).append(rigid.body.name)
     leads = [rigid.lead(settings.gravity, dt) for rigid in rigids]
@@ -113,8 +113,8 @@ def lay_out(
         id_rows=ascending,
         order=np.array(order, dtype=np.intp),
         listed=tuple(listed),
-        safe2=safe2,
-        safe_spin=safe_spin,
+        safe=safe,
+        arm=arm,
         loose=np.array([not rigid.body.fixed for rigid in rigids], dtype=np.bool_),
         offsets=np.array([rigid.offset for rigid in rigids]).reshape(-1, 2),
         lead=np.array(leads).reshape(-1, 3),

@@ -20,6 +20,9 @@ The ten colours of Tableau 10 (https://www.tableau.com/blog/colors-upgrade-table
 
 from __future__ import annotations
 
+import zlib
+
+from physsim_ros.core.names import split_name
 from physsim_ros.core.shapes import Color
 
 _PALETTE = (
@@ -28,7 +31,13 @@ _PALETTE = (
 )  # fmt: skip
 
 
-def color_of(number: int) -> Color:
-    """Return the colour of the n-th body."""
+def color_of(name: str) -> Color:
+    """
+    Return the colour of a body that asks for none: of its name alone, one after another by id.
+
+    A count of spawns would be a state of the world that nobody sees and no file keeps.
+    """
+    namespace, id_ = split_name(name)
+    number = zlib.crc32(namespace.encode()) + id_
     red, green, blue = bytes.fromhex(_PALETTE[number % len(_PALETTE)][1:])
     return red / 255, green / 255, blue / 255, 1.0

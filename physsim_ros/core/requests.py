@@ -36,6 +36,8 @@ from physsim_ros.core.snapshot import WorldState
 
 # 10 000 km: beyond it float64 positions are coarser than a nanometre.
 FARTHEST = 1e7
+# 300 years [s]: more than a message's Duration holds, few enough for steps to be counted exactly.
+LONGEST = 1e10
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -72,9 +74,13 @@ class Spawn:
             check_finite(self.color, 4, 'color')
             if not all(0.0 <= channel <= 1.0 for channel in self.color):
                 raise BadProperty('each channel of color must lie in 0 .. 1', field='color')
+            object.__setattr__(self, 'color', tuple(map(float, self.color)))
         check_finite((self.lifetime,), 1, 'lifetime')
-        if self.lifetime < 0:
-            raise BadProperty('lifetime must not be negative', field='lifetime')
+        if not 0.0 <= self.lifetime <= LONGEST:
+            raise BadProperty(
+                f'lifetime is {self.lifetime:g}; it must lie between 0 and {LONGEST:g} s',
+                field='lifetime',
+            )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -175,6 +181,7 @@ class Configure:
     changes: Mapping[str, Any]
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, 'changes', dict(self.changes))
         for name in self.changes:
             check_setting(name)
 

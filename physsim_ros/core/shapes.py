@@ -23,15 +23,16 @@ Lengths in metres, in the body's own frame (origin at the body's position, x rig
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 import contextlib
 from dataclasses import dataclass, field
 import itertools
 import math
 
 import numpy as np
-from numpy.typing import NDArray
+from physsim_ros.core import outlines
 from physsim_ros.core.errors import BadOutline, BadSize, Malformed
-import pymunk.autogeometry
+from physsim_ros.core.outlines import Corners
 
 Point = tuple[float, float]
 # x, y [m], yaw [rad]; the same three of a twist or wrench where a name says so.
@@ -43,8 +44,14 @@ Color = tuple[float, float, float, float]
 SMALLEST = 1e-3
 # 100 km: beyond it a float64 position no longer resolves the slop after a long run.
 LARGEST = 1e5
-# An outline is checked in O(n²) and split in O(n log n): 2 ms and 5 ms at this count.
+# Splitting an outline with that many corners stalls the world for three frames (50 ms).
 MOST_POINTS = 1000
+# What lies as near as that to the point before is the same point [m]: a thousandth of SMALLEST.
+MERGED = 1e-6
+# What has less area than this by its length [m], or by its length squared, has none.
+FLAT = 1e-9
+# That share of a solid may lie in parts too thin for the engine, which are left out of it.
+SLIVERS = 1e-3
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,7 +91,7 @@ class Form:
     :param centroid: centre of mass at uniform density [m]
     :param gyration: moment of inertia about the centroid for each kilogram [m²]
     :param outer: greatest distance of a point of the shape from the centroid [m]
-    :param inner: radius of a circle that fits into the thinnest piece [m]
+    :param inner: half the least width of the thinnest piece [m]
     """
 
     pieces: tuple[Piece, ...]
@@ -109,7 +116,7 @@ class Disc:
     form: Form = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        _check_length(self.radius, 'radius')
+        object.__setattr__(self, 'radius', _length(self.radius, 'radius'))
         object.__setattr__(self, 'form', _form((Circle((0.0, 0.0), self.radius),)))
 
 
@@ -129,8 +136,8 @@ class Box:
     form: Form = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        _check_length(self.width, 'width')
-        _check_length(self.height, 'height')
+        object.__setattr__(self, 'width', _length(self.width, 'width'))
+        object.__setattr__(self, 'height', _length(self.height, 'height'))
         object.__setattr__(self, 'form', _form((Convex(self.corners()),)))
 
     def corners(self, center: Point = (0.0, 0.0)) -> tuple[Point, ...]:
@@ -162,7 +169,17 @@ class Polygon:
     def __post_init__(self) -> None:
         outline = _distinct(_points(self.outline, 'outline'), closed=True)
         object.__setattr__(self, 'outline', tuple(map(tuple, outline.tolist())))
-        object.__setattr__(self, 'form', _form(_split(outline)))
+        if len(outline) < 3:
+            raise BadOutline('an outline needs three different corners', field='points')
+        area = outlines.signed_area(outline)
+        if area < 0:
+            outline = outline[::-1]
+        if abs(area) <= float(np.ptp(outline, axis=0).max()) ** 2 * FLAT:
+            raise BadOutline('the outline encloses no area', field='points')
+        pieces = _split(outline)
+        # What is weighed is the outline itself, slivers and all.
+        whole = Convex(tuple(map(tuple, outline.tolist())))
+        object.__setattr__(self, 'form', _form(pieces, whole=(whole,)))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -182,7 +199,7 @@ class Chain:
     form: Form = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        _check_length(self.thickness, 'thickness')
+        object.__setattr__(self, 'thickness', _length(self.thickness, 'thickness'))
         points = _distinct(_points(self.points, 'points'), closed=False)
         if len(points) < 2:
             raise BadOutline('a chain needs two different points', field='points')
@@ -214,7 +231,7 @@ class Triangles:
             raise BadOutline('triangles need three points each', field='vertices')
         object.__setattr__(self, 'vertices', tuple(map(tuple, vertices.tolist())))
         triangles = vertices.reshape(-1, 3, 2)
-        turn = _cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+        turn = outlines.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
         triangles = np.where((turn < 0)[:, None, None], triangles[:, ::-1], triangles)
         object.__setattr__(self, 'form', _form(tuple(_convex(triangle) for triangle in triangles)))
 
@@ -250,7 +267,8 @@ class Compound:
 Shape = Disc | Box | Polygon | Chain | Triangles | Compound
 
 
-def _check_length(value: float, name: str) -> None:
+def _length(value: float, name: str) -> float:
+    """Return a length as a float, or refuse one that cannot be simulated."""
     if not math.isfinite(value):
         raise Malformed(f'{name} is {value}, not a finite number', field=name)
     if not SMALLEST <= value <= LARGEST:
@@ -258,13 +276,14 @@ def _check_length(value: float, name: str) -> None:
             f'{name} is {value:g} m; it must lie between {SMALLEST:g} and {LARGEST:g} m',
             field=name,
         )
+    return float(value)
 
 
-def _points(points: object, name: str) -> NDArray[np.float64]:
+def _points(points: Sequence[Point], name: str) -> Corners:
     """Return points as (n, 2) float64, or refuse them."""
     try:
-        array = np.array(points, dtype=np.float64).reshape(-1, 2)
-    except (TypeError, ValueError) as error:
+        array = np.array([(x, y) for x, y in points], dtype=np.float64).reshape(-1, 2)
+    except (TypeError, ValueError, OverflowError) as error:
         raise Malformed(f'{name} must be pairs of numbers', field=name) from error
     if not np.isfinite(array).all():
         raise Malformed(f'{name} holds a coordinate that is not finite', field=name)
@@ -277,91 +296,63 @@ def _points(points: object, name: str) -> NDArray[np.float64]:
     return array
 
 
-def _distinct(points: NDArray[np.float64], *, closed: bool) -> NDArray[np.float64]:
+def _distinct(points: Corners, *, closed: bool) -> Corners:
     """Drop points that repeat the one before them."""
-    before = np.roll(points, 1, axis=0)
-    keep = (points != before).any(axis=1)
-    if len(points) and (not closed or not keep.any()):
-        keep[0] = True
-    kept: NDArray[np.float64] = points[keep]
-    return kept
+    keep: list[int] = []
+    for at, (x, y) in enumerate(points.tolist()):
+        if not keep or math.dist((x, y), points[keep[-1]]) > MERGED:
+            keep.append(at)
+    while closed and len(keep) > 1 and math.dist(points[keep[0]], points[keep[-1]]) <= MERGED:
+        keep.pop()
+    return points[keep]
 
 
-def _cross(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the z component of the cross product of plane vectors."""
-    product: NDArray[np.float64] = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
-    return product
-
-
-def _convex(vertices: NDArray[np.float64]) -> Convex:
+def _convex(vertices: Corners) -> Convex:
     """Make a convex piece, or refuse one that is too thin for the engine."""
+    piece = Convex(tuple(map(tuple, vertices.tolist())))
     edges = np.roll(vertices, -1, axis=0) - vertices
     longest = float(np.hypot(edges[:, 0], edges[:, 1]).max())
-    area = float(_cross(vertices, np.roll(vertices, -1, axis=0)).sum()) / 2
-    if longest == 0 or area <= longest * 1e-9:
+    if outlines.signed_area(vertices) <= longest * FLAT:
         raise BadOutline('an outline encloses no area', field='points')
-    if area / longest < SMALLEST / 2:
+    if 2 * _thinness(piece) < SMALLEST:
         raise BadSize(f'a part is thinner than {SMALLEST:g} m', field='points')
-    return Convex(tuple(map(tuple, vertices.tolist())))
+    return piece
 
 
-def _split(outline: NDArray[np.float64]) -> tuple[Piece, ...]:
-    """Split a simple outline into convex pieces."""
-    if len(outline) < 3:
-        raise BadOutline('an outline needs three different corners', field='points')
-    area = float(_cross(outline, np.roll(outline, -1, axis=0)).sum()) / 2
-    if area < 0:
-        outline, area = outline[::-1], -area
-    extent = float(np.ptp(outline, axis=0).max())
-    if area <= extent**2 * 1e-9:
-        raise BadOutline('the outline encloses no area', field='points')
-    if _crosses_itself(outline):
+def _split(outline: Corners) -> tuple[Piece, ...]:
+    """Split a simple outline, counter-clockwise, into convex pieces."""
+    if outlines.crosses_itself(outline):
         raise BadOutline('the outline crosses or touches itself', field='points')
-    edges = np.roll(outline, -1, axis=0) - outline
-    if (_cross(np.roll(edges, 1, axis=0), edges) >= 0).all():
+    if outlines.is_convex(outline):
         return (_convex(outline),)
-    corners = outline.tolist()
-    parts = pymunk.autogeometry.convex_decomposition([*corners, corners[0]], 0)
+    # About a corner of its own, so that outlines far from the origin lose no digits.
+    parts = [part + outline[0] for part in outlines.convex_parts(outline - outline[0])]
     pieces: list[Piece] = []
-    covered = 0.0
+    covered = held = 0.0
     for part in parts:
-        vertices = np.array(part[:-1] if part[0] == part[-1] else part)
-        covered += float(_cross(vertices, np.roll(vertices, -1, axis=0)).sum()) / 2
+        area = outlines.signed_area(part)
+        covered += area
         # The split may leave slivers along nearly straight runs; they hold nothing up.
         with contextlib.suppress(BadOutline, BadSize):
-            pieces.append(_convex(vertices))
-    if abs(covered - area) > 1e-6 * area:
+            pieces.append(_convex(part))
+            held += area
+    whole = outlines.signed_area(outline)
+    if abs(covered - whole) > SLIVERS * whole:
         raise BadOutline('the outline cannot be split into convex parts', field='points')
-    if not pieces:
-        raise BadSize(f'the outline is thinner than {SMALLEST:g} m', field='points')
+    if whole - held > SLIVERS * whole:
+        raise BadSize(f'a part is thinner than {SMALLEST:g} m', field='points')
     return tuple(pieces)
 
 
-def _crosses_itself(outline: NDArray[np.float64]) -> bool:
-    """Tell whether two sides that are not neighbours meet, or neighbours fold back."""
-    start, end = outline, np.roll(outline, -1, axis=0)
-    edge = end - start
-    following = np.roll(edge, -1, axis=0)
-    folded = (_cross(edge, following) == 0) & ((edge * following).sum(axis=1) < 0)
-    if folded.any():
-        return True
-    count = len(outline)
-    first, second = np.triu_indices(count, 2)
-    apart = ~((first == 0) & (second == count - 1))
-    first, second = first[apart], second[apart]
-    a, b, c, d = start[first], end[first], start[second], end[second]
-    side_c, side_d = _cross(b - a, c - a), _cross(b - a, d - a)
-    side_a, side_b = _cross(d - c, a - c), _cross(d - c, b - c)
-    overlap = (
-        np.maximum(np.minimum(a, b), np.minimum(c, d))
-        <= np.minimum(np.maximum(a, b), np.maximum(c, d))
-    ).all(axis=1)
-    return bool((overlap & (side_c * side_d <= 0) & (side_a * side_b <= 0)).any())
+def _form(pieces: tuple[Piece, ...], *, whole: tuple[Piece, ...] | None = None) -> Form:
+    """
+    Sum up area, centroid and moment, and measure the extent.
 
-
-def _form(pieces: tuple[Piece, ...]) -> Form:
-    """Sum up area, centroid and moment of pieces, and measure their extent."""
-    measures = [_measure(piece) for piece in pieces]
+    :param pieces: convex
+    :param whole: what is weighed and measured, where it is not the pieces
+    """
+    whole = whole or pieces
+    measures = [_measure(piece) for piece in whole]
     area = math.fsum(measure[0] for measure in measures)
     x = math.fsum(measure[0] * measure[1][0] for measure in measures) / area
     y = math.fsum(measure[0] * measure[1][1] for measure in measures) / area
@@ -372,7 +363,7 @@ def _form(pieces: tuple[Piece, ...]) -> Form:
         )
         / area
     )
-    outer = max(_reach(piece, (x, y)) for piece in pieces)
+    outer = max(_reach(piece, (x, y)) for piece in whole)
     # A symmetric shape is balanced about its origin to the bit, whatever the sums round to.
     if math.hypot(x, y) < 1e-12 * outer:
         x = y = 0.0
@@ -407,7 +398,7 @@ def _measure(piece: Piece) -> tuple[float, Point, float]:
             origin = np.array(corners[0])
             vertices = np.array(corners) - origin
             following = np.roll(vertices, -1, axis=0)
-            cross = _cross(vertices, following)
+            cross = outlines.cross(vertices, following)
             area = float(cross.sum()) / 2
             center = ((vertices + following) * cross[:, None]).sum(axis=0) / (6 * area)
             squares = (vertices**2 + vertices * following + following**2).sum(axis=1)

@@ -41,6 +41,8 @@ from pymunk import batch
 SLOP = 0.005
 # Thickness of the walls of `bounds` [m]: what is squeezed into one still finds its way back in.
 WALL = 10.0
+# A point so near counts as inside [m]: on the seam of two pieces it lies inside neither.
+SEAM = 1e-9
 # What has come further than this has left every world [m]; float64 holds 0.1 mm there.
 LOST = 1e12
 
@@ -83,6 +85,7 @@ class Space:
         # that a restored state goes on alike at whatever step it is restored.
         self._age = 0
         self.configure(settings)
+        self._raise_walls()
 
     # Reading
 
@@ -114,12 +117,13 @@ class Space:
         yield layout.scene.key
         yield self._state(layout).tobytes()
         yield layout.free.tobytes()
-        for name, rigid in self._pushed.items():
-            yield f'{name} {rigid.wrench!r} {rigid.wrench_until}'.encode()
+        # In spawn order, whichever was pushed first.
+        for rigid in sorted(self._pushed.values(), key=lambda rigid: rigid.serial):
+            yield f'{rigid.body.name} {rigid.wrench!r} {rigid.wrench_until}'.encode()
 
     def body_at(self, point: Point) -> str | None:
         """Return the body with the highest serial that covers a point of the world [m]."""
-        hits = self._space.point_query(point, 0.0, pymunk.ShapeFilter())
+        hits = self._space.point_query(point, SEAM, pymunk.ShapeFilter())
         names = {self._names[hit.shape.body] for hit in hits if hit.shape.body in self._names}
         return max(names, key=lambda name: self.bodies[name].serial, default=None)
 
@@ -143,7 +147,10 @@ class Space:
         self._space.gravity = settings.gravity
         self._space.damping = 1.0 - settings.damping
         self._space.iterations = settings.iterations
-        self._raise_walls()
+        walls = (settings.bounds, settings.friction, settings.elasticity)
+        if walls != (old.bounds, old.friction, old.elasticity):
+            # Only then: what lies on the walls would stir.
+            self._raise_walls()
 
     def add(self, body: Body, serial: int, pose: Pose, twist: Pose) -> RigidBody:
         """Take a new body into the space."""
@@ -263,7 +270,9 @@ class Space:
         if watching:
             self._contacts.add_step()
         expired = layout.expiries.get(number + 1, ())
-        if last or expired:
+        # When a wrench ends, what flies is told from what does not, however steps are counted out.
+        ends = any(rigid.wrench_until == number + 1 for rigid in self._pushed.values())
+        if last or expired or ends:
             self._judge_flight(layout, before)
         for name in expired:
             self.remove(name)
@@ -295,8 +304,8 @@ class Space:
 
     def _arrest(self, layout: Layout, before: Floats) -> None:
         """Shorten the coming step of the bodies that are too fast for the engine."""
-        speed2 = before[:, 0] ** 2 + before[:, 1] ** 2
-        fast = (speed2 > layout.safe2) | (np.abs(before[:, 2]) > layout.safe_spin)
+        speed = np.hypot(before[:, 0], before[:, 1]) + np.abs(before[:, 2]) * layout.arm
+        fast = speed > layout.safe
         if fast.any():
             movers = [layout.listed[place] for place in np.flatnonzero(fast)]
             sweep.arrest(
@@ -304,7 +313,7 @@ class Space:
                 [rigid for rigid in movers if rigid is not None],
                 self._dt,
                 slop=SLOP,
-                reach=math.sqrt(speed2.max()) * self._dt,
+                reach=float(speed.max()) * self._dt,
                 rigid_of=lambda engine: self.bodies.get(self._names.get(engine, '')),
             )
 

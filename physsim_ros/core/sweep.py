@@ -15,7 +15,7 @@
 """
 Fast bodies: the engine looks only at where a step ends, this looks at the way there.
 
-Law: a body that moves more than half of its own inner radius a step is swept along its way first;
+Law: a body that moves more than a quarter of its inner radius a step is swept along its way first;
 where it would enter something, the step ends there. The engine then finds the contact and
 resolves it with the full velocity. What a kinematic body would run over is carried along to where
 the step ends. What a slower body overshoots at a first touch is taken back in `relieve`. None of
@@ -34,15 +34,15 @@ from physsim_ros.core.rigid_body import RigidBody
 import pymunk
 from pymunk import Vec2d
 
-# A body that moves less than this share of its inner radius a step is safe without a sweep: its
-# centre stays on the side it came from.
-SAFE_SHARE = 0.5
+# A body that moves less than this share of its inner radius a step is safe without a sweep: where
+# two such bodies meet, each keeps its centre well on the side it came from.
+SAFE_SHARE = 0.25
 # Who is stopped may stand in the way of who follows: so many in a row, touching, at most.
 ROUNDS = 16
 # What overlaps by this share of the skin is in it, whichever way the sweep to the skin rounded.
 ALREADY = 0.99
-# Of a body that turns fast so many poses along its way are looked at, half of its inner radius
-# apart, and so often is the part between the last clear one and the next halved.
+# Of a body that turns fast so many poses along its way are looked at, a safe step apart, and so
+# often is the part between the last clear one and the next halved.
 MOST_POSES = 200
 HALVINGS = 8
 
@@ -73,7 +73,7 @@ class _Mover:
     :param depth: how far it may enter something before the engine mistakes the side [m]
     :param skin: how far it is let in, for the engine to see the contact [m]; what overlaps less
         on its way, as a body that slides over tiles does, is not in the way
-    :param reach: greatest distance of a point of it from its centre [m]
+    :param reach: greatest distance of a point of it from its centre [m]; 0 for a disc
     """
 
     engine: pymunk.Body
@@ -125,11 +125,10 @@ def safe_depth(rigid: RigidBody) -> float:
     return rigid.body.shape.form.inner * SAFE_SHARE
 
 
-def safe_spin(rigid: RigidBody) -> float:
-    """Return how far a body may turn in a step without a sweep [rad]."""
+def arm(rigid: RigidBody) -> float:
+    """Return how far out a body's turning counts [m]: a disc covers the same ground anyway."""
     form = rigid.body.shape.form
-    # A disc covers the same ground however it turns.
-    return math.inf if form.inner >= form.outer else safe_depth(rigid) / form.outer
+    return 0.0 if form.inner >= form.outer else form.outer
 
 
 def arrest(
@@ -186,13 +185,16 @@ def relieve(arbiter: pymunk.Arbiter, space: pymunk.Space, slop: float) -> None:
     one, other = arbiter.shapes
     if one.sensor or other.sensor:
         return
-    depth = _depth(arbiter.contact_point_set)
+    contact = arbiter.contact_point_set
+    point = min(contact.points, key=lambda point: point.distance)
+    depth = -point.distance
     if depth <= slop:
         return
     a, b = one.body, other.body
-    normal = arbiter.normal
+    normal = contact.normal
     dt = space.current_time_step
-    ahead_a, ahead_b = a.velocity.dot(normal) * dt, -b.velocity.dot(normal) * dt
+    ahead_a = a.velocity_at_world_point(point.point_a).dot(normal) * dt
+    ahead_b = -b.velocity_at_world_point(point.point_b).dot(normal) * dt
     excess = min(depth - slop, ahead_a + ahead_b)
     # Each gives back of what it went itself, or what stands would be pushed through what is
     # behind it; a kinematic body gives nothing.
@@ -215,13 +217,12 @@ def relieve(arbiter: pymunk.Arbiter, space: pymunk.Space, slop: float) -> None:
 
 def _mover(rigid: RigidBody, dt: float, slop: float) -> _Mover:
     engine, depth = rigid.engine, safe_depth(rigid)
-    turn = engine.angular_velocity * dt
     return _Mover(
         engine=engine,
-        move=_Move(engine.velocity * dt, 0.0 if math.isinf(safe_spin(rigid)) else turn),
+        move=_Move(engine.velocity * dt, engine.angular_velocity * dt),
         depth=depth,
         skin=min(slop, depth),
-        reach=rigid.body.shape.form.outer,
+        reach=arm(rigid),
     )
 
 

@@ -221,7 +221,7 @@ class World:
             old = Body(
                 name=request.name,
                 shape=request.shape,
-                color=request.color or color_of(self._spawned),
+                color=request.color or color_of(request.name),
                 mass=None,
                 density=self._settings.density,
                 friction=self._settings.friction,
@@ -328,8 +328,9 @@ class World:
         return result
 
     def _step_after(self, seconds: float) -> int:
-        # Less a billionth: 0.1 s at 240 Hz is 24 steps, not 25 for the last bit of 0.1.
-        return self.step_count + max(1, math.ceil(seconds * self.physics_rate - 1e-9))
+        # Less a billionth, and a few last bits: 0.1 s at 240 Hz is 24 steps, not 25.
+        steps = seconds * self.physics_rate * (1.0 - 1e-15) - 1e-9
+        return self.step_count + max(1, math.ceil(steps))
 
 
 def _check_weight(body: Body) -> None:

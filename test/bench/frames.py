@@ -71,13 +71,18 @@ def fill(world: World, count: int) -> None:
     """Let a pile of discs and boxes fall into a bin and come to rest."""
     rng = random.Random(count)
     half = math.sqrt(count) * 0.6
+    row = int(2 * half / 0.7)
     world.apply(Configure(changes={'bounds': (-half, 0.0, half, 1000.0)}))
     for number in range(count):
         world.apply(
             Spawn(
                 name=f'body/{number}',
                 shape=Disc(radius=0.25) if number % 2 else Box(width=0.5, height=0.5),
-                pose=(rng.uniform(0.3 - half, half - 0.3), 0.5 + number * 1.2 / half, 0.0),
+                pose=(
+                    0.5 - half + number % row * 0.7 + rng.uniform(-0.1, 0.1),
+                    0.5 + number // row * 0.7,
+                    0.0,
+                ),
                 properties=Properties(elasticity=0.0),
             )
         )

@@ -1,0 +1,116 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""What the programs here share: they know the world by its topics alone, as anybody's would."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+import json
+import sys
+import time
+from typing import Any
+
+from diagnostic_msgs.msg import DiagnosticStatus
+import rclpy
+from rclpy.experimental import EventsExecutor
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
+from std_srvs.srv import Trigger
+from visualization_msgs.msg import Marker
+
+# Ten times what each wait is expected to take, where discovery loses its first message [s].
+PATIENCE = 30.0
+ALL = QoSProfile(history=HistoryPolicy.KEEP_ALL, reliability=ReliabilityPolicy.RELIABLE)
+KEPT = QoSProfile(
+    depth=1,
+    reliability=ReliabilityPolicy.RELIABLE,
+    durability=DurabilityPolicy.TRANSIENT_LOCAL,
+)
+
+
+class Visitor:
+    """A node in a process of its own."""
+
+    def __init__(self) -> None:
+        rclpy.init()
+        self.node = Node('visitor')
+        self._executor = EventsExecutor()
+        self._executor.add_node(self.node)
+
+    def spin_until(self, predicate: Callable[[], object], what: str) -> None:
+        deadline = time.monotonic() + PATIENCE
+        while not predicate():
+            if time.monotonic() > deadline:
+                sys.exit(f'not within {PATIENCE:g} s: {what}')
+            self._executor.spin_once(timeout_sec=0.05)
+
+    def publisher(self, kind: type, topic: str) -> Any:
+        """Return a publisher that the world hears."""
+        publisher = self.node.create_publisher(kind, topic, ALL)
+        self.spin_until(publisher.get_subscription_count, f'{topic} heard')
+        return publisher
+
+    def listen(self, kind: type, topic: str, qos: QoSProfile = ALL) -> list[Any]:
+        """Return the list that messages come into, once both ends have met."""
+        received: list[Any] = []
+        subscription = self.node.create_subscription(kind, topic, received.append, qos)
+        self.spin_until(subscription.get_publisher_count, f'{topic} published')
+        return received
+
+    def greet(self, events: list[DiagnosticStatus], publisher: Any) -> None:
+        """Ask for what is not there until that is answered: then both directions have met."""
+        nobody = Marker(ns='nobody', action=Marker.DELETE)
+        while not events:
+            publisher.publish(nobody)
+            until = time.monotonic() + 0.5
+            self.spin_until(lambda: events or time.monotonic() > until, 'an answer')  # noqa: B023
+        sent = time.monotonic() + 0.5
+        self.spin_until(lambda: time.monotonic() > sent, 'the last answers')
+        events.clear()
+
+    def call(self, service: str) -> tuple[bool, str]:
+        """Call a service of type Trigger, and return what it answers."""
+        client = self.node.create_client(Trigger, service)
+        self.spin_until(client.service_is_ready, service)
+        future = client.call_async(Trigger.Request())
+        self.spin_until(future.done, f'an answer of {service}')
+        response = future.result()
+        assert response is not None
+        return response.success, response.message
+
+    def finish(self, **results: object) -> None:
+        """Print what was seen, as the last line, and end."""
+        foreign = [name for name in sys.modules if name.partition('.')[0] == 'physsim_ros']
+        assert foreign == [], 'this program was to know the topics alone'
+        print('RESULT ' + json.dumps(results), flush=True)  # noqa: T201 - that is the answer
+        self.node.destroy_node()
+        self._executor.shutdown()
+        rclpy.shutdown()
+
+
+def stamp_of(message: Any) -> int:
+    """Return the time of a message's header [ns]."""
+    stamp = message.header.stamp
+    return int(stamp.sec) * 1_000_000_000 + int(stamp.nanosec)
+
+
+def disc(
+    namespace: str, number: int, x: float, y: float, diameter: float, text: str = ''
+) -> Marker:
+    """Return a marker that becomes a disc."""
+    marker = Marker(ns=namespace, id=number, type=Marker.SPHERE, text=text)
+    marker.pose.position.x, marker.pose.position.y = x, y
+    marker.scale.x = marker.scale.y = diameter
+    return marker
