@@ -201,7 +201,8 @@ class Outlet:
                 self._way.look()
                 if self._dropped > dropped and not self._told_dropping:
                     self._told_dropping = True
-                    self._tell(self._way.lost('too slow, it begins to miss frames'))
+                    message = f'{self._way.kind}: {self._way.where}: too slow, frames are missing'
+                    self._tell(Answer(topic='viewer', message=message, code='frames_dropped'))
                 try:
                     self._flush(canvas, self._way.closing / 2 if closing else PATIENCE)
                 except ConnectionError as error:

@@ -57,7 +57,7 @@ class Spec:
     read_only: bool = False
 
     @property
-    def type(self) -> Type:
+    def kind(self) -> Type:
         """The ROS type."""
         if isinstance(self.default, list):
             return Type.DOUBLE_ARRAY
@@ -70,15 +70,15 @@ class Spec:
         descriptor = ParameterDescriptor(
             description=self.meaning,
             read_only=self.read_only,
-            type=int(self.type.value),
+            type=int(self.kind.value),
         )
         if self.choices:
             descriptor.additional_constraints = 'one of ' + ', '.join(self.choices)
         elif self.low is not None and self.high is not None:
-            if self.type == Type.INTEGER:
+            if self.kind == Type.INTEGER:
                 span = IntegerRange(from_value=int(self.low), to_value=int(self.high))
                 descriptor.integer_range = [span]
-            elif self.type == Type.DOUBLE:
+            elif self.kind == Type.DOUBLE:
                 spans = FloatingPointRange(from_value=float(self.low), to_value=float(self.high))
                 descriptor.floating_point_range = [spans]
             else:
@@ -159,7 +159,7 @@ def declare(node: Node) -> dict[str, Any]:
     """
     values = {}
     for name, spec in SPECS.items():
-        default = Parameter(name, spec.type, spec.default).value
+        default = Parameter(name, spec.kind, spec.default).value
         # At first of any type and range: what was given is put right and checked here, and what
         # is refused is refused in one way.
         node.declare_parameter(name, default, ParameterDescriptor(dynamic_typing=True))
@@ -193,9 +193,9 @@ def check(parameter: Parameter) -> None:
     if spec is None:
         return
     name, value = parameter.name, parameter.value
-    if parameter.type_ != spec.type:
+    if parameter.type_ != spec.kind:
         raise BadProperty(
-            f'{name} must be of type {spec.type.name.lower()}, not {parameter.type_.name.lower()}',
+            f'{name} must be of type {spec.kind.name.lower()}, not {parameter.type_.name.lower()}',
             field=name,
         )
     numbers = value if isinstance(value, list) else [value]
@@ -236,20 +236,20 @@ def world_parameters(settings: WorldSettings) -> list[Parameter]:
         value = getattr(settings, name)
         if isinstance(value, tuple):
             value = list(value)
-        parameters.append(Parameter(name, SPECS[name].type, [] if value is None else value))
+        parameters.append(Parameter(name, SPECS[name].kind, [] if value is None else value))
     return coerced(parameters)
 
 
 def _coerced(parameter: Parameter) -> Parameter:
     spec = SPECS.get(parameter.name)
-    if spec is None or parameter.type_ == spec.type:
+    if spec is None or parameter.type_ == spec.kind:
         return parameter
     value = parameter.value
-    if spec.type == Type.DOUBLE and parameter.type_ == Type.INTEGER:
+    if spec.kind == Type.DOUBLE and parameter.type_ == Type.INTEGER:
         return Parameter(parameter.name, Type.DOUBLE, float(value))
     # An empty list has no type of its own; rclpy takes it for bytes, ros2cli for booleans.
     empty = parameter.type_.name.endswith('_ARRAY') and len(value) == 0
-    if spec.type == Type.DOUBLE_ARRAY and (empty or parameter.type_ == Type.INTEGER_ARRAY):
+    if spec.kind == Type.DOUBLE_ARRAY and (empty or parameter.type_ == Type.INTEGER_ARRAY):
         return Parameter(parameter.name, Type.DOUBLE_ARRAY, [float(each) for each in value])
     return parameter
 

@@ -223,7 +223,8 @@ class PhysSim:
 
         self._spin_until(answered, f'no answer to {topic}')
         self.settle()
-        received = received[earlier : earlier + answers]
+        last = earlier + answers
+        received = received[earlier:last]
         for status in received:
             if status.level != b'\x00':
                 values = {pair.key: pair.value for pair in status.values}

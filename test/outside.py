@@ -17,6 +17,7 @@
 from __future__ import annotations
 
 from contextlib import ExitStack
+import json
 import os
 from pathlib import Path
 import queue
@@ -26,7 +27,7 @@ import subprocess
 import sys
 import threading
 import time
-from typing import Self
+from typing import Any, Self
 
 import pytest
 
@@ -77,7 +78,10 @@ class Program:
         """Wait for the end, take in what is left to read, and return the exit code."""
         code = self.process.wait(timeout)
         self._reader.join(timeout)
-        self.lines += iter(self._queue.get, None)
+        while not self._queue.empty():
+            line = self._queue.get()
+            if line is not None:
+                self.lines.append(line)
         return code
 
     def interrupt(self, number: int = signal.SIGINT) -> int:
@@ -129,6 +133,11 @@ class Outside:
         assert executable, 'the package is not installed: make test'
         return self.start(executable, '--ros-args', *words, *arguments)
 
-    def start_program(self, name: str, *arguments: object) -> Program:
-        """Start one of the programs that know the world by its topics alone."""
-        return self.start(sys.executable, ROOT / 'test' / 'elsewhere' / f'{name}.py', *arguments)
+    def run_program(self, name: str, *arguments: object) -> dict[str, Any]:
+        """Run one of the programs that know the world by its topics alone; return what it saw."""
+        path = ROOT / 'test' / 'elsewhere' / f'{name}.py'
+        with self.start(sys.executable, path, *arguments) as program:
+            line = program.wait_for('RESULT', 3 * PATIENCE)
+            assert program.finish() == 0, ''.join(program.lines)
+        result: dict[str, Any] = json.loads(line.partition(' ')[2])
+        return result

@@ -140,7 +140,7 @@ def test_every_parameter_is_described_with_its_unit_and_range(physsim: PhysSim) 
         descriptor = physsim.node.describe_parameter(name)
         assert descriptor.description, name
         assert descriptor.read_only is (kind == 'read-only'), name
-        assert descriptor.type == Parameter(name, parameters.SPECS[name].type, value).type_.value
+        assert descriptor.type == Parameter(name, parameters.SPECS[name].kind, value).type_.value
         if isinstance(value, bool | str):
             continue
         limited = descriptor.floating_point_range or descriptor.integer_range

@@ -80,9 +80,9 @@ class ContactLog:
             self._sums += sums
         else:
             stays = np.zeros(len(self._ids), np.bool_)
-            for start, new_start, count in _common_runs(self._ids, ids):
-                sums[new_start : new_start + count] += self._sums[start : start + count]
-                stays[start : start + count] = True
+            for old, new in _common_runs(self._ids, ids):
+                sums[new] += self._sums[old]
+                stays[old] = True
             # What parts in the first step of a frame has not touched in it.
             if self._steps > 0 and not stays.all():
                 self._gone.append((self._ids[~stays], self._sums[~stays]))
@@ -172,21 +172,22 @@ NO_CONTACTS = Contacts(
 )
 
 
-def _common_runs(old: Ids, new: Ids) -> Iterator[tuple[int, int, int]]:
+def _common_runs(old: Ids, new: Ids) -> Iterator[tuple[slice, slice]]:
     """
-    Yield runs of rows that two listings share: start in the old, in the new, and length.
+    Yield runs of rows that two listings share, in the old and in the new one.
 
     The engine's listing keeps its order but for what comes and goes. A row that is not matched
     counts as gone and come; whoever adds up both has lost nothing.
     """
     at = new_at = 0
     for _ in range(_MOST_EDITS):
-        length = min(len(old) - at, len(new) - new_at)
-        differ = (old[at : at + length] != new[new_at : new_at + length]).any(axis=1)
+        rest, new_rest = old[at:], new[new_at:]
+        length = min(len(rest), len(new_rest))
+        differ = (rest[:length] != new_rest[:length]).any(axis=1)
         count = int(differ.argmax()) if differ.any() else length
-        if count:
-            yield at, new_at, count
-        at, new_at = at + count, new_at + count
+        end, new_end = at + count, new_at + count
+        yield slice(at, end), slice(new_at, new_end)
+        at, new_at = end, new_end
         if at >= len(old) or new_at >= len(new):
             return
         # Whichever comes again sooner in the other listing, the rows before it came or went.

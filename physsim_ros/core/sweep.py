@@ -27,6 +27,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 import math
+from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -153,7 +154,7 @@ def arrest(
     movers = {rigid.engine: _mover(rigid, dt, slop) for rigid in fast if not rigid.body.fixed}
     for pusher in pushers.values():
         for pair in _near(space, pusher, reach):
-            rigid = rigid_of(pair.other.body)
+            rigid = rigid_of(_body(pair.other))
             if rigid is not None and not rigid.body.fixed and rigid.engine not in movers:
                 movers[rigid.engine] = _mover(rigid, dt, slop)
     near = {engine: list(_near(space, mover, reach)) for engine, mover in movers.items()}
@@ -190,7 +191,7 @@ def relieve(arbiter: pymunk.Arbiter, space: pymunk.Space, slop: float) -> None:
     depth = -point.distance
     if depth <= slop:
         return
-    a, b = one.body, other.body
+    a, b = _body(one), _body(other)
     normal = contact.normal
     dt = space.current_time_step
     ahead_a = a.velocity_at_world_point(point.point_a).dot(normal) * dt
@@ -213,6 +214,11 @@ def relieve(arbiter: pymunk.Arbiter, space: pymunk.Space, slop: float) -> None:
             # Further shapes of it, and further contacts, are found where it is now.
             for shape in body.shapes:
                 shape.cache_bb()
+
+
+def _body(shape: pymunk.Shape) -> pymunk.Body:
+    """Return the body of a shape; one in a space always has one."""
+    return cast('pymunk.Body', shape.body)
 
 
 def _mover(rigid: RigidBody, dt: float, slop: float) -> _Mover:
@@ -247,7 +253,7 @@ def _near(space: pymunk.Space, mover: _Mover, reach: float) -> Iterator[_Pair]:
             start.left + left, start.bottom + bottom, start.right + right, start.top + top
         )
         for other in space.bb_query(around, own.filter):
-            if not (other.sensor or other.body is engine or other.body in apart):
+            if not (other.sensor or _body(other) is engine or _body(other) in apart):
                 contact = touching.get(other)
                 yield _Pair(
                     own,
@@ -277,14 +283,17 @@ def _stop(
     first: _Stop | None = None
     for pair in near:
         other = pair.other
-        pusher = other.body.body_type == pymunk.Body.KINEMATIC
+        pusher = _body(other).body_type == pymunk.Body.KINEMATIC
         if pusher and not carried:
             continue
-        theirs = moves.get(other.body) or _Move(
-            other.body.velocity * dt, other.body.angular_velocity * dt
+        theirs = moves.get(_body(other)) or _Move(
+            _body(other).velocity * dt, _body(other).angular_velocity * dt
         )
+        if isinstance(other, pymunk.Circle) and other.offset == (0.0, 0.0):
+            theirs = _Move(theirs.way, 0.0)
         relative = move.way - theirs.way
-        if mover.turns or (pusher and theirs.turn):
+        arm = engine.position - _body(other).position
+        if mover.turns or abs(theirs.turn) * arm.length > mover.depth:
             touch = _touch_turning(space, pair, mover, move, theirs)
         elif pair.overlap > ALREADY * pair.skin:
             approach = relative.dot(pair.normal)
@@ -300,7 +309,6 @@ def _stop(
         made = move * at
         if pusher:
             rest = theirs * (1.0 - at)
-            arm = engine.position - other.body.position
             made = _Move(made.way + rest.way + arm.rotated(rest.turn) - arm, made.turn)
         first = _Stop(at, made)
     return first
@@ -326,7 +334,7 @@ def _cast(
     own: pymunk.Shape, other: pymunk.Shape, way: Vec2d, skin: float
 ) -> Iterator[tuple[float, float]]:
     """Yield when the corners, ends or centre of a shape meet another."""
-    place = own.body.local_to_world
+    place = _body(own).local_to_world
     radius = _radius(own) - skin
     if isinstance(own, pymunk.Circle):
         points = [place(own.offset)]
@@ -358,27 +366,25 @@ def _touch_turning(
     space: pymunk.Space, pair: _Pair, mover: _Mover, move: _Move, theirs: _Move
 ) -> tuple[float, float] | None:
     """
-    Return when shapes come to overlap by the skin, if they do, one of them turning fast.
+    Return when shapes come to overlap by the skin, if they do, one or both turning fast.
 
     :return: share of the way until then, and the length of the way of the outermost point
     """
-    # One shape moves as it is seen from the other, which stays as the space knows it.
-    shape, other, way, turn = pair.own, pair.other, move.way - theirs.way, move.turn
-    reach = mover.reach
-    if not mover.turns:
-        shape, other, way, turn = other, shape, -way, theirs.turn
-        reach += (shape.body.position - other.body.position).length
-    body = shape.body
+    # The first moves as it is seen from the second, which stays as the space knows it.
+    shape, body, pivot = pair.own, _body(pair.own), _body(pair.other).position
     place, angle = body.position, body.angle
+    way, turn = move.way - theirs.way, move.turn - theirs.turn
+    arm = place - pivot
     # What overlaps from the start may leave; only deeper is a touch.
     limit = max(pair.skin, pair.overlap + (1.0 - ALREADY) * pair.skin)
 
     def touches(share: float) -> bool:
-        body.position, body.angle = place + way * share, angle + turn * share
-        contact = _contacts(space, shape).get(other)
+        body.position = pivot + (arm + way * share).rotated(-theirs.turn * share)
+        body.angle = angle + turn * share
+        contact = _contacts(space, shape).get(pair.other)
         return contact is not None and _depth(contact) > limit
 
-    length = way.length + abs(turn) * reach
+    length = way.length + abs(turn) * mover.reach + abs(theirs.turn) * arm.length
     count = min(MOST_POSES, math.ceil(length / mover.depth))
     at = next((number / count for number in range(1, count + 1) if touches(number / count)), None)
     if at is not None:
@@ -408,7 +414,7 @@ def _depth(contact: pymunk.ContactPointSet) -> float:
 
 def _corners(shape: pymunk.Poly) -> NDArray[np.float64]:
     """Return the corners of a polygon in the world, (n, 2) float64."""
-    return np.array([shape.body.local_to_world(corner) for corner in shape.get_vertices()])
+    return np.array([_body(shape).local_to_world(corner) for corner in shape.get_vertices()])
 
 
 def _touch_convex(

@@ -156,10 +156,8 @@ def measure(count: int, directory: Path, domain: int) -> None:
         node.destroy_node()
     base, ours, plain = (statistics.median(times[name]) for name in ('bare', 'node', 'naive'))
     size = Path(record).stat().st_size / FRAMES / count
-    print(
-        f'{count:6} {base:10.2f} {ours:10.2f} {ours / base:10.2f} {plain / base:11.2f} {size:17.0f}',
-        flush=True,
-    )
+    ratios = f'{ours / base:10.2f} {plain / base:11.2f}'
+    print(f'{count:6} {base:10.2f} {ours:10.2f} {ratios} {size:17.0f}', flush=True)
 
 
 def table(counts: list[int]) -> None:

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Spawn thousands of bodies in one burst, and count the answers."""
+"""Spawn thousands of bodies in one burst, and count the answers; then in one array."""
 
 from __future__ import annotations
 
@@ -26,42 +26,48 @@ from visualization_msgs.msg import Marker, MarkerArray
 
 
 def main() -> None:
-    count, topic = int(sys.argv[1]), sys.argv[2]
+    count = int(sys.argv[1])
     visitor = Visitor()
     events = visitor.listen(DiagnosticStatus, '/physsim/events')
     states = visitor.listen(MultiDOFJointState, '/physsim/states')
     spawn = visitor.publisher(Marker, '/physsim/spawn')
     array = visitor.publisher(MarkerArray, '/physsim/spawn_array')
     visitor.greet(events, spawn)
-    # Far apart and without weight on each other, so that the flood alone is what costs.
-    markers = [disc('flood', number, number * 0.5, 0.0, 0.2) for number in range(count)]
-    began = time.monotonic()
-    if topic == 'spawn':
-        for marker in markers:
-            spawn.publish(marker)
-    else:
-        array.publish(MarkerArray(markers=markers))
-    sent = time.monotonic()
-    visitor.spin_until(lambda: len(events) >= count, f'{count} answers; {len(events)} came')
-    answered = time.monotonic()
-    # Should anything be answered twice, it comes before this does.
-    before = len(events)
-    last = Marker(ns='nobody', action=Marker.DELETE)
-    spawn.publish(last)
-    visitor.spin_until(lambda: any(each.hardware_id == 'nobody/0' for each in events), 'the last')
-    names = [f'flood/{number}' for number in range(count)]
-    states.clear()
-    visitor.spin_until(lambda: states and len(states[-1].joint_names) == count, 'all bodies')
-    visitor.finish(
-        answers=before,
-        after=len(events) - before,
-        in_order=[each.hardware_id for each in events[:count]] == names,
-        ok=sum(each.level == DiagnosticStatus.OK for each in events[:count]),
-        topics=sorted({each.name for each in events[:count]}),
-        listed_in_order=list(states[-1].joint_names) == names,
-        sent=sent - began,
-        answered=answered - began,
-    )
+
+    def flood(topic: str) -> dict[str, object]:
+        """Send a burst, and return how it was answered."""
+        # Far apart, so that the flood alone is what costs.
+        markers = [disc(topic, number, number * 0.5, 0.0, 0.2) for number in range(count)]
+        began = time.monotonic()
+        if topic == 'spawn':
+            for marker in markers:
+                spawn.publish(marker)
+        else:
+            array.publish(MarkerArray(markers=markers))
+        sent = time.monotonic()
+        visitor.spin_until(lambda: len(events) >= count, f'{count} answers; {len(events)} came')
+        answered = time.monotonic()
+        # Should anything be answered twice, that comes before this is answered.
+        spawn.publish(Marker(ns='nobody', action=Marker.DELETE))
+        visitor.spin_until(lambda: events[-1].hardware_id == 'nobody/0', 'the last answer')
+        visitor.spin_until(lambda: states and len(states[-1].joint_names) == count, 'all bodies')
+        names = [f'{topic}/{number}' for number in range(count)]
+        result = {
+            'answers': len(events) - 1,
+            'in_order': [each.hardware_id for each in events[:-1]] == names,
+            'ok': sum(each.level == DiagnosticStatus.OK for each in events[:-1]),
+            'topics': sorted({each.name for each in events[:count]}),
+            'listed_in_order': list(states[-1].joint_names) == names,
+            'sent': sent - began,
+            'answered': answered - began,
+        }
+        events.clear()
+        spawn.publish(Marker(action=Marker.DELETEALL))
+        visitor.spin_until(lambda: events and not states[-1].joint_names, 'an empty world')
+        events.clear()
+        return result
+
+    visitor.finish(spawn=flood('spawn'), spawn_array=flood('spawn_array'))
 
 
 if __name__ == '__main__':

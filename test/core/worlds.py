@@ -1,0 +1,102 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Short words for the tests of the core: a world, what is spawned into it, where it is then."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from physsim_ros.core.properties import Properties
+from physsim_ros.core.requests import Spawn
+from physsim_ros.core.settings import WorldSettings
+from physsim_ros.core.shapes import Box, Chain, Color, Compound, Disc, Polygon, Pose, Shape
+from physsim_ros.core.shapes import Triangles
+from physsim_ros.core.snapshot import Body
+from physsim_ros.core.world import World
+
+G = 9.81
+DT = 1.0 / 240.0
+NOWHERE = WorldSettings(gravity=(0.0, 0.0), friction=0.0, elasticity=1.0)
+
+DISC = Disc(radius=0.5)
+BOX = Box(width=1.0, height=1.0)
+# Off-centre and concave: the centroid lies at (5/6, 5/6).
+ELL = Polygon(
+    outline=((0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.0, 1.0), (1.0, 2.0), (0.0, 2.0)),
+)
+# Off-centre: the centroid lies at (1, 2/3).
+TRIANGLE = Polygon(outline=((0.0, 0.0), (3.0, 0.0), (0.0, 2.0)))
+SHAPES: dict[str, Shape] = {
+    'disc': DISC,
+    'box': Box(width=1.0, height=0.5),
+    'triangle': TRIANGLE,
+    'ell': ELL,
+    'chain': Chain(points=((-1.0, 0.0), (0.0, 0.2), (1.0, 0.0)), thickness=0.1),
+    'triangles': Triangles(vertices=((0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 0.0), (1.0, 1.0),
+                                     (0.0, 1.0))),
+    'discs': Compound(element=Disc(radius=0.25), centers=((-0.3, 0.0), (0.3, 0.0), (0.0, 0.4))),
+    'boxes': Compound(element=Box(width=0.4, height=0.2), centers=((0.0, 0.0), (1.0, 0.0))),
+}
+
+
+def spawning(
+    name: str,
+    shape: Shape = DISC,
+    pose: Pose = (0.0, 0.0, 0.0),
+    *,
+    frame: str = '',
+    color: Color | None = None,
+    lifetime: float = 0.0,
+    **said: Any,
+) -> Spawn:
+    """Return the request; what is said of material and motion by keyword."""
+    return Spawn(
+        name=name,
+        shape=shape,
+        pose=pose,
+        frame=frame,
+        color=color,
+        lifetime=lifetime,
+        properties=Properties(**said),
+    )
+
+
+def spawn(world: World, name: str, *arguments: Any, **options: Any) -> None:
+    """Spawn a body."""
+    world.apply(spawning(name, *arguments, **options))
+
+
+def body(world: World, name: str) -> Body:
+    """Return what a body is."""
+    scene = world.snapshot().scene
+    return scene.bodies[scene.names.index(name)]
+
+
+def pose(world: World, name: str) -> NDArray[np.float64]:
+    """Return x, y [m] and yaw [rad] of a body."""
+    snapshot = world.snapshot()
+    return snapshot.poses[snapshot.scene.names.index(name)]
+
+
+def twist(world: World, name: str) -> NDArray[np.float64]:
+    """Return vx, vy [m/s] and spin [rad/s] of a body."""
+    snapshot = world.snapshot()
+    return snapshot.twists[snapshot.scene.names.index(name)]
+
+
+def stack(world: World, count: int) -> None:
+    """Stack boxes of 1 m on the floor of the world's bounds."""
+    for number in range(count):
+        spawn(world, f'stack/{number}', BOX, (0.0, 0.5 + number, 0.0))

@@ -1,0 +1,532 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Whatever happens to a viewer or a disk, the world is neither slowed nor stopped by it."""
+
+from __future__ import annotations
+
+from collections import Counter
+import importlib.util
+import os
+from pathlib import Path
+import signal
+import socket
+import subprocess
+import sys
+import textwrap
+import threading
+import time
+from urllib.parse import parse_qs, urlsplit
+from urllib.request import urlopen
+
+import numpy as np
+from physsim_ros.core.settings import WorldSettings
+from physsim_ros.core.shapes import Box
+from physsim_ros.core.snapshot import Answer, Body, Frame, Scene, Snapshot
+from physsim_ros.outlet import Outlet, Way
+from physsim_ros.viewer import Viewer, ViewerMode
+import pytest
+
+psutil = pytest.importorskip('psutil')
+chunk = pytest.importorskip('rerun.chunk')
+
+# Files are read while they are written.
+pytestmark = pytest.mark.filterwarnings('ignore:RRD file has no footer')
+
+# Ten times what anything here takes; importing Rerun alone is a second.
+PATIENCE = 20.0
+# A frame of 60 Hz is 16 ms; showing one takes 10 µs, but this machine may be busy.
+NO_TIME = 0.1
+
+BOX = Body(
+    name='box/0',
+    shape=Box(width=1.0, height=1.0),
+    color=(1.0, 0.0, 0.0, 1.0),
+    mass=None,
+    density=1.0,
+    friction=0.5,
+    elasticity=0.5,
+    anchored=False,
+    kinematic=False,
+    group=0,
+    sensor=False,
+    expires=None,
+)
+SCENE = Scene(bodies=(BOX,), settings=WorldSettings())
+
+
+def frame(step, *messages):
+    pose = np.array([[float(step), 0.0, 0.0]])
+    snapshot = Snapshot(step=step, stamp=step * 4_166_667, scene=SCENE, poses=pose, twists=pose)
+    answers = tuple(Answer(topic='~/spawn', message=each) for each in messages)
+    return Frame(snapshot=snapshot, contacts=None, answers=answers)
+
+
+def until(predicate, timeout=PATIENCE):
+    """Wait until something holds; return it."""
+    deadline = time.monotonic() + timeout
+    pause = threading.Event()
+    while not (result := predicate()):
+        assert time.monotonic() < deadline, 'it did not come to hold'
+        pause.wait(0.01)
+    return result
+
+
+def show(viewer, count, first=0):
+    """Show frames; return the longest that one took [s]."""
+    longest = 0.0
+    for step in range(first, first + count):
+        began = time.perf_counter()
+        viewer.show(frame(step), real_time_factor=1.0)
+        longest = max(longest, time.perf_counter() - began)
+    return longest
+
+
+def bulk():
+    """Return words that cannot be compressed, so that a few hundred frames fill every buffer."""
+    return os.urandom(100_000).hex()
+
+
+def rows(path):
+    """Return how many rows each entity of a recording has."""
+    counts = Counter()
+    try:
+        chunks = chunk.RrdReader(path).stream()
+    except ValueError:
+        # Nothing but the header as yet.
+        return counts
+    for each in chunks:
+        if not each.is_static:
+            counts[each.entity_path] += each.num_rows
+    return counts
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(('127.0.0.1', 0))
+        return probe.getsockname()[1]
+
+
+def is_open(port):
+    with socket.socket() as probe:
+        return probe.connect_ex(('127.0.0.1', port)) == 0
+
+
+def rerun(*arguments):
+    program = Path(importlib.util.find_spec('rerun_cli').origin).with_name('rerun')
+    return subprocess.Popen(
+        [program, '--bind=127.0.0.1', *arguments],
+        env={**os.environ, 'CI': '1'},
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+    )
+
+
+class Server:
+    """A Rerun server that writes what it is sent, of somebody else's."""
+
+    def __init__(self, path):
+        self.path = path
+        self.port = free_port()
+        self.url = f'rerun+http://127.0.0.1:{self.port}/proxy'
+        self.process = None
+
+    def start(self):
+        self.process = rerun(f'--port={self.port}', '--save', self.path)
+        until(lambda: is_open(self.port))
+
+    def kill(self):
+        self.process.kill()
+        self.process.wait()
+
+    def wait_for(self, entity, count):
+        """Wait until it has written so many rows of an entity; return how many of all."""
+        return until(lambda: counts if (counts := rows(self.path))[entity] >= count else None)
+
+
+@pytest.fixture
+def server(tmp_path):
+    it = Server(tmp_path / 'server.rrd')
+    yield it
+    if it.process is not None:
+        it.kill()
+
+
+@pytest.fixture
+def viewers():
+    """Make viewers that are closed afterwards."""
+    made = []
+
+    def make(**wanted):
+        made.append(Viewer(**wanted))
+        return made[-1]
+
+    yield make
+    for viewer in made:
+        viewer.close()
+
+
+class Events:
+    """What a viewer has told so far."""
+
+    def __init__(self, viewer):
+        self._viewer = viewer
+        self.all = []
+
+    def wait_for(self, code):
+        """Return the first event with that code that has not been waited for."""
+
+        def found():
+            self.all += self._viewer.poll()
+            return [each for each in self.all if each.code == code]
+
+        first = until(found)[0]
+        self.all.remove(first)
+        return first
+
+
+# Recording
+
+
+def test_a_recording_holds_every_frame_once_it_is_closed(viewers, tmp_path):
+    path = tmp_path / 'it.rrd'
+    viewer = viewers(mode=ViewerMode.NONE, record_file=str(path))
+
+    show(viewer, 1000)
+    viewer.close()
+
+    assert rows(path)['/world/boxes'] >= 1000
+    assert ', ended, 1000 frames, 0 dropped' in viewer.state
+
+
+def test_a_file_that_cannot_be_written_is_told_and_the_rest_goes_on(viewers, server, tmp_path):
+    path = tmp_path / 'nowhere' / 'it.rrd'
+    server.start()
+    viewer = viewers(mode=ViewerMode.CONNECT, url=server.url, record_file=str(path))
+    events = Events(viewer)
+
+    failure = events.wait_for('record_failed')
+    events.wait_for('')
+    show(viewer, 50)
+    viewer.close()
+
+    assert failure.topic == 'viewer'
+    assert str(path) in failure.message
+    server.wait_for('/world/boxes', 50)
+
+
+def test_a_disk_that_fills_up_is_told(viewers):
+    viewer = viewers(mode=ViewerMode.NONE, record_file='/dev/full')
+
+    assert 'No space left' in Events(viewer).wait_for('record_failed').message
+
+
+# Serving
+
+
+def page(event):
+    return event.message.removeprefix('web: ')
+
+
+def test_the_web_viewer_is_served_on_this_machine_alone(viewers):
+    viewer = viewers(mode=ViewerMode.WEB)
+    show(viewer, 10)
+
+    url = page(Events(viewer).wait_for(''))
+    stream = urlsplit(parse_qs(urlsplit(url).query)['url'][0])
+    until(lambda: is_open(urlsplit(url).port))
+    with urlopen(url) as answer:  # noqa: S310  an address of our own
+        text = answer.read().decode()
+
+    assert 'rerun' in text.lower()
+    assert url in viewer.state
+    ours = [psutil.Process(), *psutil.Process().children(recursive=True)]
+    ports = {urlsplit(url).port, stream.port}
+    listening = {
+        connection.laddr
+        for process in ours
+        for connection in process.net_connections('inet')
+        if connection.status == psutil.CONN_LISTEN and connection.laddr.port in ports
+    }
+    assert {(address.ip, address.port) for address in listening} == {
+        ('127.0.0.1', port) for port in ports
+    }
+
+
+def test_who_looks_late_at_what_is_served_sees_all_of_it(viewers, tmp_path):
+    viewer = viewers(mode=ViewerMode.WEB)
+    stream = parse_qs(urlsplit(page(Events(viewer).wait_for(''))).query)['url'][0]
+    show(viewer, 20)
+    until(lambda: ' 20 frames' in viewer.state)
+
+    path = tmp_path / 'late.rrd'
+    late = rerun(stream, '--save', path)
+    try:
+        until(lambda: path.exists() and path.stat().st_size > 0)
+        until(lambda: rows(path)['/world/boxes'] >= 20)
+    finally:
+        late.kill()
+        late.wait()
+
+
+def test_nothing_is_left_running_after_closing(viewers):
+    viewer = viewers(mode=ViewerMode.WEB)
+    Events(viewer).wait_for('')
+    (program,) = psutil.Process().children()
+
+    viewer.close()
+
+    assert not program.is_running()
+
+
+def test_a_page_server_that_dies_is_started_again(viewers):
+    viewer = viewers(mode=ViewerMode.WEB)
+    events = Events(viewer)
+    events.wait_for('')
+    (program,) = psutil.Process().children()
+
+    program.kill()
+    events.wait_for('viewer_lost')
+
+    port = until(lambda: urlsplit(viewer.state.removeprefix('web: ').split(', ')[0]).port)
+    until(lambda: is_open(port))
+
+
+@pytest.fixture
+def no_display(monkeypatch):
+    monkeypatch.delenv('DISPLAY', raising=False)
+    monkeypatch.delenv('WAYLAND_DISPLAY', raising=False)
+
+
+def test_where_there_is_no_display_auto_is_a_page(viewers, no_display):
+    viewer = viewers(mode=ViewerMode.AUTO)
+
+    assert Events(viewer).wait_for('').message.startswith('web: http://127.0.0.1:')
+
+
+def test_where_there_is_no_display_a_window_becomes_a_page_and_that_is_told(viewers, no_display):
+    viewer = viewers(mode=ViewerMode.SPAWN)
+
+    why = Events(viewer).wait_for('viewer_lost').message
+
+    assert 'http://127.0.0.1:' in why
+    assert 'there is no display' in why
+
+
+def test_where_no_window_can_be_opened_it_becomes_a_page(viewers, monkeypatch):
+    monkeypatch.setenv('DISPLAY', ':987')
+    monkeypatch.delenv('WAYLAND_DISPLAY', raising=False)
+    viewer = viewers(mode=ViewerMode.AUTO)
+
+    assert 'no window could be opened' in Events(viewer).wait_for('viewer_lost').message
+
+
+# Connecting
+
+
+def test_nobody_at_the_other_end_costs_no_time_and_is_said(viewers):
+    viewer = viewers(mode=ViewerMode.CONNECT, url=f'rerun+http://127.0.0.1:{free_port()}/proxy')
+
+    longest = show(viewer, 1000)
+    until(lambda: 'nobody there' in viewer.state)
+    began = time.monotonic()
+    viewer.close()
+
+    assert longest < NO_TIME
+    assert time.monotonic() - began < NO_TIME + 1.0
+
+
+def test_an_address_that_is_none_is_told(viewers):
+    viewer = viewers(mode=ViewerMode.CONNECT, url='http://nonsense')
+
+    assert 'http://nonsense' in Events(viewer).wait_for('viewer_lost').message
+
+
+def test_a_server_that_comes_late_is_found_and_gets_every_answer(viewers, server):
+    viewer = viewers(mode=ViewerMode.CONNECT, url=server.url)
+    until(lambda: 'nobody there' in viewer.state)
+    for step in range(200):
+        viewer.show(frame(step, f'answer {step}'), real_time_factor=1.0)
+
+    server.start()
+    Events(viewer).wait_for('')
+    until(lambda: ' 60 frames, 140 dropped' in viewer.state)
+    viewer.close()
+
+    written = server.wait_for('/events', 200)
+    assert written['/world/boxes'] >= 60
+
+
+def test_a_server_that_goes_and_comes_again_is_found_again(viewers, server):
+    server.start()
+    viewer = viewers(mode=ViewerMode.CONNECT, url=server.url)
+    events = Events(viewer)
+    events.wait_for('')
+    show(viewer, 10)
+
+    server.kill()
+    events.wait_for('viewer_lost')
+    server.start()
+    events.wait_for('')
+    show(viewer, 10, first=10)
+    viewer.close()
+
+    # With the geometry, as nothing of before has been kept.
+    assert server.wait_for('/world/boxes', 10)['/world/camera'] == 1
+
+
+# The whole life of a process whose viewer freezes: a frozen one would keep this one from ending.
+FROZEN = """
+    import os, signal, sys, threading, time
+    from test.test_viewer import bulk, Events, frame, until
+    from physsim_ros.viewer import Viewer, ViewerMode
+
+    url, path, server = sys.argv[1], sys.argv[2], int(sys.argv[3])
+    viewer = Viewer(mode=ViewerMode.CONNECT, url=url, record_file=path)
+    events = Events(viewer)
+    until(lambda: viewer.state.count('open') == 2)
+    os.kill(server, signal.SIGSTOP)
+    longest, step = 0.0, 0
+    while 'takes nothing' not in viewer.state:
+        one = frame(step, bulk())
+        began = time.perf_counter()
+        viewer.show(one, real_time_factor=1.0)
+        longest = max(longest, time.perf_counter() - began)
+        step += 1
+        threading.Event().wait(0.01)
+    events.wait_for('viewer_lost')
+    began = time.perf_counter()
+    viewer.close()
+    print(longest, time.perf_counter() - began, step)
+"""
+
+
+def test_a_frozen_viewer_delays_neither_frames_nor_closing_nor_the_end(server, tmp_path):
+    server.start()
+    path = tmp_path / 'it.rrd'
+    arguments = [server.url, str(path), str(server.process.pid)]
+
+    done = subprocess.run(
+        [sys.executable, '-c', textwrap.dedent(FROZEN), *arguments],
+        cwd=Path(__file__).parents[1],
+        stdout=subprocess.PIPE,
+        text=True,
+        timeout=3 * PATIENCE,
+        check=True,
+    )
+
+    longest, closing, steps = map(float, done.stdout.split())
+    assert longest < NO_TIME
+    assert closing < 3.0
+    # The file is whole all the same.
+    assert rows(path)['/events'] == steps
+
+
+def test_a_viewer_that_thaws_is_shown_what_is_new(viewers, server):
+    server.start()
+    viewer = viewers(mode=ViewerMode.CONNECT, url=server.url)
+    until(lambda: ', open,' in viewer.state)
+
+    os.kill(server.process.pid, signal.SIGSTOP)
+    steps = iter(range(10_000))
+
+    def is_stuck():
+        viewer.show(frame(next(steps), bulk()), real_time_factor=1.0)
+        return 'takes nothing' in viewer.state
+
+    until(is_stuck)
+    os.kill(server.process.pid, signal.SIGCONT)
+    until(lambda: ', open,' in viewer.state)
+    viewer.show(frame(20_000), real_time_factor=1.0)
+    viewer.close()
+
+    server.wait_for('/events', next(steps))
+
+
+# The queue
+
+
+class Blocked(Way):
+    """A way that takes nothing until it is told to."""
+
+    kind, where, waiting = 'blocked', 'here', 10
+
+    def __init__(self):
+        self.entered, self.release = threading.Event(), threading.Event()
+        self.drawn = []
+
+    def open(self):
+        return self
+
+    def draw(self, frames, **_):
+        self.entered.set()
+        assert self.release.wait(PATIENCE)
+        self.drawn += frames
+
+    def flush(self, patience):
+        pass
+
+
+def test_a_full_queue_drops_the_oldest_frames_and_keeps_all_answers():
+    way, told = Blocked(), []
+    outlet = Outlet(way, tell=told.append)
+    outlet.put(frame(0, 'answer 0'), real_time_factor=1.0)
+    assert way.entered.wait(PATIENCE)
+
+    for step in range(1, 101):
+        outlet.put(frame(step, f'answer {step}'), real_time_factor=1.0)
+    way.release.set()
+    outlet.end()
+
+    assert outlet.join()
+    assert [each.snapshot.step for each in way.drawn] == [0, *range(91, 101)]
+    answers = [answer.message for each in way.drawn for answer in each.answers]
+    assert answers == [f'answer {step}' for step in range(101)]
+    assert '11 frames, 90 dropped' in outlet.state
+    assert [each.code for each in told] == ['', 'frames_dropped']
+
+
+def test_putting_a_frame_never_waits_for_drawing():
+    way = Blocked()
+    outlet = Outlet(way, tell=lambda _: None)
+    outlet.put(frame(0), real_time_factor=1.0)
+    assert way.entered.wait(PATIENCE)
+
+    began = time.perf_counter()
+    outlet.put(frame(1), real_time_factor=1.0)
+    took = time.perf_counter() - began
+    way.release.set()
+    outlet.end()
+
+    assert took < NO_TIME
+    assert outlet.join()
+
+
+def test_closing_gives_up_on_one_that_never_draws():
+    way = Blocked()
+    outlet = Outlet(way, tell=lambda _: None)
+    outlet.put(frame(0), real_time_factor=1.0)
+    assert way.entered.wait(PATIENCE)
+
+    outlet.end()
+
+    assert not outlet.join()
+    way.release.set()
+
+
+def test_importing_the_viewer_does_not_import_rerun():
+    check = 'import sys, physsim_ros.viewer; sys.exit("rerun" in sys.modules)'
+
+    assert subprocess.run([sys.executable, '-c', check], check=False).returncode == 0
