@@ -86,7 +86,7 @@ class Motion(NamedTuple):
 
     @classmethod
     def of(cls, poses: Floats) -> Motion:
-        """Return the motion of (f, n, 3) poses: x, y [m], yaw [rad]."""
+        """Return the motion of poses, (f, n, 3) float64: x, y [m], yaw [rad]."""
         x, y, half = np.moveaxis(poses, 2, 0)
         cos, sin = np.cos(half / 2), np.sin(half / 2)
         each = (x, y, cos**2 - sin**2, 2 * sin * cos, cos, sin)

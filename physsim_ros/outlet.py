@@ -80,7 +80,7 @@ class Way(ABC):
     again: ClassVar[bool] = True
 
     @abstractmethod
-    def open(self) -> Canvas | None:
+    def begin(self) -> Canvas | None:
         """
         Return a fresh canvas there; None where there is nobody yet.
 
@@ -160,7 +160,7 @@ class Outlet:
         self._wake.set()
 
     def join(self) -> bool:
-        """Wait until it has ended, but not for long; tell whether it has."""
+        """Wait until it has ended, at most as long as its way is worth; tell whether it has."""
         self._thread.join(self._way.closing)
         self._way.close()
         return not self._thread.is_alive()
@@ -168,7 +168,7 @@ class Outlet:
     def _run(self) -> None:
         try:
             while not self._closing.is_set():
-                canvas = self._way.open()
+                canvas = self._way.begin()
                 if canvas is None:
                     self._status = 'nobody there'
                     self._closing.wait(LOOK)
@@ -179,6 +179,9 @@ class Outlet:
         except ConnectionError as error:
             self._status = 'failed'
             self._tell(self._way.lost(str(error)))
+        except BaseException:
+            self._status = 'broken'
+            raise
         finally:
             self._way.close()
 

@@ -357,7 +357,12 @@ def blueprint() -> rrb.Blueprint:
                 visual_bounds=rrb.VisualBounds2D(x_range=(0, WIDTH), y_range=(0, HEIGHT)),
             ),
             rrb.Vertical(
-                rrb.TimeSeriesView(origin='energy', name='Energy [J]', time_ranges=recent),
+                rrb.TimeSeriesView(
+                    origin='energy',
+                    name='Energy [J]',
+                    time_ranges=recent,
+                    plot_legend=rrb.PlotLegend(corner=rrb.Corner2D.RightTop),
+                ),
                 rrb.TimeSeriesView(
                     origin='real_time_factor',
                     name='Real-time factor',

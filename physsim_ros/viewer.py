@@ -156,7 +156,7 @@ class _File(Way):
         self._name = name
         self.where = path
 
-    def open(self) -> Canvas:
+    def begin(self) -> Canvas:
         import rerun as rr
 
         return _Stream(self._name, rr.FileSink(self.where))
@@ -171,18 +171,17 @@ class _Client(Way):
         self._name = name
         self.where = url
 
-    def open(self) -> Canvas | None:
+    def begin(self) -> Canvas | None:
         import rerun as rr
 
         try:
             sink = rr.GrpcSink(self.where)
+            address = urlsplit(self.where)
+            host, port = address.hostname or '127.0.0.1', address.port or 9876
         except (RuntimeError, ValueError) as error:
             raise ConnectionError(error) from error
-        address = urlsplit(self.where)
         # Rerun would wait 5 s for nobody, and then keep all that it is given.
-        if not _is_open(address.hostname or '127.0.0.1', address.port or 9876):
-            return None
-        return _Stream(self._name, sink)
+        return _Stream(self._name, sink) if _is_open(host, port) else None
 
 
 class _Server(Way):
@@ -201,7 +200,7 @@ class _Server(Way):
         self._program: subprocess.Popen[bytes] | None = None
         self._started = 0.0
 
-    def open(self) -> Canvas:
+    def begin(self) -> Canvas:
         import rerun as rr
 
         self.close()

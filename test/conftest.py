@@ -25,8 +25,8 @@ import pytest
 if TYPE_CHECKING:
     from physsim_ros.testing import PhysSim
 
-    from test.client import Client
-    from test.outside import Outside
+    from .client import Client
+    from .outside import Outside
 
 
 @pytest.fixture

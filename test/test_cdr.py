@@ -456,7 +456,7 @@ def test_a_released_body_loses_only_its_symbol():
 
 def test_only_bodies_that_are_new_or_different_are_drawn_again(monkeypatch):
     asked = []
-    symbols = cdr.symbols  # noqa: SLF001  (the expensive part, to count its calls)
+    symbols = cdr.symbols
     monkeypatch.setattr(cdr, 'symbols', lambda body: asked.append(body.name) or symbols(body))
     encoder = cdr.MarkersEncoder('world')
     first, second = bodies_named('a', 'b')

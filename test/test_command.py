@@ -22,8 +22,8 @@ from physsim_ros.testing import PhysSim, Refused
 import pytest
 from rclpy.parameter import Parameter
 
-from test.client import Client, Event
-from test.messages import box, command, disc, ELL, polygon
+from .client import Client, Event
+from .messages import box, command, disc, ELL, polygon
 
 G = 9.81
 

@@ -47,7 +47,7 @@ from physsim_ros.core.shapes import Box, Chain, Compound, Disc, MOST_POINTS, Pol
 import pytest
 from visualization_msgs.msg import Marker
 
-from test.messages import box, command, delete, delete_all, ELL, marker, point, polygon
+from .messages import box, command, delete, delete_all, ELL, marker, point, polygon
 
 NAN, INF = math.nan, math.inf
 SQUARE = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))

@@ -25,7 +25,7 @@ from typing import Any
 
 import pytest
 
-from test.outside import Outside, ROOT
+from .outside import Outside, ROOT
 
 SHAPES = ('circle: {radius: 0.3}', 'box: {width: 0.5, height: 0.5}')
 # A grid of discs and boxes, which fall apart over each other.

@@ -20,7 +20,7 @@ from typing import Any
 
 import pytest
 
-from test.outside import Outside
+from .outside import Outside
 
 COUNT = 5000
 

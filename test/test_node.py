@@ -31,9 +31,9 @@ from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import MultiDOFJointState
 from visualization_msgs.msg import MarkerArray
 
-from test.client import Client
-from test.messages import box, delete, disc
-from test.outside import Outside
+from .client import Client
+from .messages import box, delete, disc
+from .outside import Outside
 
 G = 9.81
 # One frame at 60 Hz; stamps are whole nanoseconds [ns].

@@ -32,8 +32,8 @@ from rclpy.context import Context
 from rclpy.parameter import Parameter
 from rosgraph_msgs.msg import Clock
 
-from test.client import Client
-from test.messages import box, disc
+from .client import Client
+from .messages import box, disc
 
 # The contract's table, as far as it is built: default, and whether it is fixed once running.
 CONTRACT: dict[str, tuple[Any, str]] = {

@@ -338,7 +338,8 @@ def test_geometry_is_sent_with_the_scene_and_again_now_and_then(recording):
     frames = [frame(box, [(step, 0, 0)], step=step) for step in range(REPEAT + 10)]
 
     for first in range(0, len(frames), 10):
-        recording.draw(*frames[first : first + 10])
+        end = first + 10
+        recording.draw(*frames[first:end])
 
     rows = recording.rows('world/boxes', 'Boxes3D:half_sizes')
     assert [row.frame for row in rows] == [0, REPEAT]

@@ -23,8 +23,8 @@ from physsim_ros.testing import PhysSim, Refused
 import pytest
 from visualization_msgs.msg import Marker, MarkerArray
 
-from test.client import Client, Event
-from test.messages import box, command, disc, ELL, marker, point, polygon
+from .client import Client, Event
+from .messages import box, command, disc, ELL, marker, point, polygon
 
 # Just inside and just outside of an edge [m].
 JUST = 1e-6

@@ -26,8 +26,8 @@ from rclpy.parameter import Parameter
 from std_msgs.msg import Float64
 from visualization_msgs.msg import Marker, MarkerArray
 
-from test.client import Client, Event
-from test.messages import box, command, delete, disc, marker, point, polygon
+from .client import Client, Event
+from .messages import box, command, delete, disc, marker, point, polygon
 
 NAN = math.nan
 BOWTIE = [(0, 0), (1, 1), (1, 0), (0, 1), (0, 0)]

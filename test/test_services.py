@@ -25,8 +25,8 @@ from rclpy.parameter import Parameter
 from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
 
-from test.client import Client, Event
-from test.messages import box, command, delete, disc, ELL, marker, polygon
+from .client import Client, Event
+from .messages import box, command, delete, disc, ELL, marker, polygon
 
 # One frame at speed 1 [ns]
 PERIOD = 1e9 / 60.0

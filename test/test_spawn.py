@@ -25,8 +25,8 @@ import pytest
 from rclpy.parameter import Parameter
 from visualization_msgs.msg import Marker, MarkerArray
 
-from test.client import Client, Event
-from test.messages import box, command, delete, delete_all, disc, ELL, marker, polygon
+from .client import Client, Event
+from .messages import box, command, delete, delete_all, disc, ELL, marker, polygon
 
 # What rests sinks in by the engine's slop of 5 mm, and a little while it is pressed [m].
 SINKS = 0.007
@@ -418,9 +418,17 @@ def test_what_is_kinematic_moves_whatever_it_touches_and_pushes(physsim: PhysSim
     assert physsim.pose('b/0').x == pytest.approx(4.0, abs=0.05)
 
 
-@pytest.mark.parametrize(('one', 'other', 'what'), [
-    (0, 0, 'meet'), (3, 3, 'pass'), (-3, -3, 'pass'), (3, 4, 'meet'), (3, -3, 'meet'), (0, 3, 'meet'),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ('one', 'other', 'what'),
+    [
+        (0, 0, 'meet'),
+        (3, 3, 'pass'),
+        (-3, -3, 'pass'),
+        (3, 4, 'meet'),
+        (3, -3, 'meet'),
+        (0, 3, 'meet'),
+    ],
+)
 def test_bodies_of_one_group_pass_through_each_other(
     physsim: PhysSim, one: int, other: int, what: str
 ) -> None:

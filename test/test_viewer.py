@@ -46,8 +46,8 @@ pytestmark = pytest.mark.filterwarnings('ignore:RRD file has no footer')
 
 # Ten times what anything here takes; importing Rerun alone is a second.
 PATIENCE = 20.0
-# A frame of 60 Hz is 16 ms; showing one takes 10 µs, but this machine may be busy.
-NO_TIME = 0.1
+# Showing a frame takes 10 µs, but the machine may be busy; Rerun would wait 5 s, or for ever.
+NO_TIME = 0.25
 
 BOX = Body(
     name='box/0',
@@ -101,15 +101,24 @@ def bulk():
 def rows(path):
     """Return how many rows each entity of a recording has."""
     counts = Counter()
-    try:
-        chunks = chunk.RrdReader(path).stream()
-    except ValueError:
-        # Nothing but the header as yet.
-        return counts
-    for each in chunks:
+    for each in chunk.RrdReader(path).stream():
         if not each.is_static:
             counts[each.entity_path] += each.num_rows
     return counts
+
+
+def rows_when(path, entity, count):
+    """Wait until a recording that is being written has so many rows of an entity; return all."""
+
+    def enough():
+        try:
+            counts = rows(path)
+        except (OSError, RuntimeError, ValueError):
+            # Not there yet, or in the middle of a message.
+            return None
+        return counts if counts[entity] >= count else None
+
+    return until(enough)
 
 
 def free_port():
@@ -153,7 +162,7 @@ class Server:
 
     def wait_for(self, entity, count):
         """Wait until it has written so many rows of an entity; return how many of all."""
-        return until(lambda: counts if (counts := rows(self.path))[entity] >= count else None)
+        return rows_when(self.path, entity, count)
 
 
 @pytest.fixture
@@ -274,8 +283,7 @@ def test_who_looks_late_at_what_is_served_sees_all_of_it(viewers, tmp_path):
     path = tmp_path / 'late.rrd'
     late = rerun(stream, '--save', path)
     try:
-        until(lambda: path.exists() and path.stat().st_size > 0)
-        until(lambda: rows(path)['/world/boxes'] >= 20)
+        rows_when(path, '/world/boxes', 20)
     finally:
         late.kill()
         late.wait()
@@ -339,8 +347,9 @@ def test_where_no_window_can_be_opened_it_becomes_a_page(viewers, monkeypatch):
 def test_nobody_at_the_other_end_costs_no_time_and_is_said(viewers):
     viewer = viewers(mode=ViewerMode.CONNECT, url=f'rerun+http://127.0.0.1:{free_port()}/proxy')
 
-    longest = show(viewer, 1000)
+    # Loading Rerun's library holds up all Python for a moment, once.
     until(lambda: 'nobody there' in viewer.state)
+    longest = show(viewer, 1000)
     began = time.monotonic()
     viewer.close()
 
@@ -467,7 +476,7 @@ class Blocked(Way):
         self.entered, self.release = threading.Event(), threading.Event()
         self.drawn = []
 
-    def open(self):
+    def begin(self):
         return self
 
     def draw(self, frames, **_):

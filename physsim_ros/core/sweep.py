@@ -42,10 +42,14 @@ SAFE_SHARE = 0.25
 ROUNDS = 16
 # What overlaps by this share of the skin is in it, whichever way the sweep to the skin rounded.
 ALREADY = 0.99
-# Of a body that turns fast so many poses along its way are looked at, a safe step apart, and so
-# often is the part between the last clear one and the next halved.
-MOST_POSES = 200
-HALVINGS = 8
+# Of a body that turns fast so many poses along its way are looked at, at most, and so often is the
+# part between the last clear one and the next halved. Each costs as much as a query: a stick that
+# is spun like a propeller may miss what is thinner than a twelfth of its way.
+MOST_POSES = 12
+HALVINGS = 4
+# A tip that goes less far than this in a step [m] is no propeller: what it overlaps, the engine
+# still pushes back out.
+SLOW_TIP = 0.02
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,7 +90,7 @@ class _Mover:
     @property
     def turns(self) -> bool:
         """Whether its outermost point turns so fast that the turn counts too."""
-        return abs(self.move.turn) * self.reach > self.depth
+        return abs(self.move.turn) * self.reach > max(self.depth, SLOW_TIP)
 
 
 @dataclass(frozen=True, slots=True)
@@ -253,15 +257,16 @@ def _near(space: pymunk.Space, mover: _Mover, reach: float) -> Iterator[_Pair]:
             start.left + left, start.bottom + bottom, start.right + right, start.top + top
         )
         for other in space.bb_query(around, own.filter):
-            if not (other.sensor or _body(other) is engine or _body(other) in apart):
-                contact = touching.get(other)
-                yield _Pair(
-                    own,
-                    other,
-                    0.0 if contact is None else _depth(contact),
-                    Vec2d.zero() if contact is None else contact.normal,
-                    _skin(own, other, mover.skin),
-                )
+            if other.sensor or other.body is engine or other.body in apart:
+                continue
+            contact, skin = touching.get(other), _skin(own, other, mover.skin)
+            overlap = 0.0 if contact is None else _depth(contact)
+            if overlap > ALREADY * skin and _body(other).body_type == pymunk.Body.DYNAMIC:
+                # The engine is at work on these two; if they waited for each other here too,
+                # neither would ever move.
+                continue
+            normal = Vec2d.zero() if contact is None else contact.normal
+            yield _Pair(own, other, overlap, normal, skin)
 
 
 def _stop(
@@ -293,7 +298,7 @@ def _stop(
             theirs = _Move(theirs.way, 0.0)
         relative = move.way - theirs.way
         arm = engine.position - _body(other).position
-        if mover.turns or abs(theirs.turn) * arm.length > mover.depth:
+        if mover.turns or abs(theirs.turn) * arm.length > max(mover.depth, SLOW_TIP):
             touch = _touch_turning(space, pair, mover, move, theirs)
         elif pair.overlap > ALREADY * pair.skin:
             approach = relative.dot(pair.normal)

@@ -16,7 +16,7 @@
 
 import sys
 
-from test.bench import frames, startup
+from . import frames, startup
 
 frames.table([int(word) for word in sys.argv[1:]] or [100, 300, 1000, 3000])
 startup.table()

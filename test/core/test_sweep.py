@@ -22,7 +22,7 @@ from physsim_ros.core.shapes import Box, Chain, Compound, Disc, Polygon
 import pymunk
 import pytest
 
-from test.laws.scenes import (
+from ..laws.scenes import (
     DT,
     floor,
     NOWHERE,

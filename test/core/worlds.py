@@ -21,8 +21,17 @@ from numpy.typing import NDArray
 from physsim_ros.core.properties import Properties
 from physsim_ros.core.requests import Spawn
 from physsim_ros.core.settings import WorldSettings
-from physsim_ros.core.shapes import Box, Chain, Color, Compound, Disc, Polygon, Pose, Shape
-from physsim_ros.core.shapes import Triangles
+from physsim_ros.core.shapes import (
+    Box,
+    Chain,
+    Color,
+    Compound,
+    Disc,
+    Polygon,
+    Pose,
+    Shape,
+    Triangles,
+)
 from physsim_ros.core.snapshot import Body
 from physsim_ros.core.world import World
 
@@ -44,8 +53,9 @@ SHAPES: dict[str, Shape] = {
     'triangle': TRIANGLE,
     'ell': ELL,
     'chain': Chain(points=((-1.0, 0.0), (0.0, 0.2), (1.0, 0.0)), thickness=0.1),
-    'triangles': Triangles(vertices=((0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 0.0), (1.0, 1.0),
-                                     (0.0, 1.0))),
+    'triangles': Triangles(
+        vertices=((0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))
+    ),
     'discs': Compound(element=Disc(radius=0.25), centers=((-0.3, 0.0), (0.3, 0.0), (0.0, 0.4))),
     'boxes': Compound(element=Box(width=0.4, height=0.2), centers=((0.0, 0.0), (1.0, 0.0))),
 }

@@ -20,7 +20,7 @@ import numpy as np
 from physsim_ros.core.shapes import Box, Disc
 import pytest
 
-from test.laws.scenes import DT, G, NOWHERE, simulation, spawn, steps, turned, walls
+from .scenes import DT, G, NOWHERE, simulation, spawn, steps, turned, walls
 
 
 @pytest.mark.parametrize('side', [0, 40, 90, 180, 270])

@@ -22,7 +22,7 @@ from physsim_ros.core.requests import Command
 from physsim_ros.core.shapes import Box, Chain, Disc
 import pytest
 
-from test.laws.scenes import (
+from .scenes import (
     corners,
     cross,
     depth_in_box,

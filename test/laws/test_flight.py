@@ -21,7 +21,7 @@ from physsim_ros.core.requests import Command
 from physsim_ros.core.shapes import Box, Compound, Disc, Polygon
 import pytest
 
-from test.laws.scenes import DT, G, simulation, spawn, steps
+from .scenes import DT, G, simulation, spawn, steps
 
 SHAPES = {
     'disc': Disc(radius=0.5),

@@ -21,7 +21,7 @@ from physsim_ros.core.requests import Command
 from physsim_ros.core.shapes import Box, Disc
 import pytest
 
-from test.laws.scenes import floor, G, run, simulation, spawn, turned
+from .scenes import floor, G, run, simulation, spawn, turned
 
 DIRECTIONS = [-1, 1]
 

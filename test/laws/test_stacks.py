@@ -20,7 +20,7 @@ import numpy as np
 from physsim_ros.core.shapes import Box
 import pytest
 
-from test.laws.scenes import floor, run, simulation, spawn, walls
+from .scenes import floor, run, simulation, spawn, walls
 
 ORDERS = {
     'bottom up': list(range(10)),

@@ -20,7 +20,7 @@ import numpy as np
 from physsim_ros.core.shapes import Box, Chain, Compound, Disc, Polygon
 import pytest
 
-from test.laws.scenes import NOWHERE, simulation, spawn, steps, turned
+from .scenes import NOWHERE, simulation, spawn, steps, turned
 
 MIRRORS = [math.radians(angle) for angle in (90, 0, 30)]
 
