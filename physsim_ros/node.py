@@ -158,7 +158,7 @@ class PhysSimNode(Node):
 
     @property
     def frame_period(self) -> float:
-        """Simulation time from one frame to the next at speed 1 [s]."""
+        """Return the simulation time from one frame to the next at speed 1 [s]."""
         return self.simulation.frame_steps * self.simulation.world.dt
 
     def _watch(self) -> None:

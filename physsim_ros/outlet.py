@@ -131,7 +131,7 @@ class Outlet:
 
     @property
     def state(self) -> str:
-        """Where it leads, how it is, and what came through."""
+        """Tell where it leads, how it is, and what came through."""
         counts = f'{self._drawn} frames, {self._dropped} dropped'
         return f'{self._way.kind}: {self._way.where}, {self._status}, {counts}'
 

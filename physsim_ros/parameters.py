@@ -58,7 +58,7 @@ class Spec:
 
     @property
     def kind(self) -> Type:
-        """The ROS type."""
+        """Return the ROS type."""
         if isinstance(self.default, list):
             return Type.DOUBLE_ARRAY
         kind: Type = Type.from_parameter_value(self.default)
@@ -66,7 +66,7 @@ class Spec:
 
     @property
     def descriptor(self) -> ParameterDescriptor:
-        """The description that tools show."""
+        """Return the description that tools show."""
         descriptor = ParameterDescriptor(
             description=self.meaning,
             read_only=self.read_only,

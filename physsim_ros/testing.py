@@ -47,6 +47,8 @@ if TYPE_CHECKING:
 _DOMAINS = range(1, 102)
 # Wall seconds for what happens in this process within milliseconds.
 _PATIENCE = 10.0
+# The same for each marker of an array, which takes half a millisecond.
+_PATIENCE_EACH = 0.01
 # Messages that answer messages end some time; two nodes that answer each other for ever do not.
 _MOST_ROUNDS = 100
 
@@ -221,7 +223,8 @@ class PhysSim:
             self.node.apply()
             return len(received) >= earlier + answers
 
-        self._spin_until(answered, f'no answer to {topic}')
+        patience = _PATIENCE + _PATIENCE_EACH * (earlier + answers)
+        self._spin_until(answered, f'no answer to {topic}', patience)
         self.settle()
         last = earlier + answers
         received = received[earlier:last]
@@ -242,7 +245,7 @@ class PhysSim:
 
     @property
     def time(self) -> float:
-        """Simulation time [s]."""
+        """Return the simulation time [s]."""
         return self._snapshot.stamp * 1e-9
 
     @property
@@ -316,8 +319,10 @@ class PhysSim:
             turns += 1
         return turns
 
-    def _spin_until(self, predicate: Callable[[], object], otherwise: str) -> None:
-        deadline = time.monotonic() + _PATIENCE
+    def _spin_until(
+        self, predicate: Callable[[], object], otherwise: str, patience: float = _PATIENCE
+    ) -> None:
+        deadline = time.monotonic() + patience
         while not predicate():
             if time.monotonic() > deadline:
                 raise TimeoutError(otherwise)

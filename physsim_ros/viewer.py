@@ -86,7 +86,7 @@ class Viewer:
 
     @property
     def state(self) -> str:
-        """What is shown where, in a sentence."""
+        """Tell what is shown where, in a sentence."""
         return '; '.join(outlet.state for outlet in self._outlets) or 'none'
 
     def show(self, frame: Frame, *, real_time_factor: float) -> None:

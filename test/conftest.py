@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 @pytest.fixture
 def client(physsim: PhysSim) -> Client:
     """Give a test a client of its world."""
-    from test.client import Client  # noqa: PLC0415 - see above
+    from .client import Client  # noqa: PLC0415 - see above
 
     return Client(physsim)
 
@@ -42,7 +42,7 @@ def outside(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Outside]:
     """Give a module processes of its own, on a domain of their own."""
     from physsim_ros.testing import own_domain  # noqa: PLC0415 - see above
 
-    from test.outside import Outside  # noqa: PLC0415
+    from .outside import Outside  # noqa: PLC0415
 
     with own_domain() as domain, ExitStack() as closing:
         yield Outside(tmp_path_factory.mktemp('outside'), domain, closing)

@@ -137,7 +137,7 @@ class Outside:
         """Run one of the programs that know the world by its topics alone; return what it saw."""
         path = ROOT / 'test' / 'elsewhere' / f'{name}.py'
         with self.start(sys.executable, path, *arguments) as program:
-            line = program.wait_for('RESULT', 3 * PATIENCE)
+            line = program.wait_for('RESULT', 5 * PATIENCE)
             assert program.finish() == 0, ''.join(program.lines)
         result: dict[str, Any] = json.loads(line.partition(' ')[2])
         return result

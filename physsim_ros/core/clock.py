@@ -48,7 +48,7 @@ class Clock:
 
     @property
     def speed(self) -> float:
-        """Simulation seconds a second; 0 is paused."""
+        """Return simulation seconds a second; 0 is paused."""
         return self._speed
 
     @speed.setter

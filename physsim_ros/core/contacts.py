@@ -39,6 +39,8 @@ _PLACES = _F.NORMAL | _F.CONTACT_COUNT | _F.POINT_A_1 | _F.POINT_B_1 | _F.POINT_
 # More pairs than this that come and go in a step, and looking for what stayed is no longer cheaper
 # than sorting all of them.
 _MOST_EDITS = 32
+# Normals whose mean is shorter than this have none.
+OPPOSED = 1e-6
 
 
 class ContactLog:
@@ -131,7 +133,7 @@ class ContactLog:
             return NO_CONTACTS
         if self._listing is None or not self._listing.holds(touching, ids):
             self._listing = _list(touching, ids, rows)
-        return self._listing.contacts(places, sums, centers)
+        return self._listing.contacts(places, sums, centers, len(self._ids))
 
     def _last_places(self, pairs: Ids) -> Floats:
         """Return (m, 5) float64: where pairs that have parted touched last, as far as known."""
@@ -229,21 +231,47 @@ class _Listing:
         """Tell whether the same touch as when this was made."""
         return self.ids is ids and np.array_equal(self.touching, touching)
 
-    def contacts(self, places: Floats, sums: Floats, centers: Floats) -> Contacts:
-        """Return the contacts, from what is known of each in the engine's order."""
+    def contacts(self, places: Floats, sums: Floats, centers: Floats, current: int) -> Contacts:
+        """
+        Return the contacts, from what is known of each in the engine's order.
+
+        :param current: so many touch still, those that come first
+        """
         # The engine's impulse acts on the first body; the log tells what the first gives.
         impulses = (sums * -self.sign)[self.order]
-        latest = self.order[self.first]
-        if len(latest) < len(self.order):
+        places = places[self.order]
+        places[:, :2] *= self.sign[self.order]
+        if len(self.first) < len(self.order):
             impulses = np.add.reduceat(impulses, self.first, axis=0)
+            places = self._means(places, self.order < current)
         contacts = Contacts(
-            pairs=self.pairs,
-            points=places[latest, 3:],
-            normals=places[latest, :2] * self.sign[latest],
-            impulses=impulses,
+            pairs=self.pairs, points=places[:, 3:], normals=places[:, :2], impulses=impulses
         )
-        _place_overlaps(contacts, places[latest, 2] == 0, centers)
+        _place_overlaps(contacts, places[:, 2] == 0, centers)
         return contacts
+
+    def _means(self, places: Floats, current: NDArray[np.bool_]) -> Floats:
+        """
+        Return one place for each pair: the mean over its points, which is of no order.
+
+        The engine lists the contacts of a pair by addresses, another way each time.
+
+        :param current: which touch still; the others count only where none of the pair does
+        """
+        pairs = np.repeat(np.arange(len(self.first)), np.diff(self.first, append=len(current)))
+        counts = places[:, 2] * (current | ~np.logical_or.reduceat(current, self.first)[pairs])
+        means = np.add.reduceat(places * counts[:, None], self.first, axis=0)
+        means[:, 2] = np.add.reduceat(counts, self.first)
+        means[:, 3:] /= np.maximum(means[:, 2:3], 1.0)
+        length = np.hypot(means[:, 0], means[:, 1])
+        # Squeezed from both sides, it has the normal of one of them.
+        angles = np.maximum.reduceat(np.arctan2(places[:, 1], places[:, 0]), self.first)
+        means[:, :2] = np.where(
+            (length > OPPOSED * means[:, 2])[:, None],
+            means[:, :2] / np.maximum(length, 1e-300)[:, None],
+            np.column_stack((np.cos(angles), np.sin(angles))),
+        )
+        return means
 
 
 def _list(touching: Ids, ids: Ids, rows: Ints) -> _Listing:

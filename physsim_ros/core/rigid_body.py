@@ -55,12 +55,12 @@ class RigidBody:
 
     @property
     def offset(self) -> Point:
-        """The engine's origin in the body's frame [m]."""
+        """Return the engine's origin in the body's frame [m]."""
         return (0.0, 0.0) if self.body.anchored else self.body.shape.form.centroid
 
     @property
     def pose(self) -> Pose:
-        """The body's origin in the world [m, rad]."""
+        """Return the body's origin in the world [m, rad]."""
         x, y = self.engine.position
         yaw = self.engine.angle
         offset_x, offset_y = rotated(self.offset, yaw)
@@ -103,7 +103,7 @@ class RigidBody:
 
     @property
     def motion(self) -> Motion:
-        """The engine's own numbers."""
+        """Return the engine's own numbers."""
         x, y = self.engine.position
         vx, vy = self.engine.velocity
         return Motion(x, y, self.engine.angle, vx, vy, self.engine.angular_velocity, self.free)

@@ -70,7 +70,7 @@ class Simulation:
 
     @property
     def speed(self) -> float:
-        """Simulation seconds a second; 0 is paused."""
+        """Return simulation seconds a second; 0 is paused."""
         return self._clock.speed
 
     @speed.setter

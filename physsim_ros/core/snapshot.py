@@ -68,7 +68,7 @@ class Body:
 
     @property
     def weight(self) -> float:
-        """The mass that counts [kg]."""
+        """Return the mass that counts [kg]."""
         return self.density * self.shape.form.area if self.mass is None else self.mass
 
     @property

@@ -231,6 +231,7 @@ class Space:
 
     def _raise_walls(self) -> None:
         self._space.remove(*self._walls)
+        self._contacts.forget(self._space.static_body.id)
         self._walls = []
         if self._settings.bounds is None:
             return

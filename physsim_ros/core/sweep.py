@@ -44,9 +44,9 @@ ROUNDS = 16
 ALREADY = 0.99
 # Of a body that turns fast so many poses along its way are looked at, at most, and so often is the
 # part between the last clear one and the next halved. Each costs as much as a query: a stick that
-# is spun like a propeller may miss what is thinner than a twelfth of its way.
-MOST_POSES = 12
-HALVINGS = 4
+# is spun like a propeller may miss what is thinner than a share of its way.
+MOST_POSES = 24
+HALVINGS = 5
 # A tip that goes less far than this in a step [m] is no propeller: what it overlaps, the engine
 # still pushes back out.
 SLOW_TIP = 0.02
@@ -257,16 +257,15 @@ def _near(space: pymunk.Space, mover: _Mover, reach: float) -> Iterator[_Pair]:
             start.left + left, start.bottom + bottom, start.right + right, start.top + top
         )
         for other in space.bb_query(around, own.filter):
-            if other.sensor or other.body is engine or other.body in apart:
-                continue
-            contact, skin = touching.get(other), _skin(own, other, mover.skin)
-            overlap = 0.0 if contact is None else _depth(contact)
-            if overlap > ALREADY * skin and _body(other).body_type == pymunk.Body.DYNAMIC:
-                # The engine is at work on these two; if they waited for each other here too,
-                # neither would ever move.
-                continue
-            normal = Vec2d.zero() if contact is None else contact.normal
-            yield _Pair(own, other, overlap, normal, skin)
+            if not (other.sensor or _body(other) is engine or _body(other) in apart):
+                contact = touching.get(other)
+                yield _Pair(
+                    own,
+                    other,
+                    0.0 if contact is None else _depth(contact),
+                    Vec2d.zero() if contact is None else contact.normal,
+                    _skin(own, other, mover.skin),
+                )
 
 
 def _stop(

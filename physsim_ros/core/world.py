@@ -87,7 +87,7 @@ class World:
 
     @property
     def settings(self) -> WorldSettings:
-        """What holds for the whole world."""
+        """Return what holds for the whole world."""
         return self._settings
 
     def settings_with(self, changes: Mapping[str, Any]) -> WorldSettings:
@@ -100,7 +100,7 @@ class World:
 
     @property
     def stamp(self) -> int:
-        """Simulation time [ns]."""
+        """Return the simulation time [ns]."""
         return round(self.step_count * 1e9 / self.physics_rate)
 
     def snapshot(self) -> Snapshot:

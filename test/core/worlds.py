@@ -59,6 +59,17 @@ SHAPES: dict[str, Shape] = {
     'discs': Compound(element=Disc(radius=0.25), centers=((-0.3, 0.0), (0.3, 0.0), (0.0, 0.4))),
     'boxes': Compound(element=Box(width=0.4, height=0.2), centers=((0.0, 0.0), (1.0, 0.0))),
 }
+# A point that lies in each of them, and not on its edge.
+INSIDE = {
+    'disc': (0.1, 0.2),
+    'box': (0.4, 0.2),
+    'triangle': (0.5, 0.5),
+    'ell': (0.5, 1.5),
+    'chain': (0.5, 0.1),
+    'triangles': (0.8, 0.8),
+    'discs': (-0.3, 0.1),
+    'boxes': (1.0, 0.05),
+}
 
 
 def spawning(

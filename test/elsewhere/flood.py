@@ -45,7 +45,9 @@ def main() -> None:
         else:
             array.publish(MarkerArray(markers=markers))
         sent = time.monotonic()
-        visitor.spin_until(lambda: len(events) >= count, f'{count} answers; {len(events)} came')
+        visitor.spin_until(
+            lambda: len(events) >= count, f'{count} answers to {topic}; {len(events)} came'
+        )
         answered = time.monotonic()
         # Should anything be answered twice, that comes before this is answered.
         spawn.publish(Marker(ns='nobody', action=Marker.DELETE))
