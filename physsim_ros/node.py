@@ -155,6 +155,8 @@ class PhysSimNode(Node):
         frame = self.simulation.settle()
         if frame is not None:
             self.deliver(frame)
+        else:
+            self._streams.tell()
 
     @property
     def frame_period(self) -> float:

@@ -23,13 +23,16 @@ unseen too, when the scene has changed and every `QUIET` frames.
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable
+import time
 from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import PoseArray
 from physsim_ros import cdr
 from physsim_ros.core.snapshot import Answer, Frame
+from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
@@ -39,6 +42,11 @@ from visualization_msgs.msg import MarkerArray
 
 # Frames from one unseen picture to the next: a second of them.
 QUIET = 60
+# The depth of `~/events`. A burst is longer, and what has not arrived when it is pushed out is
+# lost, so that more wait for it.
+KEPT_ANSWERS = 1000
+# Whoever has not taken them after that long has stopped [s]. Fast DDS asks after 3.
+PATIENCE = 5.0
 
 Encode = Callable[[Frame], bytes | None]
 
@@ -88,7 +96,11 @@ class Streams:
                 lambda it: markers.encode(it.snapshot),
             ),
         )
-        self._events = publisher(DiagnosticStatus, '~/events', 1000)
+        self._events = publisher(DiagnosticStatus, '~/events', KEPT_ANSWERS)
+        self._answers: deque[bytes] = deque()
+        # Answers since all were known to have arrived, and until when more of them wait for that.
+        self._unheard = 0
+        self._held_until: float | None = None
         self._last: Frame | None = None
 
     @property
@@ -107,20 +119,42 @@ class Streams:
 
     def publish(self, frame: Frame) -> None:
         """Publish the streams of a frame that somebody subscribes to; answers go to `report`."""
+        self.tell()
         self._last = frame
         for stream in (*self._lasting, self._contacts):
             stream.publish(frame)
 
     def welcome(self) -> None:
         """Publish the last frame again where a subscriber has come since; for idle ticks."""
+        self.tell()
         if self._last is not None:
             for stream in self._lasting:
                 stream.welcome(self._last)
 
     def report(self, answer: Answer) -> None:
-        """Publish what became of a request."""
+        """Publish what became of a request, once listeners have kept up with those before."""
         if self._events.get_subscription_count():
-            self._events.publish(cdr.encode_event(answer))
+            self._answers.append(cdr.encode_event(answer))
+            if len(self._answers) == 1:
+                self.tell()
+
+    def tell(self) -> None:
+        """Publish the answers that wait for listeners to keep up; for every tick."""
+        while self._answers and self._heard():
+            self._events.publish(self._answers.popleft())
+            self._unheard += 1
+
+    def _heard(self) -> bool:
+        """Tell whether one more answer pushes none out that has not arrived."""
+        if self._unheard < KEPT_ANSWERS:
+            return True
+        now = time.monotonic()
+        if self._held_until is None:
+            self._held_until = now + PATIENCE
+        if now < self._held_until and not self._events.wait_for_all_acked(Duration()):
+            return False
+        self._unheard, self._held_until = 0, None
+        return True
 
 
 class _Stream:

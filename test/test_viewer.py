@@ -46,8 +46,6 @@ pytestmark = pytest.mark.filterwarnings('ignore:RRD file has no footer')
 
 # Ten times what anything here takes; importing Rerun alone is a second.
 PATIENCE = 20.0
-# Showing a frame takes 10 µs, but the machine may be busy; Rerun would wait 5 s, or for ever.
-NO_TIME = 0.25
 
 BOX = Body(
     name='box/0',
@@ -84,13 +82,8 @@ def until(predicate, timeout=PATIENCE):
 
 
 def show(viewer, count, first=0):
-    """Show frames; return the longest that one took [s]."""
-    longest = 0.0
     for step in range(first, first + count):
-        began = time.perf_counter()
         viewer.show(frame(step), real_time_factor=1.0)
-        longest = max(longest, time.perf_counter() - began)
-    return longest
 
 
 def bulk():
@@ -344,17 +337,12 @@ def test_where_no_window_can_be_opened_it_becomes_a_page(viewers, monkeypatch):
 # Connecting
 
 
-def test_nobody_at_the_other_end_costs_no_time_and_is_said(viewers):
+def test_nobody_at_the_other_end_holds_nothing_up_and_is_said(viewers):
     viewer = viewers(mode=ViewerMode.CONNECT, url=f'rerun+http://127.0.0.1:{free_port()}/proxy')
 
-    # Loading Rerun's library holds up all Python for a moment, once.
     until(lambda: 'nobody there' in viewer.state)
-    longest = show(viewer, 1000)
-    began = time.monotonic()
+    show(viewer, 1000)
     viewer.close()
-
-    assert longest < NO_TIME
-    assert time.monotonic() - began < NO_TIME + 1.0
 
 
 def test_an_address_that_is_none_is_told(viewers):
@@ -398,7 +386,7 @@ def test_a_server_that_goes_and_comes_again_is_found_again(viewers, server):
 
 # The whole life of a process whose viewer freezes: a frozen one would keep this one from ending.
 FROZEN = """
-    import os, signal, sys, threading, time
+    import os, signal, sys, threading
     from test.test_viewer import bulk, Events, frame, until
     from physsim_ros.viewer import Viewer, ViewerMode
 
@@ -407,22 +395,18 @@ FROZEN = """
     events = Events(viewer)
     until(lambda: viewer.state.count('open') == 2)
     os.kill(server, signal.SIGSTOP)
-    longest, step = 0.0, 0
+    step = 0
     while 'takes nothing' not in viewer.state:
-        one = frame(step, bulk())
-        began = time.perf_counter()
-        viewer.show(one, real_time_factor=1.0)
-        longest = max(longest, time.perf_counter() - began)
+        viewer.show(frame(step, bulk()), real_time_factor=1.0)
         step += 1
         threading.Event().wait(0.01)
     events.wait_for('viewer_lost')
-    began = time.perf_counter()
     viewer.close()
-    print(longest, time.perf_counter() - began, step)
+    print(step)
 """
 
 
-def test_a_frozen_viewer_delays_neither_frames_nor_closing_nor_the_end(server, tmp_path):
+def test_a_frozen_viewer_holds_up_neither_frames_nor_closing_nor_the_end(server, tmp_path):
     server.start()
     path = tmp_path / 'it.rrd'
     arguments = [server.url, str(path), str(server.process.pid)]
@@ -436,11 +420,8 @@ def test_a_frozen_viewer_delays_neither_frames_nor_closing_nor_the_end(server, t
         check=True,
     )
 
-    longest, closing, steps = map(float, done.stdout.split())
-    assert longest < NO_TIME
-    assert closing < 3.0
-    # The file is whole all the same.
-    assert rows(path)['/events'] == steps
+    # It came to its end, and the file is whole all the same.
+    assert rows(path)['/events'] == int(done.stdout)
 
 
 def test_a_viewer_that_thaws_is_shown_what_is_new(viewers, server):
@@ -513,13 +494,11 @@ def test_putting_a_frame_never_waits_for_drawing():
     outlet.put(frame(0), real_time_factor=1.0)
     assert way.entered.wait(PATIENCE)
 
-    began = time.perf_counter()
     outlet.put(frame(1), real_time_factor=1.0)
-    took = time.perf_counter() - began
+    assert not way.release.is_set()
     way.release.set()
     outlet.end()
 
-    assert took < NO_TIME
     assert outlet.join()
 
 

@@ -143,7 +143,7 @@ class ContactLog:
             at = np.flatnonzero((ids[:, 0] == a) & (ids[:, 1] == b))
             place = tuple(known[at[0]]) if len(at) else (1.0, 0.0, 0.0, 0.0, 0.0)
             rows.append(self._begun.get((a, b), place))
-        return np.array(rows)
+        return np.array(rows, dtype=np.float64).reshape(-1, 5)
 
     def _read_places(self) -> Floats:
         """Return (m, 5) float64: normal, count of points, mean point, of the last step."""

@@ -33,6 +33,7 @@ from visualization_msgs.msg import Marker
 # Many times what each wait is expected to take, on a machine that is busy with other tests [s].
 PATIENCE = 90.0
 ALL = QoSProfile(history=HistoryPolicy.KEEP_ALL, reliability=ReliabilityPolicy.RELIABLE)
+LAST = QoSProfile(depth=1, reliability=ReliabilityPolicy.RELIABLE)
 KEPT = QoSProfile(
     depth=1,
     reliability=ReliabilityPolicy.RELIABLE,
@@ -68,6 +69,14 @@ class Visitor:
         subscription = self.node.create_subscription(kind, topic, received.append, qos)
         self.spin_until(subscription.get_publisher_count, f'{topic} published')
         return received
+
+    def read(self, kind: type, topic: str) -> Any:
+        """Return one message of a topic."""
+        received: list[Any] = []
+        subscription = self.node.create_subscription(kind, topic, received.append, LAST)
+        self.spin_until(lambda: received, f'a message on {topic}')
+        self.node.destroy_subscription(subscription)
+        return received[0]
 
     def greet(self, events: list[DiagnosticStatus], publisher: Any) -> None:
         """Ask for what is not there until that is answered: then both directions have met."""
