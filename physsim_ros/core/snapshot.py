@@ -127,7 +127,7 @@ class WorldState:
 
     settings: WorldSettings
     bodies: tuple[BodyState, ...] = ()
-    memory: ContactMemory | None = None
+    memory: ContactMemory | None = field(default=None, compare=False)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -126,6 +126,10 @@ class Space:
         layout = self._lay_out()
         return self._contacts.take(layout.ids, layout.id_rows, centers)
 
+    def clear_contacts(self) -> None:
+        """Forget what touched since the last call of `contacts`."""
+        self._contacts.clear()
+
     def essence(self) -> Iterator[bytes]:
         """Yield everything that decides how the bodies go on."""
         layout = self._lay_out()
