@@ -42,8 +42,6 @@ _FRAMES_A_CALL = 2
 KEYFRAMES = 2.0
 # What is kept of what was shown [bytes]: all of ten minutes of 20 bodies, two minutes of 300.
 MOST_KEPT = 64 * 2**20
-# What the same is bounded by for each body and frame of the history [bytes]: its pose.
-KEPT_EACH = 24
 # So many steps back can be redone.
 MOST_UNDONE = 100
 
