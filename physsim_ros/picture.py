@@ -30,6 +30,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from physsim_ros import band
 from physsim_ros.core.settings import Bounds
 from physsim_ros.core.snapshot import Answer, Floats, Frame, Snapshot
 from physsim_ros.layout import (
@@ -96,6 +97,7 @@ class Picture:
         # Entities that are not empty, and where the bodies were drawn last.
         self._drawn: set[str] = set()
         self._poses: Floats = np.empty((0, 3))
+        self._band = band.Band(recording)
         recording.send_blueprint(blueprint())
         self._send_styles()
 
@@ -119,7 +121,7 @@ class Picture:
             self._recording.send_columns('real_time_factor', times, factor)
 
     def _is_new(self, frame: Frame) -> bool:
-        if self._last is None or frame.moved or frame.answers:
+        if self._last is None or frame.moved or frame.answers or frame.speed != self._last.speed:
             return True
         before, now = self._last.snapshot, frame.snapshot
         return now.scene is not before.scene or not np.array_equal(now.poses, before.poses)
@@ -152,6 +154,7 @@ class Picture:
         self._send_energy(frames, numbers)
         self._send_contacts(frames, times)
         self._send_events(frames, numbers)
+        self._band.draw(frames, numbers)
         self._count += len(frames)
 
     def _look_at(self, layout: Layout, motion: Motion) -> None:
@@ -357,6 +360,7 @@ def blueprint() -> rrb.Blueprint:
                 visual_bounds=rrb.VisualBounds2D(x_range=(0, WIDTH), y_range=(0, HEIGHT)),
             ),
             rrb.Vertical(
+                band.view(),
                 rrb.TimeSeriesView(
                     origin='energy',
                     name='Energy [J]',
@@ -374,7 +378,7 @@ def blueprint() -> rrb.Blueprint:
                     name='Events',
                     columns=rrb.TextLogColumns(text_log_columns=['loglevel', 'body']),
                 ),
-                row_shares=[3, 2, 2],
+                row_shares=[2, 3, 2, 2],
             ),
             column_shares=[3, 1],
         ),
