@@ -1,0 +1,77 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""What going back costs: how long a seek takes, how long a keyframe stalls, what the past weighs."""
+
+from __future__ import annotations
+
+import gc
+import random
+import statistics
+
+from physsim_ros.core.simulation import Simulation
+
+from .frames import fill, timed
+
+SEEKS = 15
+# How far the world has come before it is sent back [s].
+LENGTHS = {100: 600, 1000: 60}
+
+
+def measure(count: int, seconds: int) -> None:
+    """Print a row for a count of bodies."""
+    simulation = Simulation()
+    fill(simulation.world, count)
+    gc.collect()
+    gc.freeze()
+    frames = [timed(simulation.advance_frame) for _ in range(60 * seconds)]
+    timeline = simulation._timeline
+    head, oldest = timeline.history.head, timeline.history.oldest
+    # A frame that begins with a keyframe, less what the frame itself costs.
+    stalls = sorted(frames)[-len(timeline.history.keyframes) // 2 :]
+    usual = statistics.median(frames)
+    keys = [mark.key for mark in timeline.history.keyframes]
+    arrays = [
+        array
+        for key in keys
+        for array in (key.state, key.free, key.memory.pairs, key.memory.hashes)
+    ]
+    bytes_kept = sum(array.nbytes for array in arrays)
+    bytes_kept += sum(key.memory.impulses.nbytes + key.memory.ids.nbytes for key in keys)
+    rng = random.Random(count)
+    print(
+        f'{count:6} {usual:10.2f} {statistics.median(stalls) - usual:12.1f}'
+        f' {bytes_kept / seconds * 60 / 1e6:14.2f} {simulation._past.size / 1e6:12.1f}',
+        end='',
+    )
+    for distance in (1, 10, seconds):
+        steps = [
+            max(oldest, head - round(rng.uniform(0.5, 1.0) * distance * 240))
+            for _ in range(SEEKS)
+        ]
+        times = []
+        for step in steps:
+            simulation.seek(round(head / 240 * 1e9))
+            times.append(timed(lambda step=step: simulation.seek(round(step / 240 * 1e9))))
+        print(f'   {statistics.median(times):5.0f} {max(times):5.0f}', end='')
+    print(f'   ({seconds} s)', flush=True)
+    gc.unfreeze()
+
+
+def table() -> None:
+    """Print a row for each count of bodies."""
+    print('Going back in the history of a settled pile; seek: median and longest [ms]')
+    print('bodies frame [ms] keyframe [ms] keyframes [MB/min] shots [MB]  seek 1 s   10 s   all')
+    for count, seconds in LENGTHS.items():
+        measure(count, seconds)
