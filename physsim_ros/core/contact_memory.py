@@ -24,60 +24,90 @@ Law: two spaces built from one memory go on alike to the bit.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
+from typing import Any
 
 import numpy as np
 from physsim_ros.core.snapshot import ContactMemory
 import pymunk
 from pymunk._chipmunk_cffi import lib
 
+# ruff: noqa: SLF001
 
-def recall(
-    space: pymunk.Space, bodies: Iterable[pymunk.Body], walls: Sequence[pymunk.Shape]
-) -> ContactMemory:
-    """
-    Return what the space remembers.
 
-    :param bodies: of the world, in spawn order
-    :param walls: of the background
+class ShapeIds:
     """
-    ids = [_id(next(iter(body.shapes))) for body in bodies]
-    names = {shape._shape: _id(shape) for shape in space.shapes}  # noqa: SLF001
-    pairs: list[tuple[int, int]] = []
-    hashes: list[int] = []
-    impulses: list[tuple[float, float]] = []
-    for arbiter in space._get_arbiters():  # noqa: SLF001
-        a, b = names[arbiter.a], names[arbiter.b]
-        pair = (a, b) if a < b else (b, a)
-        for number in range(arbiter.count):
-            contact = arbiter.contacts[number]
-            pairs.append(pair)
-            hashes.append(contact.hash)
-            impulses.append((contact.jnAcc, contact.jtAcc))
-    pairs_array = np.array(pairs, dtype=np.int64).reshape(-1, 2)
-    hashes_array = np.array(hashes, dtype=np.uint64)
+    The engine's numbers of the shapes in a space: its contacts know them by these.
+
+    :param space: where they are
+    """
+
+    def __init__(self, space: pymunk.Space) -> None:
+        self._space = space
+        self._numbers: dict[Any, int] = {}
+
+    @property
+    def following(self) -> int:
+        """Return the number that the next shape gets."""
+        number: int = lib.cpSpaceGetShapeIDCounter(self._space._space)
+        return number
+
+    @following.setter
+    def following(self, number: int) -> None:
+        lib.cpSpaceSetShapeIDCounter(self._space._space, number)
+
+    def add(self, shapes: Collection[pymunk.Shape]) -> int:
+        """Add shapes to the space, and return the number of the first."""
+        first = self.following
+        self._space.add(*shapes)
+        for number, shape in enumerate(shapes, first):
+            self._numbers[shape._shape] = number
+        return first
+
+    def remove(self, shapes: Iterable[pymunk.Shape]) -> None:
+        """Remove shapes from the space."""
+        for shape in shapes:
+            del self._numbers[shape._shape]
+        self._space.remove(*shapes)
+
+    def contacts(self) -> Iterator[tuple[int, int, Any]]:
+        """Yield the contact points of the last step: numbers of the two shapes, lesser first."""
+        numbers = self._numbers
+        for arbiter in self._space._get_arbiters():
+            a, b = numbers[arbiter.a], numbers[arbiter.b]
+            if a > b:
+                a, b = b, a
+            for place in range(arbiter.count):
+                yield a, b, arbiter.contacts[place]
+
+
+def recall(shapes: ShapeIds, ids: Sequence[int], walls: int) -> ContactMemory:
+    """
+    Return what a space remembers.
+
+    :param shapes: in the space
+    :param ids: number of the first shape of each body, in spawn order
+    :param walls: number of the first wall
+    """
+    rows = [(a, b, each.hash, each.jnAcc, each.jtAcc) for a, b, each in shapes.contacts()]
     # The engine lists by address, which is never the same twice.
-    order = np.lexsort((hashes_array, pairs_array[:, 1], pairs_array[:, 0]))
+    rows.sort()
     return ContactMemory(
         ids=np.array(ids, dtype=np.int64),
-        walls=_id(walls[0]) if walls else 0,
-        following=lib.cpSpaceGetShapeIDCounter(space._space),  # noqa: SLF001
-        pairs=pairs_array[order],
-        hashes=hashes_array[order],
-        impulses=np.array(impulses, dtype=np.float64).reshape(-1, 2)[order],
+        walls=walls,
+        following=shapes.following,
+        pairs=np.array([row[:2] for row in rows], dtype=np.int64).reshape(-1, 2),
+        hashes=np.array([row[2] for row in rows], dtype=np.uint64),
+        impulses=np.array([row[3:] for row in rows], dtype=np.float64).reshape(-1, 2),
     )
 
 
-def number_from(space: pymunk.Space, first: int) -> None:
-    """Let the shapes that are added next have ids from this one on: contacts know them by it."""
-    lib.cpSpaceSetShapeIDCounter(space._space, first)  # noqa: SLF001
-
-
-def remind(space: pymunk.Space, memory: ContactMemory, dt: float) -> None:
+def remind(space: pymunk.Space, shapes: ShapeIds, memory: ContactMemory, dt: float) -> None:
     """
     Give a space that has not stepped yet what another one remembered.
 
     :param space: its bodies where they were, and without velocities, which are spoiled
+    :param shapes: in it, under the numbers that they had
     :param dt: of its steps [s]
     """
     # A step in which nothing moves and nothing is pushed apart has the engine find the contacts.
@@ -91,16 +121,6 @@ def remind(space: pymunk.Space, memory: ContactMemory, dt: float) -> None:
             memory.pairs.tolist(), memory.hashes.tolist(), memory.impulses.tolist(), strict=True
         )
     }
-    names = {shape._shape: _id(shape) for shape in space.shapes}  # noqa: SLF001
-    for arbiter in space._get_arbiters():  # noqa: SLF001
-        a, b = names[arbiter.a], names[arbiter.b]
-        pair = (a, b) if a < b else (b, a)
-        for number in range(arbiter.count):
-            contact = arbiter.contacts[number]
-            contact.jnAcc, contact.jtAcc = known.get((*pair, contact.hash), (0.0, 0.0))
-    number_from(space, memory.following)
-
-
-def _id(shape: pymunk.Shape) -> int:
-    identity: int = shape._hashid  # noqa: SLF001
-    return identity
+    for a, b, contact in shapes.contacts():
+        contact.jnAcc, contact.jtAcc = known.get((a, b, contact.hash), (0.0, 0.0))
+    shapes.following = memory.following

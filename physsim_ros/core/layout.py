@@ -28,7 +28,7 @@ import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.core import stillness, sweep
 from physsim_ros.core.contacts import Ids
-from physsim_ros.core.rigid_body import RigidBody
+from physsim_ros.core.rigid_body import REST, RigidBody
 from physsim_ros.core.snapshot import Floats, Ints, Scene
 
 
@@ -71,6 +71,13 @@ class Layout:
     expiries: dict[int, list[str]]
     state: Floats | None = None
 
+    @property
+    def engine_ids(self) -> Ids:
+        """Return (n,) the engine's ids of the bodies, in spawn order."""
+        ids = np.empty_like(self.ids)
+        ids[self.id_rows] = self.ids
+        return ids
+
     def flatten_flight(self) -> None:
         """Give every body its own note of whether it is in free flight."""
         for place, free in zip(self.order.tolist(), self.free.tolist(), strict=True):
@@ -90,35 +97,42 @@ def lay_out(
     :param listing: the engine's ids, in the order of its own listing
     :param dt: of a step [s]
     """
-    settings = scene.settings
+    bodies = scene.bodies
     places = {id_: place for place, id_ in enumerate(listing)}
     ids = np.array([rigid.engine.id for rigid in rigids], dtype=np.uintp)
-    order = [places[id_] for id_ in ids.tolist()]
+    order = np.array([places[id_] for id_ in ids.tolist()], dtype=np.intp)
     ascending = np.argsort(ids)
     listed: list[RigidBody | None] = [None] * len(listing)
-    safe, arm = np.full(len(listing), np.inf), np.zeros(len(listing))
-    expiries: dict[int, list[str]] = {}
-    for rigid, place in zip(rigids, order, strict=True):
+    for rigid, place in zip(rigids, order.tolist(), strict=True):
         listed[place] = rigid
-        if not rigid.body.anchored and not rigid.body.sensor:
-            safe[place] = sweep.safe_depth(rigid) / dt
-            arm[place] = sweep.arm(rigid)
-        if rigid.body.expires is not None:
-            expiries.setdefault(rigid.body.expires, []).append(rigid.body.name)
-    leads = [rigid.lead(settings.gravity, dt) for rigid in rigids]
+    swept = np.array([not (body.anchored or body.sensor) for body in bodies], dtype=np.bool_)
+    loose = np.array([not body.fixed for body in bodies], dtype=np.bool_)
+    safe, arm = np.full(len(listing), np.inf), np.zeros(len(listing))
+    safe[order] = np.where(swept, [sweep.safe_depth(body) / dt for body in bodies], np.inf)
+    arm[order] = np.where(swept, [sweep.arm(body) for body in bodies], 0.0)
+    lead = np.where(
+        loose[:, None], (*(half * dt / 2 for half in scene.settings.gravity), 0.0), 0.0
+    )
+    expiries: dict[int, list[str]] = {}
+    for body in bodies:
+        if body.expires is not None:
+            expiries.setdefault(body.expires, []).append(body.name)
+    for row, rigid in enumerate(rigids):
+        if rigid.wrench != REST:
+            lead[row] = rigid.lead(scene.settings.gravity, dt)
     return Layout(
         scene=scene,
-        rows={rigid.body.name: row for row, rigid in enumerate(rigids)},
+        rows={name: row for row, name in enumerate(scene.names)},
         ids=ids[ascending],
         id_rows=ascending,
-        order=np.array(order, dtype=np.intp),
+        order=order,
         listed=tuple(listed),
         safe=safe,
         arm=arm,
-        loose=np.array([not rigid.body.fixed for rigid in rigids], dtype=np.bool_),
+        loose=loose,
         offsets=np.array([rigid.offset for rigid in rigids]).reshape(-1, 2),
-        lead=np.array(leads).reshape(-1, 3),
+        lead=lead,
         free=np.array([rigid.free for rigid in rigids], dtype=np.bool_),
-        ground=stillness.ground(listed, listing, settings.friction),
+        ground=stillness.ground(listed, listing, scene.settings.friction),
         expiries=expiries,
     )

@@ -41,6 +41,7 @@ class RigidBody:
     :param body: what it is
     :param engine: the Pymunk body
     :param serial: counts spawns; what is spawned later lies on top
+    :param first: the engine's number of its first shape
     :param free: in free flight, so that the engine's velocity leads
     :param wrench: force [N] and torque [N m] that act on the centre of mass
     :param wrench_until: step at which the wrench ends; None is never
@@ -49,6 +50,7 @@ class RigidBody:
     body: Body
     engine: pymunk.Body
     serial: int
+    first: int = 0
     free: bool = True
     wrench: Pose = REST
     wrench_until: int | None = None

@@ -26,7 +26,8 @@ from dataclasses import replace
 import math
 
 import numpy as np
-from physsim_ros.core import contact_memory, rigid_body, sweep
+from physsim_ros.core import rigid_body, sweep
+from physsim_ros.core.contact_memory import recall, remind, ShapeIds
 from physsim_ros.core.contacts import ContactLog, Ids
 from physsim_ros.core.layout import lay_out, Layout
 from physsim_ros.core.rigid_body import REST, RigidBody
@@ -85,8 +86,10 @@ class Space:
         self._space.collision_slop = SLOP
         # The engine lists contacts of the last step only, and forgets at once what parted.
         self._space.collision_persistence = 1
+        self._shapes = ShapeIds(self._space)
         self._watching = False
         self._walls: list[pymunk.Shape] = []
+        self._first_wall = 0
         self._contacts = ContactLog(self._space)
         self._stillness = Stillness(self._space)
         self._calm_steps = max(1, round(1.0 / (RATE * dt)))
@@ -95,7 +98,7 @@ class Space:
         self._age = 0
         self.configure(settings)
         if key is not None:
-            contact_memory.number_from(self._space, key.memory.walls)
+            self._shapes.following = key.memory.walls
         self._raise_walls()
         if key is not None:
             self._fill(key, spares or {})
@@ -154,9 +157,7 @@ class Space:
                 for row, rigid in enumerate(rigids)
                 if rigid.body.name in self._pushed
             ),
-            memory=contact_memory.recall(
-                self._space, [rigid.engine for rigid in rigids], self._walls
-            ),
+            memory=recall(self._shapes, [rigid.first for rigid in rigids], self._first_wall),
         )
 
     def body_at(self, point: Point) -> str | None:
@@ -254,10 +255,21 @@ class Space:
         """Take over what an older space of the same bodies has seen of the frame so far."""
         self._contacts.inherit(old._contacts, old._engine_ids(), self._engine_ids())
 
+    def give_up(self) -> RigidBody | None:
+        """Take a body out of a space that is used no more, as good as new; None is none left."""
+        if not self.bodies:
+            return None
+        rigid = self.bodies.popitem()[1]
+        self._shapes.remove(rigid.engine.shapes)
+        self._space.remove(rigid.engine)
+        # What the last step left for the next to push out.
+        pymunk.Body.update_position(rigid.engine, 0.0)
+        rigid.wrench, rigid.wrench_until, rigid.free = REST, None, True
+        return rigid
+
     def _engine_ids(self) -> Ids:
-        """Return the engine's ids of the background and of all bodies, in spawn order."""
-        engines = (self._space.static_body, *(rigid.engine for rigid in self.bodies.values()))
-        return np.array([engine.id for engine in engines], dtype=np.uint64)
+        """Return the engine's ids of all bodies, in spawn order, and of the background."""
+        return np.append(self._lay_out().engine_ids, self._space.static_body.id)
 
     def _fill(self, key: Keyframe, spares: Mapping[str, RigidBody]) -> None:
         """Take in all bodies at once, and go on from where they were."""
@@ -275,9 +287,9 @@ class Space:
         at_rest[:, 3:] = 0.0
         self._write_state(layout, at_rest)
         for rigid, first in zip(rigids, key.memory.ids.tolist(), strict=True):
-            contact_memory.number_from(self._space, first)
-            self._space.add(*rigid.engine.shapes)
-        contact_memory.remind(self._space, key.memory, self._dt)
+            self._shapes.following = first
+            rigid.first = self._shapes.add(rigid.engine.shapes)
+        remind(self._space, self._shapes, key.memory, self._dt)
         self._write_state(layout, key.state)
         layout.free = key.free.copy()
         for row, wrench, until in key.wrenches:
@@ -293,18 +305,20 @@ class Space:
         rigid.set_twist(twist, self._settings.gravity, self._dt)
         self.bodies[rigid.body.name] = rigid
         self._names[rigid.engine] = rigid.body.name
-        self._space.add(rigid.engine, *rigid.engine.shapes)
+        self._space.add(rigid.engine)
+        rigid.first = self._shapes.add(rigid.engine.shapes)
 
     def _take(self, rigid: RigidBody) -> None:
         """Take a body out of the space."""
         self._unlay()
-        self._space.remove(rigid.engine, *rigid.engine.shapes)
+        self._shapes.remove(rigid.engine.shapes)
+        self._space.remove(rigid.engine)
         del self._names[rigid.engine]
         self._contacts.forget(rigid.engine.id)
         self._pushed.pop(rigid.body.name, None)
 
     def _raise_walls(self) -> None:
-        self._space.remove(*self._walls)
+        self._shapes.remove(self._walls)
         self._contacts.forget(self._space.static_body.id)
         self._walls = []
         if self._settings.bounds is None:
@@ -320,7 +334,7 @@ class Space:
             wall.friction = math.sqrt(self._settings.friction)
             wall.elasticity = math.sqrt(self._settings.elasticity)
             self._walls.append(wall)
-        self._space.add(*self._walls)
+        self._first_wall = self._shapes.add(self._walls)
 
     # Stepping
 

@@ -32,6 +32,7 @@ from typing import cast
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.core.rigid_body import RigidBody
+from physsim_ros.core.snapshot import Body
 import pymunk
 from pymunk import Vec2d
 
@@ -125,14 +126,14 @@ class _Stop:
     move: _Move
 
 
-def safe_depth(rigid: RigidBody) -> float:
+def safe_depth(body: Body) -> float:
     """Return how far a body may move in a step without a sweep [m]."""
-    return rigid.body.shape.form.inner * SAFE_SHARE
+    return body.shape.form.inner * SAFE_SHARE
 
 
-def arm(rigid: RigidBody) -> float:
+def arm(body: Body) -> float:
     """Return how far out a body's turning counts [m]: a disc covers the same ground anyway."""
-    form = rigid.body.shape.form
+    form = body.shape.form
     return 0.0 if form.inner >= form.outer else form.outer
 
 
@@ -226,13 +227,13 @@ def _body(shape: pymunk.Shape) -> pymunk.Body:
 
 
 def _mover(rigid: RigidBody, dt: float, slop: float) -> _Mover:
-    engine, depth = rigid.engine, safe_depth(rigid)
+    engine, depth = rigid.engine, safe_depth(rigid.body)
     return _Mover(
         engine=engine,
         move=_Move(engine.velocity * dt, engine.angular_velocity * dt),
         depth=depth,
         skin=min(slop, depth),
-        reach=arm(rigid),
+        reach=arm(rigid.body),
     )
 
 
