@@ -22,7 +22,6 @@ keyframe leads to the same bits; what is dropped is dropped from one end.
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -127,7 +126,7 @@ class History:
         return max(self._marks[0].step, self.head - self._length)
 
     @property
-    def keyframes(self) -> Sequence[Mark]:
+    def keyframes(self) -> list[Mark]:
         """Return the keyframes, oldest first."""
         return self._marks
 

@@ -84,7 +84,7 @@ class Past:
     ) -> None:
         self._history = history
         self._frame_steps = frame_steps
-        self._budget = budget
+        self.budget = budget
         self._reels: dict[Mark, _Reel] = {}
         # A world that makes the steps again which come next in going back.
         self._course = Course(World(physics_rate=physics_rate, frame_steps=frame_steps), history)
@@ -165,7 +165,7 @@ class Past:
     def _drop(self, step: int) -> None:
         """Drop the reels that are farthest away, until the rest fits."""
         size = self.size
-        while size > self._budget and len(self._reels) > 2:
+        while size > self.budget and len(self._reels) > 2:
             farthest = max(self._reels, key=lambda mark: abs(mark.step - step))
             size -= self._reels.pop(farthest).size
 

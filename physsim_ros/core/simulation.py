@@ -64,6 +64,9 @@ class Simulation:
     :param settings: of the empty world at the start
     :param speed: simulation seconds a second; 0 is paused, negative goes back
     :param history: how far back it can go [s of simulation time]
+    :param keyframes: from one keyframe to the next [s]
+    :ivar timeline: the world and its history
+    :ivar past: what was shown of it
     :raises BadProperty: publish_rate does not divide physics_rate
     """
 
@@ -75,6 +78,7 @@ class Simulation:
         settings: WorldSettings | None = None,
         speed: float = 1.0,
         history: float = 600.0,
+        keyframes: float = KEYFRAMES,
     ) -> None:
         steps = physics_rate / publish_rate
         if steps < 1 or abs(steps - round(steps)) > 1e-9:
@@ -93,11 +97,12 @@ class Simulation:
         self._changed = True
         self._watching = False
         self._history = history
+        self._keyframes = keyframes
         self._beginning = WorldState(settings=settings or WorldSettings())
         self._undone: deque[Tail | None] = deque(maxlen=MOST_UNDONE)
         # What was before the last reset.
         self._left: tuple[Timeline, Past, int] | None = None
-        self._timeline, self._past = self._course_of(self._beginning)
+        self.timeline, self.past = self._course_of(self._beginning)
         # The step that is shown where the world itself is at another; None where it is there.
         self._shown: Shot | None = None
 
@@ -107,21 +112,21 @@ class Simulation:
     def world(self) -> World:
         """Return the world as it is at the moment that is shown."""
         self._catch_up()
-        return self._timeline.world
+        return self.timeline.world
 
     @property
     def step(self) -> int:
         """Return the step that is shown."""
         if self._shown is not None:
             return self._shown.snapshot.step
-        return self._timeline.world.step_count
+        return self.timeline.world.step_count
 
     @property
     def settings(self) -> WorldSettings:
         """Return what holds for the whole world at the moment that is shown."""
         if self._shown is not None:
             return self._shown.snapshot.scene.settings
-        return self._timeline.world.settings
+        return self.timeline.world.settings
 
     @property
     def speed(self) -> float:
@@ -141,7 +146,7 @@ class Simulation:
     @history.setter
     def history(self, history: float) -> None:
         self._history = history
-        self._timeline.history.length = self._steps(history)
+        self.timeline.history.length = self._steps(history)
 
     @property
     def late_frames(self) -> int:
@@ -150,7 +155,7 @@ class Simulation:
 
     def watch_contacts(self, watching: bool) -> None:  # noqa: FBT001 - a state, not a mode
         """Have the frames tell what touches, or save the cost of it."""
-        self._watching = self._timeline.world.watching = watching
+        self._watching = self.timeline.world.watching = watching
 
     # Asking
 
@@ -186,7 +191,7 @@ class Simulation:
     def begin(self, state: WorldState) -> None:
         """Begin with a state, at time 0, without a past; `reset` will return to it."""
         self._beginning = state
-        self._timeline, self._past = self._course_of(state)
+        self.timeline, self.past = self._course_of(state)
         self._left = None
         self._moved()
 
@@ -200,15 +205,15 @@ class Simulation:
         """Return the world as it is; who goes on from that goes on as it does itself."""
         self._apply_all()
         self._catch_up()
-        self._timeline.renew()
-        return self._timeline.world.save()
+        self.timeline.renew()
+        return self.timeline.world.save()
 
     def reset(self) -> str:
         """Return to the state that was loaded last, at time 0; `undo` comes back from there."""
         self._apply_all()
         step = self.step
-        self._left = (self._timeline, self._past, step)
-        self._timeline, self._past = self._course_of(self._beginning)
+        self._left = (self.timeline, self.past, step)
+        self.timeline, self.past = self._course_of(self._beginning)
         self._undone.clear()
         return self._turn('~/reset', 'back at the beginning, time 0')
 
@@ -221,17 +226,17 @@ class Simulation:
         self._apply_all()
         self._catch_up()
         try:
-            undone, tail = self._timeline.undo()
+            undone, tail = self.timeline.undo()
         except OutOfHistory:
             if self._left is None:
                 raise
-            self._timeline, self._past, step = self._left
-            self._timeline.seek(step)
+            self.timeline, self.past, step = self._left
+            self.timeline.seek(step)
             self._left = None
             self._undone.append(None)
             message = 'undid reset'
         else:
-            self._past.forget(undone[0].step)
+            self.past.forget(undone[0].step)
             self._undone.append(tail)
             message = f'undid {_named(undone)}'
         self._shown = None
@@ -252,8 +257,8 @@ class Simulation:
             self.reset()
             self._undone.extend(undone)
             return 'redid reset, back at time 0'
-        self._timeline.redo(tail)
-        self._past.forget(tail.entries[0].step)
+        self.timeline.redo(tail)
+        self.past.forget(tail.entries[0].step)
         self._shown = None
         return self._turn('~/redo', f'redid what was undone, at {self._time()}')
 
@@ -265,7 +270,7 @@ class Simulation:
         """
         self._apply_all()
         self._catch_up()
-        self._timeline.seek(round(stamp * 1e-9 * self.physics_rate))
+        self.timeline.seek(round(stamp * 1e-9 * self.physics_rate))
         self._moved()
         return f'at {self._time()}'
 
@@ -305,17 +310,17 @@ class Simulation:
 
     def _go(self, steps: int) -> Frame:
         self._catch_up()
-        self._timeline.go(steps)
-        self._timeline.prepare(steps)
+        self.timeline.go(steps)
+        self.timeline.prepare(steps)
         return self._frame(moved=True)
 
     def _go_back(self, steps: int) -> Frame:
-        oldest = self._timeline.history.oldest
+        oldest = self.timeline.history.oldest
         step = max(oldest, self.step - steps)
         if step < self.step:
-            self._shown = self._past.shot(step, watching=self._watching)
+            self._shown = self.past.shot(step, watching=self._watching)
             fine = not self.speed.is_integer()
-            self._past.prepare(step, steps, fine=fine, watching=self._watching)
+            self.past.prepare(step, steps, fine=fine, watching=self._watching)
         if step == oldest:
             self.speed = 0.0
             message = f'{self._time()} is the oldest that is kept; paused'
@@ -326,14 +331,14 @@ class Simulation:
         """Bring the world itself to the moment that is shown."""
         if self._shown is not None:
             step, self._shown = self._shown.snapshot.step, None
-            self._timeline.seek(step)
+            self.timeline.seek(step)
             # They have been shown.
-            self._timeline.world.clear_contacts()
+            self.timeline.world.clear_contacts()
 
     def _moved(self) -> None:
         """Note that another moment is shown than before."""
         self._shown = None
-        self._timeline.world.watching = self._watching
+        self.timeline.world.watching = self._watching
         self._clock.restart()
         self._changed = True
 
@@ -367,16 +372,16 @@ class Simulation:
 
     def _apply(self, request: Request, gesture: int) -> tuple[str, str]:
         self._catch_up()
-        head = self._timeline.history.head
-        done = self._timeline.apply(request, gesture)
+        head = self.timeline.history.head
+        done = self.timeline.apply(request, gesture)
         self._undone.clear()
         if head > self.step:
-            self._past.forget(self.step)
+            self.past.forget(self.step)
         return done
 
     def _frame(self, *, moved: bool) -> Frame:
         snapshot, contacts = self._shown or self._look()
-        self._answers += self._timeline.tell() + self._past.tell()
+        self._answers += self.timeline.tell() + self.past.tell()
         frame = Frame(
             snapshot=snapshot,
             contacts=contacts if self._watching else None,
@@ -390,12 +395,12 @@ class Simulation:
 
     def _look(self) -> tuple[Snapshot, Contacts | None]:
         """Return what there is to see, and keep it for going back."""
-        world = self._timeline.world
+        world = self.timeline.world
         snapshot = world.snapshot()
         contacts = world.contacts(snapshot) if world.watching else None
         # A copy, since what is worked out from a snapshot stays with it.
-        self._past.keep(Shot(replace(snapshot), contacts))
-        self._timeline.see()
+        self.past.keep(Shot(replace(snapshot), contacts))
+        self.timeline.see()
         return snapshot, contacts
 
     def _course_of(self, state: WorldState) -> tuple[Timeline, Past]:
@@ -406,7 +411,7 @@ class Simulation:
         world.apply(Restore(state=state))
         world.watching = self._watching
         timeline = Timeline(
-            world, length=self._steps(self._history), spacing=self._steps(KEYFRAMES)
+            world, length=self._steps(self._history), spacing=self._steps(self._keyframes)
         )
         past = Past(
             timeline.history,

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""What going back costs: how long a seek takes, how long a keyframe stalls, what the past weighs."""
+"""What going back costs: how long a seek takes and a keyframe stalls, what the past weighs."""
 
 from __future__ import annotations
 
@@ -35,13 +35,15 @@ def measure(count: int, seconds: int) -> None:
     fill(simulation.world, count)
     gc.collect()
     gc.freeze()
-    frames = [timed(simulation.advance_frame) for _ in range(60 * seconds)]
-    timeline = simulation._timeline
-    head, oldest = timeline.history.head, timeline.history.oldest
-    # A frame that begins with a keyframe, less what the frame itself costs.
-    stalls = sorted(frames)[-len(timeline.history.keyframes) // 2 :]
+    history = simulation.timeline.history
+    frames, stalls = [], []
+    for _ in range(60 * seconds):
+        before = history.keyframes[-1]
+        took = timed(simulation.advance_frame)
+        (frames if history.keyframes[-1] is before else stalls).append(took)
+    head, oldest = history.head, history.oldest
     usual = statistics.median(frames)
-    keys = [mark.key for mark in timeline.history.keyframes]
+    keys = [mark.key for mark in history.keyframes]
     arrays = [
         array
         for key in keys
@@ -52,13 +54,12 @@ def measure(count: int, seconds: int) -> None:
     rng = random.Random(count)
     print(
         f'{count:6} {usual:10.2f} {statistics.median(stalls) - usual:12.1f}'
-        f' {bytes_kept / seconds * 60 / 1e6:14.2f} {simulation._past.size / 1e6:12.1f}',
+        f' {bytes_kept / seconds * 60 / 1e6:14.2f} {simulation.past.size / 1e6:12.1f}',
         end='',
     )
     for distance in (1, 10, seconds):
         steps = [
-            max(oldest, head - round(rng.uniform(0.5, 1.0) * distance * 240))
-            for _ in range(SEEKS)
+            max(oldest, head - round(rng.uniform(0.5, 1.0) * distance * 240)) for _ in range(SEEKS)
         ]
         times = []
         for step in steps:

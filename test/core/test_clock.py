@@ -256,3 +256,28 @@ def test_speed_can_be_read_back() -> None:
     assert clock.speed == 1.0
     clock.speed = 2.5
     assert clock.speed == 2.5
+
+
+# Going back
+
+
+@pytest.mark.parametrize('speed', [1.0, 4.0, 0.5, 64.0, 2.5])
+def test_going_back_is_going_on_in_a_mirror(speed: float) -> None:
+    onward = Clock(physics_rate=240.0, frame_steps=4, speed=speed)
+    backward = Clock(physics_rate=240.0, frame_steps=4, speed=-speed)
+    ahead, behind = 0, 0
+    for tick in range(200):
+        ahead += onward.due(tick * 16_666_667, ahead)
+        behind += backward.due(tick * 16_666_667, behind)
+        assert behind == -ahead
+    assert ahead == pytest.approx(199 / 60 * 240 * speed, abs=8 * speed)
+
+
+def test_at_whole_speeds_going_back_ends_on_multiples_of_the_publish_period() -> None:
+    clock = Clock(physics_rate=240.0, frame_steps=4, speed=-1.0)
+    step, steps = 1003, []
+    for tick in range(30):
+        step += clock.due(tick * 16_666_667, step)
+        steps.append(step)
+    assert steps[1:4] == [1000, 996, 992]
+    assert all(each % 4 == 0 for each in steps[1:])

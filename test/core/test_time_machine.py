@@ -108,9 +108,11 @@ class TimeMachine(RuleBasedStateMachine):
     `seen` is what the one course of events that is now has shown; what a branch drops is dropped.
     """
 
-    @initialize(several=st.lists(spawns(), min_size=3, max_size=6), rate=st.sampled_from([60, 40]))
-    def begin(self, several: list[Spawn], rate: int) -> None:
-        self.rate = rate
+    @initialize(
+        several=st.lists(spawns(), min_size=3, max_size=6), keyframes=st.sampled_from([0.25, 0.17])
+    )
+    def begin(self, several: list[Spawn], keyframes: float) -> None:
+        self.keyframes = keyframes
         self.simulation = self.new()
         self.simulation.watch_contacts(True)
         self.now = 0
@@ -122,9 +124,7 @@ class TimeMachine(RuleBasedStateMachine):
 
     def new(self) -> Simulation:
         # Keyframes come every 2 s; here time is short.
-        simulation = Simulation(history=5.0)
-        simulation._timeline.history._spacing = self.rate
-        return simulation
+        return Simulation(history=5.0, keyframes=self.keyframes)
 
     # What is asked
 
@@ -179,7 +179,7 @@ class TimeMachine(RuleBasedStateMachine):
 
     @rule(share=st.floats(0.0, 1.0))
     def seek(self, share: float) -> None:
-        history = self.simulation._timeline.history
+        history = self.simulation.timeline.history
         step = round(history.oldest + share * (history.head - history.oldest))
         self.simulation.seek(round(step * 1e9 / 240))
         assert self.simulation.step == step
@@ -188,7 +188,7 @@ class TimeMachine(RuleBasedStateMachine):
     @rule()
     def undo_and_redo(self) -> None:
         step, digest = self.simulation.step, self.simulation.world.digest()
-        if not self.simulation._timeline.history.last_gesture(self.simulation._timeline.serial):
+        if not self.simulation.timeline.history.last_gesture(self.simulation.timeline.serial):
             return
         self.simulation.undo()
         assert self.simulation.step <= step
@@ -198,7 +198,7 @@ class TimeMachine(RuleBasedStateMachine):
     @rule(frames=st.integers(0, 20))
     def undo_and_go_on_and_redo(self, frames: int) -> None:
         step, digest = self.simulation.step, self.simulation.world.digest()
-        if not self.simulation._timeline.history.last_gesture(self.simulation._timeline.serial):
+        if not self.simulation.timeline.history.last_gesture(self.simulation.timeline.serial):
             return
         self.simulation.undo()
         for _ in range(frames):
@@ -208,7 +208,7 @@ class TimeMachine(RuleBasedStateMachine):
 
     @rule()
     def undo(self) -> None:
-        timeline = self.simulation._timeline
+        timeline = self.simulation.timeline
         undone = timeline.history.last_gesture(timeline.serial)
         if undone:
             self.simulation.undo()
@@ -218,18 +218,17 @@ class TimeMachine(RuleBasedStateMachine):
     @rule(frames=st.integers(1, 40))
     def save_and_go_on_elsewhere(self, frames: int) -> None:
         simulation = self.simulation
-        history = simulation._timeline.history
+        history = simulation.timeline.history
         simulation.seek(round(history.head * 1e9 / 240))
         self.look(simulation.settle())
         other = self.new()
         other.begin(simulation.save())
-        other._timeline.history._spacing = self.rate
         first = simulation.step
         for _ in range(frames):
             frame = simulation.advance_frame()
             self.look(frame)
             # Its steps are counted from another beginning.
-            other._timeline.go(simulation.step - first - other.step)
+            other.timeline.go(simulation.step - first - other.step)
             there = other.world.snapshot()
             np.testing.assert_array_equal(frame.snapshot.poses, there.poses)
             np.testing.assert_array_equal(frame.snapshot.twists, there.twists)
@@ -253,7 +252,7 @@ class TimeMachine(RuleBasedStateMachine):
     @invariant()
     def the_history_is_no_longer_than_asked(self) -> None:
         if hasattr(self, 'simulation'):
-            history = self.simulation._timeline.history
+            history = self.simulation.timeline.history
             assert history.head - history.oldest <= history.length
 
 

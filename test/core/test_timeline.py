@@ -1,0 +1,338 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Going back and the same way again: branches, undo, what is kept, and what is told."""
+
+from __future__ import annotations
+
+import numpy as np
+from physsim_ros.core.errors import OutOfHistory
+from physsim_ros.core.requests import Configure, Delete, DeleteAll, Request, Restore
+from physsim_ros.core.settings import WorldSettings
+from physsim_ros.core.simulation import Simulation
+from physsim_ros.core.snapshot import Answer, Frame
+import pytest
+
+from .worlds import BOX, spawning
+
+FRAME = 4
+SECOND = 10**9
+FLOOR = WorldSettings(bounds=(-10.0, 0.0, 10.0, 20.0))
+
+
+class Driven:
+    """A simulation, the time that it is handed, and what it showed of each step."""
+
+    def __init__(self, **options: float) -> None:
+        self.simulation = Simulation(settings=FLOOR, **options)
+        self.now = 0
+        self.shown: dict[int, Frame] = {}
+
+    def run(self, speed: float, seconds: float) -> list[Frame]:
+        """Run for seconds on the wall, and return the frames."""
+        self.simulation.speed = speed
+        frames: list[Frame] = []
+        for _ in range(round(seconds * 60)):
+            self.now += round(SECOND / 60)
+            frames += self.simulation.advance(self.now)
+        return frames
+
+    def record(self, seconds: float) -> None:
+        for frame in self.run(1.0, seconds):
+            self.shown[frame.snapshot.step] = frame
+
+    def ask(self, request: Request, *, joined: bool = False) -> None:
+        self.simulation.submit(request, topic='~/test', joined=joined)
+
+    def settle(self) -> Frame:
+        frame = self.simulation.settle()
+        assert frame is not None
+        return frame
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        return self.simulation.world.snapshot().scene.names
+
+    def assert_same(self, frame: Frame) -> None:
+        before = self.shown[frame.snapshot.step].snapshot
+        np.testing.assert_array_equal(frame.snapshot.poses, before.poses)
+        np.testing.assert_array_equal(frame.snapshot.twists, before.twists)
+
+
+@pytest.fixture
+def driven() -> Driven:
+    """Return a world in which boxes have fallen on each other for five seconds."""
+    driven = Driven()
+    for number in range(5):
+        driven.ask(spawning(f'a/{number}', BOX, (0.2 * number, 1.0 + 1.5 * number, 0.1)))
+    driven.record(3.0)
+    driven.ask(spawning('late/0', BOX, (0.0, 9.0, 0.0)))
+    driven.record(2.0)
+    return driven
+
+
+def told(frames: list[Frame], topic: str) -> list[Answer]:
+    return [answer for frame in frames for answer in frame.answers if answer.topic == topic]
+
+
+@pytest.mark.parametrize('speed', [-1.0, -4.0, -2.0, -64.0])
+def test_rewinding_shows_every_frame_as_it_was(driven: Driven, speed: float) -> None:
+    head = driven.simulation.step
+    frames = driven.run(speed, 1.0)
+    steps = [frame.snapshot.step for frame in frames]
+    # The first tick only says that it goes back from now on.
+    assert steps == [max(0, head + number * round(speed) * FRAME) for number in range(len(steps))]
+    assert len(steps) > 5
+    for frame in frames:
+        if frame.snapshot.step:
+            driven.assert_same(frame)
+
+
+def test_slow_motion_goes_back_step_by_step(driven: Driven) -> None:
+    frames = driven.run(-0.1, 1.0)
+    steps = [frame.snapshot.step for frame in frames]
+    assert len(steps) == pytest.approx(24, abs=1)
+    assert set(np.diff(steps)) == {-1}
+    for frame in frames:
+        if frame.snapshot.step % FRAME == 0:
+            driven.assert_same(frame)
+
+
+def test_the_past_is_the_same_where_it_has_to_be_made_again(
+    driven: Driven, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(driven.simulation.past, 'budget', 0)
+    driven.simulation.past.forget(0)
+    for frame in driven.run(-1.0, 4.5):
+        driven.assert_same(frame)
+
+
+def test_at_the_oldest_step_time_stops_and_says_so(driven: Driven) -> None:
+    frames = driven.run(-64.0, 1.0)
+    assert frames[-1].snapshot.step == 0
+    assert driven.simulation.speed == 0.0
+    assert len(told(frames, 'history')) == 1
+    assert driven.run(0.0, 0.5) == []
+
+
+@pytest.mark.parametrize('back', [0.5, 2.0, 4.9])
+def test_playing_on_from_the_past_gives_the_same_bits(driven: Driven, back: float) -> None:
+    head = driven.simulation.step
+    driven.run(-1.0, back)
+    frames = driven.run(1.0, back)
+    assert frames[-1].snapshot.step == pytest.approx(head, abs=2 * FRAME)
+    for frame in frames:
+        if frame.snapshot.step <= head:
+            driven.assert_same(frame)
+    assert told(frames, 'divergence') == []
+
+
+def test_fast_forward_over_the_past_gives_the_same_bits(driven: Driven) -> None:
+    driven.simulation.seek(0)
+    for frame in driven.run(8.0, 0.5):
+        driven.assert_same(frame)
+
+
+def test_a_request_in_the_past_drops_what_lay_ahead(driven: Driven) -> None:
+    driven.run(-1.0, 1.0)
+    step = driven.simulation.step
+    driven.ask(spawning('other/0', BOX, (5.0, 5.0, 0.0)))
+    frame = driven.settle()
+    assert [answer.topic for answer in frame.answers] == ['~/test', 'branch']
+    assert frame.snapshot.step == step
+    with pytest.raises(OutOfHistory, match='not in the history'):
+        driven.simulation.seek(round((step + FRAME) / 240 * SECOND))
+
+
+def test_a_refused_request_in_the_past_drops_nothing(driven: Driven) -> None:
+    head = driven.simulation.step
+    driven.run(-1.0, 1.0)
+    driven.ask(Delete(name='nobody/0'))
+    assert driven.settle().answers[0].code == 'unknown_body'
+    driven.simulation.seek(round(head / 240 * SECOND))
+    driven.assert_same(driven.settle())
+
+
+@pytest.mark.parametrize('stamp', [-1, 10 * SECOND, 10**18])
+def test_what_is_not_in_the_history_is_refused(driven: Driven, stamp: int) -> None:
+    step, digest = driven.simulation.step, driven.simulation.world.digest()
+    if stamp < 0:
+        driven.simulation.history = 1.0
+        stamp = 0
+    with pytest.raises(OutOfHistory):
+        driven.simulation.seek(stamp)
+    assert (driven.simulation.step, driven.simulation.world.digest()) == (step, digest)
+
+
+def test_undo_goes_back_to_the_moment_before(driven: Driven) -> None:
+    message = driven.simulation.undo()
+    assert driven.simulation.step == pytest.approx(3 * 240, abs=FRAME)
+    assert 'late/0' in message
+    assert driven.names == tuple(f'a/{number}' for number in range(5))
+    shown = driven.settle().snapshot
+    np.testing.assert_array_equal(shown.poses, driven.shown[shown.step].snapshot.poses[:5])
+
+
+def test_redo_returns_to_where_undo_was_asked_for(driven: Driven) -> None:
+    step, digest = driven.simulation.step, driven.simulation.world.digest()
+    driven.simulation.undo()
+    driven.run(1.0, 0.7)
+    driven.simulation.redo()
+    assert (driven.simulation.step, driven.simulation.world.digest()) == (step, digest)
+
+
+def test_several_undos_are_redone_one_by_one(driven: Driven) -> None:
+    digests = [driven.simulation.world.digest()]
+    for _ in range(6):
+        driven.simulation.undo()
+        digests.append(driven.simulation.world.digest())
+    assert driven.names == ()
+    with pytest.raises(OutOfHistory, match='nothing to undo'):
+        driven.simulation.undo()
+    for digest in digests[-2::-1]:
+        driven.simulation.redo()
+        assert driven.simulation.world.digest() == digest
+    with pytest.raises(OutOfHistory, match='nothing to redo'):
+        driven.simulation.redo()
+
+
+def test_what_belongs_together_is_undone_together(driven: Driven) -> None:
+    driven.ask(spawning('b/0', BOX, (5.0, 5.0, 0.0)))
+    driven.ask(spawning('b/1', BOX, (5.0, 8.0, 0.0)), joined=True)
+    driven.settle()
+    assert 'and 1 more' in driven.simulation.undo()
+    assert not {'b/0', 'b/1'} & set(driven.names)
+
+
+def test_a_new_request_leaves_nothing_to_redo(driven: Driven) -> None:
+    driven.simulation.undo()
+    driven.ask(DeleteAll())
+    driven.settle()
+    with pytest.raises(OutOfHistory):
+        driven.simulation.redo()
+
+
+def test_a_refused_request_leaves_what_there_is_to_redo(driven: Driven) -> None:
+    driven.simulation.undo()
+    driven.ask(Delete(name='nobody/0'))
+    driven.settle()
+    driven.simulation.redo()
+    assert 'late/0' in driven.names
+
+
+def test_settings_are_undone_and_follow_time(driven: Driven) -> None:
+    driven.ask(Configure(changes={'gravity': (0.0, 0.0)}))
+    driven.record(1.0)
+    assert driven.simulation.settings.gravity == (0.0, 0.0)
+    driven.run(-1.0, 1.5)
+    assert driven.simulation.settings.gravity == (0.0, -9.81)
+    driven.run(1.0, 1.0)
+    assert driven.simulation.settings.gravity == (0.0, 0.0)
+    driven.simulation.undo()
+    assert driven.simulation.settings.gravity == (0.0, -9.81)
+
+
+def test_reset_is_undone_too(driven: Driven) -> None:
+    step, digest = driven.simulation.step, driven.simulation.world.digest()
+    driven.simulation.reset()
+    assert (driven.simulation.step, driven.names) == (0, ())
+    driven.run(1.0, 0.5)
+    driven.simulation.undo()
+    assert (driven.simulation.step, driven.simulation.world.digest()) == (step, digest)
+    driven.simulation.redo()
+    assert (driven.simulation.step, driven.names) == (0, ())
+
+
+def test_what_was_loaded_at_the_beginning_cannot_be_undone() -> None:
+    first = Driven()
+    first.ask(spawning('a/0'))
+    first.settle()
+    second = Driven()
+    second.simulation.begin(first.simulation.save())
+    with pytest.raises(OutOfHistory):
+        second.simulation.undo()
+    assert second.names == ('a/0',)
+
+
+def test_a_world_that_was_loaded_while_time_ran_is_undone(driven: Driven) -> None:
+    names = driven.names
+    driven.simulation.load(Driven().simulation.save())
+    assert driven.names == ()
+    driven.run(1.0, 0.5)
+    driven.simulation.undo()
+    assert driven.names == names
+
+
+def test_older_steps_than_are_kept_are_dropped() -> None:
+    driven = Driven(history=3.0)
+    driven.ask(spawning('a/0', BOX, (0.0, 5.0, 0.0)))
+    driven.record(10.0)
+    history = driven.simulation.timeline.history
+    assert history.head - history.oldest == 3 * 240
+    assert len(history.keyframes) <= 3
+    frames = driven.run(-64.0, 0.5)
+    assert frames[-1].snapshot.step == history.head - 3 * 240
+    driven.assert_same(frames[-1])
+    with pytest.raises(OutOfHistory):
+        driven.simulation.undo()
+
+
+def test_shots_take_no_more_memory_than_they_may(monkeypatch: pytest.MonkeyPatch) -> None:
+    driven = Driven()
+    for number in range(50):
+        driven.ask(spawning(f'a/{number}', BOX, (0.1 * number, 1.0 + number, 0.0)))
+    monkeypatch.setattr(driven.simulation.past, 'budget', 2_000_000)
+    driven.record(20.0)
+    assert driven.simulation.past.size <= 2_000_000
+
+
+def test_other_bits_than_before_are_told(driven: Driven) -> None:
+    history = driven.simulation.timeline.history
+    wrong = history.keyframes[2]._replace(digest='not that')
+    history.keyframes[2] = wrong
+    driven.simulation.seek(0)
+    frames = driven.run(8.0, 0.7)
+    (answer,) = told(frames, 'divergence')
+    assert answer.code == 'divergence'
+    assert f'{wrong.step / 240:.3f} s' in answer.message
+
+
+def test_saving_in_the_past_drops_nothing(driven: Driven) -> None:
+    driven.run(-1.0, 1.3)
+    step = driven.simulation.step
+    state = driven.simulation.save()
+    assert len(state.bodies) == 6
+    for frame in driven.run(1.0, 1.2):
+        driven.assert_same(frame)
+    elsewhere = Driven()
+    elsewhere.simulation.begin(state)
+    np.testing.assert_array_equal(
+        elsewhere.simulation.world.snapshot().poses, driven.shown[step].snapshot.poses
+    )
+
+
+@pytest.mark.parametrize('frames', [1, 37, 200])
+def test_who_goes_on_from_what_was_saved_goes_on_alike(driven: Driven, frames: int) -> None:
+    for _ in range(frames):
+        driven.simulation.advance_frame()
+    elsewhere = Driven()
+    elsewhere.simulation.begin(driven.simulation.save())
+    restored = Driven()
+    restored.simulation.perform(Restore(state=driven.simulation.save()))
+    for _ in range(200):
+        expected = driven.simulation.advance_frame().snapshot
+        for other in (elsewhere, restored):
+            snapshot = other.simulation.advance_frame().snapshot
+            np.testing.assert_array_equal(snapshot.poses, expected.poses)
+            np.testing.assert_array_equal(snapshot.twists, expected.twists)
