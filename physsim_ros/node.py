@@ -197,18 +197,20 @@ class PhysSimNode(Node):
         self.create_subscription(Float64, '~/speed', self._speed, _REQUESTS)
         self.create_subscription(Clock, '~/seek', self._seek, _REQUESTS)
 
-    def _submit(self, message: Any, topic: str, convert: Callable[..., Request]) -> None:
+    def _submit(
+        self, message: Any, topic: str, convert: Callable[..., Request], *, joined: bool = False
+    ) -> None:
         try:
             request = convert(message, frame_id=self._frame_id)
         except Refusal as refusal:
             subject = conversions.subject_of(message)
-            self.simulation.refuse(refusal, topic=topic, subject=subject)
+            self.simulation.refuse(refusal, topic=topic, subject=subject, joined=joined)
             return
-        self.simulation.submit(request, topic=topic)
+        self.simulation.submit(request, topic=topic, joined=joined)
 
     def _spawn_array(self, message: MarkerArray) -> None:
-        for marker in message.markers:
-            self._submit(marker, '~/spawn_array', conversions.body_request)
+        for number, marker in enumerate(message.markers):
+            self._submit(marker, '~/spawn_array', conversions.body_request, joined=number > 0)
 
     def _speed(self, message: Float64) -> None:
         speed = Parameter('speed', value=message.data)

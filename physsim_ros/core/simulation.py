@@ -172,9 +172,9 @@ class Simulation:
                 pass
         self._queue(request, topic, subject, joined=joined)
 
-    def refuse(self, refusal: Refusal, *, topic: str, subject: str) -> None:
+    def refuse(self, refusal: Refusal, *, topic: str, subject: str, joined: bool = False) -> None:
         """Queue the answer to what could not even be a request, so that answers keep the order."""
-        self._queue(refusal, topic, subject, joined=True)
+        self._queue(refusal, topic, subject, joined=joined)
 
     def perform(self, request: Request) -> str:
         """

@@ -359,7 +359,7 @@ def test_reset_answers_those_that_wait_first() -> None:
     sim.reset()
 
     (frame,) = sim.advance(1)
-    assert [answer.message for answer in frame.answers] == ['spawned a/0']
+    assert [answer.topic for answer in frame.answers] == ['~/spawn', '~/reset']
     assert frame.snapshot.scene.names == ()
 
 
