@@ -273,7 +273,10 @@ def test_what_was_asked_before_a_reset_is_answered(physsim: PhysSim, client: Cli
     client.publish('~/spawn', box('a/0'))
     succeeded(client.call('~/reset'))
     physsim.step()
-    assert [(event.hardware_id, event.code) for event in client.events] == [('a/0', 'ok')]
+    assert [(event.name, event.code) for event in client.events] == [
+        ('~/spawn', 'ok'),
+        ('~/reset', 'ok'),
+    ]
     assert physsim.names == ()
 
 
