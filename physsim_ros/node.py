@@ -37,6 +37,7 @@ from physsim_ros.core.requests import Configure, DeleteAll, Request
 from physsim_ros.core.simulation import Simulation
 from physsim_ros.core.snapshot import Answer, Frame, run_state, WorldState
 from physsim_ros.diagnostics import Meter
+from physsim_ros.sender import Sender
 from physsim_ros.streams import Streams
 from physsim_ros.viewer import Viewer, ViewerMode
 from rcl_interfaces.msg import SetParametersResult
@@ -88,6 +89,7 @@ class PhysSimNode(Node):
         self._streams = Streams(
             self, frame_id=self._frame_id, publish_clock=self._values['publish_clock']
         )
+        self._sender = Sender()
         self._meter = Meter()
         self._diagnostics = self.create_publisher(DiagnosticArray, '/diagnostics', 10)
         self._viewer: Viewer | None = None
@@ -127,7 +129,7 @@ class PhysSimNode(Node):
         for frame in frames:
             self.deliver(frame)
         if not frames:
-            self._streams.welcome()
+            self._sender.send(self._streams.welcome)
             return
         last = frames[-1]
         if last.moved:
@@ -145,8 +147,8 @@ class PhysSimNode(Node):
         self.frame = frame
         self._follow()
         for answer in frame.answers:
-            self._report(answer)
-        self._streams.publish(frame)
+            self._log(answer)
+        self._sender.send(self._streams.publish, frame)
         if self._viewer is not None:
             self._viewer.show(frame, real_time_factor=self._meter.real_time_factor)
 
@@ -154,6 +156,7 @@ class PhysSimNode(Node):
         """Go on by one publish period, whatever the clock says, and deliver the frame."""
         self._watch()
         self.deliver(self.simulation.advance_frame())
+        self._sender.flush()
 
     def apply(self) -> None:
         """Carry out what was asked while time stands still."""
@@ -162,7 +165,8 @@ class PhysSimNode(Node):
         if frame is not None:
             self.deliver(frame)
         else:
-            self._streams.tell()
+            self._sender.send(self._streams.tell)
+        self._sender.flush()
 
     @property
     def frame_period(self) -> float:
@@ -178,6 +182,7 @@ class PhysSimNode(Node):
         if self._viewer is not None:
             self._viewer.close()
             self._viewer = None
+        self._sender.close()
         super().destroy_node()
 
     # Requests
@@ -235,7 +240,11 @@ class PhysSimNode(Node):
         self._report(Answer(topic='~/seek', message=done))
 
     def _report(self, answer: Answer) -> None:
-        self._streams.report(answer)
+        """Tell of what comes without a frame."""
+        self._sender.send(self._streams.report, answer)
+        self._log(answer)
+
+    def _log(self, answer: Answer) -> None:
         if answer.code:
             self.get_logger().warning(
                 f'{answer.topic}: {answer.code}: {answer.message}', throttle_duration_sec=1.0

@@ -118,7 +118,9 @@ class Streams:
         return self._contacts.audience > 0
 
     def publish(self, frame: Frame) -> None:
-        """Publish the streams of a frame that somebody subscribes to; answers go to `report`."""
+        """Publish the answers of a frame, and the streams of it that somebody subscribes to."""
+        for answer in frame.answers:
+            self.report(answer)
         self.tell()
         self._last = frame
         for stream in (*self._lasting, self._contacts):

@@ -66,9 +66,12 @@ class ContactLog:
         self._places: tuple[Ids, Floats] = (self._ids, np.empty((0, 5)))
         self._begun: dict[tuple[int, int], tuple[float, ...]] = {}
         self._listing: _Listing | None = None
+        # Whether no pair has begun to touch since the ids were read: then as many are the same.
+        self.settled = False
 
     def begin(self, arbiter: pymunk.Arbiter) -> None:
         """Remember where two shapes touched first, should they part before the frame ends."""
+        self.settled = False
         a, b = arbiter.bodies
         points = [(each.point_a + each.point_b) / 2 for each in arbiter.contact_point_set.points]
         x, y = sum(points, pymunk.Vec2d(0, 0)) / max(1, len(points))
@@ -76,8 +79,17 @@ class ContactLog:
 
     def add_step(self) -> None:
         """Add the contacts of the step that has just been made."""
-        ints, sums = self._read(_PAIRS_AND_IMPULSES)
-        ids, sums = ints.reshape(-1, 2), sums.reshape(-1, 2)
+        self._steps += 1
+        if self.settled:
+            impulses = self._read(_F.TOTAL_IMPULSE)[1].reshape(-1, 2)
+            if len(impulses) == len(self._ids):
+                self._sums += impulses
+                return
+        self._add_pairs(*self._read(_PAIRS_AND_IMPULSES))
+        self.settled = True
+
+    def _add_pairs(self, ints: Ids, floats: Floats) -> None:
+        ids, sums = ints.reshape(-1, 2), floats.reshape(-1, 2)
         if np.array_equal(self._ids, ids):
             self._sums += sums
         else:
@@ -86,10 +98,9 @@ class ContactLog:
                 sums[new] += self._sums[old]
                 stays[old] = True
             # What parts in the first step of a frame has not touched in it.
-            if self._steps > 0 and not stays.all():
+            if self._steps > 1 and not stays.all():
                 self._gone.append((self._ids[~stays], self._sums[~stays]))
             self._ids, self._sums = ids, sums
-        self._steps += 1
 
     def forget(self, body: int) -> None:
         """

@@ -369,8 +369,11 @@ class Space:
     def drop_lost(self) -> tuple[str, ...]:
         """Remove what has left the range of numbers, before it poisons what it touches."""
         layout = self._lay_out()
+        far = np.abs(self._state(layout))
         # NaN compares false, so that it is lost too.
-        lost = ~(np.abs(self._state(layout)) < LOST).all(axis=1)
+        if far.size == 0 or far.max() < LOST:
+            return ()
+        lost = ~(far < LOST).all(axis=1)
         names = tuple(layout.scene.names[row] for row in np.flatnonzero(lost))
         for name in names:
             self.remove(name)
@@ -390,6 +393,8 @@ class Space:
         sweep.relieve(arbiter, space, SLOP)
         if self._watching:
             self._contacts.begin(arbiter)
+        else:
+            self._contacts.settled = False
 
     def _arrest(self, layout: Layout, before: Floats) -> None:
         """Shorten the coming step of the bodies that are too fast for the engine."""
