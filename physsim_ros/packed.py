@@ -49,8 +49,12 @@ def unpack(text: object, name: str, dtype: DTypeLike, width: int = 1) -> NDArray
     kind = np.dtype(dtype)
     try:
         packed = base64.b64decode(str(text).encode('ascii'), validate=True)
-        numbers = zlib.decompressobj().decompress(packed, MOST)
+        unfolding = zlib.decompressobj()
+        numbers = unfolding.decompress(packed, MOST)
         array = np.frombuffer(numbers, dtype=kind.newbyteorder('<')).astype(kind)
-        return array if width == 1 else array.reshape(-1, width)
+        array = array if width == 1 else array.reshape(-1, width)
     except (ValueError, binascii.Error, zlib.error) as error:
         raise BadProperty(f'{name} is not what was saved: {error}', field=name) from error
+    if not unfolding.eof:
+        raise BadProperty(f'{name} is not what was saved: it has no end', field=name)
+    return array
