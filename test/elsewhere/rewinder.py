@@ -34,12 +34,13 @@ from rcl_interfaces.srv import GetParameters, SetParameters
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import MultiDOFJointState
 from std_msgs.msg import Float64
+from std_srvs.srv import Trigger
 from visitor import disc, stamp_of, Visitor
 from visualization_msgs.msg import Marker, MarkerArray
 
 # A frame at speed 1 [ns], and so the first time [frames].
 PERIOD = 1e9 / 60.0
-FIRST = 420
+FIRST = 320
 # Bodies at most.
 MANY = 30
 
@@ -81,6 +82,7 @@ class Traveller(Visitor):
         }.items():
             self.topics[topic] = self.publisher(kind, f'/physsim/{topic}')
         self.asked = 0
+        self._clients: dict[str, Any] = {}
 
     def ask(self, topic: str, message: Any, answers: int = 1) -> None:
         self.topics[topic].publish(message)
@@ -92,7 +94,7 @@ class Traveller(Visitor):
 
     def parameter(self, name: str) -> Any:
         request = GetParameters.Request(names=[name])
-        (value,) = self._request(GetParameters, 'get_parameters', request).values
+        (value,) = self._request(GetParameters, '/physsim/get_parameters', request).values
         if value.type == ParameterType.PARAMETER_INTEGER:
             return value.integer_value
         if value.type == ParameterType.PARAMETER_DOUBLE:
@@ -108,16 +110,22 @@ class Traveller(Visitor):
         kind, field = kinds[type(value)]
         given = Parameter(name=name, value=ParameterValue(type=kind, **{field: value}))
         request = SetParameters.Request(parameters=[given])
-        (result,) = self._request(SetParameters, 'set_parameters', request).results
+        (result,) = self._request(SetParameters, '/physsim/set_parameters', request).results
         assert result.successful, result.reason
 
     def _request(self, kind: Any, service: str, request: Any) -> Any:
-        client = self.node.create_client(kind, f'/physsim/{service}')
+        # One client for all requests: of a new one, the world may not know yet whom to answer.
+        if service not in self._clients:
+            self._clients[service] = self.node.create_client(kind, service)
+        client = self._clients[service]
         self.spin_until(client.service_is_ready, service)
         future = client.call_async(request)
         self.spin_until(future.done, f'an answer of {service}')
-        self.node.destroy_client(client)
         return future.result()
+
+    def call(self, service: str) -> tuple[bool, str]:
+        response = self._request(Trigger, service, Trigger.Request())
+        return response.success, response.message
 
     def call_well(self, service: str) -> str:
         success, message = self.call(f'/physsim/{service}')
@@ -312,7 +320,8 @@ class Travel:
         go('play', 40, forward=True)
         go('speed -8', 10)
         traveller.ask('speed', Float64(data=-16.0))
-        passes['to the oldest'] = traveller.collect(10**6, forward=False)
+        begin = len(traveller.states)
+        traveller.collect(10**6, forward=False)
         self.seen |= {
             'passes': passes,
             'clocks': [
@@ -327,6 +336,9 @@ class Travel:
             'speed then': traveller.parameter('speed'),
             'settings at the oldest': self.settings(),
         }
+        # As above.
+        traveller.step()
+        passes['to the oldest'] = [frame_of(each) for each in traveller.states[begin:-1]]
 
     def all_again(self) -> None:
         traveller, states = self.traveller, self.traveller.states
@@ -361,8 +373,10 @@ class Travel:
         self.seen['other'] = traveller.step()
         self.seen['branch'] = [each.name for each in traveller.events[begin:]]
         self.seen['seek to what is dropped'] = traveller.seek(self.end)
+        begin = len(traveller.states)
         self.seen['undo'] = traveller.call('/physsim/undo')
-        self.seen['after undo'] = traveller.step()
+        traveller.spin_until(lambda: len(traveller.states) > begin, 'the frame before it')
+        self.seen['after undo'] = frame_of(traveller.states[-1])
         self.seen['redo'] = traveller.call('/physsim/redo')
         traveller.seek(middle)
         self.seen['after redo'] = traveller.step()
