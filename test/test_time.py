@@ -109,9 +109,8 @@ class Journey:
     def shown(self) -> list[tuple[int, str]]:
         """Return the frames that were shown since the last call."""
         self.physsim.settle()
-        frames = [frame_of(message) for message in self.states[self._shown :]]
-        self._shown = len(self.states)
-        return frames
+        begin, self._shown = self._shown, len(self.states)
+        return [frame_of(message) for message in self.states[begin:]]
 
     def live(self, frames: int, seed: int = 1) -> None:
         """Let it run at speed 1, disturbed at random, and keep what is shown."""

@@ -101,7 +101,7 @@ class Traveller(Visitor):
             return value.double_value
         return list(value.double_array_value)
 
-    def set(self, name: str, value: Any) -> None:
+    def set_parameter(self, name: str, value: Any) -> None:
         kinds: dict[type, tuple[int, str]] = {
             int: (ParameterType.PARAMETER_INTEGER, 'integer_value'),
             float: (ParameterType.PARAMETER_DOUBLE, 'double_value'),
@@ -183,7 +183,7 @@ class Disturber:
 
     def disturb(self, names: list[str]) -> None:
         """Ask for one thing, of the bodies that there are."""
-        acts = [self.spawn] * 8 + [self.spawn_array] * 2 + [self.set] * 4
+        acts = [self.spawn] * 8 + [self.spawn_array] * 2 + [self.configure] * 4
         if len(names) > MANY:
             acts = []
         if names:
@@ -209,7 +209,7 @@ class Disturber:
         array = MarkerArray(markers=[self.body() for _ in range(3)])
         self._traveller.ask('spawn_array', array, 3)
 
-    def set(self, _: str) -> None:
+    def configure(self, _: str) -> None:
         chance = self._chance
         name, value = chance.choice(
             [
@@ -219,7 +219,7 @@ class Disturber:
                 ('bounds', [chance.uniform(-6.0, -4.0), chance.uniform(-1.0, 0.0), 5.0, 15.0]),
             ]
         )
-        self._traveller.set(name, value)
+        self._traveller.set_parameter(name, value)
 
     def delete(self, name: str) -> None:
         namespace, _, number = name.partition('/')
@@ -272,7 +272,7 @@ class Travel:
     def the_first_time(self) -> None:
         traveller, states = self.traveller, self.traveller.states
         chance, disturber = random.Random(-self.seed), Disturber(traveller, self.seed)
-        traveller.set('bounds', [-5.0, 0.0, 5.0, 15.0])
+        traveller.set_parameter('bounds', [-5.0, 0.0, 5.0, 15.0])
         self.seen['original'] = self.settings()
         traveller.call_well('play')
         begin = len(states)
@@ -343,7 +343,7 @@ class Travel:
     def all_again(self) -> None:
         traveller, states = self.traveller, self.traveller.states
         begin = len(states)
-        traveller.set('speed', 2.0)
+        traveller.set_parameter('speed', 2.0)
         traveller.spin_until(lambda: stamp_of(states[-1]) >= self.end, 'the end again')
         frames = [frame_of(each) for each in states[begin:]]
         self.seen['all again'] = [each for each in frames if each[0] <= self.end]
