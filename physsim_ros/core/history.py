@@ -145,8 +145,8 @@ class History:
 
     def between(self, serial: int, end: int) -> list[Entry]:
         """Return the requests from one serial to another."""
-        last = end - self._dropped
-        return self._entries[serial - self._dropped : last]
+        first, last = serial - self._dropped, end - self._dropped
+        return self._entries[first:last]
 
     def before(self, step: int, serial: int) -> Mark:
         """Return the last keyframe from which a moment can be reached."""
@@ -169,9 +169,12 @@ class History:
         """Return the next step at which there is a request or a keyframe, or the end."""
         entry = bisect_right(self._entries, step, key=lambda each: each.step)
         mark = bisect_right(self._marks, step, key=lambda each: each.step)
-        stops = [each.step for each in self._entries[entry : entry + 1]]
-        stops += [each.step for each in self._marks[mark : mark + 1]]
-        return min(end, *stops) if stops else end
+        stops = [end]
+        if entry < len(self._entries):
+            stops.append(self._entries[entry].step)
+        if mark < len(self._marks):
+            stops.append(self._marks[mark].step)
+        return min(stops)
 
     def is_due(self, step: int) -> bool:
         """Whether it is time for the next keyframe."""
@@ -220,8 +223,8 @@ class History:
         """
         head, entries, marks = self.head, tuple(self._entries), tuple(self._marks)
         self._cut(step, serial)
-        after, left = self._marks[-1].moment, len(self._marks)
-        return Tail(after, entries[len(self._entries) :], marks[left:], head, *now)
+        after, done, left = self._marks[-1].moment, len(self._entries), len(self._marks)
+        return Tail(after, entries[done:], marks[left:], head, *now)
 
     def splice(self, tail: Tail) -> None:
         """
@@ -239,7 +242,8 @@ class History:
         self._forget()
 
     def _cut(self, step: int, serial: int) -> None:
-        del self._entries[serial - self._dropped :]
+        left = serial - self._dropped
+        del self._entries[left:]
         while self._marks[-1].step > step or self._marks[-1].serial > serial:
             self._marks.pop()
         self.head = step

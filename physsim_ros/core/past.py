@@ -68,6 +68,10 @@ class _Reel:
         self.size += shot.size - (0 if old is None else old.size)
         self.shots[shot.snapshot.step] = shot
 
+    def distance(self, step: int) -> int:
+        """Return how far a step is from the nearest shot."""
+        return max(min(self.shots) - step, step - max(self.shots), 0) if self.shots else step
+
 
 class Past:
     """
@@ -165,8 +169,9 @@ class Past:
     def _drop(self, step: int) -> None:
         """Drop the reels that are farthest away, until the rest fits."""
         size = self.size
-        while size > self.budget and len(self._reels) > 2:
-            farthest = max(self._reels, key=lambda mark: abs(mark.step - step))
+        # Never the one that is shown, nor those before and after it.
+        while size > self.budget and len(self._reels) > 3:
+            farthest = max(self._reels, key=lambda mark: self._reels[mark].distance(step))
             size -= self._reels.pop(farthest).size
 
 

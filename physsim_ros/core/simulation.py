@@ -42,8 +42,8 @@ _FRAMES_A_CALL = 2
 KEYFRAMES = 3.0
 # What is kept of what was shown [bytes]: all of ten minutes of 20 bodies, two minutes of 300.
 MOST_KEPT = 64 * 2**20
-# So many steps back can be redone.
-MOST_UNDONE = 100
+# So many steps back can be redone, and so many resets undone.
+MOST_UNDONE, MOST_RESETS = 100, 10
 
 
 class _Asked(NamedTuple):
@@ -100,8 +100,8 @@ class Simulation:
         self._keyframes = keyframes
         self._beginning = WorldState(settings=settings or WorldSettings())
         self._undone: deque[Tail | None] = deque(maxlen=MOST_UNDONE)
-        # What was before the last reset.
-        self._left: tuple[Timeline, Past, int] | None = None
+        # What was before each reset, and the step that was shown.
+        self._left: deque[tuple[Timeline, int]] = deque(maxlen=MOST_RESETS)
         self.timeline, self.past = self._course_of(self._beginning)
         # The step that is shown where the world itself is at another; None where it is there.
         self._shown: Shot | None = None
@@ -145,6 +145,8 @@ class Simulation:
 
     @history.setter
     def history(self, history: float) -> None:
+        # What is shown may be too old to be reached afterwards.
+        self._catch_up()
         self._history = history
         self.timeline.history.length = self._steps(history)
 
@@ -192,7 +194,8 @@ class Simulation:
         """Begin with a state, at time 0, without a past; `reset` will return to it."""
         self._beginning = state
         self.timeline, self.past = self._course_of(state)
-        self._left = None
+        self._left.clear()
+        self._undone.clear()
         self._moved()
 
     def load(self, state: WorldState) -> str:
@@ -202,7 +205,11 @@ class Simulation:
         return message
 
     def save(self) -> WorldState:
-        """Return the world as it is; who goes on from that goes on as it does itself."""
+        """
+        Return the world as it is; whoever goes on from that goes on as it does itself.
+
+        In the past how it goes on is settled: there it is the same but for the last bits.
+        """
         self._apply_all()
         self._catch_up()
         self.timeline.renew()
@@ -211,8 +218,10 @@ class Simulation:
     def reset(self) -> str:
         """Return to the state that was loaded last, at time 0; `undo` comes back from there."""
         self._apply_all()
-        step = self.step
-        self._left = (self.timeline, self.past, step)
+        if self.step == 0 and self.timeline.serial == 0 and self._left:
+            # It has just been reset: there is nothing to come back to.
+            return self._turn('~/reset', 'at the beginning, time 0')
+        self._left.append((self.timeline, self.step))
         self.timeline, self.past = self._course_of(self._beginning)
         self._undone.clear()
         return self._turn('~/reset', 'back at the beginning, time 0')
@@ -228,11 +237,11 @@ class Simulation:
         try:
             undone, tail = self.timeline.undo()
         except OutOfHistory:
-            if self._left is None:
+            if not self._left:
                 raise
-            self.timeline, self.past, step = self._left
+            self.timeline, step = self._left.pop()
+            self.past = self._past_of(self.timeline)
             self.timeline.seek(step)
-            self._left = None
             self._undone.append(None)
             message = 'undid reset'
         else:
@@ -374,8 +383,9 @@ class Simulation:
         self._catch_up()
         head = self.timeline.history.head
         done = self.timeline.apply(request, gesture)
-        self._undone.clear()
-        if head > self.step:
+        if self.timeline.world.changed:
+            self._undone.clear()
+        if self.timeline.history.head < head:
             self.past.forget(self.step)
         return done
 
@@ -413,13 +423,15 @@ class Simulation:
         timeline = Timeline(
             world, length=self._steps(self._history), spacing=self._steps(self._keyframes)
         )
-        past = Past(
+        return timeline, self._past_of(timeline)
+
+    def _past_of(self, timeline: Timeline) -> Past:
+        return Past(
             timeline.history,
             physics_rate=self.physics_rate,
             frame_steps=self.frame_steps,
             budget=MOST_KEPT,
         )
-        return timeline, past
 
     def _steps(self, seconds: float) -> int:
         return round(seconds * self.physics_rate)

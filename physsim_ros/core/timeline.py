@@ -126,12 +126,14 @@ class Timeline(Course):
 
     def apply(self, request: Request, gesture: int) -> tuple[str, str]:
         """
-        Carry out a request; what lay ahead is dropped.
+        Carry out a request; what lay ahead is dropped, where it changes anything.
 
         :return: the body concerned, or '', and a sentence that says what was done
         :raises Refusal: and nothing is changed
         """
         done = self.world.apply(request)
+        if not self.world.changed:
+            return done
         step, serial = self.moment
         if self.history.note(Entry(step, request, gesture), serial):
             message = f'what lay after {step * self.world.dt:.3f} s is dropped'

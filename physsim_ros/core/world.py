@@ -84,6 +84,8 @@ class World:
         self.step_count = 0
         # Whether contacts are read; reading them costs a tenth of a step.
         self.watching = False
+        # Whether the last request that was carried out changed anything.
+        self.changed = False
         self._settings = settings or WorldSettings()
         self._space = Space(self._settings, self.dt)
         self._spawned = 0
@@ -166,6 +168,7 @@ class World:
         :return: the body concerned, or '', and a sentence that says what was done
         :raises Refusal: and nothing is changed
         """
+        self.changed = True
         match request:
             case Spawn():
                 return self._spawn(request)
@@ -305,7 +308,8 @@ class World:
         if name is None:
             raise NothingThere(f'there is no body at ({x:g}, {y:g})', field='point')
         rigid = self._space.bodies[name]
-        if rigid.body.anchored != anchored:
+        self.changed = rigid.body.anchored != anchored
+        if self.changed:
             body = replace(rigid.body, anchored=anchored)
             self._space.change(rigid, body, rigid.pose, REST)
         return name, f'{"anchored" if anchored else "released"} {name}'
@@ -316,6 +320,7 @@ class World:
             for name in self._space.bodies
             if namespace is None or split_name(name)[0] == namespace
         ]
+        self.changed = bool(names)
         for name in names:
             self._space.remove(name)
         return f'deleted {len(names)} bodies'
@@ -345,6 +350,7 @@ class World:
         return '', f'commanded {len(rigids)} bodies'
 
     def _configure(self, settings: WorldSettings) -> None:
+        self.changed = settings != self._settings
         self._settings = settings
         self._space.configure(settings)
 
