@@ -112,6 +112,12 @@ class WorldFull(Refusal):
     code = 'world_full'
 
 
+class NotRecognised(Refusal):
+    """A stroke that might mean anything."""
+
+    code = 'not_recognised'
+
+
 class BadWorldFile(Refusal):
     """A world file that cannot be read, written or understood."""
 

@@ -31,6 +31,7 @@ CODES = {
     'UnknownBody': 'unknown_body',
     'Anchored': 'anchored',
     'NothingThere': 'nothing_there',
+    'NotRecognised': 'not_recognised',
     'WorldFull': 'world_full',
     'BadWorldFile': 'bad_world_file',
 }
