@@ -39,10 +39,12 @@ class View:
     A world at a moment.
 
     :param snapshot: of the world
+    :param first: the lowest number that no drawn thing has had yet, as far as is remembered
     """
 
-    def __init__(self, snapshot: Snapshot) -> None:
+    def __init__(self, snapshot: Snapshot, *, first: int = 0) -> None:
         self.snapshot = snapshot
+        self._first = first
 
     @property
     def settings(self) -> WorldSettings:
@@ -85,10 +87,17 @@ class View:
         cos, sin = math.cos(yaw), math.sin(yaw)
         return cos * dx + sin * dy, cos * dy - sin * dx
 
+    def in_world(self, name: str, point: Point) -> Point:
+        """Return a point of a body's frame as it is in the world [m]."""
+        x, y, yaw = self.pose(name)
+        cos, sin = math.cos(yaw), math.sin(yaw)
+        return x + cos * point[0] - sin * point[1], y + sin * point[0] + cos * point[1]
+
     def next_drawn(self) -> int:
-        """Return the lowest number above all that drawn things have."""
+        """Return the lowest number above all that drawn things have, or have had."""
         numbers = (split_name(name) for name in self.names)
-        return 1 + max((id_ for space, id_ in numbers if space == DRAWN), default=-1)
+        above = 1 + max((id_ for space, id_ in numbers if space == DRAWN), default=-1)
+        return max(above, self._first)
 
     @cached_property
     def _rows(self) -> dict[str, int]:
