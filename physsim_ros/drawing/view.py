@@ -25,6 +25,7 @@ from functools import cached_property
 import math
 
 import numpy as np
+from physsim_ros.core.errors import UnknownFrame
 from physsim_ros.core.names import split_name
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.shapes import Capsule, Circle, Convex, Piece, Point, Pose
@@ -65,6 +66,11 @@ class View:
         x, y, yaw = self.snapshot.poses[self._rows[name]].tolist()
         return x, y, yaw
 
+    def twist(self, name: str) -> Pose:
+        """Return vx, vy [m/s] of a body's centre of mass and its spin [rad/s], world axes."""
+        vx, vy, spin = self.snapshot.twists[self._rows[name]].tolist()
+        return vx, vy, spin
+
     def bodies_at(self, point: Point, slack: float = 0.0) -> tuple[str, ...]:
         """
         Return the bodies that cover a point, topmost (that spawned last) first.
@@ -92,6 +98,22 @@ class View:
         x, y, yaw = self.pose(name)
         cos, sin = math.cos(yaw), math.sin(yaw)
         return x + cos * point[0] - sin * point[1], y + sin * point[0] + cos * point[1]
+
+    def placed(self, point: Point, frame: str) -> Point:
+        """
+        Return where a point lies in the world [m].
+
+        :param point: [m]
+        :param frame: of it: '' for the world, or a body's name
+        :raises UnknownFrame: there is no such body
+        """
+        if not frame:
+            return point
+        if frame not in self._rows:
+            raise UnknownFrame(
+                f'frame {frame!r} is neither the world nor a body', field='header.frame_id'
+            )
+        return self.in_world(frame, point)
 
     def next_drawn(self) -> int:
         """Return the lowest number above all that drawn things have, or have had."""
