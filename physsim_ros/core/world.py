@@ -33,6 +33,7 @@ from physsim_ros.core.errors import (
     NothingThere,
     UnknownBody,
     UnknownFrame,
+    UnknownJoint,
     WorldFull,
 )
 from physsim_ros.core.names import split_name
@@ -40,15 +41,20 @@ from physsim_ros.core.palette import color_of
 from physsim_ros.core.properties import HEAVIEST, LIGHTEST
 from physsim_ros.core.requests import (
     Anchor,
+    Axle,
     check_pose,
     Command,
     Configure,
     Delete,
     DeleteAll,
+    Join,
+    Pin,
     Release,
     Request,
     Restore,
     Spawn,
+    Unjoin,
+    UnjoinAll,
 )
 from physsim_ros.core.rigid_body import REST, RigidBody, rotated
 from physsim_ros.core.settings import WorldSettings
@@ -172,6 +178,8 @@ class World:
             case Configure(changes=changes):
                 self._configure(self.settings_with(changes))
                 return '', f'set {", ".join(changes)}'
+            case Join() | Unjoin() | UnjoinAll() | Pin() | Axle():
+                raise UnknownJoint('the world has no joints yet')
             case Restore(state=state):
                 self._restore(state)
                 return '', f'loaded {len(state.bodies)} bodies'

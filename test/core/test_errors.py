@@ -29,6 +29,7 @@ CODES = {
     'UnknownProperty': 'unknown_property',
     'BadProperty': 'bad_property',
     'UnknownBody': 'unknown_body',
+    'UnknownJoint': 'unknown_joint',
     'Anchored': 'anchored',
     'NothingThere': 'nothing_there',
     'NotRecognised': 'not_recognised',
