@@ -247,6 +247,7 @@ def encode_event(answer: Answer) -> bytes:
     values = [('code', answer.code or 'ok')]
     if answer.field:
         values.append(('field', answer.field))
+    values.extend(answer.values)
     writer.ints(len(values))
     for key, value in values:
         writer.text(key)

@@ -150,6 +150,11 @@ def command_request(message: MultiDOFJointState, *, frame_id: str) -> Command:
     )
 
 
+def click(message: PointStamped, *, frame_id: str) -> tuple[tuple[float, float], str]:
+    """Return the point of a click and its frame, '' for the world; nothing is checked yet."""
+    return (message.point.x, message.point.y), _frame(message.header.frame_id, frame_id)
+
+
 def quaternion_of(yaw: float) -> Quaternion:
     """Return the rotation about z by an angle [rad]."""
     return Quaternion(z=math.sin(yaw / 2), w=math.cos(yaw / 2))

@@ -20,7 +20,8 @@ It wires and reports, and decides nothing.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 import gc
 from pathlib import Path
 import signal
@@ -30,12 +31,15 @@ from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PointStamped
-from physsim_ros import conversions, parameters, world_file
+from nav_msgs.msg import Path as PathMessage
+from physsim_ros import conversions, parameters, paths, world_file
 from physsim_ros.core.errors import PhysSimError, Refusal
 from physsim_ros.core.requests import Configure, DeleteAll, Request
 from physsim_ros.core.simulation import Simulation
-from physsim_ros.core.snapshot import Answer, Frame
+from physsim_ros.core.snapshot import Answer, Frame, Snapshot
 from physsim_ros.diagnostics import Meter
+from physsim_ros.drawing.pen import Pen, told
+from physsim_ros.drawing.tools import Tool
 from physsim_ros.streams import Streams
 from physsim_ros.viewer import Viewer, ViewerMode
 from rcl_interfaces.msg import SetParametersResult
@@ -80,11 +84,14 @@ class PhysSimNode(Node):
             settings=parameters.world_settings(self._values),
             speed=self._values['speed'],
         )
+        # As the world had them when the parameters were last seen to say the same.
+        self._settings = self.simulation.world.settings
         self._frame_id: str = self._values['frame_id']
         self._world_dir = Path(self._values['world_dir'])
         self._streams = Streams(
             self, frame_id=self._frame_id, publish_clock=self._values['publish_clock']
         )
+        self._pen = Pen(parameters.drawing_settings(self._values), Tool(self._values['tool']))
         self._meter = Meter()
         self._diagnostics = self.create_publisher(DiagnosticArray, '/diagnostics', 10)
         self._viewer: Viewer | None = None
@@ -141,6 +148,11 @@ class PhysSimNode(Node):
         for answer in frame.answers:
             self._report(answer)
         self._streams.publish(frame)
+        settings = self.simulation.world.settings
+        if settings is not self._settings:
+            self._settings = settings
+            if settings != parameters.world_settings(self._values):
+                self._tell_parameters()
         if self._viewer is not None:
             self._viewer.show(frame, real_time_factor=self._meter.real_time_factor)
 
@@ -189,6 +201,8 @@ class PhysSimNode(Node):
         listen(MultiDOFJointState, '~/command', conversions.command_request)
         self.create_subscription(MarkerArray, '~/spawn_array', self._spawn_array, _REQUESTS)
         self.create_subscription(Float64, '~/speed', self._speed, _REQUESTS)
+        self.create_subscription(PointStamped, 'clicked_point', self._click, _REQUESTS)
+        self.create_subscription(PathMessage, '~/stroke', self._stroke, _REQUESTS, raw=True)
 
     def _submit(self, message: Any, topic: str, convert: Callable[..., Request]) -> None:
         try:
@@ -213,6 +227,34 @@ class PhysSimNode(Node):
             return
         self.set_parameters([speed])
         self._report(Answer(topic='~/speed', message=f'speed {message.data:g}'))
+
+    def _click(self, message: PointStamped) -> None:
+        with self._drawing('clicked_point') as snapshot:
+            point, frame = conversions.click(message, frame_id=self._frame_id)
+            step = self._pen.click(point, frame, snapshot)
+            if step.message:
+                self.simulation.tell(Answer(topic='clicked_point', message=step.message))
+            for request in step.requests:
+                self.simulation.submit(request, topic='clicked_point')
+
+    def _stroke(self, message: bytes) -> None:
+        with self._drawing('~/stroke') as snapshot:
+            samples, frame = paths.stroke_from(message, frame_id=self._frame_id)
+            reading = self._pen.stroke(samples, frame, snapshot)
+            self.simulation.tell(told(reading, topic='~/stroke'))
+            for request in reading.requests:
+                self.simulation.submit(request, topic='~/stroke')
+
+    @contextmanager
+    def _drawing(self, topic: str) -> Iterator[Snapshot]:
+        """Give what is seen, with all that was asked before; refuse what cannot be drawn."""
+        self.apply()
+        world = self.simulation.world
+        try:
+            yield world.snapshot() if self.frame is None else self.frame.snapshot
+        except Refusal as refusal:
+            self.simulation.refuse(refusal, topic=topic, subject='')
+        self._streams.show(self._pen.preview)
 
     def _report(self, answer: Answer) -> None:
         self._streams.report(answer)
@@ -301,6 +343,8 @@ class PhysSimNode(Node):
             for parameter in changed:
                 parameters.check(parameter)
             self.simulation.world.settings_with(parameters.world_changes(changed))
+            values = {parameter.name: parameter.value for parameter in changed}
+            parameters.drawing_settings(self._values | values)
         except Refusal as refusal:
             return SetParametersResult(successful=False, reason=f'{refusal.code}: {refusal}')
         return SetParametersResult(successful=True)
@@ -315,6 +359,9 @@ class PhysSimNode(Node):
         names = {parameter.name for parameter in changed}
         if 'speed' in names:
             self.simulation.speed = self._values['speed']
+        self._pen.settings = parameters.drawing_settings(self._values)
+        self._pen.tool = Tool(self._values['tool'])
+        self._streams.show(self._pen.preview)
         if 'publish_clock' in names:
             self._streams.publish_clock = self._values['publish_clock']
         if 'viewer' in names and self._started:

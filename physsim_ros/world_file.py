@@ -32,6 +32,7 @@ from typing import Any
 
 import numpy as np
 from physsim_ros.core.errors import BadProperty, BadWorldFile, Malformed, Refusal
+from physsim_ros.core.palette import color_from
 from physsim_ros.core.properties import (
     check_key,
     number,
@@ -320,18 +321,7 @@ def _points(value: object, name: str) -> tuple[tuple[float, float], ...]:
 
 def _color(value: object) -> Color:
     if isinstance(value, str):
-        digits = value.removeprefix('#')
-        try:
-            channels = bytes.fromhex(digits)
-        except ValueError:
-            channels = b''
-        # The spaces that bytes.fromhex skips are none of a colour's.
-        if not value.startswith('#') or len(channels) not in (3, 4) or ' ' in digits:
-            raise BadProperty(
-                f"color must be '#rrggbb' or '#rrggbbaa', not {value!r}", field='color'
-            )
-        red, green, blue, alpha = (each / 255 for each in (*channels, 255)[:4])
-        return red, green, blue, alpha
+        return color_from(value)
     if not isinstance(value, list) or len(value) != 4:
         raise BadProperty('color must be a string or [r, g, b, a]', field='color')
     red, green, blue, alpha = (number(each, 'color') for each in value)

@@ -64,7 +64,7 @@ class Simulation:
         self.world = World(physics_rate=physics_rate, settings=settings)
         self._beginning = self.world.save()
         self._clock = Clock(physics_rate=physics_rate, frame_steps=self.frame_steps, speed=speed)
-        self._requests: deque[tuple[Request | Refusal, str, str]] = deque()
+        self._requests: deque[tuple[Request | Refusal | Answer, str, str]] = deque()
         self._answers: list[Answer] = []
         self._changed = True
 
@@ -93,6 +93,10 @@ class Simulation:
             case Spawn(name=subject) | Delete(name=subject) | Command(names=(subject,)):
                 pass
         self._requests.append((request, topic, subject))
+
+    def tell(self, answer: Answer) -> None:
+        """Queue an answer to what asked nothing of the world, so that answers keep the order."""
+        self._requests.append((answer, answer.topic, answer.subject))
 
     def refuse(self, refusal: Refusal, *, topic: str, subject: str) -> None:
         """Queue the answer to what could not even be a request, so that answers keep the order."""
@@ -159,6 +163,9 @@ class Simulation:
         while self._requests:
             request, topic, subject = self._requests.popleft()
             self._changed = True
+            if isinstance(request, Answer):
+                self._answers.append(request)
+                continue
             try:
                 if isinstance(request, Refusal):
                     raise request

@@ -197,6 +197,7 @@ class Answer:
     :param message: a sentence
     :param code: '' for success, else the stable code of the refusal
     :param field: the offending field of a refusal
+    :param values: what else there is to tell, as pairs of key and value
     """
 
     topic: str
@@ -204,6 +205,7 @@ class Answer:
     message: str = ''
     code: str = ''
     field: str = ''
+    values: tuple[tuple[str, str], ...] = ()
 
     @classmethod
     def refused(cls, refusal: Refusal, *, topic: str, subject: str = '') -> Answer:

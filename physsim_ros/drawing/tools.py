@@ -15,8 +15,8 @@
 """
 The tools of drawing by clicks: what the clicks of a gesture, from its first, make.
 
-Law: a tool reads clicks and a view of the world, and changes neither. While it wants more clicks it
-says which; with the last one it gives the requests; a gesture that is no shape is refused.
+Law: a tool reads clicks and a view of the world, and changes neither. While it wants more clicks
+it says which; with the last one it gives the requests; a gesture that is no shape is refused.
 """
 
 from __future__ import annotations
@@ -27,6 +27,7 @@ from enum import StrEnum
 import math
 
 from physsim_ros.core.errors import Anchored, BadProperty, BadSize, NothingThere, UnknownBody
+from physsim_ros.core.joint_properties import JointKind
 from physsim_ros.core.names import WORLD
 from physsim_ros.core.requests import (
     Anchor,
@@ -35,7 +36,6 @@ from physsim_ros.core.requests import (
     Configure,
     Delete,
     Join,
-    JointKind,
     Pin,
     Release,
     Request,
@@ -246,9 +246,7 @@ TOOLS: dict[Tool, Draw] = {
 }
 
 
-def _join(
-    kind: JointKind, clicks: Sequence[Click], view: View, settings: DrawingSettings
-) -> Step:
+def _join(kind: JointKind, clicks: Sequence[Click], view: View, settings: DrawingSettings) -> Step:
     """Join what was clicked first to what was clicked then, one of them a body."""
     if len(clicks) < 2:
         where = clicks[0].body or 'the background'

@@ -40,12 +40,13 @@ class View:
     A world at a moment.
 
     :param snapshot: of the world
-    :param first: the lowest number that no drawn thing has had yet, as far as is remembered
+    :param first: the lowest number that no drawn body has had, as far as is remembered
+    :param first_joint: the same of drawn joints
     """
 
-    def __init__(self, snapshot: Snapshot, *, first: int = 0) -> None:
+    def __init__(self, snapshot: Snapshot, *, first: int = 0, first_joint: int = 0) -> None:
         self.snapshot = snapshot
-        self._first = first
+        self._first, self._first_joint = first, first_joint
 
     @property
     def settings(self) -> WorldSettings:
@@ -116,10 +117,14 @@ class View:
         return self.in_world(frame, point)
 
     def next_drawn(self) -> int:
-        """Return the lowest number above all that drawn things have, or have had."""
+        """Return the lowest number above all that drawn bodies have, or have had."""
         numbers = (split_name(name) for name in self.names)
         above = 1 + max((id_ for space, id_ in numbers if space == DRAWN), default=-1)
         return max(above, self._first)
+
+    def next_joint(self) -> int:
+        """Return the lowest number above all that drawn joints have, or have had."""
+        return self._first_joint
 
     @cached_property
     def _rows(self) -> dict[str, int]:
