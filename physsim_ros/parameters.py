@@ -139,7 +139,9 @@ SPECS: dict[str, Spec] = {
     'elasticity': Spec(
         default=0.5, meaning='of what is made next without saying', low=0.0, high=1.0
     ),
-    'draw_velocity': Spec(default=[0.0, 0.0], meaning='of what is drawn next [m/s]'),
+    'draw_velocity': Spec(
+        default=[0.0, 0.0], meaning='of what is drawn next [m/s]', low=-1e5, high=1e5
+    ),
     'draw_color': Spec(
         default=AUTO,
         meaning="of what is drawn next: '#rrggbb', '#rrggbbaa', or auto, one for each",
