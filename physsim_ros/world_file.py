@@ -26,7 +26,6 @@ from contextlib import contextmanager
 from dataclasses import fields, replace
 import os
 from pathlib import Path
-import sys
 import tempfile
 from typing import Any
 
@@ -58,6 +57,7 @@ from physsim_ros.core.shapes import (
 from physsim_ros.core.snapshot import BodyState, Motion, WorldState
 from physsim_ros.core.space import LOST
 from physsim_ros.core.world import World
+from physsim_ros.shipped import shipped
 from physsim_ros.yaml_text import load_mapping
 import yaml
 
@@ -74,14 +74,7 @@ _ROUNDING = 1e-9
 
 def shipped_worlds() -> Path:
     """Return the directory of the worlds that come with the package."""
-    source = Path(__file__).resolve().parent.parent / 'config' / 'worlds'
-    if source.is_dir():
-        return source
-    for prefix in (*os.environ.get('AMENT_PREFIX_PATH', '').split(os.pathsep), sys.prefix):
-        installed = Path(prefix) / 'share' / 'physsim_ros' / 'config' / 'worlds'
-        if prefix and installed.is_dir():
-            return installed
-    return source
+    return shipped('worlds')
 
 
 def find(name: str, *, world_dir: Path, confined: bool) -> Path:
