@@ -30,6 +30,7 @@ from typing import Any
 from xml.etree.ElementTree import ParseError
 
 import numpy as np
+from numpy.typing import NDArray
 from physsim_ros.core.errors import PhysSimError
 from physsim_ros.core.snapshot import Floats
 from physsim_ros.paths import MOST_SAMPLES
@@ -41,6 +42,10 @@ from svgelements import Path as SvgPath
 SVG_SCALE = 0.01
 # A Bézier or an arc is cut into so many straight pieces before it is sampled.
 _PIECES = 64
+# What turns more at a point has a corner there [rad].
+_CORNER = 0.2
+# Small things are drawn more slowly: no stroke has fewer samples.
+_FEWEST = 30
 
 
 class BadDrawing(PhysSimError):
@@ -97,7 +102,7 @@ def load(path: Path, *, scale: float | None = None, pace: Pace | None = None) ->
         raise BadDrawing(f'cannot read {path}: {error}') from error
     factor = unit if scale is None else scale
     drawn = [_drawn(line, factor, pace or Pace()) for line in lines if len(line)]
-    strokes = [stroke for stroke in drawn if len(stroke) > 1]
+    strokes = [stroke for stroke in drawn if len(stroke)]
     if not strokes:
         raise BadDrawing(f'{path} holds no stroke')
     return strokes
@@ -163,11 +168,23 @@ def _drawn(line: Floats, scale: float, pace: Pace) -> Floats:
     steps = np.hypot(*np.diff(points, axis=0).T)
     kept = np.concatenate(((True,), steps > 0.0))
     points, steps = points[kept], steps[steps > 0.0]
+    if len(points) < 2:
+        return np.empty((0, 3))
     reached = np.concatenate(((0.0,), np.cumsum(steps)))
     length = float(reached[-1])
-    # So many samples that, with the corners, they are not more than a stroke may have.
-    count = min(math.ceil(length / pace.speed * pace.rate), MOST_SAMPLES // 2)
-    along = np.union1d(np.linspace(0.0, length, count + 1), reached)
+    count = math.ceil(length / pace.speed * pace.rate)
+    # With the corners they are not more than a stroke may have.
+    count = min(max(count, _FEWEST), MOST_SAMPLES // 2)
+    corners = reached[_turns(points)][: MOST_SAMPLES // 3]
+    along = np.union1d(np.linspace(0.0, length, count + 1), corners)
     x = np.interp(along, reached, points[:, 0])
     y = np.interp(along, reached, points[:, 1])
     return np.column_stack((x, y, along / pace.speed))
+
+
+def _turns(points: Floats) -> NDArray[np.bool_]:
+    """Return (n,) bool: where a line turns so much that it is a corner, and no part of a curve."""
+    steps = np.diff(points, axis=0)
+    headings = np.arctan2(steps[:, 1], steps[:, 0])
+    turns = np.abs((np.diff(headings) + math.pi) % math.tau - math.pi)
+    return np.concatenate(((False,), turns > _CORNER, (False,)))
