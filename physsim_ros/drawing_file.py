@@ -128,7 +128,11 @@ def _from_json(content: Any) -> list[Floats]:
 
 def _from_svg(path: Path) -> list[Floats]:
     """Return (n, 2) float64 of every subpath: x, y in user units of the page, y up."""
-    page = SVG.parse(str(path))
+    try:
+        page = SVG.parse(str(path))
+    except TypeError as error:
+        # svgelements 1.9 stumbles over a path without data.
+        raise BadDrawing(f'cannot read {path}: an element lacks what it needs') from error
     if not isinstance(page, SVG):
         raise BadDrawing(f'{path} is no SVG')
     # To pixels, where a page says how large a user unit is; the scale here is one of those.
