@@ -41,6 +41,7 @@ from rclpy.qos import HistoryPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.signals import SignalHandlerOptions
 from rclpy.time import Time
 from rclpy.utilities import remove_ros_args
+from std_srvs.srv import Trigger
 
 _ALL = QoSProfile(history=HistoryPolicy.KEEP_ALL, reliability=ReliabilityPolicy.RELIABLE)
 
@@ -69,6 +70,9 @@ class Artist(Node):
         self._events = self.create_subscription(
             DiagnosticStatus, f'{world}/events', self._hear, _ALL
         )
+        self._services = {
+            name: self.create_client(Trigger, f'{world}/{name}') for name in ('pause', 'play')
+        }
         self._executor = EventsExecutor()
         self._executor.add_node(self)
         self._stopped: list[int] = []
@@ -107,6 +111,17 @@ class Artist(Node):
         count = 1 + int(values.get('requests', '0'))
         self._spin_until(lambda: len(self._answers) >= count, 'the world does not answer')
         return [self._answers.popleft() for _ in range(count)]
+
+    def call(self, service: str) -> None:
+        """
+        Have the world pause or play.
+
+        :raises Unanswered: it does not answer
+        """
+        client = self._services[service]
+        self._spin_until(client.service_is_ready, f'{service} is not there')
+        future = client.call_async(Trigger.Request())
+        self._spin_until(future.done, f'{service} is not answered')
 
     def close(self) -> None:
         """Leave the graph."""
@@ -175,12 +190,16 @@ def _draw_all(artist: Artist, strokes: Sequence[Floats], options: argparse.Names
     """Draw strokes and return how many of them the world refused something of."""
     artist.meet()
     refused = 0
+    if options.pause:
+        artist.call('pause')
     for number, stroke in enumerate(strokes, 1):
         answers = artist.draw(stroke, frame_id=options.frame, at_once=options.once)
         refused += any(answer.level != DiagnosticStatus.OK for answer in answers)
         for answer in answers:
             words = 'refused: ' if answer.level != DiagnosticStatus.OK else ''
             print(f'{number}/{len(strokes)}  {words}{answer.message}', flush=True)  # noqa: T201
+    if options.pause:
+        artist.call('play')
     return refused
 
 
@@ -208,6 +227,9 @@ def _options(arguments: Sequence[str]) -> argparse.Namespace:
     parser.add_argument('--rate', type=_positive, default=100.0, help='of its samples [Hz]')
     parser.add_argument(
         '--once', action='store_true', help='draw each stroke at once, not at the speed of the pen'
+    )
+    parser.add_argument(
+        '--pause', action='store_true', help='let time stand still meanwhile, and play then'
     )
     parser.add_argument('--world', default='/physsim', help="the name of the world's node")
     parser.add_argument('--frame', default='', help="to draw in: a body's name, or the world's")
