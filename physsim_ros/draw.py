@@ -70,7 +70,7 @@ class Artist(Node):
         self._events = self.create_subscription(
             DiagnosticStatus, f'{world}/events', self._hear, _ALL
         )
-        self._services = {
+        self._buttons = {
             name: self.create_client(Trigger, f'{world}/{name}') for name in ('pause', 'play')
         }
         self._executor = EventsExecutor()
@@ -118,7 +118,7 @@ class Artist(Node):
 
         :raises Unanswered: it does not answer
         """
-        client = self._services[service]
+        client = self._buttons[service]
         self._spin_until(client.service_is_ready, f'{service} is not there')
         future = client.call_async(Trigger.Request())
         self._spin_until(future.done, f'{service} is not answered')

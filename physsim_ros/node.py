@@ -22,6 +22,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 import gc
 from pathlib import Path
 import signal
@@ -129,6 +130,9 @@ class PhysSimNode(Node):
         for frame in frames:
             self.deliver(frame)
         if not frames:
+            if self.frame is not None and self.frame.preview != self._pen.preview:
+                # Nothing has happened but that what was half drawn has been dropped.
+                self.deliver(replace(self.frame, answers=(), moved=False))
             self._streams.welcome()
             return
         last = frames[-1]
@@ -144,6 +148,8 @@ class PhysSimNode(Node):
 
     def deliver(self, frame: Frame) -> None:
         """Send a frame to topics and viewer."""
+        if self._pen.preview != frame.preview:
+            frame = replace(frame, preview=self._pen.preview)
         self.frame = frame
         for answer in frame.answers:
             self._report(answer)

@@ -25,8 +25,8 @@ import math
 
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import Point as PointMessage
+from physsim_ros.core.preview import Preview
 from physsim_ros.core.shapes import Point
-from physsim_ros.drawing.preview import Preview
 from std_msgs.msg import ColorRGBA
 from visualization_msgs.msg import Marker, MarkerArray
 

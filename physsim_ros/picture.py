@@ -30,7 +30,9 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from physsim_ros.core.preview import NOTHING
 from physsim_ros.core.settings import Bounds
+from physsim_ros.core.shapes import Point
 from physsim_ros.core.snapshot import Answer, Floats, Frame, Snapshot
 from physsim_ros.layout import (
     DEPTH,
@@ -70,6 +72,7 @@ SAMPLE = 6
 PAPER = (250, 250, 247)
 WALL = (0.35, 0.37, 0.4, 1.0)
 CONTACT = (214, 39, 40)
+PREVIEW = (230, 51, 128)
 FACTOR = (84, 162, 75)
 ENERGIES = {'kinetic': (245, 133, 24), 'potential': (76, 120, 168), 'total': (150, 150, 150)}
 
@@ -93,6 +96,7 @@ class Picture:
         self._area = NOWHERE
         self._framed = False
         self._touching = False
+        self._preview = NOTHING
         # Entities that are not empty, and where the bodies were drawn last.
         self._drawn: set[str] = set()
         self._poses: Floats = np.empty((0, 3))
@@ -122,6 +126,8 @@ class Picture:
         if self._last is None or frame.moved or frame.answers:
             return True
         before, now = self._last.snapshot, frame.snapshot
+        if frame.preview != self._last.preview:
+            return True
         return now.scene is not before.scene or not np.array_equal(now.poses, before.poses)
 
     def _draw_run(self, frames: Sequence[Frame]) -> None:
@@ -151,6 +157,7 @@ class Picture:
                 self._send_motion(path, table, motion, times)
         self._send_energy(frames, numbers)
         self._send_contacts(frames, times)
+        self._send_previews(frames, numbers)
         self._send_events(frames, numbers)
         self._count += len(frames)
 
@@ -180,6 +187,12 @@ class Picture:
             'world/walls': rr.Boxes3D.from_fields(fill_mode='solid', colors=wall),
             'world/contacts': rr.Points3D.from_fields(
                 radii=rr.Radius.ui_points(2.0), colors=[CONTACT]
+            ),
+            'world/preview/lines': rr.LineStrips3D.from_fields(
+                radii=rr.Radius.ui_points(1.5), colors=[PREVIEW]
+            ),
+            'world/preview/points': rr.Points3D.from_fields(
+                radii=rr.Radius.ui_points(3.0), colors=[PREVIEW], show_labels=True
             ),
             'energy': rr.SeriesLines(names=list(ENERGIES), colors=list(ENERGIES.values())),
             'real_time_factor': rr.SeriesLines(names='real-time factor', colors=[FACTOR]),
@@ -256,6 +269,28 @@ class Picture:
         positions = np.hstack((np.concatenate(points), height)).astype(np.float32)
         columns = rr.Points3D.columns(positions=positions).partition(lengths)
         self._recording.send_columns('world/contacts', times, columns)
+
+    def _send_previews(self, frames: Sequence[Frame], numbers: Sequence[int]) -> None:
+        """Send what is half drawn where that has changed, or is to be repeated."""
+        for frame, number in zip(frames, numbers, strict=True):
+            preview = frame.preview
+            if preview == self._preview and (preview == NOTHING or number % REPEAT):
+                continue
+            self._preview = preview
+            times = _times([frame.snapshot], [number])
+            lines = [self._raised(line) for line in preview.lines]
+            strips = rr.LineStrips3D.columns(strips=lines).partition([len(lines)])
+            self._recording.send_columns('world/preview/lines', times, strips)
+            # The label stands at a point of its own.
+            points = self._raised([*preview.points, *([preview.top] if preview.label else [])])
+            labels = ['' for _ in preview.points] + [preview.label] * bool(preview.label)
+            dots = rr.Points3D.columns(positions=points, labels=labels).partition([len(points)])
+            self._recording.send_columns('world/preview/points', times, dots)
+
+    def _raised(self, points: Sequence[Point]) -> Singles:
+        """Return points of the plane above all that is in the world, (n, 3) float32 [m]."""
+        height = 3 * (THICK + DEPTH) * _unit(self._area)
+        return np.array([(x, y, height) for x, y in points], dtype=np.float32).reshape(-1, 3)
 
     def _send_events(self, frames: Sequence[Frame], numbers: Sequence[int]) -> None:
         rows = [

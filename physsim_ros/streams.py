@@ -31,8 +31,8 @@ from typing import Any
 from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import PoseArray
 from physsim_ros import cdr, overlay
+from physsim_ros.core.preview import NOTHING, Preview
 from physsim_ros.core.snapshot import Answer, Frame
-from physsim_ros.drawing.preview import NOTHING, Preview
 from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.publisher import Publisher

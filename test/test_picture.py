@@ -24,6 +24,7 @@ from pathlib import Path
 import subprocess
 
 import numpy as np
+from physsim_ros.core.preview import NOTHING, Preview
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.shapes import Box, Chain, Compound, Disc, Polygon, Triangles
 from physsim_ros.core.snapshot import Answer, Body, Contacts, Frame, Scene, Snapshot
@@ -429,6 +430,21 @@ def test_contacts_are_points_as_long_as_they_last(recording):
 
 def eyes(recording):
     return [row.value[0] for row in recording.rows('world/camera', 'Transform3D:translation')]
+
+
+def test_what_is_half_drawn_lies_over_the_world_until_it_is_dropped(recording):
+    box, half = scene(body()), Preview(lines=(((0, 0), (3, 4)),), points=((3, 4),), label='wall')
+    # Nothing moves: a preview alone is something new to see.
+    for preview in (NOTHING, half, half, NOTHING):
+        recording.draw(frame(box, [(0, 0, 0)], moved=False, preview=preview))
+
+    (shown, cleared) = recording.rows('world/preview/lines', 'LineStrips3D:strips')
+    assert (shown.frame, cleared.frame) == (1, 2)
+    ((start, end),) = shown.value
+    assert [*start[:2], *end[:2]] == [0, 0, 3, 4]
+    assert len(cleared.value) == 0
+    labels = recording.rows('world/preview/points', 'Points3D:labels')
+    assert [[*row.value] for row in labels] == [['', 'wall'], []]
 
 
 def test_the_camera_stands_still_while_bodies_move(recording):

@@ -27,6 +27,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.core.errors import Refusal
+from physsim_ros.core.preview import NOTHING, Preview
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.shapes import Color, Pose, Shape
 
@@ -274,6 +275,7 @@ class Frame:
     :param answers: to the requests that were applied, in their order
     :param speed: at which time runs; 0 is paused
     :param moved: whether time went on since the frame before
+    :param preview: what is half drawn over it
     """
 
     snapshot: Snapshot
@@ -281,3 +283,4 @@ class Frame:
     answers: tuple[Answer, ...] = field(default=())
     speed: float = 1.0
     moved: bool = True
+    preview: Preview = NOTHING

@@ -23,9 +23,9 @@ from __future__ import annotations
 
 import math
 
+from physsim_ros.core.preview import Line, Preview
 from physsim_ros.core.requests import check_point
 from physsim_ros.core.shapes import Point
-from physsim_ros.drawing.preview import Line, Preview
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.tools import Click, Step, Tool, TOOLS
 from physsim_ros.drawing.view import View

@@ -24,11 +24,11 @@ from collections.abc import Iterable
 
 import numpy as np
 from physsim_ros.core.names import split_name
+from physsim_ros.core.preview import NOTHING, Preview
 from physsim_ros.core.requests import Join, Request, Spawn
 from physsim_ros.core.shapes import Point
 from physsim_ros.core.snapshot import Answer, Floats, Snapshot
 from physsim_ros.drawing.gesture import Gesture
-from physsim_ros.drawing.preview import NOTHING, Preview
 from physsim_ros.drawing.reading import read, Reading
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.tools import Step, Tool

@@ -31,6 +31,7 @@ from physsim_ros.core.errors import (
     UnknownFrame,
 )
 from physsim_ros.core.joint_properties import JointKind
+from physsim_ros.core.preview import NOTHING
 from physsim_ros.core.properties import Properties
 from physsim_ros.core.requests import (
     Anchor,
@@ -48,7 +49,6 @@ from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.shapes import Box, Chain, Disc, Point, Polygon
 from physsim_ros.core.world import World
 from physsim_ros.drawing.pen import Pen
-from physsim_ros.drawing.preview import NOTHING
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.tools import Tool, TOOLS
 import pytest
