@@ -20,7 +20,7 @@ It wires and reports, and decides nothing.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 import gc
@@ -154,11 +154,11 @@ class PhysSimNode(Node):
         for answer in frame.answers:
             self._report(answer)
         self._streams.publish(frame)
-        settings = self.simulation.world.settings
+        settings = frame.snapshot.scene.settings
         if settings is not self._settings:
             self._settings = settings
             if settings != parameters.world_settings(self._values):
-                self._tell_parameters()
+                self.set_parameters(parameters.world_parameters(settings))
         if self._viewer is not None:
             self._viewer.show(frame, real_time_factor=self._meter.real_time_factor)
 
@@ -219,6 +219,11 @@ class PhysSimNode(Node):
             return
         self.simulation.submit(request, topic=topic)
 
+    def _submit_all(self, requests: Iterable[Request], topic: str) -> None:
+        """Submit what one gesture asks for: it is undone as one."""
+        for number, request in enumerate(requests):
+            self.simulation.submit(request, topic=topic, joined=number > 0)
+
     def _spawn_array(self, message: MarkerArray) -> None:
         for marker in message.markers:
             self._submit(marker, '~/spawn_array', conversions.body_request)
@@ -240,24 +245,21 @@ class PhysSimNode(Node):
             step = self._pen.click(point, frame, snapshot)
             if step.message:
                 self.simulation.tell(Answer(topic='clicked_point', message=step.message))
-            for request in step.requests:
-                self.simulation.submit(request, topic='clicked_point')
+            self._submit_all(step.requests, 'clicked_point')
 
     def _stroke(self, message: bytes) -> None:
         with self._drawing('~/stroke') as snapshot:
             samples, frame = paths.stroke_from(message, frame_id=self._frame_id)
             reading = self._pen.stroke(samples, frame, snapshot)
             self.simulation.tell(told(reading, topic='~/stroke'))
-            for request in reading.requests:
-                self.simulation.submit(request, topic='~/stroke')
+            self._submit_all(reading.requests, '~/stroke')
 
     @contextmanager
     def _drawing(self, topic: str) -> Iterator[Snapshot]:
         """Give what is seen, with all that was asked before; refuse what cannot be drawn."""
         self.apply()
-        world = self.simulation.world
         try:
-            yield world.snapshot() if self.frame is None else self.frame.snapshot
+            yield self.simulation.world.snapshot() if self.frame is None else self.frame.snapshot
         except Refusal as refusal:
             self.simulation.refuse(refusal, topic=topic, subject='')
         self._streams.show(self._pen.preview)

@@ -107,6 +107,31 @@ class ContactLog:
             stays = (ids != body).all(axis=1)
             self._gone[number] = ids[stays], sums[stays]
 
+    def clear(self) -> None:
+        """Forget what has been summed up since the last call of `take`."""
+        self._gone = []
+        self._sums = np.zeros_like(self._sums)
+        self._steps = 0
+        self._begun.clear()
+
+    def inherit(self, old: ContactLog, old_ids: Ids, ids: Ids) -> None:
+        """
+        Take over what another log has summed up, of the same bodies under other ids.
+
+        :param old_ids: (n,) uint64: the engine's ids of the bodies there
+        :param ids: (n,) uint64: their ids here
+        """
+        ascending = np.argsort(old_ids)
+
+        def renamed(pairs: Ids) -> Ids:
+            return ids[ascending[np.searchsorted(old_ids[ascending], pairs)]]
+
+        self._ids, self._sums, self._steps = renamed(old._ids), old._sums, old._steps
+        self._gone = [(renamed(pairs), sums) for pairs, sums in old._gone]
+        self._places = (renamed(old._places[0]), old._places[1])
+        names = dict(zip(old_ids.tolist(), ids.tolist(), strict=True))
+        self._begun = {(names[a], names[b]): place for (a, b), place in old._begun.items()}
+
     def take(self, ids: Ids, rows: Ints, centers: Floats) -> Contacts:
         """
         Return the contacts since the last call, each pair once.
@@ -217,6 +242,7 @@ class _Listing:
     :param pairs: (m, 2): rows of each pair, the earlier spawned first
     :param order: (l,): where the contacts of the pairs are among those that come, pair by pair
     :param first: (m,): where in that order each pair begins
+    :param runs: begin and end in that order of each pair that has several contacts
     :param sign: (k, 1): -1 where the engine has a pair the other way round
     """
 
@@ -225,6 +251,7 @@ class _Listing:
     pairs: Ints
     order: NDArray[np.intp]
     first: NDArray[np.intp]
+    runs: tuple[tuple[int, int], ...]
     sign: Floats
 
     def holds(self, touching: Ids, ids: Ids) -> bool:
@@ -238,12 +265,20 @@ class _Listing:
         :param current: so many touch still, those that come first
         """
         # The engine's impulse acts on the first body; the log tells what the first gives.
-        impulses = (sums * -self.sign)[self.order]
-        places = places[self.order]
-        places[:, :2] *= self.sign[self.order]
+        rows = np.empty((len(self.order), 8))
+        rows[:, 0] = self.order < current
+        rows[:, 1:3] = (sums * -self.sign)[self.order]
+        rows[:, 3:] = places[self.order]
+        rows[:, 3:5] *= self.sign[self.order]
         if len(self.first) < len(self.order):
-            impulses = np.add.reduceat(impulses, self.first, axis=0)
-            places = self._means(places, self.order < current)
+            for begin, end in self.runs:
+                # A sum in another order is another sum, in its last bits.
+                run = rows[begin:end]
+                rows[begin:end] = run[np.lexsort(run.T)]
+            impulses = np.add.reduceat(rows[:, 1:3], self.first, axis=0)
+            places = self._means(rows[:, 3:], rows[:, 0] > 0)
+        else:
+            impulses, places = rows[:, 1:3], rows[:, 3:]
         contacts = Contacts(
             pairs=self.pairs, points=places[:, 3:], normals=places[:, :2], impulses=impulses
         )
@@ -284,12 +319,15 @@ def _list(touching: Ids, ids: Ids, rows: Ints) -> _Listing:
     order = np.argsort(keys, kind='stable')
     order = order[pairs[order, 0] >= 0]
     first = np.flatnonzero(np.diff(keys[order], prepend=-2))
+    ends = np.append(first[1:], len(order))
+    several = ends - first > 1
     return _Listing(
         touching=touching,
         ids=ids,
         pairs=pairs[order[first]],
         order=order,
         first=first,
+        runs=tuple(zip(first[several].tolist(), ends[several].tolist(), strict=True)),
         sign=np.where(swap, -1.0, 1.0)[:, None],
     )
 
