@@ -64,20 +64,46 @@ def polygon(name: str, corners: Sequence[Point], settings: DrawingSettings) -> S
     return _moving(name, Polygon(outline=outline), (x, y, 0.0), settings)
 
 
-def wall(name: str, start: Point, end: Point, settings: DrawingSettings) -> Spawn:
+def wall(name: str, points: Sequence[Point], settings: DrawingSettings) -> Spawn:
     """
-    Return the request for a wall: an anchored segment, its x axis along it.
+    Return the request for a wall: anchored segments; where it is one, its x axis is along it.
 
-    :raises BadOutline: both ends are one point
+    :param points: at least two, in order [m]
+    :raises BadOutline: they are one point
     """
-    half = math.dist(start, end) / 2
-    shape = Chain(points=((-half, 0.0), (half, 0.0)), thickness=settings.wall_thickness)
-    yaw = math.atan2(end[1] - start[1], end[0] - start[0])
-    middle = (start[0] + end[0]) / 2, (start[1] + end[1]) / 2
+    thickness = settings.wall_thickness
+    x, y = Chain(points=tuple(points), thickness=thickness).form.centroid
+    yaw = 0.0
+    line = tuple((point[0] - x, point[1] - y) for point in points)
+    if len(points) == 2:
+        (start, end), half = points, math.dist(*points) / 2
+        yaw = math.atan2(end[1] - start[1], end[0] - start[0])
+        line = (-half, 0.0), (half, 0.0)
     return Spawn(
         name=name,
-        shape=shape,
-        pose=(*middle, yaw),
+        shape=Chain(points=line, thickness=thickness),
+        pose=(x, y, yaw),
+        color=settings.draw_color,
+        properties=Properties(anchored=True),
+    )
+
+
+def terrain(name: str, corners: Sequence[Point], settings: DrawingSettings) -> Spawn:
+    """
+    Return the request for a wall of several segments, its origin in their middle.
+
+    :param corners: ends and bends, in order [m]
+    :raises BadOutline: all are one point
+    """
+    if len(corners) == 2:
+        return wall(name, *corners, settings)
+    xs, ys = zip(*corners, strict=True)
+    x, y = (min(xs) + max(xs)) / 2, (min(ys) + max(ys)) / 2
+    points = tuple((corner[0] - x, corner[1] - y) for corner in corners)
+    return Spawn(
+        name=name,
+        shape=Chain(points=points, thickness=settings.wall_thickness),
+        pose=(x, y, 0.0),
         color=settings.draw_color,
         properties=Properties(anchored=True),
     )

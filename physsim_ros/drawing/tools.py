@@ -152,7 +152,7 @@ def wall(clicks: Sequence[Click], view: View, settings: DrawingSettings) -> Step
         return _more('an end is set', 'the other end')
     start, end = _points(clicks)
     _span(start, end, settings, 'the wall')
-    return _done(bodies.wall(_next_body(view), start, end, settings))
+    return _done(bodies.wall(_next_body(view), (start, end), settings))
 
 
 def anchor(clicks: Sequence[Click], _view: View, _settings: DrawingSettings) -> Step:
