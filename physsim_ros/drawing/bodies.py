@@ -88,27 +88,6 @@ def wall(name: str, points: Sequence[Point], settings: DrawingSettings) -> Spawn
     )
 
 
-def terrain(name: str, corners: Sequence[Point], settings: DrawingSettings) -> Spawn:
-    """
-    Return the request for a wall of several segments, its origin in their middle.
-
-    :param corners: ends and bends, in order [m]
-    :raises BadOutline: all are one point
-    """
-    if len(corners) == 2:
-        return wall(name, *corners, settings)
-    xs, ys = zip(*corners, strict=True)
-    x, y = (min(xs) + max(xs)) / 2, (min(ys) + max(ys)) / 2
-    points = tuple((corner[0] - x, corner[1] - y) for corner in corners)
-    return Spawn(
-        name=name,
-        shape=Chain(points=points, thickness=settings.wall_thickness),
-        pose=(x, y, 0.0),
-        color=settings.draw_color,
-        properties=Properties(anchored=True),
-    )
-
-
 def _moving(name: str, shape: Shape, pose: Pose, settings: DrawingSettings) -> Spawn:
     velocity = settings.draw_velocity
     return Spawn(
