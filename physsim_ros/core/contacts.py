@@ -107,6 +107,24 @@ class ContactLog:
             stays = (ids != body).all(axis=1)
             self._gone[number] = ids[stays], sums[stays]
 
+    def inherit(self, old: ContactLog, old_ids: Ids, ids: Ids) -> None:
+        """
+        Take over what another log has summed up, of the same bodies under other ids.
+
+        :param old_ids: (n,) uint64: the engine's ids of the bodies there
+        :param ids: (n,) uint64: their ids here
+        """
+        ascending = np.argsort(old_ids)
+
+        def renamed(pairs: Ids) -> Ids:
+            return ids[ascending[np.searchsorted(old_ids[ascending], pairs)]]
+
+        self._ids, self._sums, self._steps = renamed(old._ids), old._sums, old._steps
+        self._gone = [(renamed(pairs), sums) for pairs, sums in old._gone]
+        self._places = (renamed(old._places[0]), old._places[1])
+        names = dict(zip(old_ids.tolist(), ids.tolist(), strict=True))
+        self._begun = {(names[a], names[b]): place for (a, b), place in old._begun.items()}
+
     def take(self, ids: Ids, rows: Ints, centers: Floats) -> Contacts:
         """
         Return the contacts since the last call, each pair once.

@@ -29,7 +29,6 @@ from numpy.typing import NDArray
 from physsim_ros.core import stillness, sweep
 from physsim_ros.core.contacts import Ids
 from physsim_ros.core.rigid_body import RigidBody
-from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.snapshot import Floats, Ints, Scene
 
 
@@ -81,16 +80,17 @@ class Layout:
 
 
 def lay_out(
-    rigids: Sequence[RigidBody], listing: Sequence[int], settings: WorldSettings, dt: float
+    scene: Scene, rigids: Sequence[RigidBody], listing: Sequence[int], dt: float
 ) -> Layout:
     """
     Lay bodies out in rows.
 
+    :param scene: what they are
     :param rigids: in spawn order
     :param listing: the engine's ids, in the order of its own listing
-    :param settings: of the world
     :param dt: of a step [s]
     """
+    settings = scene.settings
     places = {id_: place for place, id_ in enumerate(listing)}
     ids = np.array([rigid.engine.id for rigid in rigids], dtype=np.uintp)
     order = [places[id_] for id_ in ids.tolist()]
@@ -107,7 +107,7 @@ def lay_out(
             expiries.setdefault(rigid.body.expires, []).append(rigid.body.name)
     leads = [rigid.lead(settings.gravity, dt) for rigid in rigids]
     return Layout(
-        scene=Scene(bodies=tuple(rigid.body for rigid in rigids), settings=settings),
+        scene=scene,
         rows={rigid.body.name: row for row, rigid in enumerate(rigids)},
         ids=ids[ascending],
         id_rows=ascending,

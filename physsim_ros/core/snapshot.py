@@ -122,10 +122,33 @@ class WorldState:
 
     :param settings: of the world
     :param bodies: in spawn order
+    :param memory: of contacts; None where the state comes from a person
     """
 
     settings: WorldSettings
     bodies: tuple[BodyState, ...] = ()
+    memory: ContactMemory | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class ContactMemory:
+    """
+    What the engine remembers of contacts: its next step starts from these impulses.
+
+    :param ids: (n,) int64: the engine's number of each body's first shape, in spawn order
+    :param walls: the same of the first wall of `bounds`; 0 where there are none
+    :param following: the number that the next shape gets
+    :param pairs: (k, 2) int64: numbers of the two shapes of each contact point
+    :param hashes: (k,) uint64: what the engine tells the points of a pair apart by
+    :param impulses: (k, 2) float64: along and across the normal, in the last step [N s]
+    """
+
+    ids: Ints
+    walls: int
+    following: int
+    pairs: Ints
+    hashes: NDArray[np.uint64]
+    impulses: Floats
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -167,6 +190,28 @@ class Scene:
         """(n, 2) float64: centre of mass in the body's frame [m]."""
         rows = [body.shape.form.centroid for body in self.bodies]
         return np.array(rows, dtype=np.float64).reshape(-1, 2)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Keyframe:
+    """
+    All that a world goes on from at a step, after the requests of that step.
+
+    :param step: number of steps since the world began
+    :param scene: the bodies and the settings
+    :param state: (n, 6) float64: pose and velocity of each engine body [m, rad, s]
+    :param free: (n,) bool: in free flight, so that the engine's velocity leads
+    :param wrenches: of the bodies that one acts on: row, wrench [N, N m], the step at which it
+        ends or None
+    :param memory: of contacts
+    """
+
+    step: int
+    scene: Scene
+    state: Floats
+    free: NDArray[np.bool_]
+    wrenches: tuple[tuple[int, Pose, int | None], ...]
+    memory: ContactMemory
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

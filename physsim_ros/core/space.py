@@ -21,18 +21,18 @@ spawn order; true velocities do not jump when gravity or a wrench changes.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 import math
 
 import numpy as np
-from physsim_ros.core import rigid_body, sweep
+from physsim_ros.core import contact_memory, rigid_body, sweep
 from physsim_ros.core.contacts import ContactLog
 from physsim_ros.core.layout import lay_out, Layout
 from physsim_ros.core.rigid_body import REST, RigidBody
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.shapes import Point, Pose
-from physsim_ros.core.snapshot import Body, Contacts, Floats, Motion, Scene
+from physsim_ros.core.snapshot import Body, Contacts, Floats, Keyframe, Motion, Scene
 from physsim_ros.core.stillness import RATE, Stillness
 import pymunk
 from pymunk import batch
@@ -61,21 +61,30 @@ class Space:
 
     :param settings: of the world
     :param dt: of a step [s]
+    :param key: what it goes on from; None is an empty space
+    :param spares: bodies that have been built beforehand, by name
     """
 
-    def __init__(self, settings: WorldSettings, dt: float) -> None:
+    def __init__(
+        self,
+        settings: WorldSettings,
+        dt: float,
+        *,
+        key: Keyframe | None = None,
+        spares: Mapping[str, RigidBody] | None = None,
+    ) -> None:
         self.bodies: dict[str, RigidBody] = {}
         self._settings = settings
         self._dt = dt
         self._names: dict[pymunk.Body, str] = {}
         self._pushed: dict[str, RigidBody] = {}
         self._layout: Layout | None = None
-        self._buffer = batch.Buffer()
+        # One to read and one to write with: the engine must not grow memory that numpy owns.
+        self._buffer, self._written = batch.Buffer(), batch.Buffer()
         self._space = pymunk.Space()
         self._space.collision_slop = SLOP
         # The engine lists contacts of the last step only, and forgets at once what parted.
         self._space.collision_persistence = 1
-        self._space.on_collision(begin=self._begin)
         self._watching = False
         self._walls: list[pymunk.Shape] = []
         self._contacts = ContactLog(self._space)
@@ -85,7 +94,13 @@ class Space:
         # that a restored state goes on alike at whatever step it is restored.
         self._age = 0
         self.configure(settings)
+        if key is not None:
+            contact_memory.number_from(self._space, key.memory.walls)
         self._raise_walls()
+        if key is not None:
+            self._fill(key, spares or {})
+        # Only now: what is filled in has touched before.
+        self._space.on_collision(begin=self._begin)
 
     # Reading
 
@@ -120,6 +135,25 @@ class Space:
         # In spawn order, whichever was pushed first.
         for rigid in sorted(self._pushed.values(), key=lambda rigid: rigid.serial):
             yield f'{rigid.body.name} {rigid.wrench!r} {rigid.wrench_until}'.encode()
+
+    def keyframe(self, step: int) -> Keyframe:
+        """Return all that the bodies go on from; `step` is the number of steps made."""
+        layout = self._lay_out()
+        rigids = list(self.bodies.values())
+        return Keyframe(
+            step=step,
+            scene=layout.scene,
+            state=self._state(layout).copy(),
+            free=layout.free.copy(),
+            wrenches=tuple(
+                (row, rigid.wrench, rigid.wrench_until)
+                for row, rigid in enumerate(rigids)
+                if rigid.body.name in self._pushed
+            ),
+            memory=contact_memory.recall(
+                self._space, [rigid.engine for rigid in rigids], self._walls
+            ),
+        )
 
     def body_at(self, point: Point) -> str | None:
         """Return the body with the highest serial that covers a point of the world [m]."""
@@ -211,6 +245,47 @@ class Space:
             self._layout.lead[row] = rigid.lead(self._settings.gravity, self._dt)
         if free:
             self.set_twist(rigid, twist)
+
+    def inherit(self, old: Space) -> None:
+        """Take over what an older space of the same bodies has seen of the frame so far."""
+        ids = [
+            np.array(
+                [
+                    space._space.static_body.id,
+                    *(rigid.engine.id for rigid in space.bodies.values()),
+                ],
+                dtype=np.uint64,
+            )
+            for space in (old, self)
+        ]
+        self._contacts.inherit(old._contacts, *ids)
+
+    def _fill(self, key: Keyframe, spares: Mapping[str, RigidBody]) -> None:
+        """Take in all bodies at once, and go on from where they were."""
+        for serial, body in enumerate(key.scene.bodies):
+            rigid = spares.get(body.name)
+            if rigid is None or rigid.body is not body:
+                rigid = rigid_body.build(body, serial)
+            rigid.serial = serial
+            self.bodies[body.name] = rigid
+            self._names[rigid.engine] = body.name
+        rigids = list(self.bodies.values())
+        self._space.add(*(rigid.engine for rigid in rigids))
+        layout = self._lay_out(key.scene)
+        at_rest = key.state.copy()
+        at_rest[:, 3:] = 0.0
+        self._write_state(layout, at_rest)
+        for rigid, first in zip(rigids, key.memory.ids.tolist(), strict=True):
+            contact_memory.number_from(self._space, first)
+            self._space.add(*rigid.engine.shapes)
+        contact_memory.remind(self._space, key.memory, self._dt)
+        self._write_state(layout, key.state)
+        layout.free = key.free.copy()
+        for row, wrench, until in key.wrenches:
+            rigid = rigids[row]
+            rigid.wrench, rigid.wrench_until = wrench, until
+            self._pushed[rigid.body.name] = rigid
+            layout.lead[row] = rigid.lead(self._settings.gravity, self._dt)
 
     def _put(self, rigid: RigidBody, pose: Pose, twist: Pose) -> None:
         """Take a body into the space."""
@@ -343,18 +418,33 @@ class Space:
             layout.state = self._read(_STATE, 6)[layout.order]
         return layout.state
 
+    def _write_state(self, layout: Layout, state: Floats) -> None:
+        """Set the (n, 6) float64 poses and velocities of the engine's origins."""
+        numbers = self._read(_STATE, 6)
+        numbers[layout.order] = state
+        self._written.set_float_buf(numbers)
+        batch.set_space_bodies(self._space, _STATE, self._written)
+        layout.state = None
+
     def _forget_state(self) -> None:
         if self._layout is not None:
             self._layout.state = None
 
-    def _lay_out(self) -> Layout:
-        """Return the layout, made anew where a body has come, gone or changed."""
+    def _lay_out(self, scene: Scene | None = None) -> Layout:
+        """
+        Return the layout, made anew where a body has come, gone or changed.
+
+        :param scene: what is so; None makes a new one
+        """
         if self._layout is None:
             self._buffer.clear()
             batch.get_space_bodies(self._space, batch.BodyFields.BODY_ID, self._buffer)
             listing = np.frombuffer(self._buffer.int_buf(), dtype=np.uintp).tolist()
             rigids = tuple(self.bodies.values())
-            self._layout = lay_out(rigids, listing, self._settings, self._dt)
+            if scene is None:
+                bodies = tuple(rigid.body for rigid in rigids)
+                scene = Scene(bodies=bodies, settings=self._settings)
+            self._layout = lay_out(scene, rigids, listing, self._dt)
         return self._layout
 
     def _unlay(self) -> None:

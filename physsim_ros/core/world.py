@@ -24,9 +24,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 import hashlib
+from itertools import islice
 import math
 from typing import Any
 
+from physsim_ros.core import rigid_body
 from physsim_ros.core.errors import (
     Anchored,
     BadProperty,
@@ -59,7 +61,14 @@ from physsim_ros.core.requests import (
 from physsim_ros.core.rigid_body import REST, RigidBody, rotated
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.shapes import Point, Pose
-from physsim_ros.core.snapshot import Body, BodyState, Contacts, Snapshot, WorldState
+from physsim_ros.core.snapshot import (
+    Body,
+    BodyState,
+    Contacts,
+    Keyframe,
+    Snapshot,
+    WorldState,
+)
 from physsim_ros.core.space import Space
 
 
@@ -82,6 +91,8 @@ class World:
         self._settings = settings or WorldSettings()
         self._space = Space(self._settings, self.dt)
         self._spawned = 0
+        # Bodies for the next space, built beforehand so that renewing takes no time.
+        self._spares: dict[str, RigidBody] = {}
 
     # Reading
 
@@ -133,7 +144,7 @@ class World:
         return self._space.body_at(point)
 
     def save(self) -> WorldState:
-        """Return everything that the world goes on from, save the engine's contact memory."""
+        """Return everything that the world goes on from."""
         now = self.step_count
         bodies = []
         for rigid in self._space.bodies.values():
@@ -150,7 +161,8 @@ class World:
                     wrench_steps=None if until is None else until - now,
                 )
             )
-        return WorldState(settings=self._settings, bodies=tuple(bodies))
+        memory = self._space.keyframe(now).memory
+        return WorldState(settings=self._settings, bodies=tuple(bodies), memory=memory)
 
     # Changing
 
@@ -194,6 +206,40 @@ class World:
             self._space.step(self.step_count, watching=self.watching, last=remaining == 1)
             self.step_count += 1
         return self._space.drop_lost()
+
+    # Going on from a keyframe
+
+    def renew(self) -> Keyframe:
+        """
+        Go on in a space built anew from what is so, and return that.
+
+        Whoever resumes the keyframe later goes on with the same bits. The engine itself has a
+        past that cannot be read, as in the order in which it has found contacts; a new space has
+        none.
+        """
+        key = self._space.keyframe(self.step_count)
+        space = Space(self._settings, self.dt, key=key, spares=self._spares)
+        space.inherit(self._space)
+        self._take(space)
+        return key
+
+    def resume(self, key: Keyframe) -> None:
+        """Go back, or forward, to a keyframe."""
+        self.step_count = key.step
+        self._settings = key.scene.settings
+        self._take(Space(self._settings, self.dt, key=key))
+
+    def prepare(self, count: int) -> None:
+        """Build so many bodies for the next `renew` beforehand."""
+        for name, rigid in islice(self._space.bodies.items(), len(self._spares), None):
+            if count == 0:
+                break
+            self._spares[name] = rigid_body.build(rigid.body, rigid.serial)
+            count -= 1
+
+    def _take(self, space: Space) -> None:
+        self._space, self._spares = space, {}
+        self._spawned = len(space.bodies)
 
     # Requests
 
@@ -303,19 +349,21 @@ class World:
     def _restore(self, state: WorldState) -> None:
         # A space of its own for every state: what was in the old one leaves no trace.
         self._settings = state.settings
-        self._space = Space(state.settings, self.dt)
-        self._spawned = 0
+        space = Space(state.settings, self.dt)
         now = self.step_count
-        for saved in state.bodies:
+        for serial, saved in enumerate(state.bodies):
             body, steps = saved.body, saved.wrench_steps
             if body.expires is not None:
                 body = replace(body, expires=body.expires + now)
-            rigid = self._space.add(body, self._spawned, saved.pose, saved.twist)
-            self._spawned += 1
+            rigid = space.add(body, serial, saved.pose, saved.twist)
             if saved.wrench != REST:
-                self._space.push(rigid, saved.wrench, None if steps is None else now + steps)
+                space.push(rigid, saved.wrench, None if steps is None else now + steps)
             if saved.motion is not None:
-                self._space.set_motion(rigid, saved.motion)
+                space.set_motion(rigid, saved.motion)
+        if state.memory is not None:
+            key = replace(space.keyframe(now), memory=state.memory)
+            space = Space(state.settings, self.dt, key=key)
+        self._take(space)
 
     def _known(self, name: str) -> RigidBody:
         if name not in self._space.bodies:
