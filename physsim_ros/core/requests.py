@@ -285,21 +285,8 @@ class Restore:
     state: WorldState
 
 
-Request = (
-    Spawn
-    | Delete
-    | DeleteAll
-    | Join
-    | Unjoin
-    | UnjoinAll
-    | Pin
-    | Axle
-    | Anchor
-    | Release
-    | Command
-    | Configure
-    | Restore
-)
+Joining = Join | Unjoin | UnjoinAll | Pin | Axle
+Request = Spawn | Delete | DeleteAll | Joining | Anchor | Release | Command | Configure | Restore
 
 
 def check_point(point: Point, name: str) -> None:

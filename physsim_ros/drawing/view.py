@@ -21,6 +21,7 @@ past will do.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from functools import cached_property
 import math
 
@@ -118,13 +119,11 @@ class View:
 
     def next_drawn(self) -> int:
         """Return the lowest number above all that drawn bodies have, or have had."""
-        numbers = (split_name(name) for name in self.names)
-        above = 1 + max((id_ for space, id_ in numbers if space == DRAWN), default=-1)
-        return max(above, self._first)
+        return max(_above(self.names), self._first)
 
     def next_joint(self) -> int:
         """Return the lowest number above all that drawn joints have, or have had."""
-        return self._first_joint
+        return max(_above(joint.name for joint in self.snapshot.scene.joints), self._first_joint)
 
     @cached_property
     def _rows(self) -> dict[str, int]:
@@ -139,6 +138,12 @@ class View:
         body = self.snapshot.scene.bodies[row]
         local = self.local(body.name, point)
         return any(_covers(piece, local, slack) for piece in body.shape.form.pieces)
+
+
+def _above(names: Iterable[str]) -> int:
+    """Return the lowest number above all that drawn things among these have."""
+    numbers = (split_name(name) for name in names)
+    return 1 + max((id_ for space, id_ in numbers if space == DRAWN), default=-1)
 
 
 def _covers(piece: Piece, point: Point, slack: float) -> bool:
