@@ -25,7 +25,7 @@ from collections import deque
 
 from physsim_ros.core.clock import Clock
 from physsim_ros.core.errors import BadProperty, Refusal
-from physsim_ros.core.requests import Command, Delete, Request, Restore, Spawn
+from physsim_ros.core.requests import Command, Delete, Join, Request, Restore, Spawn, Unjoin
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.snapshot import Answer, Frame, WorldState
 from physsim_ros.core.world import World
@@ -90,7 +90,13 @@ class Simulation:
         """Queue a request; nothing moves until the next frame, which carries the answer."""
         subject = ''
         match request:
-            case Spawn(name=subject) | Delete(name=subject) | Command(names=(subject,)):
+            case (
+                Spawn(name=subject)
+                | Delete(name=subject)
+                | Join(name=subject)
+                | Unjoin(name=subject)
+                | Command(names=(subject,))
+            ):
                 pass
         self._requests.append((request, topic, subject))
 
@@ -169,6 +175,17 @@ class Simulation:
                 answer = Answer(topic=topic, subject=subject, message=message)
             self._answers.append(answer)
 
+    def _tell_broken(self) -> None:
+        for name, force in self.world.take_broken():
+            self._answers.append(
+                Answer(
+                    topic='joint_broken',
+                    subject=name,
+                    message=f'{name} broke at {force:.3g} N and was removed',
+                    code='joint_broken',
+                )
+            )
+
     def _go(self, steps: int) -> Frame:
         for name in self.world.step(steps):
             self._answers.append(
@@ -179,6 +196,7 @@ class Simulation:
                     code='divergence',
                 )
             )
+        self._tell_broken()
         return self._frame(moved=True)
 
     def _frame(self, *, moved: bool) -> Frame:
