@@ -202,6 +202,9 @@ class PhysSimNode(Node):
             self.create_subscription(kind, topic, callback, _REQUESTS)
 
         listen(Marker, '~/spawn', conversions.body_request)
+        listen(Marker, '~/join', conversions.joint_request)
+        listen(PointStamped, '~/pin', conversions.pin_request)
+        listen(PointStamped, '~/axle', conversions.axle_request)
         listen(PointStamped, '~/anchor', conversions.anchor_request)
         listen(PointStamped, '~/release', conversions.release_request)
         listen(MultiDOFJointState, '~/command', conversions.command_request)
@@ -214,7 +217,7 @@ class PhysSimNode(Node):
         try:
             request = convert(message, frame_id=self._frame_id)
         except Refusal as refusal:
-            subject = conversions.subject_of(message)
+            subject = conversions.subject_of(message, joint=topic == '~/join')
             self.simulation.refuse(refusal, topic=topic, subject=subject)
             return
         self.simulation.submit(request, topic=topic)

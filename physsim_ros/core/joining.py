@@ -21,6 +21,7 @@ is keeps its seat to the last bit, so that whoever publishes what is drawn chang
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 import math
 
@@ -40,6 +41,8 @@ _SAME = 1e-9
 # pin or an axle means it.
 _NEAR_SHARE, _NEAR = 0.25, 0.1
 
+# Where the background is, which never moves.
+BACKGROUND = (0.0, 0.0, 0.0)
 _STRAIGHT = {JointKind.SPRING, JointKind.ROD, JointKind.ROPE}
 
 
@@ -118,23 +121,28 @@ def loosen(space: Space, body: str, point: Point) -> list[str]:
         name
         for name in space.machine.of(body)
         if (joint := space.machine.joints[name].joint).kind in (JointKind.PIN, JointKind.AXLE)
-        and math.dist(drawn_points(space, joint)[0], point) <= reach
+        and math.dist(_drawn(space, joint)[0], point) <= reach
     ]
     for name in names:
         space.unjoin(name)
     return names
 
 
-def drawn_points(space: Space, joint: Joint) -> tuple[Point, ...]:
-    """Return the points of the world that a joint would be drawn with where it is now [m]."""
+def drawn_points(joint: Joint, poses: Mapping[str, Pose]) -> tuple[Point, ...]:
+    """
+    Return the points of the world that a joint would be drawn with where it is now [m].
+
+    :param poses: of the bodies, by name
+    """
     seat = joint.seat
-    x, y = _out(_pose(space, joint.a), (seat.ax, seat.ay))
+    x, y = _out(poses[joint.a], (seat.ax, seat.ay))
     if joint.kind.points == 1:
         return ((x, y),)
+    pose_b = BACKGROUND if joint.b == WORLD else poses[joint.b]
     if joint.kind is JointKind.SLIDER:
-        ux, uy = rotated((seat.ux, seat.uy), _pose(space, joint.b)[2])
+        ux, uy = rotated((seat.ux, seat.uy), pose_b[2])
         return (x, y), (x + ux, y + uy)
-    return (x, y), _out(_pose(space, joint.b), (seat.bx, seat.by))
+    return (x, y), _out(pose_b, (seat.bx, seat.by))
 
 
 def _members(
@@ -202,7 +210,7 @@ def _phase(space: Space, a: str, b: str, said: JointProperties) -> float:
 
 def _is_at(space: Space, joint: Joint, points: tuple[Point, ...]) -> bool:
     """Tell whether a joint would be drawn with these points now."""
-    drawn = drawn_points(space, joint)
+    drawn = _drawn(space, joint)
     if joint.kind is JointKind.SLIDER:
         # Its second point says no more than where its line leads.
         (x, y), (drawn_x, drawn_y) = points[0], drawn[1]
@@ -218,8 +226,12 @@ def _is_at(space: Space, joint: Joint, points: tuple[Point, ...]) -> bool:
     )
 
 
+def _drawn(space: Space, joint: Joint) -> tuple[Point, ...]:
+    return drawn_points(joint, {name: _pose(space, name) for name in (joint.a, joint.b)})
+
+
 def _pose(space: Space, name: str) -> Pose:
-    return (0.0, 0.0, 0.0) if name == WORLD else space.bodies[name].pose
+    return BACKGROUND if name == WORLD else space.bodies[name].pose
 
 
 def _out(pose: Pose, point: Point) -> Point:

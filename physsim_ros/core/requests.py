@@ -28,9 +28,14 @@ import math
 from typing import Any
 
 from physsim_ros.core.errors import BadProperty, BadSize, Malformed
-from physsim_ros.core.joint_properties import JointKind, JointProperties
+from physsim_ros.core.joint_properties import (
+    joint_properties_from,
+    JointKind,
+    JointProperties,
+    kind_from,
+)
 from physsim_ros.core.names import check_name, WORLD
-from physsim_ros.core.properties import check_finite, FASTEST, HEAVIEST, Properties
+from physsim_ros.core.properties import check_finite, FASTEST, HEAVIEST, Properties, shown
 from physsim_ros.core.settings import check_setting
 from physsim_ros.core.shapes import Color, Point, Pose, Shape, SMALLEST
 from physsim_ros.core.snapshot import WorldState
@@ -283,6 +288,40 @@ class Restore:
     """Replace the whole world by a saved state."""
 
     state: WorldState
+
+
+def join_from(
+    mapping: Mapping[Any, Any], *, name: str, points: tuple[Point, ...], frame: str = ''
+) -> Join:
+    """
+    Return the joint that a YAML mapping asks for: `kind`, `a`, `b` and properties.
+
+    Where the mapping names the one body, a `b` that is left out is the background; where it names
+    none, the bodies under the points are meant.
+
+    :param name: of the joint
+    :param points: in the frame [m]
+    :param frame: '' for the world, or a body's name
+    :raises Refusal: a key is not known, or a value not possible
+    """
+    properties = {key: mapping[key] for key in mapping if key not in {'kind', 'a', 'b'}}
+    a, b = _body_name(mapping, 'a'), _body_name(mapping, 'b')
+    return Join(
+        name=name,
+        kind=kind_from(mapping.get('kind')),
+        points=points,
+        frame=frame,
+        a=a,
+        b=WORLD if a and not b else b,
+        properties=joint_properties_from(properties),
+    )
+
+
+def _body_name(mapping: Mapping[Any, Any], key: str) -> str:
+    name = mapping.get(key, '')
+    if not isinstance(name, str):
+        raise BadProperty(f'{key} must be the name of a body, not {shown(name)}', field=key)
+    return name
 
 
 Joining = Join | Unjoin | UnjoinAll | Pin | Axle

@@ -30,7 +30,7 @@ from physsim_ros.core.clock import Clock
 from physsim_ros.core.errors import BadProperty, OutOfHistory, Refusal
 from physsim_ros.core.history import Entry, Tail
 from physsim_ros.core.past import Past, Shot
-from physsim_ros.core.requests import Command, Delete, Request, Restore, Spawn
+from physsim_ros.core.requests import Command, Delete, Join, Request, Restore, Spawn, Unjoin
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.snapshot import Answer, Contacts, Frame, Snapshot, WorldState
 from physsim_ros.core.timeline import Timeline
@@ -164,7 +164,13 @@ class Simulation:
         """
         subject = ''
         match request:
-            case Spawn(name=subject) | Delete(name=subject) | Command(names=(subject,)):
+            case (
+                Spawn(name=subject)
+                | Delete(name=subject)
+                | Join(name=subject)
+                | Unjoin(name=subject)
+                | Command(names=(subject,))
+            ):
                 pass
         self._queue(request, topic, subject, joined=joined)
 
@@ -312,6 +318,7 @@ class Simulation:
     def _go(self, steps: int) -> Frame:
         self._catch_up()
         self._timeline.go(steps)
+        self._tell_broken()
         self._timeline.prepare(steps)
         return self._frame(moved=True)
 
@@ -335,6 +342,7 @@ class Simulation:
             self._timeline.seek(step)
             # They have been shown.
             self._timeline.world.clear_contacts()
+            self._timeline.world.take_broken()
 
     def _moved(self) -> None:
         """Note that another moment is shown than before."""
@@ -376,6 +384,17 @@ class Simulation:
         if head > self.step:
             self._past.forget(self.step)
         return done
+
+    def _tell_broken(self) -> None:
+        for name, force in self._timeline.world.take_broken():
+            self._answers.append(
+                Answer(
+                    topic='joint_broken',
+                    subject=name,
+                    message=f'{name} broke at {force:.3g} N and was removed',
+                    code='joint_broken',
+                )
+            )
 
     def _frame(self, *, moved: bool) -> Frame:
         snapshot, contacts = self._shown or self._look()

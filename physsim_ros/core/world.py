@@ -48,6 +48,7 @@ from physsim_ros.core.requests import (
     Command,
     Configure,
     Delete,
+    DeleteAll,
     Join,
     Joining,
     Pin,
@@ -199,6 +200,8 @@ class World:
             case Delete(name=name):
                 self._space.remove(self._known(name).body.name)
                 return name, f'deleted {name}'
+            case DeleteAll(namespace=namespace):
+                return '', self._delete_all(namespace)
             case Anchor(point=point, frame=frame):
                 return self._hold(point, frame, anchored=True)
             case Release(point=point, frame=frame):

@@ -24,6 +24,7 @@ what hands draw; `make evaluate` shows how well.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from enum import StrEnum
 import itertools
@@ -38,11 +39,15 @@ from physsim_ros.drawing.stroke import Stroke
 
 # Weights below are not worth telling.
 LEAST = 0.01
+# No arrow's ends come so near to each other, in shares of its length.
+CLOSED = 0.1
+# Fewer swings are not measured.
+FEWEST = 3
 # Directions in which swings to and fro are looked for.
 _ANGLES = np.arange(12) * math.pi / 12
 _DIRECTIONS = np.column_stack((np.cos(_ANGLES), np.sin(_ANGLES)))
-# The pairs of every second step that may cross: not neighbours, nor their neighbours.
-_PAIRS = np.triu_indices(strokes.COUNT // 2 - 1, 4)
+# The pairs of every third step that may cross: not neighbours, nor their neighbours.
+_PAIRS = np.triu_indices(len(range(0, strokes.COUNT, 3)) - 1, 3)
 
 # Where a way crosses itself [m], and after how many points it is there, first and last.
 Crossing = tuple[Floats, float, float]
@@ -84,7 +89,7 @@ class Swings:
     How a stroke goes to and fro.
 
     :param count: of swings
-    :param height: of a swing, across the advance, mean [m]
+    :param height: 0 where they are few, as the others; else of a swing, across the advance, mean [m]
     :param advance: over all swings, in heights of one
     :param steady: how straight the advance is, 0 .. 1
     """
@@ -108,7 +113,6 @@ def falls(value: float, limit: float, width: float) -> float:
 def recognise(stroke: Stroke) -> tuple[Candidate, ...]:
     """Return all that a stroke could be, the most likely first."""
     swings = swings_of(stroke.points)
-    bends = strokes.corners(stroke.points, closed=False)
     crossings = crossings_of(stroke.points)
     signs = [
         _zigzag(stroke, swings),
@@ -118,9 +122,11 @@ def recognise(stroke: Stroke) -> tuple[Candidate, ...]:
     ]
     # Every sign is also some line or outline; what looks like a sign is meant as one.
     plain = 1.0 - max(each.weight for each in signs)
-    shapes = [*_closed(stroke, swings), _line(stroke, swings, bends, crossings)]
-    found = [*signs, *(replace(each, weight=plain * each.weight) for each in shapes)]
-    likely = (each for each in found if each.weight >= LEAST)
+    shapes = [
+        *_line(stroke, swings, crossings, plain),
+        *_closed(stroke, swings, plain),
+    ]
+    likely = (each for each in (*signs, *shapes) if each.weight >= LEAST)
     return tuple(sorted(likely, key=lambda each: -each.weight))
 
 
@@ -137,12 +143,12 @@ def swings_of(points: Floats) -> Swings:
     changes = side[1:] * side[:-1] < 0
     # Of directions in which it swings as often, that in which it does so least far.
     best = int((changes.sum(axis=0) - extent / extent.max() / 2).argmax())
+    if changes[:, best].sum() < FEWEST:
+        return Swings(count=int(changes[:, best].sum()), height=0.0, advance=0.0, steady=0.0)
     bounds = [0, *(np.flatnonzero(changes[:, best]) + 1).tolist(), len(points)]
     out = place[:, best] * side[:, best]
     peaks = [a + int(out[a:b].argmax()) for a, b in itertools.pairwise(bounds)]
     strides = np.diff(points[peaks], axis=0)
-    if len(strides) < 2:
-        return Swings(count=len(strides), height=0.0, advance=0.0, steady=0.0)
     # Two swings are one to and one fro; what remains of them is advance.
     advances = strides[1:] + strides[:-1]
     way = advances.sum(axis=0)
@@ -156,11 +162,11 @@ def swings_of(points: Floats) -> Swings:
     )
 
 
-def _closed(stroke: Stroke, swings: Swings) -> list[Candidate]:
-    """Return disc, rectangle and polygon, of which all corners but the number are shared."""
-    if stroke.outline is None:
-        return []
-    closed = falls(stroke.gap, 0.13, 0.01) * falls(swings.count, 4.5, 0.25)
+def _closed(stroke: Stroke, swings: Swings, plain: float) -> Iterator[Candidate]:
+    """Yield disc, rectangle and polygon."""
+    closed = plain * falls(stroke.gap, 0.13, 0.01) * falls(swings.count, 4.5, 0.25)
+    if stroke.outline is None or closed < LEAST:
+        return
     center, radius, error, aspect = roundness(stroke.outline)
     outline, narrow = strokes.widened(stroke.outline)
     at = strokes.corners(outline, closed=True, gap=stroke.gap)
@@ -181,11 +187,9 @@ def _closed(stroke: Stroke, swings: Swings) -> list[Candidate]:
     sided *= rises(aspect, 0.02, 0.003)
     square = squareness(found) if len(at) == 4 else 0.0
     rim = center + np.array((radius, 0.0))
-    return [
-        Candidate(primitive=Primitive.DISC, weight=disc, points=np.array((center, rim))),
-        Candidate(primitive=Primitive.RECTANGLE, weight=sided * square, points=found),
-        Candidate(primitive=Primitive.POLYGON, weight=sided * (1.0 - square), points=found),
-    ]
+    yield Candidate(primitive=Primitive.DISC, weight=disc, points=np.array((center, rim)))
+    yield Candidate(primitive=Primitive.RECTANGLE, weight=sided * square, points=found)
+    yield Candidate(primitive=Primitive.POLYGON, weight=sided * (1.0 - square), points=found)
 
 
 def roundness(outline: Floats) -> tuple[Floats, float, float, float]:
@@ -230,8 +234,9 @@ def _once_around(outline: Floats) -> float:
 
 
 def _line(
-    stroke: Stroke, swings: Swings, bends: list[int], crossings: list[Crossing]
-) -> Candidate:
+    stroke: Stroke, swings: Swings, crossings: list[Crossing], plain: float
+) -> Iterator[Candidate]:
+    """Yield a line, straight, bent or curved, that does not cross itself."""
     points = stroke.points
     straight = float(np.hypot(*(points[-1] - points[0]))) / stroke.length
     calm = max(
@@ -239,11 +244,11 @@ def _line(
         rises(straight, 0.9, 0.02),
         falls(swings.height / stroke.size, 0.05, 0.006),
     )
-    return Candidate(
-        primitive=Primitive.LINE,
-        weight=rises(stroke.gap, 0.13, 0.01) * calm * falls(len(crossings), 0.5, 0.2),
-        points=strokes.vertices(points, strokes.without_stubs(points, bends), closed=False),
-    )
+    weight = plain * calm * rises(stroke.gap, 0.13, 0.01) * falls(len(crossings), 0.5, 0.2)
+    if weight >= LEAST:
+        bends = strokes.without_stubs(points, strokes.corners(points, closed=False))
+        found = strokes.vertices(points, bends, closed=False)
+        yield Candidate(primitive=Primitive.LINE, weight=weight, points=found)
 
 
 def _zigzag(stroke: Stroke, swings: Swings) -> Candidate:
@@ -293,9 +298,12 @@ def _cross(stroke: Stroke, crossings: list[Crossing]) -> Candidate:
 
 def _arrow(stroke: Stroke, swings: Swings) -> Candidate:
     """Return a shaft and a head, whichever was drawn first."""
+    calm = falls(swings.count, 4.5, 0.25)
+    if calm < LEAST or stroke.gap < CLOSED:
+        return Candidate(primitive=Primitive.ARROW, weight=0.0, points=stroke.points[[0, -1]])
     ways = stroke.points, stroke.points[::-1]
     best = max((_arrow_from(way) for way in ways), key=lambda each: each.weight)
-    return replace(best, weight=best.weight * falls(swings.count, 4.5, 0.25))
+    return replace(best, weight=best.weight * calm)
 
 
 def _arrow_from(points: Floats) -> Candidate:
@@ -336,7 +344,7 @@ def _angles(a: Floats, b: Floats) -> Floats:
 
 def crossings_of(points: Floats) -> list[Crossing]:
     """Return where a way crosses itself; crossings next to one another are one."""
-    coarse = points[::2]
+    coarse = points[::3]
     start, step = coarse[:-1], np.diff(coarse, axis=0)
     # Of every pair of steps, how far along each they meet.
     i, j = _PAIRS
@@ -349,6 +357,6 @@ def crossings_of(points: Floats) -> list[Crossing]:
     for pair in meet.tolist():
         first, last = float(i[pair] + one[pair]), float(j[pair] + other[pair])
         place = start[i[pair]] + one[pair] * step[i[pair]]
-        if all(abs(2 * first - a) + abs(2 * last - b) > 12 for _, a, b in found):
-            found.append((place, 2 * first, 2 * last))
+        if all(abs(3 * first - a) + abs(3 * last - b) > 12 for _, a, b in found):
+            found.append((place, 3 * first, 3 * last))
     return found

@@ -317,11 +317,7 @@ def _checked(samples: Floats) -> Floats:
 
 def _without_hooks(points: Floats, size: float) -> Floats:
     """Cut off the flicks of a pen that was set down before it rested, or lifted late."""
-    first, last = 0, len(points)
-    if _hook(points, size):
-        first = _hook(points, size)
-    if _hook(points[::-1], size):
-        last -= _hook(points[::-1], size)
+    first, last = _hook(points, size), len(points) - _hook(points[::-1], size)
     return points[first:last] if last - first > len(points) // 2 else points
 
 

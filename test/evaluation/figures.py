@@ -20,16 +20,13 @@ Each is about one metre across, about the origin; the hand moves, turns and size
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 import itertools
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
-Random = np.random.Generator
+from .outlines import Floats, POLYGONS, Random
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -79,7 +76,7 @@ def rectangle(rng: Random) -> Figure:
 
 def polygon(rng: Random) -> Figure:
     """Return one of the polygons that people draw."""
-    way = _POLYGONS[rng.integers(len(_POLYGONS))](rng)
+    way = POLYGONS[rng.integers(len(POLYGONS))](rng)
     way = way * (1.0, rng.uniform(0.75, 1.3)) if rng.random() < 0.5 else way
     way = _turned(way, rng.uniform(0, 7))
     return Figure(kind='polygon', way=way, closed=True, corners=len(way))
@@ -206,88 +203,6 @@ def scribble(rng: Random) -> Figure:
     if rng.random() < 0.5:
         way = _rounded(way, rng.uniform(0.01, 0.05))
     return Figure(kind='scribble', way=_turned(way, rng.uniform(0, 7)))
-
-
-# How often each comes, and what draws it.
-FIGURES: tuple[Callable[[Random], Figure], ...] = (
-    disc, disc, disc, rectangle, rectangle, rectangle, polygon, polygon, polygon, line, line,
-    bent_line, curve, zigzag, zigzag, coil, cross, cross, arrow, arrow, scribble, scribble,
-)  # fmt: skip
-
-
-def _regular(rng: Random, count: int, radius: float = 0.5) -> Floats:
-    angle = np.arange(count) * 2.0 * math.pi / count
-    angle = angle + rng.uniform(-0.12, 0.12, count) * 2.0 * math.pi / count
-    radii = radius * rng.uniform(0.93, 1.07, count)
-    return np.column_stack((radii * np.cos(angle), radii * np.sin(angle)))
-
-
-def _triangle(rng: Random) -> Floats:
-    while True:
-        way = rng.uniform(-0.5, 0.5, (3, 2))
-        sides = np.hypot(*(np.roll(way, -1, axis=0) - way).T)
-        a, b, c = np.sort(sides)
-        # No angle below 20 degrees.
-        if a > 0.35 * c and (b**2 + c**2 - a**2) / (2 * b * c) < 0.94:
-            return np.asarray(way / c, dtype=np.float64)
-
-
-def _trapezoid(rng: Random) -> Floats:
-    top, high, lean = rng.uniform(0.25, 0.55), rng.uniform(0.35, 0.7), rng.uniform(-0.15, 0.15)
-    return _nudged(rng, [(-0.5, 0), (0.5, 0), (lean + top / 2, high), (lean - top / 2, high)])
-
-
-def _rhombus(rng: Random) -> Floats:
-    lean, high = rng.uniform(0.3, 0.6), rng.uniform(0.3, 0.6)
-    return _nudged(rng, [(-0.5, 0), (0.3, 0), (0.3 + lean, high), (-0.5 + lean, high)])
-
-
-def _ell(rng: Random) -> Floats:
-    a, b = rng.uniform(0.3, 0.6, 2)
-    return _nudged(rng, [(0, 0), (1, 0), (1, b), (a, b), (a, 1), (0, 1)])
-
-
-def _house(rng: Random) -> Floats:
-    wall = rng.uniform(0.4, 0.7)
-    roof = wall + rng.uniform(0.3, 0.5)
-    return _nudged(rng, [(0, 0), (1, 0), (1, wall), (0.5, roof), (0, wall)])
-
-
-def _star(rng: Random) -> Floats:
-    angle = np.arange(10) * math.pi / 5
-    radius = np.where(np.arange(10) % 2, rng.uniform(0.2, 0.26), 0.5)
-    return _nudged(rng, np.column_stack((radius * np.cos(angle), radius * np.sin(angle))))
-
-
-def _dart(rng: Random) -> Floats:
-    return _nudged(rng, [(0.5, 0), (-0.5, 0.45), (rng.uniform(-0.25, 0.0), 0), (-0.5, -0.45)])
-
-
-def _tee(rng: Random) -> Floats:
-    a, b = rng.uniform(0.3, 0.4), rng.uniform(0.5, 0.65)
-    return _nudged(rng, [(a, 0), (1 - a, 0), (1 - a, b), (1, b), (1, 1), (0, 1), (0, b), (a, b)])
-
-
-_POLYGONS: tuple[Callable[[Random], Floats], ...] = (
-    _triangle,
-    _triangle,
-    lambda rng: _regular(rng, 3),
-    _trapezoid,
-    _rhombus,
-    lambda rng: _regular(rng, 5),
-    lambda rng: _regular(rng, 6),
-    _ell,
-    _house,
-    _star,
-    _dart,
-    _tee,
-)
-
-
-def _nudged(rng: Random, points: Floats | list[tuple[float, float]]) -> Floats:
-    """Move each point a little."""
-    way = np.array(points, dtype=np.float64)
-    return way + rng.uniform(-0.025, 0.025, way.shape)
 
 
 def _turned(way: Floats, angle: float) -> Floats:
