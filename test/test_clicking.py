@@ -144,6 +144,34 @@ def test_gravity_is_turned_by_an_arrow_and_the_parameter_tells(hand: Hand) -> No
     assert hand.physsim.node.simulation.world.settings.gravity == pytest.approx((2.0, 0.0))
 
 
+@pytest.mark.parametrize('tool', ['spring', 'rod', 'rope'])
+def test_two_bodies_are_joined_by_a_line(hand: Hand, tool: str) -> None:
+    hand.physsim.spawn(disc('a/0'))
+    hand.physsim.spawn(disc('a/1', at=(3, 0)))
+    accepted(hand.draw(tool, (0.2, 0), (2.8, 0)), 'drawn/0')
+    (joint,) = hand.physsim.node.simulation.world.snapshot().scene.joints
+    assert (joint.kind, joint.a, joint.b) == (tool, 'a/0', 'a/1')
+    # Another one, to the background.
+    accepted(hand.draw(tool, (0.0, 3.0), (0.0, 0.2)), 'drawn/1')
+
+
+@pytest.mark.parametrize('tool', ['pin', 'axle'])
+def test_bodies_are_held_by_a_click_on_them_and_let_go_by_another(hand: Hand, tool: str) -> None:
+    hand.physsim.spawn(disc('a/0'))
+    accepted(hand.draw(tool, (0.2, 0.1)), f'{tool}/0')
+    hand.physsim.spawn(disc('a/1', at=(0.4, 0)))
+    accepted(hand.draw(tool, (0.2, 0.1)), f'{tool}/1')
+    joints = hand.physsim.node.simulation.world.snapshot().scene.joints
+    assert {(joint.kind, joint.a, joint.b) for joint in joints} == {
+        (tool, 'a/0', 'world'),
+        (tool, 'a/1', 'a/0'),
+    }
+    accepted(hand.draw('release', (0.2, 0.1)), 'a/1')
+    joints = hand.physsim.node.simulation.world.snapshot().scene.joints
+    assert f'{tool}/1' not in {joint.name for joint in joints}
+    refused(hand.draw(tool, (9, 9)), 'nothing_there')
+
+
 def test_without_a_tool_clicks_are_ignored(hand: Hand) -> None:
     hand.physsim.spawn(disc('a/0'))
     before = hand.physsim.node.simulation.world.save()
@@ -182,6 +210,10 @@ def test_what_is_drawn_is_as_the_parameters_say(hand: Hand) -> None:
         ('velocity', [(9, 9)], 'nothing_there'),
         ('delete', [(9, 9)], 'nothing_there'),
         ('spring', [(8, 8), (9, 9)], 'nothing_there'),
+        ('rod', [(0, 0), (0.3, 0)], 'bad_property'),
+        ('rope', [(3, 0), (9, 9)], 'anchored'),
+        ('pin', [(9, 9)], 'nothing_there'),
+        ('axle', [(3, 0)], 'anchored'),
         ('gravity', [(0, 0)], 'bad_property'),
         ('circle', [(math.nan, 0)], 'malformed'),
         ('anchor', [(0, math.inf)], 'malformed'),
