@@ -32,6 +32,7 @@ import numpy as np
 from physsim_ros.core.errors import BadProperty, NothingThere, NotRecognised
 from physsim_ros.core.joint_properties import JointKind
 from physsim_ros.core.names import WORLD
+from physsim_ros.core.outlines import cross
 from physsim_ros.core.requests import Anchor, Axle, Configure, Delete, Join, Request
 from physsim_ros.core.shapes import Point
 from physsim_ros.core.snapshot import Floats
@@ -48,6 +49,11 @@ MISPLACED = 0.5
 # What is smaller than these shares of a body, the side of a square as large, is a sign upon it:
 # on one body; on two that overlap.
 SMALL, SMALL_ON_TWO = 0.5, 0.75
+# The share of a line between two bodies that is a joint, not a wall; how straight a rod is, by its
+# ends' distance and its length; and how often a line turns to be a spring.
+BETWEEN, STRAIGHT, FEWEST_TEETH = 0.9, 0.95, 3
+# From so many corners on a small polygon may be a circle.
+EDGED = 5
 # Points of the outline of a disc that is shown.
 _SHOWN = 48
 
@@ -118,6 +124,9 @@ class Sense:
     make: Callable[[], Drawn]
 
 
+Make = Callable[[Floats, Stroke, View, DrawingSettings], Drawn]
+
+
 def read(samples: Floats, view: View, settings: DrawingSettings) -> Reading:
     """
     Read a stroke.
@@ -180,18 +189,23 @@ def _senses(
 
     match candidate.primitive:
         case Primitive.DISC:
-            small = _smallness(points, view, settings)
+            small = _smallness(_point(points[0]), math.dist(*points), view, settings)
             yield sense(Meaning.AXLE, small, lambda: _axle(points, view, settings))
             yield sense(Meaning.DISC, 1.0 - small, lambda: _disc(points, view, settings))
         case Primitive.RECTANGLE:
             yield sense(Meaning.RECTANGLE, 1.0, lambda: _rectangle(points, view, settings))
         case Primitive.POLYGON:
-            yield sense(Meaning.POLYGON, 1.0, lambda: _polygon(points, view, settings))
+            center, radius = points.mean(axis=0), float(np.hypot(*np.ptp(points, axis=0))) / 3
+            # Small circles come out edged.
+            small = len(points) >= EDGED and _smallness(_point(center), radius, view, settings)
+            yield sense(Meaning.AXLE, small, lambda: _axle(center[None], view, settings))
+            yield sense(Meaning.POLYGON, 1.0 - small, lambda: _polygon(points, view, settings))
         case Primitive.LINE:
-            rod = len(points) == 2 and _joins(points, view, settings)
-            if rod:
-                yield sense(Meaning.ROD, 0.9, lambda: _rod(points, view, settings))
-            share = 0.1 if rod else 1.0
+            joint = _joint_along(points, view, settings)
+            if joint is not None:
+                meaning, make = joint
+                yield sense(meaning, BETWEEN, lambda: make(points, drawn, view, settings))
+            share = 1.0 - BETWEEN if joint else 1.0
             yield sense(Meaning.WALL, share, lambda: _wall(points, drawn, view, settings))
         case Primitive.ZIGZAG | Primitive.SCRIBBLE:
             yield from _to_and_fro(candidate, drawn, view, settings)
@@ -213,12 +227,14 @@ def _to_and_fro(
     joined = snapping.ends_on(_point(ends[0]), _point(ends[1]), view, settings)
     covered = scribbling.bodies_under(drawn.points, view)
     zigzag = candidate.primitive is Primitive.ZIGZAG
-    # A spring leaves the body that it begins on; a scribble stays.
     spring = 0.0
-    if joined is not None:
+    if joined is not None and (zigzag or joined[1].body != WORLD):
+        # A spring leaves the bodies that it joins; a scribble stays on them.
         spring = 1.0 - scribbling.share_under(drawn.points, joined, view)
-    if joined is None and not covered:
-        spring = MISPLACED if zigzag else 0.0
+        if zigzag and joined[1].body != WORLD:
+            spring = max(spring, BETWEEN)
+    elif zigzag and not covered:
+        spring = MISPLACED
     deletion = MISPLACED * (not zigzag) if not covered else 1.0 - spring
     yield Sense(
         meaning=Meaning.SPRING,
@@ -232,9 +248,8 @@ def _to_and_fro(
     )
 
 
-def _smallness(points: Floats, view: View, settings: DrawingSettings) -> float:
-    """Return how much a disc looks like a sign upon the bodies under it, 0 .. 1."""
-    center, radius = _point(points[0]), math.dist(*points)
+def _smallness(center: Point, radius: float, view: View, settings: DrawingSettings) -> float:
+    """Return how much a circle looks like a sign upon the bodies under it, 0 .. 1."""
     under = view.bodies_at(center)[:2]
     if not under:
         return 0.0
@@ -242,7 +257,7 @@ def _smallness(points: Floats, view: View, settings: DrawingSettings) -> float:
     limit = (SMALL if len(under) == 1 else SMALL_ON_TWO) * least
     if len(under) == 1:
         angles = np.arange(8) * math.pi / 4
-        rim = points[0] + radius * np.column_stack((np.cos(angles), np.sin(angles)))
+        rim = np.array(center) + radius * np.column_stack((np.cos(angles), np.sin(angles)))
         inside = sum(under[0] in view.bodies_at(_point(place)) for place in rim)
         # What hangs over is a body of its own, unless it is as small as hands can draw.
         if inside < len(rim) - 1:
@@ -250,26 +265,34 @@ def _smallness(points: Floats, view: View, settings: DrawingSettings) -> float:
     return falls(2 * radius / limit, 1.0, 0.06)
 
 
-def _joins(points: Floats, view: View, settings: DrawingSettings) -> bool:
-    """Tell whether a straight line is a rod: between bodies, or from one that moves to nowhere."""
-    start, end = _point(points[0]), _point(points[1])
+def _joint_along(
+    points: Floats, view: View, settings: DrawingSettings
+) -> tuple[Meaning, Make] | None:
+    """Return which joint a line is: a rod or a spring between bodies; None is a wall."""
+    start, end = _point(points[0]), _point(points[-1])
     ends = snapping.ends_on(start, end, view, settings)
     if ends is None:
-        return False
+        return None
     first, last = ends
-    # What only comes near to a body and ends nowhere is a wall beside it.
-    return last.body != WORLD or first.body in view.bodies_at(start) + view.bodies_at(end)
+    sides = np.diff(points, axis=0)
+    if math.dist(start, end) > STRAIGHT * float(np.hypot(*sides.T).sum()):
+        # What only comes near to a body and ends nowhere is a wall beside it.
+        if last.body != WORLD or first.body in view.bodies_at(start) + view.bodies_at(end):
+            return Meaning.ROD, _rod
+        return None
+    turns = np.sign(cross(sides[:-1], sides[1:]))
+    alternates = len(turns) >= FEWEST_TEETH and bool((turns[1:] == -turns[:-1]).all())
+    return (Meaning.SPRING, _spring) if alternates and last.body != WORLD else None
 
 
 def _disc(points: Floats, view: View, settings: DrawingSettings) -> Drawn:
     center, radius = _point(points[0]), math.dist(*points)
     name = f'{DRAWN}/{view.next_drawn()}'
-    angles = np.linspace(0.0, 2 * math.pi, _SHOWN + 1)
     return Drawn(
         requests=(bodies.disc(name, center, radius, settings),),
         subject=name,
         message=f'a disc of radius {radius:.3g} m',
-        outline=points[0] + radius * np.column_stack((np.cos(angles), np.sin(angles))),
+        outline=_circle(center, radius),
     )
 
 
@@ -318,7 +341,7 @@ def _wall(points: Floats, drawn: Stroke, view: View, settings: DrawingSettings) 
     )
 
 
-def _rod(points: Floats, view: View, settings: DrawingSettings) -> Drawn:
+def _rod(points: Floats, _drawn: Stroke, view: View, settings: DrawingSettings) -> Drawn:
     return _join(JointKind.ROD, points, None, view, settings)
 
 
@@ -355,7 +378,7 @@ def _axle(points: Floats, view: View, settings: DrawingSettings) -> Drawn:
         requests=(Axle(point=center),),
         subject=under[0],
         message=f'an axle between {between}',
-        outline=_disc(points, view, settings).outline + (np.array(center) - points[0]),
+        outline=_circle(center, settings.snap / 2 if len(points) < 2 else math.dist(*points)),
     )
 
 
@@ -414,6 +437,12 @@ def _deletion(covered: tuple[str, ...], drawn: Stroke) -> Drawn:
         message=f'delete {", ".join(covered)}',
         outline=drawn.points,
     )
+
+
+def _circle(center: Point, radius: float) -> Floats:
+    angles = np.linspace(0.0, 2 * math.pi, _SHOWN + 1)
+    circle: Floats = np.array(center) + radius * np.column_stack((np.cos(angles), np.sin(angles)))
+    return circle
 
 
 def _around(corners: Floats) -> Floats:

@@ -41,6 +41,8 @@ from physsim_ros.drawing.stroke import Stroke
 LEAST = 0.01
 # No arrow's ends come so near to each other, in shares of its length.
 CLOSED = 0.1
+# The longest loop that is a slip, in shares of the length.
+SLIP = 0.15
 # Fewer swings are not measured.
 FEWEST = 3
 # Directions in which swings to and fro are looked for.
@@ -89,7 +91,7 @@ class Swings:
     How a stroke goes to and fro.
 
     :param count: of swings
-    :param height: 0 where they are few, as the others; else of a swing, across the advance, mean [m]
+    :param height: of a swing, across the advance, mean [m]; 0 where they are few, as what follows
     :param advance: over all swings, in heights of one
     :param steady: how straight the advance is, 0 .. 1
     """
@@ -242,9 +244,11 @@ def _line(
     calm = max(
         falls(swings.count, 4.5, 0.25),
         rises(straight, 0.9, 0.02),
-        falls(swings.height / stroke.size, 0.05, 0.006),
+        falls(swings.height / stroke.size, 0.06, 0.006),
     )
-    weight = plain * calm * rises(stroke.gap, 0.13, 0.01) * falls(len(crossings), 0.5, 0.2)
+    # Small loops are slips at a bend, or where the pen was set down.
+    loops = sum(last - first > SLIP * len(points) for _, first, last in crossings)
+    weight = plain * calm * rises(stroke.gap, 0.13, 0.01) * falls(loops, 0.5, 0.2)
     if weight >= LEAST:
         bends = strokes.without_stubs(points, strokes.corners(points, closed=False))
         found = strokes.vertices(points, bends, closed=False)
@@ -255,7 +259,7 @@ def _zigzag(stroke: Stroke, swings: Swings) -> Candidate:
     weight = (
         rises(swings.count, 4.4, 0.2)
         * rises(swings.advance, 1.75, 0.1)
-        * rises(swings.height / stroke.size, 0.05, 0.006)
+        * rises(swings.height / stroke.size, 0.06, 0.006)
         * rises(swings.steady, 0.75, 0.05)
     )
     return Candidate(primitive=Primitive.ZIGZAG, weight=weight, points=stroke.points[[0, -1]])
