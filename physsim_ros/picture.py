@@ -65,6 +65,8 @@ NOWHERE = (-10.0, 0.0, 10.0, 12.0)
 MARGIN = 0.08
 # Half the thickness of the walls [units].
 WALL_HALF = 0.1
+# How long the reading of a stroke is seen [frames].
+LINGER = 180
 # How far back the plots go: ten seconds at 60 Hz [frames].
 PLOTTED = 600
 # Energies are plotted at each so many-th frame.
@@ -96,7 +98,9 @@ class Picture:
         self._area = NOWHERE
         self._framed = False
         self._touching = False
-        self._preview = NOTHING
+        # What is shown of what is half drawn, what was last asked for, and when.
+        self._preview = self._asked = NOTHING
+        self._asked_at = 0
         # Entities that are not empty, and where the bodies were drawn last.
         self._drawn: set[str] = set()
         self._poses: Floats = np.empty((0, 3))
@@ -274,6 +278,10 @@ class Picture:
         """Send what is half drawn where that has changed, or is to be repeated."""
         for frame, number in zip(frames, numbers, strict=True):
             preview = frame.preview
+            if preview != self._asked:
+                self._asked, self._asked_at = preview, number
+            if not preview.points and number - self._asked_at >= LINGER:
+                preview = NOTHING
             if preview == self._preview and (preview == NOTHING or number % REPEAT):
                 continue
             self._preview = preview

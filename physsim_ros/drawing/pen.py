@@ -34,6 +34,9 @@ from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.tools import Step, Tool
 from physsim_ros.drawing.view import DRAWN, View
 
+# Below that confidence a runner-up is not worth a word in the picture.
+_WORTH = 0.05
+
 
 class Pen:
     """
@@ -124,7 +127,7 @@ def told(reading: Reading, *, topic: str) -> Answer:
 
 
 def _shown(reading: Reading) -> Preview:
-    label = f'{reading.what} {reading.confidence:.2f}'
-    if reading.runner_up is not None:
-        label += f' (or {reading.runner_up} {reading.runner_up_confidence:.2f})'
+    label = f'{reading.what} {reading.confidence:.0%}'
+    if reading.runner_up is not None and reading.runner_up_confidence >= _WORTH:
+        label += f', or {reading.runner_up} {reading.runner_up_confidence:.0%}'
     return Preview(lines=(tuple(map(tuple, reading.outline.tolist())),), label=label)
