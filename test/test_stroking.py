@@ -17,6 +17,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 import math
 
 from geometry_msgs.msg import PoseStamped
@@ -142,9 +143,29 @@ def test_an_unknown_frame_is_refused(client: Client) -> None:
 def test_below_the_confidence_that_is_asked_for_nothing_is_built(
     client: Client, physsim: PhysSim
 ) -> None:
+    pictures = client.listen(MarkerArray, '~/preview', KEPT)
     physsim.node.set_parameters([Parameter('sketch_confidence', value=1.0)])
     before = physsim.digest()
     (event,) = client.ask('~/stroke', stroke(circle(0, 0, 1)))
     assert event.code == 'not_recognised'
     assert 'disc' in event.message
     assert physsim.digest() == before
+    assert pictures[-1].markers[-1].text == 'not recognised'
+
+
+def test_what_a_stroke_does_to_several_bodies_is_undone_at_once(
+    client: Client, physsim: PhysSim
+) -> None:
+    for number in range(3):
+        physsim.spawn(disc(f'a/{number}', at=(number, 0.0), text='{anchored: true}'))
+    there = physsim.names
+    swings = [(x / 4 - 0.7, (-1) ** x * 0.7) for x in range(17)]
+    scribble = [each for pair in pairwise(swings) for each in line(*pair, 12)]
+    told, *deleted = client.ask('~/stroke', stroke(scribble))
+    assert told.values['reading'] == 'deletion'
+    assert told.values['requests'] == str(len(deleted)) == '3'
+    assert physsim.names == ()
+
+    physsim.node.simulation.undo()
+
+    assert physsim.names == there

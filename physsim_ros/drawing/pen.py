@@ -23,8 +23,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 import numpy as np
+from physsim_ros.core.errors import NotRecognised
 from physsim_ros.core.names import split_name
-from physsim_ros.core.preview import NOTHING, Preview
+from physsim_ros.core.preview import Line, NOTHING, Preview
 from physsim_ros.core.requests import Join, Request, Spawn
 from physsim_ros.core.shapes import Point
 from physsim_ros.core.snapshot import Answer, Floats, Snapshot
@@ -36,6 +37,8 @@ from physsim_ros.drawing.view import DRAWN, View
 
 # Below that confidence a runner-up is not worth a word in the picture.
 _WORTH = 0.05
+# Points of a stroke that is shown as it was drawn.
+_MOST_SHOWN = 200
 
 
 class Pen:
@@ -93,10 +96,12 @@ class Pen:
         """
         view = self._view(snapshot)
         self.preview = NOTHING
-        origin, ahead = view.placed((0.0, 0.0), frame), view.placed((1.0, 0.0), frame)
-        cos, sin = ahead[0] - origin[0], ahead[1] - origin[1]
-        turn = np.array(((cos, sin, 0.0), (-sin, cos, 0.0), (0.0, 0.0, 1.0)))
-        reading = read(samples @ turn + (*origin, 0.0) if frame else samples, view, self.settings)
+        placed = _placed(samples, frame, view)
+        try:
+            reading = read(placed, view, self.settings)
+        except NotRecognised:
+            self.preview = _unread(placed)
+            raise
         self.preview = _shown(reading)
         self._remember(reading.requests)
         return reading
@@ -126,8 +131,28 @@ def told(reading: Reading, *, topic: str) -> Answer:
     )
 
 
+def _placed(samples: Floats, frame: str, view: View) -> Floats:
+    """Return samples of a frame as they lie in the world."""
+    if not frame:
+        return samples
+    origin, ahead = view.placed((0.0, 0.0), frame), view.placed((1.0, 0.0), frame)
+    cos, sin = ahead[0] - origin[0], ahead[1] - origin[1]
+    turn = np.array(((cos, sin, 0.0), (-sin, cos, 0.0), (0.0, 0.0, 1.0)))
+    return np.asarray(samples @ turn + (*origin, 0.0))
+
+
+def _unread(samples: Floats) -> Preview:
+    """Return a stroke that was not recognised, as it was drawn."""
+    stride = 1 + len(samples) // _MOST_SHOWN
+    return Preview(lines=(_line(samples[::stride]),), label='not recognised')
+
+
+def _line(points: Floats) -> Line:
+    return tuple((x, y) for x, y in points[:, :2].tolist())
+
+
 def _shown(reading: Reading) -> Preview:
     label = f'{reading.what} {reading.confidence:.0%}'
     if reading.runner_up is not None and reading.runner_up_confidence >= _WORTH:
         label += f', or {reading.runner_up} {reading.runner_up_confidence:.0%}'
-    return Preview(lines=(tuple(map(tuple, reading.outline.tolist())),), label=label)
+    return Preview(lines=(_line(reading.outline),), label=label)

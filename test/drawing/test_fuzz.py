@@ -40,6 +40,40 @@ action = st.one_of(
 
 
 @settings(max_examples=300, deadline=None)
+@given(
+    st.lists(st.tuples(near, near) | st.tuples(st.floats(-3, 3), st.floats(-3, 3)), max_size=40),
+    st.sampled_from([(0.0, 0.0), (math.nan, 0.0), (1e9, 0.0), (1e-9, 1e300)]),
+    st.booleans(),
+    frame,
+)
+def test_any_stroke_is_read_or_refused_and_leaves_the_world_sound(
+    points: list[tuple[float, float]], odd: tuple[float, float], with_odd: bool, where: str
+) -> None:
+    world = World()
+    world.apply(Spawn(name='a/0', shape=Disc(radius=0.5)))
+    world.apply(Spawn(name='a/1', shape=Box(width=2.0, height=0.5), pose=(0.5, 0.25, 0.3)))
+    pen = Pen(DrawingSettings(sketch_confidence=0.0))
+    samples = np.array([*points, *([odd] if with_odd else [])]).reshape(-1, 2)
+    before = world.digest()
+    try:
+        reading = pen.stroke(
+            np.column_stack((samples, np.arange(len(samples)) / 60)), where, world.snapshot()
+        )
+    except Refusal:
+        assert world.digest() == before
+        return
+    assert 0.0 <= reading.confidence <= 1.0
+    assert np.isfinite(reading.outline).all()
+    for request in reading.requests:
+        try:
+            world.apply(request)
+        except Refusal:
+            continue
+    world.step(4)
+    assert np.isfinite(world.snapshot().poses).all()
+
+
+@settings(max_examples=300, deadline=None)
 @given(st.sampled_from(Tool), st.lists(action, max_size=15))
 def test_any_clicks_are_drawn_or_refused_and_leave_the_world_sound(
     tool: Tool, actions: list[tuple[Tool | None, tuple[float, float] | None, str | None]]
