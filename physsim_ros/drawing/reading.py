@@ -39,7 +39,7 @@ from physsim_ros.core.snapshot import Floats
 from physsim_ros.drawing import beautifying, bodies, recogniser, scribbling, snapping
 from physsim_ros.drawing.recogniser import Candidate, falls, Primitive
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.stroke import simplified, Stroke, stroke
+from physsim_ros.drawing.stroke import bends_of, simplified, Stroke, stroke
 from physsim_ros.drawing.view import DRAWN, View
 
 # The weight of its being nothing of all this.
@@ -222,7 +222,7 @@ def _senses(
 def _to_and_fro(
     candidate: Candidate, drawn: Stroke, view: View, settings: DrawingSettings
 ) -> Iterator[Sense]:
-    """Yield what a zigzag or scribble means: a spring between bodies, or the end of some."""
+    """Yield what a zigzag or scribble means: a spring, a wall in the open, the end of bodies."""
     ends = drawn.points[[0, -1]]
     joined = snapping.ends_on(_point(ends[0]), _point(ends[1]), view, settings)
     covered = scribbling.bodies_under(drawn.points, view)
@@ -233,17 +233,20 @@ def _to_and_fro(
         spring = 1.0 - scribbling.share_under(drawn.points, joined, view)
         if zigzag and joined[1].body != WORLD:
             spring = max(spring, BETWEEN)
-    elif zigzag and not covered:
-        spring = MISPLACED
-    deletion = MISPLACED * (not zigzag) if not covered else 1.0 - spring
+    wall = BETWEEN if zigzag and not spring and not covered else 0.0
     yield Sense(
         meaning=Meaning.SPRING,
         weight=candidate.weight * spring,
         make=lambda: _spring(ends, drawn, view, settings),
     )
     yield Sense(
+        meaning=Meaning.WALL,
+        weight=candidate.weight * wall,
+        make=lambda: _wall(bends_of(drawn), drawn, view, settings),
+    )
+    yield Sense(
         meaning=Meaning.DELETION,
-        weight=candidate.weight * deletion,
+        weight=candidate.weight * (1.0 - spring - wall) * (1.0 if covered else MISPLACED),
         make=lambda: _deletion(covered, drawn),
     )
 

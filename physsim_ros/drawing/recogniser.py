@@ -43,6 +43,8 @@ LEAST = 0.01
 CLOSED = 0.1
 # The longest loop that is a slip, in shares of the length.
 SLIP = 0.15
+# So many corners that are all alike are a circle's samples; the weight of an outline of no shape.
+MANY, BLOB = 9, 0.8
 # Fewer swings are not measured.
 FEWEST = 3
 # Directions in which swings to and fro are looked for.
@@ -183,15 +185,28 @@ def _closed(stroke: Stroke, swings: Swings, plain: float) -> Iterator[Candidate]
     ratio = math.log(max(left, 1e-6) / max(error, 1e-6) / 0.19)
     evidence = ratio + 1.5 * math.log(2.25 / sharpness)
     round_ = rises(evidence, 0.0, 0.3) * rises(aspect, 0.55, 0.04)
+    if len(at) >= MANY and outlines.is_convex(_counterclockwise(found)):
+        # Nobody draws so many equal corners: they are the samples of a quick circle.
+        round_ = max(round_, falls(error, 0.04, 0.004))
     disc = closed * once * round_ * falls(error, 0.085, 0.015)
     sided = closed * (1.0 - round_) * falls(left, 0.022, 0.003) if simple else 0.0
     # Thinner than that it is a line, drawn to and fro.
-    sided *= rises(aspect, 0.02, 0.003)
+    broad = rises(aspect, 0.02, 0.003)
     square = squareness(found) if len(at) == 4 else 0.0
     rim = center + np.array((radius, 0.0))
     yield Candidate(primitive=Primitive.DISC, weight=disc, points=np.array((center, rim)))
-    yield Candidate(primitive=Primitive.RECTANGLE, weight=sided * square, points=found)
-    yield Candidate(primitive=Primitive.POLYGON, weight=sided * (1.0 - square), points=found)
+    yield Candidate(primitive=Primitive.RECTANGLE, weight=broad * sided * square, points=found)
+    blob = BLOB * (closed - disc - sided) * once
+    sided *= 1.0 - square
+    if blob > sided:
+        # Neither round nor sided: any other outline, as it was drawn.
+        found = strokes.traced(stroke.outline)
+        sided = 0.0 if outlines.crosses_itself(found) else blob
+    yield Candidate(primitive=Primitive.POLYGON, weight=broad * sided, points=found)
+
+
+def _counterclockwise(found: Floats) -> Floats:
+    return found if outlines.signed_area(found) > 0 else found[::-1]
 
 
 def roundness(outline: Floats) -> tuple[Floats, float, float, float]:
@@ -250,9 +265,7 @@ def _line(
     loops = sum(last - first > SLIP * len(points) for _, first, last in crossings)
     weight = plain * calm * rises(stroke.gap, 0.13, 0.01) * falls(loops, 0.5, 0.2)
     if weight >= LEAST:
-        bends = strokes.without_stubs(points, strokes.corners(points, closed=False))
-        found = strokes.vertices(points, bends, closed=False)
-        yield Candidate(primitive=Primitive.LINE, weight=weight, points=found)
+        yield Candidate(primitive=Primitive.LINE, weight=weight, points=strokes.bends_of(stroke))
 
 
 def _zigzag(stroke: Stroke, swings: Swings) -> Candidate:
@@ -353,7 +366,9 @@ def crossings_of(points: Floats) -> list[Crossing]:
     # Of every pair of steps, how far along each they meet.
     i, j = _PAIRS
     away, sine = start[j] - start[i], cross(step[i], step[j])
-    near = sine != 0
+    # Steps along one line do not cross, whatever their rounding says.
+    lengths = np.hypot(step[:, 0], step[:, 1])
+    near = np.abs(sine) > 1e-6 * lengths[i] * lengths[j]
     i, j, away, sine = i[near], j[near], away[near], sine[near]
     one, other = cross(away, step[j]) / sine, cross(away, step[i]) / sine
     meet = np.flatnonzero((one >= 0) & (one < 1) & (other >= 0) & (other < 1))

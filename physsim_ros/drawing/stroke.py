@@ -228,7 +228,13 @@ def side_error(outline: Floats, at: list[int]) -> float:
     return math.sqrt(float(np.diagonal(_errors(way, ends), 1).sum()) / len(outline))
 
 
-def without_stubs(points: Floats, at: list[int]) -> list[int]:
+def bends_of(drawn: Stroke) -> Floats:
+    """Return the ends and bends of a line."""
+    at = _without_stubs(drawn.points, corners(drawn.points, closed=False))
+    return vertices(drawn.points, at, closed=False)
+
+
+def _without_stubs(points: Floats, at: list[int]) -> list[int]:
     """Return the corners of an open way without ends that are too short to be meant."""
     kept = list(at)
     for _ in range(2):
@@ -252,13 +258,26 @@ def simplified(drawn: Stroke, bends: Floats) -> Floats | None:
     off = np.min([_off(way, *side) for side in itertools.pairwise(bends)], axis=0)
     if math.sqrt(float((off**2).mean())) <= CURVED * drawn.size:
         return None
-    # Ramer, Douglas and Peucker: the point furthest off is kept, and so on in both parts.
+    return _traced(way, FINE * drawn.size)
+
+
+def traced(outline: Floats) -> Floats:
+    """Return a closed way as few enough points."""
+    way = smoothed(outline, SMOOTHING, closed=True)
+    size = float(np.hypot(*np.ptp(way, axis=0)))
+    # From one of the points that lie farthest out.
+    way = np.roll(way, -int(((way - way.mean(axis=0)) ** 2).sum(axis=1).argmax()), axis=0)
+    return _traced(np.vstack((way, way[:1])), FINE * size)[:-1]
+
+
+def _traced(way: Floats, tolerance: float) -> Floats:
+    """Keep the points without which a way would be too far off: Ramer, Douglas and Peucker."""
     kept, parts = {0, len(way) - 1}, [(0, len(way) - 1)]
     while parts:
         first, last = parts.pop()
         off = _off(way[first : last + 1], way[first], way[last])
         furthest = first + int(off.argmax())
-        if off.max() > FINE * drawn.size:
+        if off.max() > tolerance:
             kept.add(furthest)
             parts += [(first, furthest), (furthest, last)]
     return way[sorted(kept)]
