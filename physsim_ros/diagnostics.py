@@ -18,7 +18,7 @@ from __future__ import annotations
 
 from builtin_interfaces.msg import Time
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
-from physsim_ros.core.snapshot import Snapshot
+from physsim_ros.core.snapshot import run_state, Snapshot
 
 # Seconds of wall time over which the real-time factor is smoothed: as fast as a person reads.
 _SMOOTHING = 1.0
@@ -82,7 +82,7 @@ class Meter:
             'viewer': viewer,
         }
         self._frames = self._step_ns = self._frame_ns = 0
-        message = 'paused' if speed == 0 else f'{frames} frames'
+        message = run_state(speed) if speed <= 0 else f'{frames} frames'
         if late > 0:
             message = f'{late} frames late: simulation time runs slow'
         status = DiagnosticStatus(

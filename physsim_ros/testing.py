@@ -168,6 +168,22 @@ class PhysSim:
         if not predicate():
             raise TimeoutError(f'not so within {timeout:g} simulated seconds')
 
+    def seek(self, seconds: float) -> None:
+        """
+        Go to a simulation time [s] that has been; running on repeats the same bits.
+
+        :raises Refused: it is kept no more, or has not come yet
+        """
+        from physsim_ros.core.errors import OutOfHistory
+
+        self.settle()
+        try:
+            self.node.simulation.seek(round(seconds * 1e9))
+        except OutOfHistory as refusal:
+            raise Refused(refusal.code, str(refusal), refusal.field) from refusal
+        self.node.apply()
+        self.settle()
+
     def settle(self) -> None:
         """Let every message that is under way arrive, and all that it makes nodes send."""
         for _ in range(_MOST_ROUNDS):

@@ -236,8 +236,10 @@ def test_files_are_small_and_one_line_a_body(folder: Path) -> None:
 
     lines = save(world, folder).read_text().splitlines()
 
-    assert [line for line in lines if line.startswith('  - ')] == lines[-3:]
+    assert sum(line.startswith('  - ') for line in lines) == 3
     assert lines[0] == 'format: 1'
+    # Settings, bodies, and a line of what the engine remembers.
+    assert len(lines) < 20
 
 
 def test_what_is_saved_is_plain_yaml(folder: Path) -> None:

@@ -62,7 +62,7 @@ class Clock:
 
     def due(self, now_ns: int, step: int) -> int:
         """
-        Return how many steps the next frame has; 0 where none is due yet.
+        Return how many steps the next frame has, negative ones back; 0 where none is due yet.
 
         At whole speeds a frame ends on a multiple of the publish period, and a timer's jitter of
         less than half a period changes nothing.
@@ -70,19 +70,23 @@ class Clock:
         :param now_ns: steady time, never going back [ns]
         :param step: the world's step
         """
-        if self._speed == 0.0:
-            return 0
+        if self._speed < 0.0:
+            # Back in time is forward on a mirrored line.
+            return -self._due(now_ns, -step, -self._speed)
+        return self._due(now_ns, step, self._speed) if self._speed > 0.0 else 0
+
+    def _due(self, now_ns: int, step: int, speed: float) -> int:
         if self._anchor is None:
             self._anchor = (now_ns, step)
-        quota = self._frame_steps * self._speed
+        quota = self._frame_steps * speed
         anchor_ns, anchor_step = self._anchor
-        target = anchor_step + (now_ns - anchor_ns) * 1e-9 * self._physics_rate * self._speed
+        target = anchor_step + (now_ns - anchor_ns) * 1e-9 * self._physics_rate * speed
         behind = (target - step) / quota
         if behind > MOST_BEHIND:
             self.late_frames += math.floor(behind) - 1
             target, behind = step + quota, 1.0
             self._anchor = (now_ns, target)
-        if not self._speed.is_integer():
+        if not speed.is_integer():
             return max(0, min(math.floor(target), step + math.ceil(quota)) - step)
         if behind < 0.5:
             return 0

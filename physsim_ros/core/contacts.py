@@ -107,6 +107,13 @@ class ContactLog:
             stays = (ids != body).all(axis=1)
             self._gone[number] = ids[stays], sums[stays]
 
+    def clear(self) -> None:
+        """Forget what has been summed up since the last call of `take`."""
+        self._gone = []
+        self._sums = np.zeros_like(self._sums)
+        self._steps = 0
+        self._begun.clear()
+
     def inherit(self, old: ContactLog, old_ids: Ids, ids: Ids) -> None:
         """
         Take over what another log has summed up, of the same bodies under other ids.

@@ -122,3 +122,9 @@ class BadWorldFile(Refusal):
     """A world file that cannot be read, written or understood."""
 
     code = 'bad_world_file'
+
+
+class OutOfHistory(Refusal):
+    """A time that is kept no more, or has not come yet; or nothing to undo."""
+
+    code = 'out_of_history'

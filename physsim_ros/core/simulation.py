@@ -16,22 +16,43 @@
 The one door to the core: requests and steady time go in, frames come out.
 
 Laws: requests are carried out in the order of their arrival and only between frames; every one is
-answered; a paused world carries them out too.
+answered; a paused world carries them out too, and so does one that is shown in its past, which
+goes on differently from there.
 """
 
 from __future__ import annotations
 
 from collections import deque
+from dataclasses import replace
+from typing import NamedTuple
 
 from physsim_ros.core.clock import Clock
-from physsim_ros.core.errors import BadProperty, Refusal
+from physsim_ros.core.errors import BadProperty, OutOfHistory, Refusal
+from physsim_ros.core.history import Entry, Tail
+from physsim_ros.core.past import Past, Shot
 from physsim_ros.core.requests import Command, Delete, Join, Request, Restore, Spawn, Unjoin
 from physsim_ros.core.settings import WorldSettings
-from physsim_ros.core.snapshot import Answer, Frame, WorldState
+from physsim_ros.core.snapshot import Answer, Contacts, Frame, Snapshot, WorldState
+from physsim_ros.core.timeline import Timeline
 from physsim_ros.core.world import World
 
 # Frames in one call: the one that is due, and one to make up for a late one.
 _FRAMES_A_CALL = 2
+# From one keyframe to the next [s]: to reach a step, at most so much is simulated again.
+KEYFRAMES = 2.0
+# What is kept of what was shown [bytes]: all of ten minutes of 20 bodies, two minutes of 300.
+MOST_KEPT = 64 * 2**20
+# So many steps back can be redone.
+MOST_UNDONE = 100
+
+
+class _Asked(NamedTuple):
+    """A request that waits, or the refusal of what could not even be one."""
+
+    request: Request | Refusal
+    topic: str
+    subject: str
+    gesture: int
 
 
 class Simulation:
@@ -41,7 +62,8 @@ class Simulation:
     :param physics_rate: steps a second of simulation time [Hz], a multiple of publish_rate
     :param publish_rate: frames a second of simulation time at speed 1 [Hz]
     :param settings: of the empty world at the start
-    :param speed: simulation seconds a second; 0 is paused
+    :param speed: simulation seconds a second; 0 is paused, negative goes back
+    :param history: how far back it can go [s of simulation time]
     :raises BadProperty: publish_rate does not divide physics_rate
     """
 
@@ -52,6 +74,7 @@ class Simulation:
         publish_rate: float = 60.0,
         settings: WorldSettings | None = None,
         speed: float = 1.0,
+        history: float = 600.0,
     ) -> None:
         steps = physics_rate / publish_rate
         if steps < 1 or abs(steps - round(steps)) > 1e-9:
@@ -61,21 +84,63 @@ class Simulation:
                 field='publish_rate',
             )
         self.frame_steps = round(steps)
-        self.world = World(physics_rate=physics_rate, settings=settings)
-        self._beginning = self.world.save()
+        self.physics_rate = physics_rate
+        self._publish_rate = publish_rate
         self._clock = Clock(physics_rate=physics_rate, frame_steps=self.frame_steps, speed=speed)
-        self._requests: deque[tuple[Request | Refusal, str, str]] = deque()
+        self._requests: deque[_Asked] = deque()
+        self._gesture = 0
         self._answers: list[Answer] = []
         self._changed = True
+        self._watching = False
+        self._history = history
+        self._beginning = WorldState(settings=settings or WorldSettings())
+        self._undone: deque[Tail | None] = deque(maxlen=MOST_UNDONE)
+        # What was before the last reset.
+        self._left: tuple[Timeline, Past, int] | None = None
+        self._timeline, self._past = self._course_of(self._beginning)
+        # The step that is shown where the world itself is at another; None where it is there.
+        self._shown: Shot | None = None
+
+    # Reading
+
+    @property
+    def world(self) -> World:
+        """Return the world as it is at the moment that is shown."""
+        self._catch_up()
+        return self._timeline.world
+
+    @property
+    def step(self) -> int:
+        """Return the step that is shown."""
+        if self._shown is not None:
+            return self._shown.snapshot.step
+        return self._timeline.world.step_count
+
+    @property
+    def settings(self) -> WorldSettings:
+        """Return what holds for the whole world at the moment that is shown."""
+        if self._shown is not None:
+            return self._shown.snapshot.scene.settings
+        return self._timeline.world.settings
 
     @property
     def speed(self) -> float:
-        """Return simulation seconds a second; 0 is paused."""
+        """Return simulation seconds a second; 0 is paused, negative goes back."""
         return self._clock.speed
 
     @speed.setter
     def speed(self, speed: float) -> None:
         self._clock.speed = speed
+
+    @property
+    def history(self) -> float:
+        """Return how far back it can go [s of simulation time]."""
+        return self._history
+
+    @history.setter
+    def history(self, history: float) -> None:
+        self._history = history
+        self._timeline.history.length = self._steps(history)
 
     @property
     def late_frames(self) -> int:
@@ -84,10 +149,17 @@ class Simulation:
 
     def watch_contacts(self, watching: bool) -> None:  # noqa: FBT001 - a state, not a mode
         """Have the frames tell what touches, or save the cost of it."""
-        self.world.watching = watching
+        self._watching = self._timeline.world.watching = watching
 
-    def submit(self, request: Request, *, topic: str) -> None:
-        """Queue a request; nothing moves until the next frame, which carries the answer."""
+    # Asking
+
+    def submit(self, request: Request, *, topic: str, joined: bool = False) -> None:
+        """
+        Queue a request; nothing moves until the next frame, which carries the answer.
+
+        :param topic: where it comes from
+        :param joined: whether it belongs to the one before, and is undone together with it
+        """
         subject = ''
         match request:
             case (
@@ -98,11 +170,11 @@ class Simulation:
                 | Command(names=(subject,))
             ):
                 pass
-        self._requests.append((request, topic, subject))
+        self._queue(request, topic, subject, joined=joined)
 
     def refuse(self, refusal: Refusal, *, topic: str, subject: str) -> None:
         """Queue the answer to what could not even be a request, so that answers keep the order."""
-        self._requests.append((refusal, topic, subject))
+        self._queue(refusal, topic, subject, joined=True)
 
     def perform(self, request: Request) -> str:
         """
@@ -111,9 +183,17 @@ class Simulation:
         :raises Refusal: and nothing is changed
         """
         self._apply_all()
-        message = self.world.apply(request)[1]
+        self._gesture += 1
+        message = self._apply(request, self._gesture)[1]
         self._changed = True
         return message
+
+    def begin(self, state: WorldState) -> None:
+        """Begin with a state, at time 0, without a past; `reset` will return to it."""
+        self._beginning = state
+        self._timeline, self._past = self._course_of(state)
+        self._left = None
+        self._moved()
 
     def load(self, state: WorldState) -> str:
         """Replace the world by a state, to which `reset` will return; time goes on."""
@@ -121,31 +201,99 @@ class Simulation:
         self._beginning = state
         return message
 
-    def reset(self) -> str:
-        """Return to the state that was loaded last, at time 0."""
+    def save(self) -> WorldState:
+        """Return the world as it is; who goes on from that goes on as it does itself."""
         self._apply_all()
-        watching = self.world.watching
-        self.world = World(physics_rate=self.world.physics_rate)
-        self.world.watching = watching
-        self.world.apply(Restore(state=self._beginning))
-        self._clock.restart()
-        self._changed = True
+        self._catch_up()
+        self._timeline.renew()
+        return self._timeline.world.save()
+
+    def reset(self) -> str:
+        """Return to the state that was loaded last, at time 0; `undo` comes back from there."""
+        self._apply_all()
+        step = self.step
+        self._left = (self._timeline, self._past, step)
+        self._timeline, self._past = self._course_of(self._beginning)
+        self._undone.clear()
+        self._moved()
         return 'back at the beginning, time 0'
+
+    def undo(self) -> str:
+        """
+        Go back to the moment before the last request that changed the world, and say so.
+
+        :raises OutOfHistory: there is none in the history
+        """
+        self._apply_all()
+        self._catch_up()
+        try:
+            undone, tail = self._timeline.undo()
+        except OutOfHistory:
+            if self._left is None:
+                raise
+            self._timeline, self._past, step = self._left
+            self._timeline.seek(step)
+            self._left = None
+            self._undone.append(None)
+            message = 'undid reset'
+        else:
+            self._past.forget(undone[0].step)
+            self._undone.append(tail)
+            message = f'undid {_named(undone)}'
+        self._moved()
+        return f'{message}, back at {self._time()}'
+
+    def redo(self) -> str:
+        """
+        Return to where the last undo was asked for, and say so.
+
+        :raises OutOfHistory: nothing was undone, or something else was done since
+        """
+        self._apply_all()
+        if not self._undone:
+            raise OutOfHistory('there is nothing to redo', field='history')
+        tail = self._undone.pop()
+        if tail is None:
+            undone = list(self._undone)
+            self.reset()
+            self._undone.extend(undone)
+            return 'redid reset, back at time 0'
+        self._timeline.redo(tail)
+        self._past.forget(tail.entries[0].step)
+        self._moved()
+        return f'redid what was undone, at {self._time()}'
+
+    def seek(self, stamp: int) -> str:
+        """
+        Go to a simulation time [ns], and say so.
+
+        :raises OutOfHistory: it is kept no more, or has not come yet
+        """
+        self._apply_all()
+        self._catch_up()
+        self._timeline.seek(round(stamp * 1e-9 * self.physics_rate))
+        self._moved()
+        return f'at {self._time()}'
+
+    # Going on
 
     def advance(self, now_ns: int) -> tuple[Frame, ...]:
         """
-        Carry out what was asked, and go on by what is due.
+        Carry out what was asked, and go on, or back, by what is due.
 
         :param now_ns: steady time, never going back [ns]
-        :return: the frames, oldest first; none where nothing is due and nothing has changed
+        :return: the frames, in the order in which they are shown; none where nothing is due and
+            nothing has changed
         """
         self._apply_all()
         frames = []
         for _ in range(_FRAMES_A_CALL):
-            steps = self._clock.due(now_ns, self.world.step_count)
+            steps = self._clock.due(now_ns, self.step)
             if steps == 0:
                 break
-            frames.append(self._go(steps))
+            frames.append(self._go(steps) if steps > 0 else self._go_back(-steps))
+            if self.speed == 0:
+                break
         if not frames and self._changed:
             frames.append(self._frame(moved=False))
         return tuple(frames)
@@ -159,51 +307,79 @@ class Simulation:
         """Carry out what was asked, and go on by one publish period, whatever the speed."""
         self._apply_all()
         self._clock.restart()
-        return self._go(self.frame_steps - self.world.step_count % self.frame_steps)
+        return self._go(self.frame_steps - self.step % self.frame_steps)
+
+    def _go(self, steps: int) -> Frame:
+        self._catch_up()
+        self._timeline.go(steps)
+        self._timeline.prepare(steps)
+        return self._frame(moved=True)
+
+    def _go_back(self, steps: int) -> Frame:
+        oldest = self._timeline.history.oldest
+        step = max(oldest, self.step - steps)
+        if step < self.step:
+            self._shown = self._past.shot(step, watching=self._watching)
+            fine = not self.speed.is_integer()
+            self._past.prepare(step, steps, fine=fine, watching=self._watching)
+        if step == oldest:
+            self.speed = 0.0
+            message = f'{self._time()} is the oldest that is kept; paused'
+            self._answers.append(Answer(topic='history', message=message))
+        return self._frame(moved=True)
+
+    def _catch_up(self) -> None:
+        """Bring the world itself to the moment that is shown."""
+        if self._shown is not None:
+            step, self._shown = self._shown.snapshot.step, None
+            self._timeline.seek(step)
+            # They have been shown.
+            self._timeline.world.clear_contacts()
+
+    def _moved(self) -> None:
+        """Note that another moment is shown than before."""
+        self._shown = None
+        self._timeline.world.watching = self._watching
+        self._clock.restart()
+        self._changed = True
+
+    # Inside
+
+    def _queue(
+        self, request: Request | Refusal, topic: str, subject: str, *, joined: bool
+    ) -> None:
+        self._gesture += not joined
+        self._requests.append(_Asked(request, topic, subject, self._gesture))
 
     def _apply_all(self) -> None:
         while self._requests:
-            request, topic, subject = self._requests.popleft()
+            request, topic, subject, gesture = self._requests.popleft()
             self._changed = True
             try:
                 if isinstance(request, Refusal):
                     raise request
-                subject, message = self.world.apply(request)
+                subject, message = self._apply(request, gesture)
             except Refusal as refusal:
                 answer = Answer.refused(refusal, topic=topic, subject=subject)
             else:
                 answer = Answer(topic=topic, subject=subject, message=message)
             self._answers.append(answer)
 
-    def _tell_broken(self) -> None:
-        for name, force in self.world.take_broken():
-            self._answers.append(
-                Answer(
-                    topic='joint_broken',
-                    subject=name,
-                    message=f'{name} broke at {force:.3g} N and was removed',
-                    code='joint_broken',
-                )
-            )
-
-    def _go(self, steps: int) -> Frame:
-        for name in self.world.step(steps):
-            self._answers.append(
-                Answer(
-                    topic='divergence',
-                    subject=name,
-                    message=f'{name} left the range of numbers and was removed',
-                    code='divergence',
-                )
-            )
-        self._tell_broken()
-        return self._frame(moved=True)
+    def _apply(self, request: Request, gesture: int) -> tuple[str, str]:
+        self._catch_up()
+        head = self._timeline.history.head
+        done = self._timeline.apply(request, gesture)
+        self._undone.clear()
+        if head > self.step:
+            self._past.forget(self.step)
+        return done
 
     def _frame(self, *, moved: bool) -> Frame:
-        snapshot = self.world.snapshot()
+        snapshot, contacts = self._shown or self._look()
+        self._answers += self._timeline.tell() + self._past.tell()
         frame = Frame(
             snapshot=snapshot,
-            contacts=self.world.contacts(snapshot) if self.world.watching else None,
+            contacts=contacts if self._watching else None,
             answers=tuple(self._answers),
             speed=self.speed,
             moved=moved,
@@ -211,3 +387,45 @@ class Simulation:
         self._answers.clear()
         self._changed = False
         return frame
+
+    def _look(self) -> tuple[Snapshot, Contacts | None]:
+        """Return what there is to see, and keep it for going back."""
+        world = self._timeline.world
+        snapshot = world.snapshot()
+        contacts = world.contacts(snapshot) if world.watching else None
+        # A copy, since what is worked out from a snapshot stays with it.
+        self._past.keep(Shot(replace(snapshot), contacts))
+        self._timeline.see()
+        return snapshot, contacts
+
+    def _course_of(self, state: WorldState) -> tuple[Timeline, Past]:
+        """Return a timeline that begins with a state, and its empty past."""
+        world = World(
+            physics_rate=self.physics_rate, frame_steps=self.frame_steps, settings=state.settings
+        )
+        world.apply(Restore(state=state))
+        world.watching = self._watching
+        timeline = Timeline(
+            world, length=self._steps(self._history), spacing=self._steps(KEYFRAMES)
+        )
+        past = Past(
+            timeline.history,
+            physics_rate=self.physics_rate,
+            frame_steps=self.frame_steps,
+            budget=MOST_KEPT,
+        )
+        return timeline, past
+
+    def _steps(self, seconds: float) -> int:
+        return round(seconds * self.physics_rate)
+
+    def _time(self) -> str:
+        return f'{self.step / self.physics_rate:.3f} s'
+
+
+def _named(entries: list[Entry]) -> str:
+    """Return what a gesture was, in words."""
+    kind = type(entries[0].request).__name__.lower()
+    name = getattr(entries[0].request, 'name', '')
+    more = f' and {len(entries) - 1} more' if len(entries) > 1 else ''
+    return f'{kind} {name}'.rstrip() + more

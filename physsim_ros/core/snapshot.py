@@ -194,7 +194,7 @@ class WorldState:
     settings: WorldSettings
     bodies: tuple[BodyState, ...] = ()
     joints: tuple[Joint, ...] = ()
-    memory: ContactMemory | None = None
+    memory: ContactMemory | None = field(default=None, compare=False)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -432,3 +432,11 @@ class Frame:
     answers: tuple[Answer, ...] = field(default=())
     speed: float = 1.0
     moved: bool = True
+
+
+def run_state(speed: float) -> str:
+    """Return what a world does at a speed, in words."""
+    if speed == 0.0:
+        return 'paused'
+    words = 'playing' if speed > 0.0 else 'rewinding'
+    return words if abs(speed) == 1.0 else f'{words} at {abs(speed):g}'

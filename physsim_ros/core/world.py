@@ -21,12 +21,10 @@ requests at the same steps give the same bits, in another process too.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import replace
 import hashlib
 from itertools import islice
 import math
-from typing import Any
 
 from physsim_ros.core import joining, rigid_body
 from physsim_ros.core.errors import (
@@ -78,13 +76,19 @@ class World:
     A world of bodies, stepped at a fixed rate.
 
     :param physics_rate: steps a second of simulation time [Hz]
+    :param frame_steps: each so many steps, what has left the range of numbers is looked for
     :param settings: what holds at the start
     """
 
     def __init__(
-        self, *, physics_rate: float = 240.0, settings: WorldSettings | None = None
+        self,
+        *,
+        physics_rate: float = 240.0,
+        frame_steps: int = 4,
+        settings: WorldSettings | None = None,
     ) -> None:
         self.physics_rate = physics_rate
+        self.frame_steps = frame_steps
         self.dt = 1.0 / physics_rate
         self.step_count = 0
         # Whether contacts are read; reading them costs a tenth of a step.
@@ -108,14 +112,6 @@ class World:
         """Return what holds for the whole world."""
         return self._settings
 
-    def settings_with(self, changes: Mapping[str, Any]) -> WorldSettings:
-        """
-        Return the settings as they would be with some changed.
-
-        :raises Refusal: they would not fit
-        """
-        return replace(self._settings, **changes)
-
     @property
     def stamp(self) -> int:
         """Return the simulation time [ns]."""
@@ -136,6 +132,10 @@ class World:
     def contacts(self, snapshot: Snapshot) -> Contacts:
         """Return what touched since the last call while the world was being watched."""
         return self._space.contacts(snapshot.centers)
+
+    def clear_contacts(self) -> None:
+        """Forget what touched since the last call of `contacts`."""
+        self._space.clear_contacts()
 
     def digest(self) -> str:
         """Return a hash of everything that decides how the world goes on."""
@@ -199,7 +199,7 @@ class World:
             case Command():
                 return self._command(request)
             case Configure(changes=changes):
-                self._configure(self.settings_with(changes))
+                self._configure(replace(self._settings, **changes))
                 return '', f'set {", ".join(changes)}'
             case Restore(state=state):
                 self._restore(state)
@@ -217,10 +217,14 @@ class World:
 
         :return: bodies that left the range of numbers and were removed
         """
+        lost: list[str] = []
         for remaining in range(count, 0, -1):
             self._space.step(self.step_count, watching=self.watching, last=remaining == 1)
             self.step_count += 1
-        return self._space.drop_lost()
+            # Counted from the beginning, so that it does not depend on who makes how many steps.
+            if self.step_count % self.frame_steps == 0:
+                lost += self._space.drop_lost()
+        return tuple(lost)
 
     # Going on from a keyframe
 

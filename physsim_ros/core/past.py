@@ -1,0 +1,215 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+What has been shown: kept as far as memory allows, and worked out again beyond that.
+
+Law: a step of the past is shown as it was the first time, to the bit; contacts to a rounding,
+since the engine lists them by address and they are summed in its order.
+
+Rewinding through what is kept costs nothing. Beyond it, the steps between two keyframes are made
+again, forward, while those after them are shown, backward.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from physsim_ros.core.history import History, Mark
+from physsim_ros.core.snapshot import Answer, Contacts, Snapshot
+from physsim_ros.core.timeline import Course
+from physsim_ros.core.world import World
+
+# Python's own share of a shot [bytes].
+_OVERHEAD = 1000
+
+
+class Shot(NamedTuple):
+    """
+    What there was to see after a step.
+
+    :ivar snapshot: where everything was
+    :ivar contacts: what touched since the shot before; None where nobody looked
+    """
+
+    snapshot: Snapshot
+    contacts: Contacts | None
+
+    @property
+    def size(self) -> int:
+        """Return the memory it takes [bytes]."""
+        size = _OVERHEAD + self.snapshot.poses.nbytes + self.snapshot.twists.nbytes
+        if self.contacts is not None:
+            # Each pair has two rows, a point, a normal and an impulse of 16 bytes each.
+            size += 4 * self.contacts.pairs.nbytes
+        return size
+
+
+class _Reel:
+    """The shots between two keyframes, by step."""
+
+    def __init__(self) -> None:
+        self.shots: dict[int, Shot] = {}
+        self.size = 0
+
+    def add(self, shot: Shot) -> None:
+        old = self.shots.get(shot.snapshot.step)
+        self.size += shot.size - (0 if old is None else old.size)
+        self.shots[shot.snapshot.step] = shot
+
+
+class Past:
+    """
+    The shots of a history.
+
+    :param history: of what
+    :param physics_rate: of its world [Hz]
+    :param frame_steps: steps from one shot to the next, unless finer ones are asked for
+    :param budget: memory that may be taken [bytes]
+    """
+
+    def __init__(
+        self, history: History, *, physics_rate: float, frame_steps: int, budget: int
+    ) -> None:
+        self._history = history
+        self._frame_steps = frame_steps
+        self._budget = budget
+        self._reels: dict[Mark, _Reel] = {}
+        # A world that makes the steps again which come next in going back.
+        self._course = Course(World(physics_rate=physics_rate, frame_steps=frame_steps), history)
+        self._making: _Making | None = None
+
+    @property
+    def size(self) -> int:
+        """Return the memory that the shots take [bytes]."""
+        return sum(reel.size for reel in self._reels.values())
+
+    def tell(self) -> list[Answer]:
+        """Return what was noticed since the last call."""
+        return self._course.tell()
+
+    def keep(self, shot: Shot) -> None:
+        """Keep a shot of what has just been shown."""
+        mark, _ = self._history.segment(shot.snapshot.step)
+        self._reels.setdefault(mark, _Reel()).add(shot)
+        self._drop(shot.snapshot.step)
+
+    def forget(self, step: int) -> None:
+        """Drop the shots from a step on: it goes on differently from there."""
+        self._making = None
+        for mark in [mark for mark in self._reels if mark.step >= step]:
+            del self._reels[mark]
+        for reel in self._reels.values():
+            for number in [number for number in reel.shots if number >= step]:
+                reel.size -= reel.shots.pop(number).size
+
+    def shot(self, step: int, *, watching: bool) -> Shot:
+        """
+        Return the shot of a step.
+
+        :param watching: whether contacts are wanted, should it have to be made again
+        """
+        mark, end = self._history.segment(step)
+        reel = self._reels.get(mark)
+        if reel is None or step not in reel.shots:
+            making = self._making
+            if making is None or making.mark != mark or step not in making:
+                making = self._begin(
+                    mark, end, fine=step % self._frame_steps != 0, watching=watching
+                )
+            making.go_on(end - mark.step)
+            reel = self._reels[mark] = making.reel
+            self._making = None
+            self._drop(step)
+        return reel.shots[step]
+
+    def prepare(self, step: int, steps: int, *, fine: bool, watching: bool) -> None:
+        """
+        Make again what comes next in going back, in time for it.
+
+        :param step: that is shown now
+        :param steps: to the one that is shown next
+        :param fine: whether every step will be wanted
+        """
+        mark, _ = self._history.segment(step)
+        before, end = self._history.segment(mark.step)
+        if before == mark or before in self._reels:
+            return
+        making = self._making
+        if making is None or making.mark != before:
+            making = self._begin(before, end, fine=fine, watching=watching)
+        frames_left = max(1, (step - mark.step) // max(1, steps))
+        making.go_on(-(-making.left // frames_left))
+        if making.left == 0:
+            self._reels[before] = making.reel
+            self._making = None
+            self._drop(step)
+
+    def _begin(self, mark: Mark, end: int, *, fine: bool, watching: bool) -> _Making:
+        self._course.world.watching = watching
+        stride = 1 if fine else self._frame_steps
+        self._making = _Making(self._course, mark, end, stride)
+        return self._making
+
+    def _drop(self, step: int) -> None:
+        """Drop the reels that are farthest away, until the rest fits."""
+        size = self.size
+        while size > self._budget and len(self._reels) > 2:
+            farthest = max(self._reels, key=lambda mark: abs(mark.step - step))
+            size -= self._reels.pop(farthest).size
+
+
+class _Making:
+    """
+    A reel that is being made again.
+
+    :param course: that makes it
+    :param mark: the keyframe it begins with
+    :param end: its last step
+    :param stride: steps from one shot to the next
+    """
+
+    def __init__(self, course: Course, mark: Mark, end: int, stride: int) -> None:
+        self.mark = mark
+        self.reel = _Reel()
+        self._course = course
+        self._end = end
+        self._stride = stride
+        course.resume(mark)
+        course.show(mark.step)
+        self._shoot()
+
+    def __contains__(self, step: int) -> bool:
+        return step % self._stride == 0 or step == self._end
+
+    @property
+    def left(self) -> int:
+        """Return how many steps are to be made yet."""
+        return self._end - self._course.world.step_count
+
+    def go_on(self, steps: int) -> None:
+        """Make so many more steps, or what is left of them."""
+        course = self._course
+        goal = min(self._end, course.world.step_count + steps)
+        while (at := course.world.step_count) < goal:
+            stop = min(self._end, at - at % self._stride + self._stride)
+            course.show(stop)
+            self._shoot()
+        if self.left == 0:
+            course.verify()
+
+    def _shoot(self) -> None:
+        world = self._course.world
+        snapshot = world.snapshot()
+        self.reel.add(Shot(snapshot, world.contacts(snapshot) if world.watching else None))
