@@ -130,6 +130,7 @@ class Simulation:
 
     @speed.setter
     def speed(self, speed: float) -> None:
+        self._changed |= speed != self._clock.speed
         self._clock.speed = speed
 
     @property
@@ -215,8 +216,7 @@ class Simulation:
         self._left = (self._timeline, self._past, step)
         self._timeline, self._past = self._course_of(self._beginning)
         self._undone.clear()
-        self._moved()
-        return 'back at the beginning, time 0'
+        return self._turn('~/reset', 'back at the beginning, time 0')
 
     def undo(self) -> str:
         """
@@ -240,8 +240,8 @@ class Simulation:
             self._past.forget(undone[0].step)
             self._undone.append(tail)
             message = f'undid {_named(undone)}'
-        self._moved()
-        return f'{message}, back at {self._time()}'
+        self._shown = None
+        return self._turn('~/undo', f'{message}, back at {self._time()}')
 
     def redo(self) -> str:
         """
@@ -260,8 +260,8 @@ class Simulation:
             return 'redid reset, back at time 0'
         self._timeline.redo(tail)
         self._past.forget(tail.entries[0].step)
-        self._moved()
-        return f'redid what was undone, at {self._time()}'
+        self._shown = None
+        return self._turn('~/redo', f'redid what was undone, at {self._time()}')
 
     def seek(self, stamp: int) -> str:
         """
@@ -342,6 +342,12 @@ class Simulation:
         self._timeline.world.watching = self._watching
         self._clock.restart()
         self._changed = True
+
+    def _turn(self, topic: str, message: str) -> str:
+        """Tell that things go on differently from before."""
+        self._moved()
+        self._answers.append(Answer(topic=topic, message=message))
+        return message
 
     # Inside
 
