@@ -61,15 +61,13 @@ from physsim_ros.core.shapes import (
     Shape,
     Triangles,
 )
+from physsim_ros.symbols import JOINT_PREFIX
 from physsim_ros.yaml_text import load_mapping
 from sensor_msgs.msg import MultiDOFJointState
 from visualization_msgs.msg import Marker
 
 # The namespaces of markers that have none.
 NAMESPACE, JOINT_NAMESPACE = 'body', 'joint'
-# What stands before the namespace of a joint in the picture, so that a body and a joint of one
-# name do not hide each other there; a marker that comes back with it means the same joint.
-JOINT_PREFIX = 'joint:'
 # Roll and pitch [rad] up to which a rotation counts as planar: rounding of float32 tools.
 MOST_TILT = 1e-3
 # All properties with all their digits fit ten times over; longer text is an accident.

@@ -18,7 +18,7 @@ from __future__ import annotations
 
 from builtin_interfaces.msg import Time
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
-from physsim_ros.core.snapshot import Snapshot
+from physsim_ros.core.snapshot import run_state, Snapshot
 
 # Seconds of wall time over which the real-time factor is smoothed: as fast as a person reads.
 _SMOOTHING = 1.0
@@ -78,11 +78,12 @@ class Meter:
             'frame cost [ms]': f'{self._frame_ns / frames * 1e-6:.3f}',
             'kinetic energy [J]': f'{snapshot.kinetic_energy:.6g}',
             'potential energy [J]': f'{snapshot.potential_energy:.6g}',
+            'elastic energy [J]': f'{snapshot.elastic_energy:.6g}',
             'momentum [kg m/s]': f'{px:.6g}, {py:.6g}',
             'viewer': viewer,
         }
         self._frames = self._step_ns = self._frame_ns = 0
-        message = 'paused' if speed == 0 else f'{frames} frames'
+        message = run_state(speed) if speed <= 0 else f'{frames} frames'
         if late > 0:
             message = f'{late} frames late: simulation time runs slow'
         status = DiagnosticStatus(

@@ -37,7 +37,7 @@ from physsim_ros import conversions, parameters, paths, world_file
 from physsim_ros.core.errors import PhysSimError, Refusal
 from physsim_ros.core.requests import Configure, DeleteAll, Request
 from physsim_ros.core.simulation import Simulation
-from physsim_ros.core.snapshot import Answer, Frame, Snapshot
+from physsim_ros.core.snapshot import Answer, Frame, run_state, Snapshot, WorldState
 from physsim_ros.diagnostics import Meter
 from physsim_ros.drawing.pen import Pen, told
 from physsim_ros.drawing.tools import Tool
@@ -53,6 +53,7 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import HistoryPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.signals import SignalHandlerOptions
+from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import MultiDOFJointState
 from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
@@ -84,9 +85,8 @@ class PhysSimNode(Node):
             publish_rate=self._values['publish_rate'],
             settings=parameters.world_settings(self._values),
             speed=self._values['speed'],
+            history=self._values['history'],
         )
-        # As the world had them when the parameters were last seen to say the same.
-        self._settings = self.simulation.world.settings
         self._frame_id: str = self._values['frame_id']
         self._world_dir = Path(self._values['world_dir'])
         self._streams = Streams(
@@ -99,8 +99,10 @@ class PhysSimNode(Node):
         # The last one that was delivered.
         self.frame: Frame | None = None
         self._started = False
+        self._followed = self.simulation.settings
         if self._values['world_file']:
-            self.load_world(confined=False)
+            self.simulation.begin(self._read_world(confined=False)[0])
+            self._follow()
         self._subscribe()
         self._serve()
         self.add_on_set_parameters_callback(self._check_parameters)
@@ -151,14 +153,10 @@ class PhysSimNode(Node):
         if self._pen.preview != frame.preview:
             frame = replace(frame, preview=self._pen.preview)
         self.frame = frame
+        self._follow()
         for answer in frame.answers:
             self._report(answer)
         self._streams.publish(frame)
-        settings = frame.snapshot.scene.settings
-        if settings is not self._settings:
-            self._settings = settings
-            if settings != parameters.world_settings(self._values):
-                self.set_parameters(parameters.world_parameters(settings))
         if self._viewer is not None:
             self._viewer.show(frame, real_time_factor=self._meter.real_time_factor)
 
@@ -179,7 +177,7 @@ class PhysSimNode(Node):
     @property
     def frame_period(self) -> float:
         """Return the simulation time from one frame to the next at speed 1 [s]."""
-        return self.simulation.frame_steps * self.simulation.world.dt
+        return self.simulation.frame_steps / self.simulation.physics_rate
 
     def _watch(self) -> None:
         """Have contacts read where somebody looks."""
@@ -212,6 +210,7 @@ class PhysSimNode(Node):
         self.create_subscription(Float64, '~/speed', self._speed, _REQUESTS)
         self.create_subscription(PointStamped, 'clicked_point', self._click, _REQUESTS)
         self.create_subscription(PathMessage, '~/stroke', self._stroke, _REQUESTS, raw=True)
+        self.create_subscription(Clock, '~/seek', self._seek, _REQUESTS)
 
     def _submit(self, message: Any, topic: str, convert: Callable[..., Request]) -> None:
         try:
@@ -241,6 +240,17 @@ class PhysSimNode(Node):
             return
         self.set_parameters([speed])
         self._report(Answer(topic='~/speed', message=f'speed {message.data:g}'))
+
+    def _seek(self, message: Clock) -> None:
+        stamp = message.clock.sec * 10**9 + message.clock.nanosec
+        try:
+            done = self.simulation.seek(stamp)
+        except Refusal as refusal:
+            self._report(Answer.refused(refusal, topic='~/seek'))
+            return
+        self._meter.pause()
+        self._follow()
+        self._report(Answer(topic='~/seek', message=done))
 
     def _click(self, message: PointStamped) -> None:
         with self._drawing('clicked_point') as snapshot:
@@ -281,10 +291,15 @@ class PhysSimNode(Node):
 
     def _serve(self) -> None:
         for name, act in {
-            'play': lambda: self._run_at(1.0, 'playing'),
-            'pause': lambda: self._run_at(0.0, 'paused'),
+            'play': lambda: self._run_at(1.0),
+            'pause': lambda: self._run_at(0.0),
+            'rewind': lambda: self._run_at(-1.0),
+            'fast_forward': lambda: self._run_at(self._values['fast_speed']),
+            'fast_rewind': lambda: self._run_at(-self._values['fast_speed']),
             'step': self._step,
-            'reset': self._reset,
+            'undo': self.simulation.undo,
+            'redo': self.simulation.redo,
+            'reset': self.simulation.reset,
             'clear': lambda: self.simulation.perform(DeleteAll()),
             'load_world': lambda: self.load_world(confined=True),
             'save_world': self._save,
@@ -296,6 +311,7 @@ class PhysSimNode(Node):
             try:
                 response.message = act()
                 response.success = True
+                self._follow()
             except Refusal as refusal:
                 response.message = f'{refusal.code}: {refusal}'
                 response.success = False
@@ -306,20 +322,15 @@ class PhysSimNode(Node):
 
         return callback
 
-    def _run_at(self, speed: float, message: str) -> str:
+    def _run_at(self, speed: float) -> str:
         self.set_parameters([Parameter('speed', value=speed)])
-        return message
+        return run_state(speed)
 
     def _step(self) -> str:
         if self.simulation.speed != 0:
             raise PhysSimError('running; pause first')
         self.advance_frame()
         return f'at {self.simulation.world.stamp * 1e-9:.6f} s'
-
-    def _reset(self) -> str:
-        message = self.simulation.reset()
-        self._tell_parameters()
-        return message
 
     def load_world(self, *, confined: bool) -> str:
         """
@@ -328,24 +339,29 @@ class PhysSimNode(Node):
         :param confined: whether only files below `world_dir` and the shipped worlds may be read
         :raises BadWorldFile: there is no such file, or it is refused
         """
-        name = self._values['world_file']
-        directory = self._world_dir
-        path = world_file.find(name, world_dir=directory, confined=confined)
-        world = self.simulation.world
-        state = world_file.load(path, settings=world.settings, physics_rate=world.physics_rate)
+        state, path = self._read_world(confined=confined)
         message = self.simulation.load(state)
-        self._tell_parameters()
         return f'{message} from {path.name}'
 
+    def _read_world(self, *, confined: bool) -> tuple[WorldState, Path]:
+        path = world_file.find(
+            self._values['world_file'], world_dir=self._world_dir, confined=confined
+        )
+        simulation = self.simulation
+        state = world_file.load(
+            path, settings=simulation.settings, physics_rate=simulation.physics_rate
+        )
+        return state, path
+
     def _save(self) -> str:
-        world = self.simulation.world
+        state = self.simulation.save()
         path = world_file.save(
-            world.save(),
+            state,
             self._values['world_file'],
             world_dir=self._world_dir,
-            physics_rate=world.physics_rate,
+            physics_rate=self.simulation.physics_rate,
         )
-        return f'saved {len(world)} bodies to {path.name}'
+        return f'saved {len(state.bodies)} bodies to {path.name}'
 
     # Parameters
 
@@ -353,7 +369,7 @@ class PhysSimNode(Node):
         try:
             for parameter in changed:
                 parameters.check(parameter)
-            self.simulation.world.settings_with(parameters.world_changes(changed))
+            replace(self.simulation.settings, **parameters.world_changes(changed))
             values = {parameter.name: parameter.value for parameter in changed}
             parameters.drawing_settings(self._values | values)
         except Refusal as refusal:
@@ -364,23 +380,30 @@ class PhysSimNode(Node):
         for parameter in changed:
             self._values[parameter.name] = parameter.value
         changes = parameters.world_changes(changed)
-        world = self.simulation.world
-        if world.settings_with(changes) != world.settings:
+        settings = self.simulation.settings
+        if replace(settings, **changes) != settings:
             self.simulation.perform(Configure(changes=changes))
+            self._followed = self.simulation.settings
         names = {parameter.name for parameter in changed}
         if 'speed' in names:
             self.simulation.speed = self._values['speed']
         self._pen.settings = parameters.drawing_settings(self._values)
         self._pen.tool = Tool(self._values['tool'])
         self._streams.show(self._pen.preview)
+        if 'history' in names:
+            self.simulation.history = self._values['history']
         if 'publish_clock' in names:
             self._streams.publish_clock = self._values['publish_clock']
         if 'viewer' in names and self._started:
             self._open_viewer()
 
-    def _tell_parameters(self) -> None:
-        """Let the parameters say what the world has been set to."""
-        self.set_parameters(parameters.world_parameters(self.simulation.world.settings))
+    def _follow(self) -> None:
+        """Let the parameters say what the world has been set to, where time has led to that."""
+        if self.simulation.settings is not self._followed:
+            self._followed = self.simulation.settings
+            self.set_parameters(parameters.world_parameters(self._followed))
+        if self.simulation.speed != self._values['speed']:
+            self.set_parameters([Parameter('speed', value=self.simulation.speed)])
 
     # Watching
 

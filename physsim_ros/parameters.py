@@ -121,7 +121,13 @@ SPECS: dict[str, Spec] = {
     ),
     'iterations': Spec(default=10, meaning='solver iterations', low=1, high=1000),
     'speed': Spec(
-        default=1.0, meaning='simulation seconds a second; 0 is paused', low=0.0, high=64.0
+        default=1.0,
+        meaning='simulation seconds a second; 0 is paused, negative goes back',
+        low=-64.0,
+        high=64.0,
+    ),
+    'fast_speed': Spec(
+        default=4.0, meaning='speed of ~/fast_forward and ~/fast_rewind', low=0.0, high=64.0
     ),
     'gravity': Spec(default=[0.0, -9.81], meaning='[m/s²]'),
     'damping': Spec(
@@ -178,6 +184,12 @@ SPECS: dict[str, Spec] = {
         meaning='of a wrench [s of simulation time]; 0 means no limit',
         low=0.0,
         high=1e9,
+    ),
+    'history': Spec(
+        default=600.0,
+        meaning='how far back the world can be rewound [s]; older steps are dropped',
+        low=0.0,
+        high=86400.0,
     ),
     'publish_clock': Spec(default=True, meaning='whether the clock is published'),
     'viewer': Spec(

@@ -30,10 +30,13 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from physsim_ros import band
 from physsim_ros.core.preview import NOTHING
 from physsim_ros.core.settings import Bounds
 from physsim_ros.core.shapes import Point
 from physsim_ros.core.snapshot import Answer, Floats, Frame, Snapshot
+from physsim_ros.joint_picture import JointPicture
+from physsim_ros.joint_picture import PATH as JOINTS
 from physsim_ros.layout import (
     DEPTH,
     Layout,
@@ -95,6 +98,7 @@ class Picture:
         self._due = 0
         self._last: Frame | None = None
         self._layout: Layout | None = None
+        self._joints: JointPicture | None = None
         self._area = NOWHERE
         self._framed = False
         self._touching = False
@@ -104,6 +108,7 @@ class Picture:
         # Entities that are not empty, and where the bodies were drawn last.
         self._drawn: set[str] = set()
         self._poses: Floats = np.empty((0, 3))
+        self._band = band.Band(recording)
         recording.send_blueprint(blueprint())
         self._send_styles()
 
@@ -127,7 +132,7 @@ class Picture:
             self._recording.send_columns('real_time_factor', times, factor)
 
     def _is_new(self, frame: Frame) -> bool:
-        if self._last is None or frame.moved or frame.answers:
+        if self._last is None or frame.moved or frame.answers or frame.speed != self._last.speed:
             return True
         before, now = self._last.snapshot, frame.snapshot
         if frame.preview != self._last.preview:
@@ -145,10 +150,12 @@ class Picture:
         layout = self._layout
         if layout is None or scene is not layout.scene:
             layout = Layout(scene, _unit(self._area), layout)
-            self._look_at(layout, motion)
+            self._look_at(layout, Motion.of(poses[:1]))
             if layout.unit != _unit(self._area):
                 layout = Layout(scene, _unit(self._area))
             self._layout, self._due = layout, self._count
+            above = 2 * (THICK + DEPTH) * layout.unit
+            self._joints = JointPicture(scene, layout.unit, above) if scene.joints else None
         if self._count >= self._due:
             self._due = self._count + REPEAT
             self._send_geometry(layout, _times(snapshots[:1], numbers[:1]))
@@ -159,10 +166,14 @@ class Picture:
         for path, table in layout.tables.items():
             if stirred[table.rows].any():
                 self._send_motion(path, table, motion, times)
+        if self._joints is not None and self._joints.stirs(stirred):
+            columns = self._joints.columns(poses, [each.forces for each in snapshots])
+            self._recording.send_columns(JOINTS, times, columns)
         self._send_energy(frames, numbers)
         self._send_contacts(frames, times)
         self._send_previews(frames, numbers)
         self._send_events(frames, numbers)
+        self._band.draw(frames, numbers)
         self._count += len(frames)
 
     def _look_at(self, layout: Layout, motion: Motion) -> None:
@@ -221,9 +232,10 @@ class Picture:
                     radii=table.sizes[:, 0], lengths=2 * table.sizes[:, 2], colors=table.colors
                 )
             self._recording.send_columns(path, times, columns.partition([len(table.rows)]))
-        for path in self._drawn - layout.tables.keys():
+        gone = self._drawn - layout.tables.keys() - ({JOINTS} if layout.scene.joints else set())
+        for path in gone:
             self._recording.send_columns(path, times, rr.Clear.columns(is_recursive=[False]))
-        self._drawn = set(layout.tables)
+        self._drawn = set(layout.tables) | ({JOINTS} if layout.scene.joints else set())
         centers, sizes = _walls(layout.scene.settings.bounds, layout.unit)
         walls = rr.Boxes3D.columns(centers=centers, half_sizes=sizes).partition([len(centers)])
         self._recording.send_columns('world/walls', times, walls)
@@ -256,7 +268,9 @@ class Picture:
             if number % SAMPLE == 0 or number == last
         }
         kinetic = np.array([each.kinetic_energy for each in chosen.values()])
-        potential = np.array([each.potential_energy for each in chosen.values()])
+        potential = np.array(
+            [each.potential_energy + each.elastic_energy for each in chosen.values()]
+        )
         energies = np.column_stack((kinetic, potential, kinetic + potential)).ravel()
         column = _column(_SCALARS, energies, [len(ENERGIES)] * len(chosen))
         times = _times(list(chosen.values()), list(chosen))
@@ -400,6 +414,7 @@ def blueprint() -> rrb.Blueprint:
                 visual_bounds=rrb.VisualBounds2D(x_range=(0, WIDTH), y_range=(0, HEIGHT)),
             ),
             rrb.Vertical(
+                band.view(),
                 rrb.TimeSeriesView(
                     origin='energy',
                     name='Energy [J]',
@@ -417,7 +432,7 @@ def blueprint() -> rrb.Blueprint:
                     name='Events',
                     columns=rrb.TextLogColumns(text_log_columns=['loglevel', 'body']),
                 ),
-                row_shares=[3, 2, 2],
+                row_shares=[2, 3, 2, 2],
             ),
             column_shares=[3, 1],
         ),

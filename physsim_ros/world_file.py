@@ -56,9 +56,17 @@ from physsim_ros.core.shapes import (
     Shape,
     Triangles,
 )
-from physsim_ros.core.snapshot import BodyState, Joint, Motion, Seat, WorldState
+from physsim_ros.core.snapshot import (
+    BodyState,
+    ContactMemory,
+    Joint,
+    Motion,
+    Seat,
+    WorldState,
+)
 from physsim_ros.core.space import LOST
 from physsim_ros.core.world import World
+from physsim_ros.packed import pack, unpack
 from physsim_ros.shipped import shipped
 from physsim_ros.yaml_text import load_mapping
 import yaml
@@ -71,6 +79,7 @@ _SHAPES = ('circle', 'box', 'polygon', 'chain', 'triangles', 'compound')
 _BODY_KEYS = ['name', *_SHAPES, 'at', 'color', 'lifetime', *_PROPERTIES, 'motion', 'wrench']
 # Of a joint, what is not the node's own `text` of markers.
 _JOINT_KEYS = ('name', 'points', 'seat')
+_MEMORY = [each.name for each in fields(ContactMemory)]
 _MOTION = ('at', 'velocity', 'spin')
 # Saved numbers and the engine's own may differ by rounding; more, and somebody edited the file.
 _ROUNDING = 1e-9
@@ -179,7 +188,7 @@ def _below(path: Path, directory: Path) -> bool:
 
 def _state(content: Mapping[Any, Any], settings: WorldSettings, physics_rate: float) -> WorldState:
     for key in content:
-        check_key(key, ['format', 'bodies', 'joints', *_SETTINGS])
+        check_key(key, ['format', 'bodies', 'joints', 'memory', *_SETTINGS])
     if content.get('format') != FORMAT or isinstance(content['format'], bool):
         raise BadProperty(f'format must be {FORMAT}', field='format')
     changes = {key: content[key] for key in _SETTINGS if key in content}
@@ -199,9 +208,13 @@ def _state(content: Mapping[Any, Any], settings: WorldSettings, physics_rate: fl
                 else:
                     resumed[state.body.name] = going_on
     saved = world.save()
-    bodies = (resumed.get(state.body.name, state) for state in saved.bodies)
+    bodies = [resumed.get(state.body.name, state) for state in saved.bodies]
+    # Where somebody has edited a body, nothing is what was remembered.
+    intact = len(resumed) == len(bodies) and 'memory' in content
     unjoined = replace(
-        saved, bodies=tuple(_timed(state, entries[state.body.name]) for state in bodies)
+        saved,
+        bodies=tuple(_timed(state, entries[state.body.name]) for state in bodies),
+        memory=_memory(content['memory'], len(bodies)) if intact else None,
     )
     joints = _entries(content.get('joints'), 'joints')
     if not joints:
@@ -311,8 +324,8 @@ def _wrench(name: str, value: object) -> Command:
     wrench = _mapping(value, 'wrench', ['force', 'torque', 'steps'])
     force, torque = pair(wrench.get('force'), 'force'), number(wrench.get('torque'), 'torque')
     steps = wrench.get('steps')
-    if steps is not None and (isinstance(steps, bool) or not isinstance(steps, int) or steps < 0):
-        raise BadProperty('steps must be a whole number, not negative', field='steps')
+    if steps is not None:
+        _count(steps, 'steps')
     return Command(names=(name,), wrenches=((*force, torque),))
 
 
@@ -397,6 +410,29 @@ def _resumed(state: BodyState, entry: Mapping[Any, Any]) -> BodyState | None:
     return replace(state, pose=pose, twist=twist, motion=saved)
 
 
+def _memory(value: object, bodies: int) -> ContactMemory | None:
+    """Return what the engine remembered; None where bodies have come or gone since."""
+    memory = _mapping(value, 'memory', _MEMORY)
+    walls, following = (_count(memory.get(key), key) for key in ('walls', 'following'))
+    ids = unpack(memory.get('ids'), 'ids', np.int64)
+    pairs = unpack(memory.get('pairs'), 'pairs', np.int64, 2)
+    hashes = unpack(memory.get('hashes'), 'hashes', np.uint64)
+    impulses = unpack(memory.get('impulses'), 'impulses', np.float64, 2)
+    if not (len(pairs) == len(hashes) == len(impulses) and np.isfinite(impulses).all()):
+        raise BadProperty('memory is not what was saved', field='memory')
+    if len(ids) != bodies or (bodies and not 0 <= ids.min() <= ids.max() < following):
+        return None
+    return ContactMemory(
+        ids=ids, walls=walls, following=following, pairs=pairs, hashes=hashes, impulses=impulses
+    )
+
+
+def _count(value: object, name: str) -> int:
+    if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value < 2**62:
+        raise BadProperty(f'{name} must be a whole number, not negative', field=name)
+    return value
+
+
 def _timed(state: BodyState, entry: Mapping[Any, Any]) -> BodyState:
     """Let a wrench act for as long as the file says."""
     if 'wrench' not in entry:
@@ -419,6 +455,11 @@ def _text(state: WorldState, physics_rate: float) -> str:
         poses = {body.body.name: body.pose for body in state.bodies}
         lines.append('joints:\n')
         lines += [f'  - {_flow(_joint_entry(joint, poses))}\n' for joint in state.joints]
+    if state.memory is not None:
+        lines.append(
+            '# What the engine remembers of contacts: not to be edited, but may be deleted.\n'
+        )
+        lines.append(f'memory: {_flow(_memory_entry(state.memory))}\n')
     return ''.join(lines)
 
 
@@ -465,6 +506,14 @@ def _joint_entry(joint: Joint, poses: Mapping[str, Pose]) -> dict[str, object]:
     entry: dict[str, object] = {'name': joint.name, 'kind': str(joint.kind)}
     entry |= {'a': joint.a, 'b': joint.b, 'points': [list(point) for point in points]}
     return entry | joint.properties.said() | {'seat': list(joint.seat)}
+
+
+def _memory_entry(memory: ContactMemory) -> dict[str, object]:
+    values = {key: getattr(memory, key) for key in _MEMORY}
+    return {
+        key: pack(value) if isinstance(value, np.ndarray) else value
+        for key, value in values.items()
+    }
 
 
 def _shape_entry(shape: Shape) -> dict[str, object]:

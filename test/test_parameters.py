@@ -44,6 +44,7 @@ CONTRACT: dict[str, tuple[Any, str]] = {
     'publish_rate': (60.0, 'read-only'),
     'iterations': (10, 'live'),
     'speed': (1.0, 'live'),
+    'fast_speed': (4.0, 'live'),
     'gravity': ([0.0, -9.81], 'live'),
     'damping': (0.0, 'live'),
     'bounds': ([], 'live'),
@@ -58,6 +59,7 @@ CONTRACT: dict[str, tuple[Any, str]] = {
     'beautify': (0.2, 'live'),
     'wall_thickness': (0.1, 'live'),
     'command_timeout': (0.5, 'live'),
+    'history': (600.0, 'live'),
     'publish_clock': (True, 'live'),
     'viewer': ('auto', 'live'),
     'viewer_url': ('', 'read-only'),
@@ -66,7 +68,9 @@ CONTRACT: dict[str, tuple[Any, str]] = {
 }
 # The contract's ranges: the ends are good, what lies just beyond is not.
 RANGES: dict[str, tuple[Any, Any]] = {
-    'speed': (0.0, 64.0),
+    'speed': (-64.0, 64.0),
+    'fast_speed': (0.0, 64.0),
+    'history': (0.0, None),
     'damping': (0.0, 1.0),
     'friction': (0.0, 10.0),
     'elasticity': (0.0, 1.0),

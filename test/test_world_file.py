@@ -236,8 +236,10 @@ def test_files_are_small_and_one_line_a_body(folder: Path) -> None:
 
     lines = save(world, folder).read_text().splitlines()
 
-    assert [line for line in lines if line.startswith('  - ')] == lines[-3:]
+    assert sum(line.startswith('  - ') for line in lines) == 3
     assert lines[0] == 'format: 1'
+    # Settings, bodies, and a line of what the engine remembers.
+    assert len(lines) < 20
 
 
 def test_what_is_saved_is_plain_yaml(folder: Path) -> None:
@@ -478,7 +480,7 @@ REFUSED = {
     'an unknown key': ('format: 1\ngravitation: [0, 0]', 'gravitation'),
     'a setting that is not the files': ('format: 1\nmax_bodies: 7', 'max_bodies'),
     'a key of another kind': ('format: 1\n5: 3', '5'),
-    'joints': ('format: 1\njoints: [{name: joint/0}]', 'joints'),
+    'joints': ('format: 1\njoints: [{name: joint/0}]', 'points'),
     'a setting out of range': ('format: 1\ndamping: 2', 'damping'),
     'a setting of another kind': ('format: 1\niterations: many', 'iterations'),
     'a setting without a value': ('format: 1\ngravity:', 'gravity'),

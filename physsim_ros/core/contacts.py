@@ -242,7 +242,6 @@ class _Listing:
     :param pairs: (m, 2): rows of each pair, the earlier spawned first
     :param order: (l,): where the contacts of the pairs are among those that come, pair by pair
     :param first: (m,): where in that order each pair begins
-    :param runs: begin and end in that order of each pair that has several contacts
     :param sign: (k, 1): -1 where the engine has a pair the other way round
     """
 
@@ -251,7 +250,6 @@ class _Listing:
     pairs: Ints
     order: NDArray[np.intp]
     first: NDArray[np.intp]
-    runs: tuple[tuple[int, int], ...]
     sign: Floats
 
     def holds(self, touching: Ids, ids: Ids) -> bool:
@@ -265,20 +263,12 @@ class _Listing:
         :param current: so many touch still, those that come first
         """
         # The engine's impulse acts on the first body; the log tells what the first gives.
-        rows = np.empty((len(self.order), 8))
-        rows[:, 0] = self.order < current
-        rows[:, 1:3] = (sums * -self.sign)[self.order]
-        rows[:, 3:] = places[self.order]
-        rows[:, 3:5] *= self.sign[self.order]
+        impulses = (sums * -self.sign)[self.order]
+        places = places[self.order]
+        places[:, :2] *= self.sign[self.order]
         if len(self.first) < len(self.order):
-            for begin, end in self.runs:
-                # A sum in another order is another sum, in its last bits.
-                run = rows[begin:end]
-                rows[begin:end] = run[np.lexsort(run.T)]
-            impulses = np.add.reduceat(rows[:, 1:3], self.first, axis=0)
-            places = self._means(rows[:, 3:], rows[:, 0] > 0)
-        else:
-            impulses, places = rows[:, 1:3], rows[:, 3:]
+            impulses = np.add.reduceat(impulses, self.first, axis=0)
+            places = self._means(places, self.order < current)
         contacts = Contacts(
             pairs=self.pairs, points=places[:, 3:], normals=places[:, :2], impulses=impulses
         )
@@ -319,15 +309,12 @@ def _list(touching: Ids, ids: Ids, rows: Ints) -> _Listing:
     order = np.argsort(keys, kind='stable')
     order = order[pairs[order, 0] >= 0]
     first = np.flatnonzero(np.diff(keys[order], prepend=-2))
-    ends = np.append(first[1:], len(order))
-    several = ends - first > 1
     return _Listing(
         touching=touching,
         ids=ids,
         pairs=pairs[order[first]],
         order=order,
         first=first,
-        runs=tuple(zip(first[several].tolist(), ends[several].tolist(), strict=True)),
         sign=np.where(swap, -1.0, 1.0)[:, None],
     )
 

@@ -54,7 +54,7 @@ class Mark(NamedTuple):
     A keyframe, and where it stands.
 
     :ivar step: of it
-    :ivar serial: number of requests made until then, all of those before it at that step among them
+    :ivar serial: number of requests made until then
     :ivar key: what the world went on from
     :ivar digest: of the world then
     """
@@ -136,7 +136,7 @@ class History:
         return self._dropped + bisect_right(self._entries, step, key=lambda each: each.step)
 
     def seen_at(self, step: int) -> int:
-        """Return the number of requests that were made until a step was shown, for the last time."""
+        """Return the number of requests that were made until a step was shown last."""
         place = bisect_left(self._entries, step, key=lambda each: each.step)
         while place < len(self._entries):
             if self._entries[place].step != step or not self._entries[place].seen:

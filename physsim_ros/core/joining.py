@@ -69,7 +69,9 @@ def join(space: Space, request: Join, points: tuple[Point, ...]) -> tuple[str, s
         phase = _phase(space, a, b, said)
         seat = _seat(request.kind, points, _pose(space, a), _pose(space, b), phase)
     joint = Joint(name=request.name, kind=request.kind, a=a, b=b, seat=seat, properties=said)
-    space.join(joint)
+    if old is None or old.joint != joint:
+        # Only then: what hangs on it would stir.
+        space.join(joint)
     other = 'the background' if b == WORLD else b
     verb = 'joined' if old is None else 'changed'
     return request.name, f'{verb} {a} to {other} by {request.kind} {request.name}'

@@ -15,7 +15,8 @@
 """
 What has been shown: kept as far as memory allows, and worked out again beyond that.
 
-Law: a step of the past is shown as it was the first time, to the bit, contacts too.
+Law: a step of the past is shown as it was the first time, to the bit; contacts to a rounding,
+since the engine lists them by address and they are summed in its order.
 
 Rewinding through what is kept costs nothing. Beyond it, the steps between two keyframes are made
 again, forward, while those after them are shown, backward.
@@ -48,11 +49,11 @@ class Shot(NamedTuple):
     @property
     def size(self) -> int:
         """Return the memory it takes [bytes]."""
-        arrays = [self.snapshot.poses, self.snapshot.twists]
+        size = _OVERHEAD + self.snapshot.poses.nbytes + self.snapshot.twists.nbytes
         if self.contacts is not None:
-            arrays += [self.contacts.points, self.contacts.normals, self.contacts.impulses]
-            arrays += [self.contacts.pairs]
-        return _OVERHEAD + sum(array.nbytes for array in arrays)
+            # Each pair has two rows, a point, a normal and an impulse of 16 bytes each.
+            size += 4 * self.contacts.pairs.nbytes
+        return size
 
 
 class _Reel:
@@ -124,7 +125,9 @@ class Past:
         if reel is None or step not in reel.shots:
             making = self._making
             if making is None or making.mark != mark or step not in making:
-                making = self._begin(mark, end, fine=step % self._frame_steps != 0, watching=watching)
+                making = self._begin(
+                    mark, end, fine=step % self._frame_steps != 0, watching=watching
+                )
             making.go_on(end - mark.step)
             reel = self._reels[mark] = making.reel
             self._making = None

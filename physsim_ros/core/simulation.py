@@ -42,8 +42,6 @@ _FRAMES_A_CALL = 2
 KEYFRAMES = 2.0
 # What is kept of what was shown [bytes]: all of ten minutes of 20 bodies, two minutes of 300.
 MOST_KEPT = 64 * 2**20
-# What the same is bounded by for each body and frame of the history [bytes]: its pose.
-KEPT_EACH = 24
 # So many steps back can be redone.
 MOST_UNDONE = 100
 
@@ -132,6 +130,7 @@ class Simulation:
 
     @speed.setter
     def speed(self, speed: float) -> None:
+        self._changed |= speed != self._clock.speed
         self._clock.speed = speed
 
     @property
@@ -221,8 +220,7 @@ class Simulation:
         self._left = (self._timeline, self._past, step)
         self._timeline, self._past = self._course_of(self._beginning)
         self._undone.clear()
-        self._moved()
-        return 'back at the beginning, time 0'
+        return self._turn('~/reset', 'back at the beginning, time 0')
 
     def undo(self) -> str:
         """
@@ -246,8 +244,8 @@ class Simulation:
             self._past.forget(undone[0].step)
             self._undone.append(tail)
             message = f'undid {_named(undone)}'
-        self._moved()
-        return f'{message}, back at {self._time()}'
+        self._shown = None
+        return self._turn('~/undo', f'{message}, back at {self._time()}')
 
     def redo(self) -> str:
         """
@@ -266,8 +264,8 @@ class Simulation:
             return 'redid reset, back at time 0'
         self._timeline.redo(tail)
         self._past.forget(tail.entries[0].step)
-        self._moved()
-        return f'redid what was undone, at {self._time()}'
+        self._shown = None
+        return self._turn('~/redo', f'redid what was undone, at {self._time()}')
 
     def seek(self, stamp: int) -> str:
         """
@@ -318,7 +316,6 @@ class Simulation:
     def _go(self, steps: int) -> Frame:
         self._catch_up()
         self._timeline.go(steps)
-        self._tell_broken()
         self._timeline.prepare(steps)
         return self._frame(moved=True)
 
@@ -342,7 +339,6 @@ class Simulation:
             self._timeline.seek(step)
             # They have been shown.
             self._timeline.world.clear_contacts()
-            self._timeline.world.take_broken()
 
     def _moved(self) -> None:
         """Note that another moment is shown than before."""
@@ -350,6 +346,12 @@ class Simulation:
         self._timeline.world.watching = self._watching
         self._clock.restart()
         self._changed = True
+
+    def _turn(self, topic: str, message: str) -> str:
+        """Tell that things go on differently from before."""
+        self._moved()
+        self._answers.append(Answer(topic=topic, message=message))
+        return message
 
     # Inside
 
@@ -384,17 +386,6 @@ class Simulation:
         if head > self.step:
             self._past.forget(self.step)
         return done
-
-    def _tell_broken(self) -> None:
-        for name, force in self._timeline.world.take_broken():
-            self._answers.append(
-                Answer(
-                    topic='joint_broken',
-                    subject=name,
-                    message=f'{name} broke at {force:.3g} N and was removed',
-                    code='joint_broken',
-                )
-            )
 
     def _frame(self, *, moved: bool) -> Frame:
         snapshot, contacts = self._shown or self._look()

@@ -437,3 +437,11 @@ class Frame:
     speed: float = 1.0
     moved: bool = True
     preview: Preview = NOTHING
+
+
+def run_state(speed: float) -> str:
+    """Return what a world does at a speed, in words."""
+    if speed == 0.0:
+        return 'paused'
+    words = 'playing' if speed > 0.0 else 'rewinding'
+    return words if abs(speed) == 1.0 else f'{words} at {abs(speed):g}'

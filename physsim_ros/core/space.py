@@ -27,7 +27,7 @@ import math
 
 import numpy as np
 from physsim_ros.core import contact_memory, rigid_body, sweep
-from physsim_ros.core.contacts import ContactLog
+from physsim_ros.core.contacts import ContactLog, Ids
 from physsim_ros.core.layout import lay_out, Layout
 from physsim_ros.core.machine import Machine
 from physsim_ros.core.rigid_body import REST, RigidBody
@@ -275,17 +275,12 @@ class Space:
 
     def inherit(self, old: Space) -> None:
         """Take over what an older space of the same bodies has seen of the frame so far."""
-        ids = [
-            np.array(
-                [
-                    space._space.static_body.id,
-                    *(rigid.engine.id for rigid in space.bodies.values()),
-                ],
-                dtype=np.uint64,
-            )
-            for space in (old, self)
-        ]
-        self._contacts.inherit(old._contacts, *ids)
+        self._contacts.inherit(old._contacts, old._engine_ids(), self._engine_ids())
+
+    def _engine_ids(self) -> Ids:
+        """Return the engine's ids of the background and of all bodies, in spawn order."""
+        engines = (self._space.static_body, *(rigid.engine for rigid in self.bodies.values()))
+        return np.array([engine.id for engine in engines], dtype=np.uint64)
 
     def _fill(self, key: Keyframe, spares: Mapping[str, RigidBody]) -> None:
         """Take in all bodies at once, and go on from where they were."""

@@ -21,12 +21,10 @@ requests at the same steps give the same bits, in another process too.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import replace
 import hashlib
 from itertools import islice
 import math
-from typing import Any
 
 from physsim_ros.core import joining, rigid_body
 from physsim_ros.core.errors import (
@@ -113,14 +111,6 @@ class World:
     def settings(self) -> WorldSettings:
         """Return what holds for the whole world."""
         return self._settings
-
-    def settings_with(self, changes: Mapping[str, Any]) -> WorldSettings:
-        """
-        Return the settings as they would be with some changed.
-
-        :raises Refusal: they would not fit
-        """
-        return replace(self._settings, **changes)
 
     @property
     def stamp(self) -> int:
@@ -209,7 +199,7 @@ class World:
             case Command():
                 return self._command(request)
             case Configure(changes=changes):
-                self._configure(self.settings_with(changes))
+                self._configure(replace(self._settings, **changes))
                 return '', f'set {", ".join(changes)}'
             case Restore(state=state):
                 self._restore(state)

@@ -1,0 +1,376 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Law 26: rewound to any step, a world plays on as it did the first time, to the bit."""
+
+from hashlib import blake2b
+import os
+from pathlib import Path
+import random
+import subprocess
+import sys
+
+import numpy as np
+from physsim_ros import world_file
+from physsim_ros.core.requests import Anchor, Command, Configure, Delete, Release, Spawn
+from physsim_ros.core.shapes import Box, Chain, Compound, Disc, Polygon
+from physsim_ros.core.simulation import Simulation
+import pytest
+
+from .scenes import floor, G, NOWHERE, run, simulation, spawn, turned, walls
+
+ROOT = Path(__file__).resolve().parents[2]
+# Steps: 6 s, and so three keyframes after the first.
+LENGTH = 1440
+FRAMES = 240
+ELL = Polygon(outline=((0.0, 0.0), (2.0, 0.0), (2.0, 0.5), (0.5, 0.5), (0.5, 2.0), (0.0, 2.0)))
+PAIR = Compound(element=Disc(radius=0.2), centers=((0.0, 0.0), (1.0, 0.3)))
+
+
+# The worlds of the other laws, one of each kind, and what is asked of them on the way: step ->
+# requests.
+
+
+def _projectiles():
+    """Laws 1 and 2: they meet nothing."""
+    sim = simulation()
+    for number, shape in enumerate((Disc(radius=0.5), Box(width=1.0, height=0.3), ELL, PAIR)):
+        velocity = (3.0 + number, 8.0)
+        spawn(sim, f'body/{number}', shape, (4.0 * number, -2.0, 0.4), velocity=velocity, spin=3.0)
+    return sim, {}
+
+
+def _meetings():
+    """Laws 3, 6 and 9: pairs that meet head-on and obliquely."""
+    sim = simulation(gravity=NOWHERE, friction=0.3)
+    for number, elasticity in enumerate((1.0, 0.5, 0.0)):
+        for side, shape, mass in ((-1, Disc(radius=0.5), 1.0), (1, Box(width=1, height=1), 3.0)):
+            pose = (side * (1.5 + number), 4.0 * number + 0.1 * side, 0.3 * number)
+            spawn(
+                sim,
+                f'pair/{2 * number + (side > 0)}',
+                shape,
+                pose,
+                mass=mass,
+                velocity=(-1.0 * side, 0.05),
+                elasticity=elasticity,
+            )
+    return sim, {}
+
+
+def _on_walls():
+    """Laws 4, 5 and 25: discs and corners on walls, one of them thin and hit at 40 m/s."""
+    sim = simulation(gravity=NOWHERE, elasticity=1.0, friction=0.2)
+    walls(sim, -6.0, -6.0, 6.0, 6.0)
+    thin = Chain(points=((0.0, -3.0), (0.0, 3.0)), thickness=0.02)
+    spawn(sim, 'thin/0', thin, (2.0, 0.0, 0.4), anchored=True)
+    spawn(sim, 'fast/0', Disc(radius=0.1), (-3.0, 0.5, 0.0), velocity=(40.0, 3.0))
+    for number in range(4):
+        at = (-4.0 + number, -3.0 + number, 0.5)
+        spawn(sim, f'box/{number}', Box(width=0.6, height=0.6), at, velocity=(2.0, -3.0), spin=1.0)
+    return sim, {}
+
+
+def _bounces():
+    """Laws 7 and 8: what falls on a floor, on a box's sides and corners, and bounces."""
+    sim = simulation(elasticity=0.9)
+    floor(sim)
+    spawn(sim, 'box/0', Box(width=1.0, height=1.0), (0.0, 3.0, 0.3), anchored=True)
+    for number in range(9):
+        shape = (Disc(radius=0.2), Box(width=0.4, height=0.4), PAIR)[number % 3]
+        spawn(sim, f'body/{number}', shape, (-2.0 + 0.5 * number, 5.0 + number % 4, 0.1 * number))
+    return sim, {}
+
+
+def _incline():
+    """Laws 10 to 12: a block that slides, one that sticks, a disc that rolls."""
+    sim = simulation()
+    floor(sim, angle=0.5)
+    shapes = (Box(width=1, height=1), Disc(radius=0.5), Box(width=1.0, height=1.0))
+    for number, shape in enumerate(shapes):
+        at = turned((3.0 * number, 0.5), 0.5)
+        spawn(sim, f'body/{number}', shape, (*at, 0.5), friction=(0.1, 0.5, 0.9)[number])
+    return sim, {}
+
+
+def _comes_to_roll():
+    """Law 13: a disc that is set sliding a second after it was put down."""
+    sim = simulation(friction=0.3)
+    floor(sim)
+    spawn(sim, 'disc/0', Disc(radius=0.5), (0.0, 0.5, 0.0))
+    return sim, {240: [Command(names=('disc/0',), twists=((5.0, 0.0, 0.0),))]}
+
+
+def _stack():
+    """Law 18: ten boxes."""
+    sim = simulation()
+    floor(sim)
+    for level in range(10):
+        spawn(sim, f'box/{level}', Box(width=0.3, height=0.3), (0.0, 0.3 * (level + 0.5), 0.0))
+    return sim, {}
+
+
+def _pyramid():
+    """Law 19: 105 boxes, one of which is shot at in the middle of it."""
+    sim = simulation()
+    floor(sim)
+    number = 0
+    for level in range(14):
+        for place in range(14 - level):
+            x = (place - (13 - level) / 2) * 0.55
+            spawn(sim, f'box/{number}', Box(width=0.5, height=0.5), (x, 0.5 * level + 0.25, 0.0))
+            number += 1
+    ball = Spawn(name='ball/0', shape=Disc(radius=0.3), pose=(-8.0, 2.0, 0.0))
+    return sim, {700: [ball, Command(names=('ball/0',), twists=((20.0, 2.0, 0.0),))]}
+
+
+def _gas():
+    """Law 21: 100 discs in a closed box."""
+    sim = simulation(gravity=NOWHERE, elasticity=1.0, friction=0.0)
+    walls(sim, -5.0, -5.0, 5.0, 5.0)
+    chance = random.Random(21)
+    for number in range(100):
+        at = (number % 10 - 4.5, number // 10 - 4.5, 0.0)
+        velocity = (chance.uniform(-5, 5), chance.uniform(-5, 5))
+        shape = Disc(radius=chance.uniform(0.1, 0.3))
+        spawn(sim, f'disc/{number}', shape, at, velocity=velocity)
+    return sim, {}
+
+
+def _anchored():
+    """Law 24: an anchored body that is hit, let go, and held again."""
+    sim = simulation()
+    walls(sim, -10.0, 0.0, 10.0, 20.0)
+    spawn(sim, 'held/0', Box(width=0.4, height=0.4), (0.1, 2.0, 0.3), anchored=True)
+    for number in range(5):
+        at = (-2.0 - 2.0 * number, 2.0, 0.5)
+        velocity = (20.0, 1.0)
+        spawn(sim, f'hit/{number}', Disc(radius=0.3), at, mass=100.0, velocity=velocity)
+    hold = Command(names=('held/0',), poses=((0.0, 3.0, 0.0),))
+    return sim, {
+        300: [Release(point=(0.1, 2.0))],
+        900: [hold, Anchor(point=(0.0, 3.0))],
+    }
+
+
+def _eventful():
+    """Everything at once: bodies come and go, and the world itself is set otherwise."""
+    sim = simulation()
+    walls(sim, -4.0, 0.0, 4.0, 12.0)
+    chance = random.Random(26)
+    there, later = [], {}
+    shapes = (Disc(radius=0.3), Box(width=0.6, height=0.4), ELL, PAIR)
+    for number in range(60):
+        at = chance.randrange(4, LENGTH - 4)
+        name = f'body/{number}'
+        pose = (chance.uniform(-3, 2), chance.uniform(1, 9), chance.uniform(-3, 3))
+        lifetime = chance.choice((0.0, 0.0, 1.5))
+        spawned = Spawn(name=name, shape=shapes[number % 4], pose=pose, lifetime=lifetime)
+        later.setdefault(at, []).append(spawned)
+        if not lifetime:
+            there.append((at, name))
+    for since, name in chance.sample(there, 15):
+        later.setdefault(chance.randrange(since + 1, LENGTH), []).append(Delete(name=name))
+    for changes in (
+        {'gravity': (2.0, -5.0)},
+        {'iterations': 20},
+        {'damping': 0.3},
+        {'bounds': (-3.5, -1.0, 4.0, 12.0)},
+        {'gravity': (0.0, -G), 'friction': 0.1},
+    ):
+        later.setdefault(chance.randrange(LENGTH), []).append(Configure(changes=changes))
+    return sim, later
+
+
+SCENES = {
+    'projectiles': _projectiles,
+    'pairs that meet': _meetings,
+    'walls, thin ones too': _on_walls,
+    'bounces': _bounces,
+    'incline': _incline,
+    'disc that comes to roll': _comes_to_roll,
+    '10 boxes': _stack,
+    'pyramid of 105': _pyramid,
+    '100 discs': _gas,
+    'anchored body': _anchored,
+    'all kinds of requests': _eventful,
+}
+
+
+class Player:
+    """Plays a scene step by step, and holds what it showed the first time."""
+
+    def __init__(self, scene):
+        self.sim, self._later = scene()
+        self._now = 0
+        self.first = {0: self.sim.settle().snapshot}
+        self.digests = {}
+
+    def show(self, speed, count):
+        """Yield what is shown at a speed, so many times, or until time stops."""
+        self.sim.speed = speed
+        while count > 0 and self.sim.speed != 0.0:
+            self._now += 16_666_667
+            for frame in self.sim.advance(self._now):
+                if frame.moved and count > 0:
+                    count -= 1
+                    yield frame.snapshot
+        self.sim.speed = 0.0
+
+    def record(self, digests_at=()):
+        """Go through the scene for the first time, each step shown."""
+        # A quarter of a frame, and so a step, each time.
+        self.sim.speed = 0.25
+        while (step := self.sim.step) < LENGTH:
+            for request in self._later.pop(step, ()):
+                self.sim.perform(request)
+            self._now += 16_666_667
+            # What counts is how a step was shown last: with what was asked there where time
+            # stood still then, else without it.
+            for frame in self.sim.advance(self._now):
+                self.first[frame.snapshot.step] = frame.snapshot
+            if self.sim.step in digests_at:
+                self.digests[self.sim.step] = self.sim.world.digest()
+        self.sim.speed = 0.0
+        assert len(self.first) == LENGTH + 1
+
+    def seek(self, step):
+        """Go to a step, and return what is shown there."""
+        self.sim.seek(round(step * 1e9 / 240))
+        shown = self.sim.settle().snapshot
+        assert shown.step == step
+        return shown
+
+    def bits(self, shown):
+        """Return in how many bits that differs from the first time."""
+        first = self.first[shown.step]
+        assert shown.scene.names == first.scene.names
+        assert shown.stamp == first.stamp
+        return sum(
+            int(np.bitwise_count(one.view(np.uint64) ^ other.view(np.uint64)).sum())
+            for one, other in ((first.poses, shown.poses), (first.twists, shown.twists))
+        )
+
+
+@pytest.fixture(params=SCENES)
+def scene(request):
+    """Give the name of each scene in turn."""
+    return request.param
+
+
+def test_any_step_is_reached_again_and_played_on_from(report, scene):
+    chance = random.Random(scene)
+    # Among them the steps of the keyframes, and those beside them.
+    steps = [*chance.sample(range(LENGTH), 8), 0, 479, 480, 481, 961, LENGTH]
+    chance.shuffle(steps)
+    player = Player(SCENES[scene])
+    player.record(digests_at=steps)
+
+    reached = played = 0
+    for step in steps:
+        reached += player.bits(player.seek(step))
+        if step in player.digests:
+            assert player.sim.world.digest() == player.digests[step]
+        # At whole speeds only every fourth step is shown, and all are made.
+        speed = chance.choice((0.25, 1.0, 3.0))
+        for snapshot in player.show(speed, min(100, int((LENGTH - step) / 4 / speed))):
+            played += player.bits(snapshot)
+
+    report.check(26, f'{scene}: at any step again', reached, 0, 0, 'bits')
+    report.check(26, f'{scene}: played on from there', played, 0, 0, 'bits')
+
+
+# With next to no memory, what is more than two keyframes away is made again.
+@pytest.mark.parametrize('memory', [2**26, 1], ids=['kept', 'made again'])
+def test_each_step_is_shown_backward_as_it_was(report, monkeypatch, scene, memory):
+    monkeypatch.setattr('physsim_ros.core.simulation.MOST_KEPT', memory)
+    player = Player(SCENES[scene])
+    player.record(digests_at=(LENGTH,))
+
+    back = [snapshot.step for snapshot in player.show(-0.25, LENGTH + 1)]
+    assert back == list(range(LENGTH - 1, -1, -1))
+    list(player.show(4.0, LENGTH // 16))
+    assert player.sim.step == LENGTH
+    assert player.sim.world.digest() == player.digests[LENGTH]
+    backward = sum(player.bits(snapshot) for snapshot in player.show(-0.25, LENGTH + 1))
+    forward = sum(player.bits(snapshot) for snapshot in player.show(0.25, LENGTH))
+
+    assert player.sim.world.digest() == player.digests[LENGTH]
+    report.check(26, f'{scene}: shown backward', backward, 0, 0, 'bits')
+    report.check(26, f'{scene}: then played', forward, 0, 0, 'bits')
+
+
+def hashes(sim):
+    """Return a hash of every number of each frame that a world goes on by."""
+    result = []
+    for _ in range(FRAMES):
+        snapshot = run(sim, 1 / 60)
+        numbers = snapshot.poses.tobytes() + snapshot.twists.tobytes()
+        result.append(blake2b(numbers, digest_size=8).hexdigest())
+    return result
+
+
+def load_and_go_on(*paths):
+    """Print the hashes of saved worlds, a line each; that is what another process does."""
+    for path in paths:
+        sim = simulation()
+        state = world_file.load(Path(path), settings=sim.settings, physics_rate=sim.physics_rate)
+        sim.begin(state)
+        print(*hashes(sim))
+
+
+def _elsewhere(paths):
+    """Return what another process gets of saved worlds."""
+    program = (
+        'import sys; from test.laws.test_rewind import load_and_go_on; '
+        'load_and_go_on(*sys.argv[1:])'
+    )
+    done = subprocess.run(
+        [sys.executable, '-c', program, *paths],
+        env=os.environ | {'PYTHONPATH': str(ROOT)},
+        cwd=ROOT,
+        stdout=subprocess.PIPE,
+        text=True,
+        check=True,
+        timeout=250,
+    )
+    return [line.split() for line in done.stdout.splitlines()]
+
+
+def _save(sim: Simulation, directory, name):
+    """Save a world as the node does, and return the path of its file."""
+    state = sim.save()
+    return world_file.save(
+        state, f'{name}.yaml', world_dir=directory, physics_rate=sim.physics_rate
+    )
+
+
+def test_a_saved_world_goes_on_in_another_process_as_it_does_here(report, tmp_path):
+    chance = random.Random(26)
+    paths, here = [], []
+    for number, scene in enumerate(SCENES.values()):
+        sim, later = scene()
+        for step in range(0, 4 * chance.randrange(60, 240), 4):
+            for at in range(step, step + 4):
+                for request in later.get(at, ()):
+                    sim.perform(request)
+            run(sim, 1 / 60)
+        paths.append(_save(sim, tmp_path, number))
+        here.append(hashes(sim))
+
+    there = _elsewhere(paths)
+
+    for scene, one, other in zip(SCENES, here, there, strict=True):
+        different = sum(a != b for a, b in zip(one, other, strict=True))
+        report.check(26, f'{scene}: saved, elsewhere', different, 0, 0, 'frames')
