@@ -170,7 +170,7 @@ SPECS: dict[str, Spec] = {
         high=1.0,
     ),
     'beautify': Spec(
-        default=0.2,
+        default=0.12,
         meaning='how far a stroke may be from regular and still be meant so: angles [rad], '
         'lengths as a share; 0 keeps it as it was drawn',
         low=0.0,

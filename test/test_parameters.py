@@ -56,7 +56,7 @@ CONTRACT: dict[str, tuple[Any, str]] = {
     'tool': ('none', 'live'),
     'snap': (0.15, 'live'),
     'sketch_confidence': (0.6, 'live'),
-    'beautify': (0.2, 'live'),
+    'beautify': (0.12, 'live'),
     'wall_thickness': (0.1, 'live'),
     'command_timeout': (0.5, 'live'),
     'history': (600.0, 'live'),

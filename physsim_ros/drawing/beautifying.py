@@ -59,7 +59,7 @@ def polygon(corners: Floats, tolerance: float) -> Floats:
     if regular is not None:
         return regular
     straightened = _squared(corners, tolerance)
-    if len(corners) == 3:
+    if len(corners) == 3 and not _has_right_angle(straightened):
         straightened = _isosceles(straightened, tolerance)
     # What folds over was not meant.
     return corners if outlines.crosses_itself(straightened) else straightened
@@ -134,6 +134,13 @@ def _squared(corners: Floats, tolerance: float) -> Floats:
             made[corner] = p + u * (float(cross(q - p, v)) / sine)
     moved = np.hypot(*(made - corners).T)
     return made if moved.max() <= tolerance * lengths.mean() + 1e-12 else corners
+
+
+def _has_right_angle(corners: Floats) -> bool:
+    sides = np.roll(corners, -1, axis=0) - corners
+    lengths = np.hypot(*sides.T)
+    cosines = (sides * np.roll(sides, 1, axis=0)).sum(axis=1) / (lengths * np.roll(lengths, 1))
+    return bool(np.abs(cosines).min() < 1e-9)
 
 
 def _isosceles(corners: Floats, tolerance: float) -> Floats:

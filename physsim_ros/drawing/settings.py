@@ -45,7 +45,7 @@ class DrawingSettings:
 
     snap: float = 0.15
     sketch_confidence: float = 0.6
-    beautify: float = 0.2
+    beautify: float = 0.12
     wall_thickness: float = 0.1
     draw_velocity: Point = (0.0, 0.0)
     draw_color: Color | None = None
