@@ -131,8 +131,8 @@ def read(samples: Floats, view: View, settings: DrawingSettings) -> Reading:
     """
     Read a stroke.
 
-    :param samples: (n, 2) float64: the pen's positions in the world, in order [m]; a third column,
-        of times, is not needed: what a pen means does not depend on how fast it is
+    :param samples: (n, 2) float64: the pen's positions in the world, in order [m]; or (n, 3), the
+        third column the time of each, which puts them in order where it differs
     :param view: the world it was drawn in
     :param settings: of drawing
     :raises Malformed: there are no samples, or one is not finite
@@ -225,12 +225,13 @@ def _to_and_fro(
     """Yield what a zigzag or scribble means: a spring, a wall in the open, the end of bodies."""
     ends = drawn.points[[0, -1]]
     joined = snapping.ends_on(_point(ends[0]), _point(ends[1]), view, settings)
-    covered = scribbling.bodies_under(drawn.points, view)
+    over = scribbling.passed(drawn.points, view)
+    covered = scribbling.bodies_under(drawn.points, over, view)
     zigzag = candidate.primitive is Primitive.ZIGZAG
     spring = 0.0
     if joined is not None and (zigzag or joined[1].body != WORLD):
         # A spring leaves the bodies that it joins; a scribble stays on them.
-        spring = 1.0 - scribbling.share_under(drawn.points, joined, view)
+        spring = 1.0 - scribbling.share_under(over, joined)
         if zigzag and joined[1].body != WORLD:
             spring = max(spring, BETWEEN)
     wall = BETWEEN if zigzag and not spring and not covered else 0.0

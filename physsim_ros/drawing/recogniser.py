@@ -38,13 +38,15 @@ from physsim_ros.drawing import stroke as strokes
 from physsim_ros.drawing.stroke import Stroke
 
 # Weights below are not worth telling.
-LEAST = 0.01
+LEAST = 0.04
 # No arrow's ends come so near to each other, in shares of its length.
 CLOSED = 0.1
 # The longest loop that is a slip, in shares of the length.
 SLIP = 0.15
 # So many corners that are all alike are a circle's samples; the weight of an outline of no shape.
 MANY, BLOB = 9, 0.8
+# Points that do not count where it is asked how far a stroke reaches.
+FRINGE = 4
 # Fewer swings are not measured.
 FEWEST = 3
 # Directions in which swings to and fro are looked for.
@@ -137,7 +139,9 @@ def recognise(stroke: Stroke) -> tuple[Candidate, ...]:
 def swings_of(points: Floats) -> Swings:
     """Return how a way goes to and fro, in the direction in which it does so most often."""
     across = points @ _DIRECTIONS.T
-    low, high = np.percentile(across, (3, 97), axis=0)
+    ordered = np.sort(across, axis=0)
+    # The outermost points may be slips.
+    low, high = ordered[FRINGE], ordered[-1 - FRINGE]
     extent = np.maximum(high - low, 1e-12)
     place = (across - low) / extent
     side = np.where(place > 0.64, 1, np.where(place < 0.36, -1, 0))
@@ -198,7 +202,7 @@ def _closed(stroke: Stroke, swings: Swings, plain: float) -> Iterator[Candidate]
     yield Candidate(primitive=Primitive.RECTANGLE, weight=broad * sided * square, points=found)
     blob = BLOB * (closed - disc - sided) * once
     sided *= 1.0 - square
-    if blob > sided:
+    if blob > max(sided, LEAST):
         # Neither round nor sided: any other outline, as it was drawn.
         found = strokes.traced(stroke.outline)
         sided = 0.0 if outlines.crosses_itself(found) else blob

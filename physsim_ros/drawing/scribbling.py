@@ -31,14 +31,20 @@ from physsim_ros.drawing.view import View
 
 # Every so manieth point of a stroke is looked at: 43 places, 8 to 10 for each swing of a scribble.
 _EVERY = 3
+# Name of a body -> at which of these places the pen is upon it.
+Over = dict[str, NDArray[np.bool_]]
 # A body is meant where that share of the stroke lies upon it, or where it is swept over: its
 # middle lies within the stroke, which is about as large, and the pen goes over it that often.
 MEANT, AS_LARGE, SWEPT = 0.3, 0.75, 2
 
 
-def bodies_under(points: Floats, view: View) -> tuple[str, ...]:
-    """Return the bodies that a scribble is meant for, in spawn order."""
-    over = _over(points, view)
+def bodies_under(points: Floats, over: Over, view: View) -> tuple[str, ...]:
+    """
+    Return the bodies that a scribble is meant for, in spawn order.
+
+    :param points: (n, 2) float64: of the stroke [m]
+    :param over: what `passed` says of them
+    """
     low, high = points.min(axis=0), points.max(axis=0)
     reach = AS_LARGE * float(np.hypot(*(high - low)))
     meant = set()
@@ -61,17 +67,18 @@ def _entries(hits: NDArray[np.bool_]) -> int:
     return int(np.count_nonzero(hits[1:] & ~hits[:-1]) + hits[0])
 
 
-def share_under(points: Floats, ends: Iterable[End], view: View) -> float:
+def share_under(over: Over, ends: Iterable[End]) -> float:
     """Return the share of a stroke that lies upon the bodies at its ends."""
-    names = {end.body for end in ends}
-    over = [hits for name, hits in _over(points, view).items() if name in names]
-    return float(np.any(over, axis=0).mean()) if over else 0.0
+    hits = [over[end.body] for end in ends if end.body in over]
+    return float(np.any(hits, axis=0).mean()) if hits else 0.0
 
 
-def _over(points: Floats, view: View) -> dict[str, NDArray[np.bool_]]:
+def passed(points: Floats, view: View) -> Over:
     """Return for each body that the pen goes over, at which places it does."""
+    if not view.names:
+        return {}
     places: list[Point] = list(map(tuple, points[::_EVERY].tolist()))
-    over: dict[str, NDArray[np.bool_]] = {}
+    over: Over = {}
     for number, place in enumerate(places):
         for name in view.bodies_at(place):
             if name not in over:

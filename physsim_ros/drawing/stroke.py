@@ -94,7 +94,8 @@ def stroke(samples: Floats) -> Stroke:
     """
     Make a stroke of a pen's samples.
 
-    :param samples: (n, 2) float64 or wider, x and y first [m]
+    :param samples: (n, 2) float64: x, y [m]; or (n, 3), the third column the time of each, which
+        puts them in order
     :raises Malformed: there are none, or one is not finite
     :raises BadSize: all are in one place, or one is too far away
     """
@@ -322,6 +323,9 @@ def _checked(samples: Floats) -> Floats:
     """Return the samples' places, those that repeat the one before left out."""
     if len(samples) == 0:
         raise Malformed('the stroke has no samples', field='poses')
+    if samples.shape[1] > 2 and (np.diff(samples[:, 2]) < 0.0).any():
+        # They came in another order than the pen went.
+        samples = samples[np.argsort(samples[:, 2], kind='stable')]
     places = samples[:, :2]
     if not np.isfinite(places).all():
         raise Malformed('a sample of the stroke is not finite', field='poses')

@@ -126,6 +126,13 @@ def test_times_are_not_needed() -> None:
     assert (stroke(timed).points == stroke(samples).points).all()
 
 
+def test_samples_that_came_in_another_order_are_put_in_that_of_their_times() -> None:
+    samples = np.column_stack((along(SQUARE, 90), np.arange(90) / 60.0))
+    shuffled = np.random.default_rng(0).permutation(samples)
+
+    assert (stroke(shuffled).points == stroke(samples).points).all()
+
+
 @pytest.mark.parametrize(
     ('samples', 'refusal'),
     [
