@@ -26,8 +26,9 @@ import math
 from physsim_ros.core.preview import Line, Preview
 from physsim_ros.core.requests import check_point
 from physsim_ros.core.shapes import Point
+from physsim_ros.drawing.clicks import Click
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.tools import Click, Step, Tool, TOOLS
+from physsim_ros.drawing.tools import Step, Tool, TOOLS
 from physsim_ros.drawing.view import View
 
 # Corners of the ring about a polygon's first corner.
@@ -63,7 +64,7 @@ class Gesture:
         check_point(point, 'point')
         where = view.placed(point, frame)
         check_point(where, 'point')
-        clicks = (*self._clicks, _click(where, view))
+        clicks = (*self._clicks, Click.on(view, where))
         # Unless the tool wants more of it, the gesture is over, refused or not.
         self._clicks = ()
         step = TOOLS[self.tool](clicks, view, settings)
@@ -80,13 +81,6 @@ class Gesture:
         if self.tool is Tool.POLYGON:
             lines.append(_ring(points[0], settings.snap))
         return Preview(lines=tuple(lines), points=points, label=str(self.tool))
-
-
-def _click(point: Point, view: View) -> Click:
-    """Return a click and what it hits."""
-    for name in view.bodies_at(point):
-        return Click(point, name, view.local(name, point))
-    return Click(point)
 
 
 def _ring(center: Point, radius: float) -> Line:

@@ -26,7 +26,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 import math
 
-from physsim_ros.core.errors import Anchored, BadProperty, BadSize, NothingThere, UnknownBody
+from physsim_ros.core.errors import Anchored, BadProperty, NothingThere
 from physsim_ros.core.joint_properties import JointKind
 from physsim_ros.core.names import WORLD
 from physsim_ros.core.requests import (
@@ -40,13 +40,11 @@ from physsim_ros.core.requests import (
     Release,
     Request,
 )
-from physsim_ros.core.shapes import Point, SMALLEST
+from physsim_ros.core.shapes import Point
 from physsim_ros.drawing import bodies
+from physsim_ros.drawing.clicks import Click, distinct, meant, span
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.view import DRAWN, View
-
-# What is shorter than that share of `snap`, 15 mm as it stands, is a slip of the hand.
-SLIP = 0.1
 
 
 class Tool(StrEnum):
@@ -70,21 +68,6 @@ class Tool(StrEnum):
     GRAVITY = 'gravity'
 
 
-@dataclass(frozen=True, slots=True)
-class Click:
-    """
-    A click as it was made; what it hit may have moved on since.
-
-    :param point: in the world [m]
-    :param body: the topmost body under it; '' where there is none
-    :param local: the point in that body's frame [m]
-    """
-
-    point: Point
-    body: str = ''
-    local: Point = (0.0, 0.0)
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Step:
     """
@@ -103,7 +86,7 @@ def circle(clicks: Sequence[Click], view: View, settings: DrawingSettings) -> St
     if len(clicks) < 2:
         return _more('the centre is set', 'a point on the rim')
     center, rim = _points(clicks)
-    radius = _span(center, rim, settings, 'the radius')
+    radius = span(center, rim, settings, 'the radius')
     return _done(bodies.disc(_next_body(view), center, radius, settings))
 
 
@@ -112,7 +95,7 @@ def circle_diameter(clicks: Sequence[Click], view: View, settings: DrawingSettin
     if len(clicks) < 2:
         return _more('an end of a diameter is set', 'the other end')
     start, end = _points(clicks)
-    radius = _span(start, end, settings, 'the diameter') / 2
+    radius = span(start, end, settings, 'the diameter') / 2
     return _done(bodies.disc(_next_body(view), _middle(start, end), radius, settings))
 
 
@@ -121,13 +104,13 @@ def rectangle(clicks: Sequence[Click], view: View, settings: DrawingSettings) ->
     if len(clicks) < 2:
         return _more('a corner is set', 'the next corner')
     start, end, *rest = _points(clicks)
-    width = _span(start, end, settings, 'the first side')
+    width = span(start, end, settings, 'the first side')
     if not rest:
         return _more('a side is set', 'a point of the side across')
     along = (end[0] - start[0]) / width, (end[1] - start[1]) / width
     # To the left of the first side, or, where it is negative, to the right.
     height = along[0] * (rest[0][1] - start[1]) - along[1] * (rest[0][0] - start[0])
-    _checked(abs(height), settings, 'the second side')
+    meant(abs(height), settings, 'the second side')
     x, y = _middle(start, end)
     center = x - along[1] * height / 2, y + along[0] * height / 2
     yaw = math.atan2(along[1], along[0])
@@ -139,9 +122,9 @@ def polygon(clicks: Sequence[Click], view: View, settings: DrawingSettings) -> S
     """Draw a polygon: corner after corner; a click on the first one closes it."""
     points = _points(clicks)
     if len(points) > 1 and math.dist(points[0], points[-1]) <= settings.snap:
-        corners = _distinct(points[:-1], settings)
+        corners = distinct(points[:-1], settings)
         return _done(bodies.polygon(_next_body(view), corners, settings))
-    count = len(_distinct(points, settings))
+    count = len(distinct(points, settings))
     said = 'a corner is set' if count == 1 else f'{count} corners are set'
     return _more(said, 'the next corner, or the first one again to close it')
 
@@ -151,7 +134,7 @@ def wall(clicks: Sequence[Click], view: View, settings: DrawingSettings) -> Step
     if len(clicks) < 2:
         return _more('an end is set', 'the other end')
     start, end = _points(clicks)
-    _span(start, end, settings, 'the wall')
+    span(start, end, settings, 'the wall')
     return _done(bodies.wall(_next_body(view), (start, end), settings))
 
 
@@ -175,9 +158,9 @@ def axle(clicks: Sequence[Click], _view: View, _settings: DrawingSettings) -> St
     return _done(Axle(point=clicks[0].point))
 
 
-def delete(clicks: Sequence[Click], _view: View, _settings: DrawingSettings) -> Step:
+def delete(clicks: Sequence[Click], view: View, _settings: DrawingSettings) -> Step:
     """Delete the body under the click."""
-    return _done(Delete(name=_hit(clicks[0])))
+    return _done(Delete(name=clicks[0].hit(view)))
 
 
 def spring(clicks: Sequence[Click], view: View, settings: DrawingSettings) -> Step:
@@ -197,14 +180,13 @@ def rope(clicks: Sequence[Click], view: View, settings: DrawingSettings) -> Step
 
 def velocity(clicks: Sequence[Click], view: View, settings: DrawingSettings) -> Step:
     """Give a body a velocity: the body, then the tip of an arrow from there, 1 m for 1 m/s."""
-    name = _hit(clicks[0])
-    _check_there(name, view)
+    name = clicks[0].hit(view)
     if view.body(name).anchored:
         raise Anchored(f'{name} is anchored; it has no velocity', field='point')
     if len(clicks) < 2:
         return _more(f'the arrow begins on {name}', 'its tip, 1 m for 1 m/s')
     tail, tip = _points(clicks)
-    _span(tail, tip, settings, 'the arrow')
+    span(tail, tip, settings, 'the arrow')
     spin = view.twist(name)[2]
     twist = (tip[0] - tail[0], tip[1] - tail[1], spin)
     return _done(Command(names=(name,), twists=(twist,)))
@@ -220,7 +202,7 @@ def gravity(clicks: Sequence[Click], view: View, settings: DrawingSettings) -> S
     if len(clicks) < 2:
         return _more('the arrow begins there', 'its tip')
     tail, tip = _points(clicks)
-    share = strength / _span(tail, tip, settings, 'the arrow')
+    share = strength / span(tail, tip, settings, 'the arrow')
     turned = (tip[0] - tail[0]) * share, (tip[1] - tail[1]) * share
     return _done(Configure(changes={'gravity': turned}))
 
@@ -252,65 +234,16 @@ def _join(kind: JointKind, clicks: Sequence[Click], view: View, settings: Drawin
         where = clicks[0].body or 'the background'
         return _more(f'the {kind} begins on {where}', 'its other end')
     # A body keeps the place that was clicked, wherever it has gone since.
-    ends = [(_now(click, view), click.body or WORLD) for click in clicks]
+    ends = [(click.now(view), click.body or WORLD) for click in clicks]
     if ends[0][1] == WORLD:
         ends.reverse()
     (start, a), (end, b) = ends
     if a == WORLD:
         raise NothingThere(f'there is no body at either end of the {kind}', field='point')
-    _span(start, end, settings, f'the {kind}')
+    span(start, end, settings, f'the {kind}')
     return _done(
         Join(name=f'{DRAWN}/{view.next_joint()}', kind=kind, points=(start, end), a=a, b=b)
     )
-
-
-def _now(click: Click, view: View) -> Point:
-    """Return where what was clicked is now: on a body, or in the world."""
-    if not click.body:
-        return click.point
-    _check_there(click.body, view)
-    return view.in_world(click.body, click.local)
-
-
-def _hit(click: Click) -> str:
-    if not click.body:
-        x, y = click.point
-        raise NothingThere(f'there is no body at ({x:g}, {y:g})', field='point')
-    return click.body
-
-
-def _check_there(name: str, view: View) -> None:
-    if name not in view.names:
-        raise UnknownBody(f'{name} is not there any more', field='point')
-
-
-def _span(start: Point, end: Point, settings: DrawingSettings, what: str) -> float:
-    """Return the distance of two points [m], or refuse one that nobody meant."""
-    return _checked(math.dist(start, end), settings, what)
-
-
-def _checked(span: float, settings: DrawingSettings, what: str) -> float:
-    least = _least(settings)
-    if span < least:
-        raise BadSize(
-            f'{what} is {span:.3g} m long; below {least:.3g} m it is a slip of the hand',
-            field='point',
-        )
-    return span
-
-
-def _least(settings: DrawingSettings) -> float:
-    return max(SLIP * settings.snap, SMALLEST)
-
-
-def _distinct(points: Sequence[Point], settings: DrawingSettings) -> list[Point]:
-    """Return the points without those that repeat the one before: clicked twice by a slip."""
-    least = _least(settings)
-    return [
-        point
-        for before, point in zip((None, *points), points, strict=False)
-        if before is None or math.dist(before, point) >= least
-    ]
 
 
 def _points(clicks: Sequence[Click]) -> list[Point]:
