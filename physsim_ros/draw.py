@@ -207,13 +207,13 @@ def _options(arguments: Sequence[str]) -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         prog='physsim_draw',
         description='Draw a drawing into a running world, stroke by stroke.',
-        formatter_class=argparse.ArgumentDefaultsHelpFormatter,
+        epilog='It ends with 1 where a stroke was refused.',
     )
     parser.add_argument('drawing', help='an SVG or JSON file, or a name in config/drawings')
     parser.add_argument(
         '--scale',
         type=_positive,
-        help='metres for a unit of the file; by default 0.01 for SVG, 1 for JSON',
+        help='metres for a unit of the file (default: 0.01 for SVG, 1 for JSON)',
     )
     parser.add_argument(
         '--at',
@@ -221,23 +221,29 @@ def _options(arguments: Sequence[str]) -> argparse.Namespace:
         nargs=2,
         default=(0.0, 0.0),
         metavar=('X', 'Y'),
-        help='where the lower left corner of the page lies [m]',
+        help='where the lower left corner of the page lies [m] (default: the origin)',
     )
-    parser.add_argument('--speed', type=_positive, default=4.0, help='of the pen [m/s]')
-    parser.add_argument('--rate', type=_positive, default=100.0, help='of its samples [Hz]')
+    parser.add_argument(
+        '--speed', type=_positive, default=4.0, help='of the pen [m/s] (default: %(default)g)'
+    )
+    parser.add_argument(
+        '--rate', type=_positive, default=100.0, help='of its samples [Hz] (default: %(default)g)'
+    )
     parser.add_argument(
         '--once', action='store_true', help='draw each stroke at once, not at the speed of the pen'
     )
     parser.add_argument(
         '--pause', action='store_true', help='let time stand still meanwhile, and play then'
     )
-    parser.add_argument('--world', default='/physsim', help="the name of the world's node")
-    parser.add_argument('--frame', default='', help="to draw in: a body's name, or the world's")
+    parser.add_argument(
+        '--world', default='/physsim', help="the name of the world's node (default: %(default)s)"
+    )
+    parser.add_argument('--frame', default='', help="to draw in: a body's name (default: world)")
     parser.add_argument(
         '--patience',
         type=_positive,
         default=20.0,
-        help='how long to wait for the world, and for each answer [s]',
+        help='how long to wait for the world, and for each answer [s] (default: %(default)g)',
     )
     return parser.parse_args(arguments)
 
