@@ -29,6 +29,8 @@ import pyarrow as pa
 import rerun as rr
 
 PATH = 'world/joints'
+# Half the size of the smallest symbol that is still seen [units].
+_LEAST = 0.1
 
 
 class JointPicture:
@@ -41,9 +43,9 @@ class JointPicture:
     """
 
     def __init__(self, scene: Scene, unit: float, height: float) -> None:
-        self._linework = Linework(scene)
+        self._linework = Linework(scene, least=_LEAST * unit)
         self._height = height
-        self._radius = FINE * unit * 0.7
+        self._radius = 0.8 * FINE * unit
         self._moving = np.unique(scene.joint_rows[scene.joint_rows >= 0])
 
     def stirs(self, stirred: NDArray[np.bool_]) -> bool:
@@ -91,9 +93,9 @@ class _Strips:
         return pa.ListArray.from_arrays(pa.array(offsets), flat, type=kind)
 
 
-_STRIPS, _COLORS, _RADII = (
+_STRIPS, _RADII, _COLORS = (
     column.descriptor
     for column in rr.LineStrips3D.columns(
-        strips=[[(0, 0, 0), (1, 0, 0)]], colors=[(0, 0, 0)], radii=[1.0]
+        strips=[[(0, 0, 0), (1, 0, 0)]], radii=[1.0], colors=[(0, 0, 0)]
     )
 )

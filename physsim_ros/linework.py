@@ -33,7 +33,7 @@ from physsim_ros.core.names import WORLD
 from physsim_ros.core.snapshot import Body, Floats, Joint, Scene
 
 # The smallest and the largest half size of a symbol [m].
-_SMALL, _LARGE = 0.03, 0.15
+SMALL, _LARGE = 0.03, 0.15
 # Turns of a coil, and corners of a turn, of a circle, of a rope.
 _COILS, _COIL_STEPS, _CIRCLE, _ROPE = 7, 8, 16, 12
 _TEETH = 8
@@ -74,12 +74,13 @@ class Linework:
     The lines of all joints of a scene.
 
     :param scene: whose joints they are
+    :param least: half the size of the smallest symbol [m]
 
     :ivar owner: (s,) the joint of each line
     :ivar lengths: (s,) how many corners each line has
     """
 
-    def __init__(self, scene: Scene) -> None:
+    def __init__(self, scene: Scene, *, least: float = SMALL) -> None:
         self._scene = scene
         bodies = dict(zip(scene.names, scene.bodies, strict=True))
         corners: list[Corner] = []
@@ -87,7 +88,7 @@ class Linework:
         owner: list[int] = []
         lengths: list[int] = []
         for number, joint in enumerate(scene.joints):
-            for strip in strips(joint, size_of(joint, bodies)):
+            for strip in strips(joint, size_of(joint, bodies, least=least)):
                 corners += strip
                 holders += [number] * len(strip)
                 owner.append(number)
@@ -158,10 +159,10 @@ class Linework:
         return colors
 
 
-def size_of(joint: Joint, bodies: dict[str, Body]) -> float:
+def size_of(joint: Joint, bodies: dict[str, Body], *, least: float = SMALL) -> float:
     """Return half the size of a joint's symbol [m]: in scale with the smaller of its bodies."""
     forms = [bodies[name].shape.form for name in (joint.a, joint.b) if name != WORLD]
-    return min(max(min(form.inner for form in forms) / 3, _SMALL), _LARGE)
+    return max(min(min(form.inner for form in forms) / 3, _LARGE), least)
 
 
 def strips(joint: Joint, size: float) -> list[Strip]:

@@ -150,7 +150,7 @@ class Picture:
         layout = self._layout
         if layout is None or scene is not layout.scene:
             layout = Layout(scene, _unit(self._area), layout)
-            self._look_at(layout, Motion.of(poses[:1]))
+            self._look_at(layout, Motion.of(poses[:1]), snapshots[0].ends)
             if layout.unit != _unit(self._area):
                 layout = Layout(scene, _unit(self._area))
             self._layout, self._due = layout, self._count
@@ -176,13 +176,13 @@ class Picture:
         self._band.draw(frames, numbers)
         self._count += len(frames)
 
-    def _look_at(self, layout: Layout, motion: Motion) -> None:
+    def _look_at(self, layout: Layout, motion: Motion, ends: Floats) -> None:
         """Choose what is seen: seldom anew, as a picture that jumps is hard to read."""
         bounds = layout.scene.settings.bounds
         if bounds is not None:
             self._area, self._framed = _widened(bounds, MARGIN / 2), True
         elif layout.scene.bodies:
-            left, bottom, right, top = extent = layout.extent(motion)
+            left, bottom, right, top = extent = _around(layout.extent(motion), ends)
             near = _widened(self._area, 0.5)
             inside = left >= near[0] and bottom >= near[1] and right <= near[2] and top <= near[3]
             if not self._framed or not inside:
@@ -371,6 +371,14 @@ def _unit(area: Bounds) -> float:
     """Return the length that is drawn as 50 pixels [m]: about 1 m for a world of 20 m."""
     left, bottom, right, top = area
     return PIXELS * max((right - left) / WIDTH, (top - bottom) / HEIGHT)
+
+
+def _around(area: Bounds, ends: Floats) -> Bounds:
+    """Return an area with the points of joints, (j, 2, 2), in it."""
+    points = ends.reshape(-1, 2)
+    left, bottom = np.minimum(points.min(axis=0, initial=np.inf), area[:2]).tolist()
+    right, top = np.maximum(points.max(axis=0, initial=-np.inf), area[2:]).tolist()
+    return left, bottom, right, top
 
 
 def _widened(area: Bounds, share: float) -> Bounds:
