@@ -52,7 +52,7 @@ setup(
         ('share/ament_index/resource_index/packages', [f'resource/{PACKAGE}']),
         (SHARE, ['package.xml']),
         (f'{SHARE}/config', sorted(glob('config/*.yaml'))),
-        (f'{SHARE}/config/drawings', sorted(glob('config/drawings/*.svg'))),
+        (f'{SHARE}/config/drawings', sorted(glob('config/drawings/*'))),
         (f'{SHARE}/config/worlds', sorted(glob('config/worlds/*.yaml'))),
     ],
     zip_safe=False,

@@ -239,6 +239,16 @@ def test_what_cannot_be_drawn_is_refused_with_a_code_and_changes_nothing(
     assert client.physsim.digest() == before
 
 
+def test_what_a_full_world_does_not_take_is_refused_and_its_name_is_not_given_again(
+    hand: Hand,
+) -> None:
+    hand.take('wall', max_bodies=0)
+    hand.click(0, 0)
+    refused(hand.click(1, 0), 'world_full')
+    hand.take('wall', max_bodies=10)
+    accepted(hand.draw('wall', (0, 0), (1, 0)), 'drawn/1')
+
+
 def test_an_unknown_frame_is_refused_and_the_gesture_goes_on(hand: Hand) -> None:
     hand.take('circle')
     hand.click(0, 0)
