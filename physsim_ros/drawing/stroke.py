@@ -39,6 +39,9 @@ from physsim_ros.core.snapshot import Floats
 
 # Points of an evenly spaced stroke: a dozen for each side of a star of five points.
 COUNT = 128
+# Where more are needed, for the ends of something narrow: so many times more.
+FINER = 4
+FINELY = FINER * (COUNT - 1) + 1
 # A hook is no longer than this share of the stroke's size, and turns by more than that [rad].
 HOOK, HOOK_TURN = 0.1, 1.2
 # What may be cut off a closed stroke at either end, where it was drawn twice, in shares of its
@@ -58,8 +61,9 @@ CANDIDATES = 28
 CORNER_COST = 0.0075**2
 # What is left of an end that is bent off is no longer than this share of the length.
 STUB = 0.07
-# What a side that only bridges a closed way's ends is longer than the gap there.
-SEAM = 0.03
+# How near to the gap in a closed way a side that only bridges it begins and ends, in shares of
+# the length, and how far its ends may slip past one another.
+SEAM, SLIP = 0.03, 0.045
 # How far straight sides may be from an open way, root mean square, before it counts as a curve;
 # and how far the points of a curve are. Both in shares of its size.
 CURVED, FINE = 0.013, 0.006
@@ -76,8 +80,8 @@ class Stroke:
     A stroke, evenly spaced.
 
     :param points: (COUNT, 2) float64: the whole way, hooks cut off [m]
-    :param outline: (COUNT, 2) float64: the way closed, the first point not repeated, what was
-        drawn twice cut off [m]; None where the ends lie far apart
+    :param outline: (FINELY - 1, 2) float64: the way closed, the first point not repeated, what
+        was drawn twice cut off [m]; None where the ends lie far apart
     :param gap: between the ends, in shares of the length
     :param size: diagonal of the rectangle around it [m]
     :param length: of its way [m]
@@ -99,10 +103,9 @@ def stroke(samples: Floats) -> Stroke:
     :raises Malformed: there are none, or one is not finite
     :raises BadSize: all are in one place, or one is too far away
     """
-    places = _checked(samples)
-    size = float(np.hypot(*np.ptp(places, axis=0)))
-    points = spaced(_without_hooks(spaced(places), size))
-    outline, gap = _outline(points)
+    way = spaced(_without_hooks(spaced(_checked(samples), FINELY)), FINELY)
+    points = way[::FINER]
+    outline, gap = _outline(points, way)
     return Stroke(
         points=points,
         outline=outline,
@@ -148,8 +151,6 @@ def widened(outline: Floats) -> tuple[Floats, Floats]:
     # Straight lines stay straight.
     wide = axes @ np.diag((stretch, 1.0)) @ axes.T
     narrow: Floats = axes @ np.diag((1.0 / stretch, 1.0)) @ axes.T
-    if stretch == 1.0:
-        return outline, narrow
     way = outline @ wide
     return spaced(np.vstack((way, way[:1])), COUNT + 1)[:-1], narrow
 
@@ -191,7 +192,7 @@ def corners(points: Floats, *, closed: bool, gap: float = 0.0) -> list[int]:
     opened = np.array([*np.sort((places - start) % count), count])
     chosen = _meant(np.vstack((way, way[:1])), opened)
     at = sorted((each + int(start)) % count for each in chosen[:-1])
-    return _without_seam(smooth, at, gap + SEAM)
+    return _without_seam(smooth, at, gap)
 
 
 def vertices(points: Floats, at: list[int], *, closed: bool) -> Floats:
@@ -264,7 +265,8 @@ def simplified(drawn: Stroke, bends: Floats) -> Floats | None:
 
 def traced(outline: Floats) -> Floats:
     """Return a closed way as few enough points."""
-    way = smoothed(outline, SMOOTHING, closed=True)
+    way = spaced(np.vstack((outline, outline[:1])), COUNT + 1)[:-1]
+    way = smoothed(way, SMOOTHING, closed=True)
     size = float(np.hypot(*np.ptp(way, axis=0)))
     # From one of the points that lie farthest out.
     way = np.roll(way, -int(((way - way.mean(axis=0)) ** 2).sum(axis=1).argmax()), axis=0)
@@ -338,14 +340,16 @@ def _checked(samples: Floats) -> Floats:
     return places
 
 
-def _without_hooks(points: Floats, size: float) -> Floats:
+def _without_hooks(way: Floats) -> Floats:
     """Cut off the flicks of a pen that was set down before it rested, or lifted late."""
-    first, last = _hook(points, size), len(points) - _hook(points[::-1], size)
-    return points[first:last] if last - first > len(points) // 2 else points
+    points = way[::FINER]
+    first, last = _hook(points), len(points) - 1 - _hook(points[::-1])
+    return way[FINER * first : FINER * last + 1] if last - first > len(points) // 2 else way
 
 
-def _hook(points: Floats, size: float) -> int:
+def _hook(points: Floats) -> int:
     """Return how many points at the beginning are a hook."""
+    size = float(np.hypot(*np.ptp(points, axis=0)))
     step = float(np.hypot(*np.diff(points, axis=0).T).mean())
     reach = int(HOOK * size / step)
     if reach < 2:
@@ -359,8 +363,13 @@ def _hook(points: Floats, size: float) -> int:
     return sharpest + 1 if turn[sharpest] > HOOK_TURN and sharpest < reach - 1 else 0
 
 
-def _outline(points: Floats) -> tuple[Floats | None, float]:
-    """Return the closed way that a stroke makes, if it makes one, and the gap in it."""
+def _outline(points: Floats, way: Floats) -> tuple[Floats | None, float]:
+    """
+    Return the closed way that a stroke makes, if it makes one, and the gap in it.
+
+    :param points: evenly spaced
+    :param way: the same, with more points
+    """
     count = len(points)
     step = float(np.hypot(*np.diff(points, axis=0).T).mean())
     ends = int(TWICE * count)
@@ -373,8 +382,8 @@ def _outline(points: Floats) -> tuple[Floats | None, float]:
     gap = float(apart[first, last]) / (step * (count - 1))
     if gap > GAP:
         return None, gap
-    way = points[first : count - ends + last + 1]
-    return spaced(np.vstack((way, way[:1])), COUNT + 1)[:-1], gap
+    once = way[FINER * first : FINER * (count - ends + last) + 1]
+    return spaced(np.vstack((once, once[:1])), FINELY)[:-1], gap
 
 
 def _peaks(turn: NDArray[np.float64], *, closed: bool) -> NDArray[np.intp]:
@@ -421,24 +430,22 @@ def _meant(way: Floats, places: NDArray[np.intp]) -> list[int]:
     return kept
 
 
-def _without_seam(way: Floats, at: list[int], longest: float) -> list[int]:
-    """Drop the corners of a short side that only bridges the ends of a closed way."""
+def _without_seam(way: Floats, at: list[int], gap: float) -> list[int]:
+    """Drop the corners of a side that only bridges the ends of a closed way, and was not drawn."""
     count = len(way)
-    if len(at) < 4:
+    near = round(SEAM * count)
+    # The gap is at the end; a side that bridges it begins there and ends at the beginning.
+    bridge = [each for each in at if each >= count * (1.0 - gap / (1.0 + gap)) - near]
+    first, last = bridge[0] if bridge else at[0], at[0] if bridge else at[-1]
+    if len(at) < 4 or first == last or last > near:
         return at
-    for first, last in zip(at, at[1:] + at[:1], strict=True):
-        span = (last - first) % count
-        # The seam is before the first point.
-        if span < longest * count and (count - first) % count <= span + 3:
-            a, b = at[at.index(first) - 1], at[(at.index(last) + 1) % len(at)]
-            into, out = way[first] - way[a], way[b] - way[last]
-            turn = abs(math.atan2(float(cross(into, out)), float(into @ out)))
-            if turn > SHARPEST:
-                # Sides that run back beside one another have an end between them.
-                return at
-            kept = [each for each in at if each not in {first, last}]
-            return sorted([*kept, first]) if turn > CORNER_TURN else kept
-    return at
+    kept = [each for each in at if each > last and each < first]
+    into, out = way[first] - way[kept[-1]], way[kept[0]] - way[last]
+    turn = abs(math.atan2(float(cross(into, out)), float(into @ out)))
+    if turn > SHARPEST or (turn < CORNER_TURN and gap > SLIP):
+        # The sides beside it run on, or back, beside one another: what is between was meant.
+        return at
+    return [*kept, first] if turn > CORNER_TURN else kept
 
 
 def _errors(way: Floats, places: NDArray[np.intp]) -> NDArray[np.float64]:

@@ -19,7 +19,15 @@ import math
 import numpy as np
 from physsim_ros.core.errors import BadSize, Malformed
 from physsim_ros.core.snapshot import Floats
-from physsim_ros.drawing.stroke import bends_of, corners, COUNT, simplified, stroke, vertices
+from physsim_ros.drawing.stroke import (
+    bends_of,
+    corners,
+    COUNT,
+    simplified,
+    stroke,
+    vertices,
+    widened,
+)
 import pytest
 
 SQUARE = np.array([(0, 0), (2, 0), (2, 2), (0, 2), (0, 0)], dtype=np.float64)
@@ -36,7 +44,9 @@ def found(samples: Floats) -> Floats:
     """Return the corners of a closed stroke, from the lowest left one on, counter-clockwise."""
     drawn = stroke(samples)
     assert drawn.outline is not None
-    made = vertices(drawn.outline, corners(drawn.outline, closed=True, gap=drawn.gap), closed=True)
+    outline, narrow = widened(drawn.outline)
+    at = corners(outline, closed=True, gap=drawn.gap)
+    made = vertices(outline, at, closed=True) @ narrow
     middle = made.mean(axis=0)
     angle = np.arctan2(*(made - middle).T[::-1])
     return made[np.argsort(angle)]

@@ -66,10 +66,10 @@ class Tally:
         self.right['all'].append(right)
         if scene.name in CLOSED and what in CLOSED:
             self.right['disc or polygon'].append((what == 'disc') == (scene.name == 'disc'))
-        if scene.figure.corners > 0 and right and not len(scene.view.names):
-            best = recognise(stroke(scene.samples))[0]
-            group = 'closed' if scene.figure.closed else 'open'
-            self.corners[group].append(len(best.points) == scene.figure.corners)
+        if scene.name in _CORNERED:
+            found = recognise(stroke(scene.samples))
+            exact = bool(found) and len(found[0].points) == scene.figure.corners
+            self.corners[_CORNERED[scene.name]].append(exact)
 
     def show(self) -> None:
         """Print the tables."""
@@ -88,6 +88,7 @@ class Tally:
         print(f'{"CPU time of a stroke":<34}{middle:7.2f} ms median, {worst:.2f} ms 99th of 100')
 
 
+_CORNERED = {'rectangle': 'closed', 'polygon': 'closed', 'line': 'open', 'bent line': 'open'}
 _SIGNS = (Meaning.ANCHOR, Meaning.AXLE, Meaning.DELETION, Meaning.GRAVITY, Meaning.SPRING)
 
 
