@@ -16,6 +16,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 import shutil
 import sys
@@ -72,10 +73,23 @@ def test_a_stroke_that_is_refused_is_told_and_the_others_are_drawn(
     assert '1 of 3 strokes were refused' in program.lines[-1]
 
 
-@pytest.mark.usefixtures('world')
-def test_time_may_stand_still_meanwhile(outside: Outside, tmp_path: Path) -> None:
-    with draw(outside, drawing(tmp_path, TWO), '--once', '--pause') as program:
-        assert program.finish() == 0, program.lines
+def test_strokes_build_a_car_while_time_stands_still_and_then_it_rolls(outside: Outside) -> None:
+    with outside.start_world() as world:
+        world.wait_for('ready')
+        with draw(outside, 'car', '--once', '--pause') as program:
+            assert program.finish() == 0, program.lines
+        seen = outside.run_program('watch', 1.5)
+        assert world.interrupt() == 0
+    first, last = seen['first'], seen['last']
+    road, body, rear, front = (f'drawn/{number}' for number in range(4))
+    assert set(first) == set(last) == {road, body, rear, front}
+    # m
+    assert last[body][0] > first[body][0] + 1.0
+    assert last[road] == first[road]
+    for wheel in (rear, front):
+        assert math.dist(last[wheel], last[body]) == pytest.approx(
+            math.dist(first[wheel], first[body]), abs=0.01
+        )
 
 
 @pytest.mark.parametrize(
