@@ -28,7 +28,7 @@ from physsim_ros.core import outlines
 from physsim_ros.core.outlines import cross
 from physsim_ros.core.shapes import Pose
 from physsim_ros.core.snapshot import Floats
-from physsim_ros.drawing import stroke as strokes
+from physsim_ros.drawing import fits
 
 
 def rectangle(corners: Floats, tolerance: float) -> tuple[Pose, float, float]:
@@ -37,7 +37,7 @@ def rectangle(corners: Floats, tolerance: float) -> tuple[Pose, float, float]:
 
     :return: its centre and the yaw of its width, -π/4 .. π/4; its width and height [m]
     """
-    nearest = strokes.rectangle(corners)
+    nearest = fits.rectangle(corners)
     side, other = nearest[1] - nearest[0], nearest[2] - nearest[1]
     angle = math.atan2(side[1], side[0])
     width, height = float(np.hypot(*side)), float(np.hypot(*other))

@@ -23,24 +23,25 @@ may mean there. The confidence in a meaning is its share of all weights and of a
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import StrEnum
 import math
 
 import numpy as np
-from physsim_ros.core.errors import BadProperty, NothingThere, NotRecognised
-from physsim_ros.core.joint_properties import JointKind
+from physsim_ros.core.errors import NotRecognised
 from physsim_ros.core.names import WORLD
 from physsim_ros.core.outlines import cross
-from physsim_ros.core.requests import Anchor, Axle, Configure, Delete, Join, Request
+from physsim_ros.core.requests import Request
 from physsim_ros.core.shapes import Point
 from physsim_ros.core.snapshot import Floats
-from physsim_ros.drawing import beautifying, bodies, recogniser, scribbling, snapping
-from physsim_ros.drawing.recogniser import Candidate, falls, Primitive
+from physsim_ros.drawing import making, recogniser, scribbling, snapping
+from physsim_ros.drawing.candidate import Candidate, falls, Primitive
+from physsim_ros.drawing.corners import bends_of
+from physsim_ros.drawing.making import Make, point_of
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.stroke import bends_of, simplified, Stroke, stroke
-from physsim_ros.drawing.view import DRAWN, View
+from physsim_ros.drawing.stroke import Stroke, stroke
+from physsim_ros.drawing.view import View
 
 # The weight of its being nothing of all this.
 DOUBT = 0.12
@@ -54,8 +55,6 @@ SMALL, SMALL_ON_TWO = 0.5, 0.75
 BETWEEN, STRAIGHT, FEWEST_TEETH = 0.9, 0.95, 3
 # From so many corners on a small polygon may be a circle.
 EDGED = 5
-# Points of the outline of a disc that is shown.
-_SHOWN = 48
 
 
 class Meaning(StrEnum):
@@ -100,16 +99,6 @@ class Reading:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Drawn:
-    """What is to be made of a stroke, as in `Reading`."""
-
-    requests: tuple[Request, ...]
-    subject: str
-    message: str
-    outline: Floats
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Sense:
     """
     A meaning that a stroke may have.
@@ -117,14 +106,13 @@ class Sense:
     :param meaning: what
     :param weight: how likely, before all are compared
     :param make: makes of it what it means, or raises a Refusal
+    :param points: that it is made of
     """
 
     meaning: Meaning
     weight: float
-    make: Callable[[], Drawn]
-
-
-Make = Callable[[Floats, Stroke, View, DrawingSettings], Drawn]
+    make: Make
+    points: Floats
 
 
 def read(samples: Floats, view: View, settings: DrawingSettings) -> Reading:
@@ -154,7 +142,7 @@ def read(samples: Floats, view: View, settings: DrawingSettings) -> Reading:
     confidences = [(meaning, weights[meaning] / total) for meaning in ranked]
     if best is None or confidences[0][1] < settings.sketch_confidence:
         raise NotRecognised(_doubt(confidences[:2]), field='poses')
-    made = best.make()
+    made = best.make(best.points, drawn, view, settings)
     following = next(
         ((other, share) for other, share in confidences if other != best.meaning), None
     )
@@ -182,52 +170,52 @@ def _senses(
     candidate: Candidate, drawn: Stroke, view: View, settings: DrawingSettings
 ) -> Iterator[Sense]:
     """Yield what a candidate may mean, its weight divided among the meanings."""
-    weight, points = candidate.weight, candidate.points
+    points = candidate.points
 
-    def sense(meaning: Meaning, share: float, make: Callable[[], Drawn]) -> Sense:
-        return Sense(meaning=meaning, weight=weight * share, make=make)
+    def sense(meaning: Meaning, share: float, make: Make, of: Floats = points) -> Sense:
+        return Sense(meaning=meaning, weight=candidate.weight * share, make=make, points=of)
 
     match candidate.primitive:
         case Primitive.DISC:
-            small = _smallness(_point(points[0]), math.dist(*points), view, settings)
-            yield sense(Meaning.AXLE, small, lambda: _axle(points, view, settings))
-            yield sense(Meaning.DISC, 1.0 - small, lambda: _disc(points, view, settings))
+            small = _smallness(point_of(points[0]), math.dist(*points), view, settings)
+            yield sense(Meaning.AXLE, small, making.axle)
+            yield sense(Meaning.DISC, 1.0 - small, making.disc)
         case Primitive.RECTANGLE:
-            yield sense(Meaning.RECTANGLE, 1.0, lambda: _rectangle(points, view, settings))
+            yield sense(Meaning.RECTANGLE, 1.0, making.rectangle)
         case Primitive.POLYGON:
-            center, radius = points.mean(axis=0), float(np.hypot(*np.ptp(points, axis=0))) / 3
             # Small circles come out edged.
-            small = len(points) >= EDGED and _smallness(_point(center), radius, view, settings)
-            yield sense(Meaning.AXLE, small, lambda: _axle(center[None], view, settings))
-            yield sense(Meaning.POLYGON, 1.0 - small, lambda: _polygon(points, view, settings))
+            center, radius = points.mean(axis=0), float(np.hypot(*np.ptp(points, axis=0))) / 3
+            edged = len(points) >= EDGED
+            small = _smallness(point_of(center), radius, view, settings) if edged else 0.0
+            yield sense(Meaning.AXLE, small, making.axle, np.array((center, points[0])))
+            yield sense(Meaning.POLYGON, 1.0 - small, making.polygon)
         case Primitive.LINE:
             joint = _joint_along(points, view, settings)
             if joint is not None:
-                meaning, make = joint
-                yield sense(meaning, BETWEEN, lambda: make(points, drawn, view, settings))
-            share = 1.0 - BETWEEN if joint else 1.0
-            yield sense(Meaning.WALL, share, lambda: _wall(points, drawn, view, settings))
+                yield sense(joint[0], BETWEEN, joint[1])
+            yield sense(Meaning.WALL, 1.0 - BETWEEN if joint else 1.0, making.wall)
         case Primitive.ZIGZAG | Primitive.SCRIBBLE:
-            yield from _to_and_fro(candidate, drawn, view, settings)
+            zigzag = candidate.primitive is Primitive.ZIGZAG
+            spring, wall, deletion = _to_and_fro(drawn, view, settings, zigzag=zigzag)
+            yield sense(Meaning.SPRING, spring, making.spring, drawn.points[[0, -1]])
+            yield sense(Meaning.WALL, wall, making.wall, bends_of(drawn.points))
+            yield sense(Meaning.DELETION, deletion, making.deletion)
         case Primitive.CROSS:
-            under = view.bodies_at(_point(points[0]), settings.snap)
-            share = 1.0 if under else MISPLACED
-            yield sense(Meaning.ANCHOR, share, lambda: _anchor(points, drawn, view, settings))
+            under = view.bodies_at(point_of(points[0]), settings.snap)
+            yield sense(Meaning.ANCHOR, 1.0 if under else MISPLACED, making.anchor)
         case Primitive.ARROW:
-            free = not view.bodies_at(_point(points[0]))
-            share = 1.0 if free else MISPLACED
-            yield sense(Meaning.GRAVITY, share, lambda: _gravity(points, drawn, view, settings))
+            free = not view.bodies_at(point_of(points[0]))
+            yield sense(Meaning.GRAVITY, 1.0 if free else MISPLACED, making.gravity)
 
 
 def _to_and_fro(
-    candidate: Candidate, drawn: Stroke, view: View, settings: DrawingSettings
-) -> Iterator[Sense]:
-    """Yield what a zigzag or scribble means: a spring, a wall in the open, the end of bodies."""
-    ends = drawn.points[[0, -1]]
-    joined = snapping.ends_on(_point(ends[0]), _point(ends[1]), view, settings)
+    drawn: Stroke, view: View, settings: DrawingSettings, *, zigzag: bool
+) -> tuple[float, float, float]:
+    """Return how much of a zigzag or scribble is a spring, a wall in the open, a deletion."""
+    start, end = point_of(drawn.points[0]), point_of(drawn.points[-1])
+    joined = snapping.ends_on(start, end, view, settings)
     over = scribbling.passed(drawn.points, view)
     covered = scribbling.bodies_under(drawn.points, over, view)
-    zigzag = candidate.primitive is Primitive.ZIGZAG
     spring = 0.0
     if joined is not None and (zigzag or joined[1].body != WORLD):
         # A spring leaves the bodies that it joins; a scribble stays on them.
@@ -235,21 +223,7 @@ def _to_and_fro(
         if zigzag and joined[1].body != WORLD:
             spring = max(spring, BETWEEN)
     wall = BETWEEN if zigzag and not spring and not covered else 0.0
-    yield Sense(
-        meaning=Meaning.SPRING,
-        weight=candidate.weight * spring,
-        make=lambda: _spring(ends, drawn, view, settings),
-    )
-    yield Sense(
-        meaning=Meaning.WALL,
-        weight=candidate.weight * wall,
-        make=lambda: _wall(bends_of(drawn), drawn, view, settings),
-    )
-    yield Sense(
-        meaning=Meaning.DELETION,
-        weight=candidate.weight * (1.0 - spring - wall) * (1.0 if covered else MISPLACED),
-        make=lambda: _deletion(covered, drawn),
-    )
+    return spring, wall, (1.0 - spring - wall) * (1.0 if covered else MISPLACED)
 
 
 def _smallness(center: Point, radius: float, view: View, settings: DrawingSettings) -> float:
@@ -262,7 +236,7 @@ def _smallness(center: Point, radius: float, view: View, settings: DrawingSettin
     if len(under) == 1:
         angles = np.arange(8) * math.pi / 4
         rim = np.array(center) + radius * np.column_stack((np.cos(angles), np.sin(angles)))
-        inside = sum(under[0] in view.bodies_at(_point(place)) for place in rim)
+        inside = sum(under[0] in view.bodies_at(point_of(place)) for place in rim)
         # What hangs over is a body of its own, unless it is as small as hands can draw.
         if inside < len(rim) - 1:
             limit = min(2 * settings.snap, 0.9 * least)
@@ -273,7 +247,7 @@ def _joint_along(
     points: Floats, view: View, settings: DrawingSettings
 ) -> tuple[Meaning, Make] | None:
     """Return which joint a line is: a rod or a spring between bodies; None is a wall."""
-    start, end = _point(points[0]), _point(points[-1])
+    start, end = point_of(points[0]), point_of(points[-1])
     ends = snapping.ends_on(start, end, view, settings)
     if ends is None:
         return None
@@ -282,177 +256,8 @@ def _joint_along(
     if math.dist(start, end) > STRAIGHT * float(np.hypot(*sides.T).sum()):
         # What only comes near to a body and ends nowhere is a wall beside it.
         if last.body != WORLD or first.body in view.bodies_at(start) + view.bodies_at(end):
-            return Meaning.ROD, _rod
+            return Meaning.ROD, making.rod
         return None
     turns = np.sign(cross(sides[:-1], sides[1:]))
     alternates = len(turns) >= FEWEST_TEETH and bool((turns[1:] == -turns[:-1]).all())
-    return (Meaning.SPRING, _spring) if alternates and last.body != WORLD else None
-
-
-def _disc(points: Floats, view: View, settings: DrawingSettings) -> Drawn:
-    center, radius = _point(points[0]), math.dist(*points)
-    name = f'{DRAWN}/{view.next_drawn()}'
-    return Drawn(
-        requests=(bodies.disc(name, center, radius, settings),),
-        subject=name,
-        message=f'a disc of radius {radius:.3g} m',
-        outline=_circle(center, radius),
-    )
-
-
-def _rectangle(points: Floats, view: View, settings: DrawingSettings) -> Drawn:
-    if settings.beautify == 0.0:
-        return _polygon(points, view, settings)
-    name = f'{DRAWN}/{view.next_drawn()}'
-    pose, width, height = beautifying.rectangle(points, settings.beautify)
-    x, y, yaw = pose
-    along = np.array((math.cos(yaw), math.sin(yaw))) * width / 2
-    across = np.array((-math.sin(yaw), math.cos(yaw))) * height / 2
-    corners = np.array((-along - across, along - across, along + across, across - along))
-    return Drawn(
-        requests=(bodies.rectangle(name, pose, width, height, settings),),
-        subject=name,
-        message=f'a rectangle of {width:.3g} m by {height:.3g} m',
-        outline=_around(np.array((x, y)) + corners),
-    )
-
-
-def _polygon(points: Floats, view: View, settings: DrawingSettings) -> Drawn:
-    name = f'{DRAWN}/{view.next_drawn()}'
-    corners = beautifying.polygon(points, settings.beautify)
-    return Drawn(
-        requests=(bodies.polygon(name, list(map(_point, corners)), settings),),
-        subject=name,
-        message=f'a polygon of {len(corners)} corners',
-        outline=_around(corners),
-    )
-
-
-def _wall(points: Floats, drawn: Stroke, view: View, settings: DrawingSettings) -> Drawn:
-    name = f'{DRAWN}/{view.next_drawn()}'
-    # What sides do not explain is a curve, and is kept as one.
-    curved = simplified(drawn, points)
-    way = beautifying.line(points, settings.beautify) if curved is None else curved
-    corners = list(map(_point, way))
-    corners[0] = snapping.wall_end(corners[0], view, settings)
-    corners[-1] = snapping.wall_end(corners[-1], view, settings)
-    length = sum(map(math.dist, corners, corners[1:]))
-    return Drawn(
-        requests=(bodies.wall(name, corners, settings),),
-        subject=name,
-        message=f'a wall of {length:.3g} m',
-        outline=np.array(corners),
-    )
-
-
-def _rod(points: Floats, _drawn: Stroke, view: View, settings: DrawingSettings) -> Drawn:
-    return _join(JointKind.ROD, points, None, view, settings)
-
-
-def _spring(ends: Floats, drawn: Stroke, view: View, settings: DrawingSettings) -> Drawn:
-    return _join(JointKind.SPRING, ends, drawn, view, settings)
-
-
-def _join(
-    kind: JointKind, points: Floats, drawn: Stroke | None, view: View, settings: DrawingSettings
-) -> Drawn:
-    """Join what lies at both ends; show the stroke, or a straight line where there is none."""
-    joined = snapping.ends_on(_point(points[0]), _point(points[-1]), view, settings)
-    if joined is None:
-        raise NothingThere(
-            f'a {kind} joins two bodies, one of which moves; there are none at its ends',
-            field='poses',
-        )
-    first, last = joined
-    name = f'{DRAWN}/{view.next_joint()}'
-    ends = first.point, last.point
-    return Drawn(
-        requests=(Join(name=name, kind=kind, points=ends, a=first.body, b=last.body),),
-        subject=name,
-        message=f'a {kind} from {first.body} to {last.body}',
-        outline=np.array(ends) if drawn is None else drawn.points,
-    )
-
-
-def _axle(points: Floats, view: View, settings: DrawingSettings) -> Drawn:
-    center = snapping.pivot(_point(points[0]), view, settings)
-    under = view.bodies_at(center)[:2]
-    between = ' and '.join(under) if len(under) == 2 else f'{under[0]} and the background'
-    return Drawn(
-        requests=(Axle(point=center),),
-        subject=under[0],
-        message=f'an axle between {between}',
-        outline=_circle(center, settings.snap / 2 if len(points) < 2 else math.dist(*points)),
-    )
-
-
-def _anchor(points: Floats, drawn: Stroke, view: View, settings: DrawingSettings) -> Drawn:
-    point = _point(points[0])
-    under = view.bodies_at(point)
-    if not under:
-        # Drawn a little beside a thin body; the nearest thing that is under the pen.
-        under = view.bodies_at(point, settings.snap)
-        way = map(_point, drawn.points if under else ())
-        near = [each for each in way if under[0] in view.bodies_at(each)]
-        if not near:
-            x, y = point
-            raise NothingThere(
-                f'an x anchors the body under it; there is none at ({x:.3g}, {y:.3g})',
-                field='poses',
-            )
-        point = min(near, key=lambda each: math.dist(each, point))
-    return Drawn(
-        requests=(Anchor(point=point),),
-        subject=under[0],
-        message=f'anchor {under[0]}',
-        outline=drawn.points,
-    )
-
-
-def _gravity(points: Floats, drawn: Stroke, view: View, settings: DrawingSettings) -> Drawn:
-    tail = view.bodies_at(_point(points[0]))
-    if tail:
-        raise NotRecognised(
-            f'an arrow in free space turns gravity; this one begins on {tail[0]}', field='poses'
-        )
-    strength = math.hypot(*view.settings.gravity)
-    if strength == 0.0:
-        raise BadProperty(
-            'there is no gravity to turn; set the parameter gravity first', field='gravity'
-        )
-    tip = beautifying.line(points, settings.beautify)
-    x, y = (tip[1] - tip[0]).tolist()
-    length = math.hypot(x, y)
-    gravity = strength * x / length, strength * y / length
-    return Drawn(
-        requests=(Configure(changes={'gravity': gravity}),),
-        subject='',
-        message=f'gravity towards ({gravity[0]:.3g}, {gravity[1]:.3g}) m/s²',
-        outline=drawn.points,
-    )
-
-
-def _deletion(covered: tuple[str, ...], drawn: Stroke) -> Drawn:
-    if not covered:
-        raise NothingThere('a scribble deletes the bodies under it; there are none', field='poses')
-    return Drawn(
-        requests=tuple(Delete(name=name) for name in covered),
-        subject=covered[0] if len(covered) == 1 else '',
-        message=f'delete {", ".join(covered)}',
-        outline=drawn.points,
-    )
-
-
-def _circle(center: Point, radius: float) -> Floats:
-    angles = np.linspace(0.0, 2 * math.pi, _SHOWN + 1)
-    circle: Floats = np.array(center) + radius * np.column_stack((np.cos(angles), np.sin(angles)))
-    return circle
-
-
-def _around(corners: Floats) -> Floats:
-    return np.vstack((corners, corners[:1]))
-
-
-def _point(row: Floats) -> Point:
-    x, y = row.tolist()
-    return x, y
+    return (Meaning.SPRING, making.spring) if alternates and last.body != WORLD else None

@@ -18,7 +18,9 @@ import math
 
 import numpy as np
 from physsim_ros.core.snapshot import Floats
-from physsim_ros.drawing.recogniser import Primitive, recognise, swings_of
+from physsim_ros.drawing.candidate import Primitive
+from physsim_ros.drawing.recogniser import recognise
+from physsim_ros.drawing.signs import swings_of
 from physsim_ros.drawing.stroke import stroke
 import pytest
 

@@ -19,15 +19,10 @@ import math
 import numpy as np
 from physsim_ros.core.errors import BadSize, Malformed
 from physsim_ros.core.snapshot import Floats
-from physsim_ros.drawing.stroke import (
-    bends_of,
-    corners,
-    COUNT,
-    simplified,
-    stroke,
-    vertices,
-    widened,
-)
+from physsim_ros.drawing.corners import bends_of, corners, vertices
+from physsim_ros.drawing.fits import simplified
+from physsim_ros.drawing.stroke import stroke
+from physsim_ros.drawing.ways import COUNT, widened
 import pytest
 
 SQUARE = np.array([(0, 0), (2, 0), (2, 2), (0, 2), (0, 0)], dtype=np.float64)
@@ -95,7 +90,7 @@ def test_hooks_of_the_pen_are_cut_off() -> None:
 
     drawn = stroke(along(hooked, 200))
 
-    assert bends_of(drawn) == pytest.approx(np.array([(0, 0), (3, 0)]), abs=0.06)
+    assert bends_of(drawn.points) == pytest.approx(np.array([(0, 0), (3, 0)]), abs=0.06)
 
 
 def test_a_line_that_goes_back_upon_itself_has_a_corner_there() -> None:
@@ -109,13 +104,13 @@ def test_a_curve_is_kept_as_points_near_to_it_and_a_bow_of_a_line_is_not() -> No
     x = np.linspace(0.0, 4.0, 150)
     hill, bow = (np.column_stack((x, high * np.sin(math.pi * x / 4))) for high in (1.0, 0.05))
 
-    curve = simplified(stroke(hill), bends_of(stroke(hill)))
+    curve = simplified(stroke(hill).points, bends_of(stroke(hill).points))
 
     assert curve is not None
     assert 6 <= len(curve) <= 30
     # m: 0.6 % of its size, and what smoothing takes
     assert curve[:, 1] == pytest.approx(np.sin(math.pi * curve[:, 0] / 4), abs=0.03)
-    assert simplified(stroke(bow), bends_of(stroke(bow))) is None
+    assert simplified(stroke(bow).points, bends_of(stroke(bow).points)) is None
 
 
 def test_points_are_evenly_spaced_and_of_one_count() -> None:
