@@ -27,6 +27,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.core.outlines import cross
+from physsim_ros.core.shapes import Point
 from physsim_ros.core.snapshot import Floats
 from physsim_ros.drawing.fits import line
 from physsim_ros.drawing.stroke import HOOK, HOOK_TURN
@@ -145,34 +146,43 @@ def _meant(way: Floats, places: NDArray[np.intp]) -> list[int]:
     """
     Return those of the places at which sides begin and end that are meant, the ends among them.
 
-    Dynamic programming over all choices; a corner has to pay for itself, and what is left of
-    corners that hardly turn is dropped.
+    All choices are weighed; a corner has to pay for itself, and what is left of corners that
+    hardly turn is dropped.
     """
-    count = len(places)
-    if count > 2:
-        errors = _errors(way, places)
-        size2 = float((np.ptp(way, axis=0) ** 2).sum())
-        cost = CORNER_COST * size2 * len(way)
-        total = np.full(count, np.inf)
-        total[0] = 0.0
-        before = np.zeros(count, dtype=np.intp)
-        for end in range(1, count):
-            ways = total[:end] + errors[:end, end] + cost
-            before[end] = ways.argmin()
-            total[end] = ways[before[end]]
-        chosen = [count - 1]
-        while chosen[-1] > 0:
-            chosen.append(int(before[chosen[-1]]))
-        places = places[chosen[::-1]]
+    if len(places) > 2:
+        places = places[_fewest(_errors(way, places), way)]
     kept: list[int] = places.tolist()
-    while len(kept) > 2:
-        ends = way[kept]
-        a, b = np.diff(ends, axis=0)[:-1], np.diff(ends, axis=0)[1:]
-        turn = np.abs(angles(a, b))
-        if turn.min() > CORNER_TURN:
-            break
-        kept.pop(int(turn.argmin()) + 1)
+    points: list[tuple[float, float]] = list(map(tuple, way[kept].tolist()))
+    turning = [_turn(*around) for around in zip(points, points[1:], points[2:], strict=False)]
+    while turning and min(turning) <= CORNER_TURN:
+        least = turning.index(min(turning))
+        del kept[least + 1], points[least + 1], turning[least]
+        # Those beside it turn by more now.
+        for corner in range(max(least, 1), min(least + 2, len(points) - 1)):
+            turning[corner - 1] = _turn(*points[corner - 1 : corner + 2])
     return kept
+
+
+def _fewest(errors: NDArray[np.float64], way: Floats) -> list[int]:
+    """Return which places to keep, where each costs as much as it has to save."""
+    cost = CORNER_COST * float((np.ptp(way, axis=0) ** 2).sum()) * len(way)
+    # Dynamic programming: the cheapest way to each place, over the last one before it.
+    total, before = [0.0], [0]
+    for end, row in enumerate(errors.T.tolist()[1:], 1):
+        ways = [known + error for known, error in zip(total, row[:end], strict=True)]
+        least = min(ways)
+        total.append(least + cost)
+        before.append(ways.index(least))
+    chosen = [len(before) - 1]
+    while chosen[-1] > 0:
+        chosen.append(before[chosen[-1]])
+    return chosen[::-1]
+
+
+def _turn(a: Point, b: Point, c: Point) -> float:
+    """Return by how much a way from a over b to c turns there, 0 .. π [rad]."""
+    (ux, uy), (vx, vy) = (b[0] - a[0], b[1] - a[1]), (c[0] - b[0], c[1] - b[1])
+    return abs(math.atan2(ux * vy - uy * vx, ux * vx + uy * vy))
 
 
 def _without_seam(way: Floats, at: list[int], gap: float) -> list[int]:

@@ -31,6 +31,7 @@ from physsim_ros.core.requests import Anchor, Axle, Configure, Delete, Join, Req
 from physsim_ros.core.shapes import Point
 from physsim_ros.core.snapshot import Floats
 from physsim_ros.drawing import beautifying, bodies, scribbling, snapping
+from physsim_ros.drawing.corners import bends_of
 from physsim_ros.drawing.fits import simplified
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.stroke import Stroke
@@ -114,6 +115,11 @@ def wall(points: Floats, drawn: Stroke, view: View, settings: DrawingSettings) -
     )
 
 
+def bent_wall(_points: Floats, drawn: Stroke, view: View, settings: DrawingSettings) -> Made:
+    """Make a wall of a stroke whose bends have not been looked for yet."""
+    return wall(bends_of(drawn.points), drawn, view, settings)
+
+
 def rod(points: Floats, _drawn: Stroke, view: View, settings: DrawingSettings) -> Made:
     """Join what lies at both ends by a rod."""
     return _join(JointKind.ROD, points, None, view, settings)
@@ -145,7 +151,7 @@ def anchor(points: Floats, drawn: Stroke, view: View, settings: DrawingSettings)
         # Made a little beside a thin body; the nearest thing that is under the pen.
         under = view.bodies_at(point, settings.snap)
         way = map(point_of, drawn.points if under else ())
-        near = [each for each in way if under[0] in view.bodies_at(each)]
+        near = [each for each in way if view.covers(under[0], each)]
         if not near:
             x, y = point
             raise NothingThere(

@@ -36,8 +36,7 @@ from physsim_ros.core.requests import Request
 from physsim_ros.core.shapes import Point
 from physsim_ros.core.snapshot import Floats
 from physsim_ros.drawing import making, recogniser, scribbling, snapping
-from physsim_ros.drawing.candidate import Candidate, falls, Primitive
-from physsim_ros.drawing.corners import bends_of
+from physsim_ros.drawing.candidate import Candidate, falls, LEAST, Primitive
 from physsim_ros.drawing.making import Make, point_of
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.stroke import Stroke, stroke
@@ -134,6 +133,8 @@ def read(samples: Floats, view: View, settings: DrawingSettings) -> Reading:
     best: Sense | None = None
     for candidate in recogniser.recognise(drawn):
         for sense in _senses(candidate, drawn, view, settings):
+            if sense.weight < LEAST:
+                continue
             weights[sense.meaning] = weights.get(sense.meaning, 0.0) + sense.weight
             if best is None or sense.weight > best.weight:
                 best = sense
@@ -183,22 +184,20 @@ def _senses(
         case Primitive.RECTANGLE:
             yield sense(Meaning.RECTANGLE, 1.0, making.rectangle)
         case Primitive.POLYGON:
-            # Small circles come out edged.
             center, radius = points.mean(axis=0), float(np.hypot(*np.ptp(points, axis=0))) / 3
-            edged = len(points) >= EDGED
-            small = _smallness(point_of(center), radius, view, settings) if edged else 0.0
+            # Small circles come out edged.
+            small = _smallness(point_of(center), radius, view, settings, corners=len(points))
             yield sense(Meaning.AXLE, small, making.axle, np.array((center, points[0])))
             yield sense(Meaning.POLYGON, 1.0 - small, making.polygon)
         case Primitive.LINE:
-            joint = _joint_along(points, view, settings)
-            if joint is not None:
-                yield sense(joint[0], BETWEEN, joint[1])
-            yield sense(Meaning.WALL, 1.0 - BETWEEN if joint else 1.0, making.wall)
+            meaning, make, share = _joint_along(points, view, settings)
+            yield sense(meaning, share, make)
+            yield sense(Meaning.WALL, 1.0 - share, making.wall)
         case Primitive.ZIGZAG | Primitive.SCRIBBLE:
             zigzag = candidate.primitive is Primitive.ZIGZAG
             spring, wall, deletion = _to_and_fro(drawn, view, settings, zigzag=zigzag)
             yield sense(Meaning.SPRING, spring, making.spring, drawn.points[[0, -1]])
-            yield sense(Meaning.WALL, wall, making.wall, bends_of(drawn.points))
+            yield sense(Meaning.WALL, wall, making.bent_wall)
             yield sense(Meaning.DELETION, deletion, making.deletion)
         case Primitive.CROSS:
             under = view.bodies_at(point_of(points[0]), settings.snap)
@@ -226,17 +225,19 @@ def _to_and_fro(
     return spring, wall, (1.0 - spring - wall) * (1.0 if covered else MISPLACED)
 
 
-def _smallness(center: Point, radius: float, view: View, settings: DrawingSettings) -> float:
+def _smallness(
+    center: Point, radius: float, view: View, settings: DrawingSettings, *, corners: int = EDGED
+) -> float:
     """Return how much a circle looks like a sign upon the bodies under it, 0 .. 1."""
     under = view.bodies_at(center)[:2]
-    if not under:
+    if not under or corners < EDGED:
         return 0.0
     least = min(math.sqrt(view.body(name).shape.form.area) for name in under)
     limit = (SMALL if len(under) == 1 else SMALL_ON_TWO) * least
     if len(under) == 1:
         angles = np.arange(8) * math.pi / 4
         rim = np.array(center) + radius * np.column_stack((np.cos(angles), np.sin(angles)))
-        inside = sum(under[0] in view.bodies_at(point_of(place)) for place in rim)
+        inside = sum(view.covers(under[0], point_of(place)) for place in rim)
         # What hangs over is a body of its own, unless it is as small as hands can draw.
         if inside < len(rim) - 1:
             limit = min(2 * settings.snap, 0.9 * least)
@@ -245,19 +246,16 @@ def _smallness(center: Point, radius: float, view: View, settings: DrawingSettin
 
 def _joint_along(
     points: Floats, view: View, settings: DrawingSettings
-) -> tuple[Meaning, Make] | None:
-    """Return which joint a line is: a rod or a spring between bodies; None is a wall."""
+) -> tuple[Meaning, Make, float]:
+    """Return which joint a line would be, a rod or a spring, and how likely it is no wall."""
     start, end = point_of(points[0]), point_of(points[-1])
     ends = snapping.ends_on(start, end, view, settings)
-    if ends is None:
-        return None
-    first, last = ends
     sides = np.diff(points, axis=0)
+    between = ends is not None and ends[1].body != WORLD
     if math.dist(start, end) > STRAIGHT * float(np.hypot(*sides.T).sum()):
         # What only comes near to a body and ends nowhere is a wall beside it.
-        if last.body != WORLD or first.body in view.bodies_at(start) + view.bodies_at(end):
-            return Meaning.ROD, making.rod
-        return None
+        hung = ends is not None and ends[0].body in view.bodies_at(start) + view.bodies_at(end)
+        return Meaning.ROD, making.rod, BETWEEN if between or hung else 0.0
     turns = np.sign(cross(sides[:-1], sides[1:]))
-    alternates = len(turns) >= FEWEST_TEETH and bool((turns[1:] == -turns[:-1]).all())
-    return (Meaning.SPRING, making.spring) if alternates and last.body != WORLD else None
+    teeth = len(turns) >= FEWEST_TEETH and bool((turns[1:] == -turns[:-1]).all())
+    return Meaning.SPRING, making.spring, BETWEEN if between and teeth else 0.0

@@ -75,13 +75,13 @@ def share_under(over: Over, ends: Iterable[End]) -> float:
 
 def passed(points: Floats, view: View) -> Over:
     """Return for each body that the pen goes over, at which places it does."""
-    if not view.names:
-        return {}
+    low, high = points.min(axis=0), points.max(axis=0)
+    x, y = ((low + high) / 2).tolist()
+    reach = float(np.hypot(*(high - low))) / 2
     places: list[Point] = list(map(tuple, points[::_EVERY].tolist()))
     over: Over = {}
-    for number, place in enumerate(places):
-        for name in view.bodies_at(place):
-            if name not in over:
-                over[name] = np.zeros(len(places), dtype=np.bool_)
-            over[name][number] = True
+    for name in view.bodies_at((x, y), reach):
+        hits = np.array([view.covers(name, place) for place in places])
+        if hits.any():
+            over[name] = hits
     return over

@@ -109,7 +109,7 @@ def squareness(found: Floats) -> float:
     slants = np.abs(np.abs(angles(np.roll(sides, 1, axis=0), sides)) - math.pi / 2)
     # A short side's direction is hard to draw; its ends are not.
     slant = float(slants.mean()) * min(1.0, float(lengths.min() / lengths.max()) / 0.3)
-    return falls(off, 0.115, 0.01) * falls(slant, 0.3, 0.02)
+    return falls(off, 0.115, 0.006) * falls(slant, 0.3, 0.012)
 
 
 def _once_around(outline: Floats) -> float:

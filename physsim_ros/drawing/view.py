@@ -88,6 +88,10 @@ class View:
             if self._covers(row, point, slack)
         )
 
+    def covers(self, name: str, point: Point) -> bool:
+        """Tell whether a body covers a point of the world [m]."""
+        return self._covers(self._rows[name], point, 0.0)
+
     def local(self, name: str, point: Point) -> Point:
         """Return a point of the world as it is in a body's frame [m]."""
         x, y, yaw = self.pose(name)
