@@ -94,7 +94,7 @@ _SIGNS = (Meaning.ANCHOR, Meaning.AXLE, Meaning.DELETION, Meaning.GRAVITY, Meani
 
 def main(arguments: list[str]) -> None:
     """Read all strokes of a half and print what became of them."""
-    count = int(arguments[0]) if arguments else 200
+    count = int(arguments[0]) if arguments else 300
     half = arguments[1] if len(arguments) > 1 else 'report'
     tally = Tally()
     for scene in scenes(count, SEEDS[half]):
