@@ -52,7 +52,7 @@ def solids(stroke: Stroke, swings: Swings, plain: float) -> Iterator[Candidate]:
     # What sides leave unexplained, beside what a circle does; a hexagon's is a fifth.
     size = float(np.hypot(*np.ptp(outline, axis=0)))
     left = corners.side_error(outline, at) / size if len(at) >= 3 else 1.0
-    once = _once_around(outline)
+    once = _once_around(stroke.outline - center)
     bend = turns(smoothed(outline, 2.5, closed=True), 6, closed=True)
     sharpness = float(np.sort(np.abs(bend))[-8:].mean() / np.abs(bend).mean())
     ratio = math.log(max(left, 1e-6) / max(error, 1e-6) / 0.19)
@@ -69,7 +69,7 @@ def solids(stroke: Stroke, swings: Swings, plain: float) -> Iterator[Candidate]:
     rim = center + np.array((radius, 0.0))
     yield Candidate(primitive=Primitive.DISC, weight=disc, points=np.array((center, rim)))
     yield Candidate(primitive=Primitive.RECTANGLE, weight=broad * sided * square, points=found)
-    blob = BLOB * (closed - disc - sided) * once
+    blob = BLOB * (closed - disc - sided)
     sided *= 1.0 - square
     if blob > max(sided, LEAST):
         # Neither round nor sided: any other outline, as it was drawn.
@@ -112,10 +112,9 @@ def squareness(found: Floats) -> float:
     return falls(off, 0.115, 0.006) * falls(slant, 0.3, 0.012)
 
 
-def _once_around(outline: Floats) -> float:
-    """Return how much a way looks like going round once."""
-    steps = np.roll(outline, -4, axis=0) - outline
-    turn = float(angles(steps, np.roll(steps, -4, axis=0)).sum()) / 4 / (2 * math.pi)
+def _once_around(away: Floats) -> float:
+    """Return how much a way looks like going round the origin once."""
+    turn = float(angles(away, np.roll(away, -1, axis=0)).sum()) / (2 * math.pi)
     return falls(abs(abs(turn) - 1.0), 0.4, 0.05)
 
 
