@@ -36,6 +36,9 @@ DENSE = 48
 # Joints may say the same twice, as the four of a parallelogram do; so little give lets them.
 _GIVE = 1e-9
 
+# What is left of a row beside those before it, as a share of its own, when it follows from them.
+_DEPENDENT = 1e-5
+
 Meeting = tuple[int, int]
 
 
@@ -71,9 +74,10 @@ class Equations:
         self._blocks: list[_Block] = []
         self._ladders: list[_Ladder] = []
         spots: dict[int, _Spot] = {}
+        self._groups = list(groups)
         small: list[Sequence[int]] = []
         start = 0
-        for group in groups:
+        for group in self._groups:
             if len(group) <= DENSE:
                 small.append(group)
             else:
@@ -128,15 +132,21 @@ class Equations:
             # What leads back a rung is the mirror image of what leads on to this one.
         self.left, self.right, self._spots = np.array(found, np.intp).reshape(-1, 3).T.copy()
 
-    def solve(self, shared: Floats, wanted: Floats) -> Floats:
+    def solve(self, shared: Floats, wanted: Floats, active: NDArray[np.bool_]) -> Floats:
         """
         Return the unknown of each row.
 
         :param shared: (k,) what each pair of sides adds to the matrices
         :param wanted: (r,) the right hand side
+        :param active: (r,) whether a row counts; the unknown of one that does not is 0
         """
+        if not active.all():
+            count = len(active)
+            shared = shared * (active[self.left % count] & active[self.right % count])
+            wanted = np.where(active, wanted, 0.0)
         matrices = np.bincount(self._spots, shared, self._numbers).astype(np.float64, copy=False)
         matrices[self._diagonal] *= 1.0 + _GIVE
+        matrices[self._diagonal] += ~active[self._order]
         ordered = wanted[self._order]
         for block in self._blocks:
             block.solve(matrices, ordered)
@@ -145,6 +155,33 @@ class Equations:
         unknown = np.empty_like(wanted)
         unknown[self._order] = ordered
         return unknown
+
+    def dependent(self, shared: Floats, active: NDArray[np.bool_]) -> list[int]:
+        """
+        Return the rows that follow from those before them.
+
+        :param shared: (k,) what each pair of sides adds to the matrices
+        :param active: (r,) whether a row counts
+        """
+        count = len(active)
+        matrix = np.zeros((count, count))
+        rows, columns = self.left % count, self.right % count
+        np.add.at(matrix, (rows, columns), shared)
+        # Of rungs only one half is there.
+        matrix = np.where(matrix != 0.0, matrix, matrix.T)
+        found = []
+        for group in self._groups:
+            chosen = [row for row in sorted(group) if active[row]]
+            part = matrix[np.ix_(chosen, chosen)]
+            least = _DEPENDENT * np.diag(part)
+            for place, row in enumerate(chosen):
+                pivot = part[place, place]
+                if pivot <= least[place]:
+                    found.append(row)
+                    continue
+                rest = part[place + 1 :, place].copy()
+                part[place + 1 :, place + 1 :] -= np.outer(rest, rest) / pivot
+        return found
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -34,9 +34,9 @@ import pymunk
 
 # How far a slider without limits goes to each side [m].
 _ENDLESS = 1e4
-# The share of an error in place that the engine takes out at each step. `linkage` takes out all
-# that is left of most; to have the engine do so too makes what it cannot solve in time explode.
-_CORRECTION = 0.5
+# The share of an error in place that the engine takes out at each step, where `linkage` does not:
+# more would make what the engine cannot solve in time explode.
+_CORRECTION = 0.1
 # The fastest that an error in place is taken out at [m/s, rad/s]: a body that is put elsewhere
 # comes back like a thrown one, not like a shot.
 FASTEST_CORRECTION = 20.0
@@ -74,6 +74,11 @@ class EngineJoint:
     constraints: tuple[pymunk.Constraint, ...]
 
     @property
+    def exact(self) -> bool:
+        """Whether it is held exactly: no spring, and nothing that gives way to too much force."""
+        return bool(self.constraints) and _is_exact(self.joint)
+
+    @property
     def impulse(self) -> float:
         """Return what it gave in the last step [N s]; where it turns, at an arm of 1 m."""
         return max((each.impulse for each in self.constraints), default=0.0)
@@ -101,15 +106,20 @@ def build(
         return EngineJoint(joint, ends, ())
     constraints = tuple(_MAKE[joint.kind](joint, ends))
     most = joint.properties.max_force
+    # The engine leaves this share of an error after a second.
+    left = 0.5 ** (1.0 / dt) if _is_exact(joint) else (1.0 - _CORRECTION) ** (1.0 / dt)
     for constraint in constraints:
         if most is not None and not isinstance(constraint, pymunk.SimpleMotor):
             constraint.max_force = most
-        # The engine leaves this share of an error after a second.
-        constraint.error_bias = (1.0 - _CORRECTION) ** (1.0 / dt)
+        constraint.error_bias = left
         constraint.max_bias = FASTEST_CORRECTION
         # With the background, which is the walls of `bounds` too, a body always collides.
         constraint.collide_bodies = joint.collide or b is None
     return EngineJoint(joint, ends, constraints)
+
+
+def _is_exact(joint: Joint) -> bool:
+    return joint.kind is not JointKind.SPRING and joint.properties.max_force is None
 
 
 def _pin(joint: Joint, ends: Ends) -> list[pymunk.Constraint]:

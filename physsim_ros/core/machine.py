@@ -22,7 +22,8 @@ joints; a joint that gives more than it can bear is gone after that step, and to
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+import math
 
 import numpy as np
 from physsim_ros.core import joints
@@ -33,6 +34,9 @@ from physsim_ros.core.names import WORLD
 from physsim_ros.core.rigid_body import RigidBody
 from physsim_ros.core.snapshot import Floats, Joint
 import pymunk
+
+# The roughest that the engine's own attempt may be with all bodies together [m/s²].
+_ROUGHEST = 60.0
 
 
 class Machine:
@@ -53,9 +57,10 @@ class Machine:
         self._on: dict[str, dict[str, None]] = {}
         self._linkage: Linkage | None = None
         self._listed: Sequence[RigidBody | None] = ()
+        # Whether the linkage has not been through a step.
+        self._fresh = True
         # Numbers of the joints that can break, and what each may give [N s].
         self._breakable: list[tuple[int, float]] = []
-        self._limits: Floats | None = None
 
     def __len__(self) -> int:
         return len(self.joints)
@@ -100,15 +105,34 @@ class Machine:
         :param state: (m, 6) float64: their poses and velocities; kept up to date
         :return: whether velocities have been moved
         """
-        linkage = self._linked(listed)
-        room = None
-        if self._limits is not None:
-            room = np.maximum(0.0, self._limits - self._impulses())
-        return linkage.hold(state, room)
+        return self._linked(listed).hold(state)
 
-    def prepare(self, listed: Sequence[RigidBody | None]) -> None:
-        """Get ready for a step, where something has changed since the last one."""
-        self._linked(listed)
+    def prepare(self, listed: Sequence[RigidBody | None], read: Callable[[], Floats]) -> None:
+        """
+        Get ready for a step, where something has changed since the last one.
+
+        :param read: returns poses and velocities in the engine's listing, (m, 6) float64
+        """
+        linkage = self._linked(listed)
+        if self._fresh:
+            self._spare(linkage.redundant(read()))
+            self._fresh = False
+
+    def _spare(self, redundant: set[tuple[int, int]]) -> None:
+        """
+        Leave out of the engine's own attempt what says nothing new, and bound the rest.
+
+        Near where joints say the same, as at the dead centre of a crank, the engine's impulses
+        grow out of all measure; what it has not given, the linkage gives.
+        """
+        masses = (rigid.engine.mass for rigid in self._bodies.values() if not rigid.body.fixed)
+        most = _ROUGHEST * math.fsum(masses)
+        for number, held in enumerate(self.joints.values()):
+            if held.exact:
+                for place, constraint in enumerate(held.constraints):
+                    if not isinstance(constraint, pymunk.SimpleMotor):
+                        # Not removed: it also keeps the two bodies from colliding.
+                        constraint.max_force = 0.0 if (number, place) in redundant else most
 
     def forces(self, listed: Sequence[RigidBody | None]) -> Floats:
         """Return (j,) float64: what each joint gave in the last step [N]."""
@@ -156,21 +180,13 @@ class Machine:
             }
             count = len(listed)
             self._linkage = Linkage(held, places, count, self._dt)
-            self._listed = listed
-            self._note_limits(held)
+            self._listed, self._fresh = listed, True
+            self._breakable = [
+                (number, most * self._dt)
+                for number, each in enumerate(held)
+                if (most := each.joint.properties.break_force) is not None
+            ]
         return self._linkage
-
-    def _note_limits(self, held: Sequence[EngineJoint]) -> None:
-        said = [each.joint.properties for each in held]
-        self._breakable = [
-            (number, each.break_force * self._dt)
-            for number, each in enumerate(said)
-            if each.break_force is not None
-        ]
-        self._limits = None
-        if any(each.max_force is not None for each in said):
-            most = [np.inf if each.max_force is None else each.max_force for each in said]
-            self._limits = np.array(most) * self._dt
 
     def _soften(self) -> None:
         """Let no spring be stiffer than steps can follow."""

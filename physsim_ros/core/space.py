@@ -372,7 +372,7 @@ class Space:
         self._arrest(layout, before)
         self._watching = watching
         if self.machine.joints:
-            self.machine.prepare(layout.listed)
+            self.machine.prepare(layout.listed, lambda: self._read(_STATE, 6))
         self._space.step(self._dt)
         self._age += 1
         layout.state = None
