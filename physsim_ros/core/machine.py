@@ -57,8 +57,8 @@ class Machine:
         self._on: dict[str, dict[str, None]] = {}
         self._linkage: Linkage | None = None
         self._listed: Sequence[RigidBody | None] = ()
-        # Whether the linkage has not been through a step.
-        self._fresh = True
+        # Whether the linkage has not been through a step, and whether the last one was its first.
+        self._fresh = self._first_step = True
         # Numbers of the joints that can break, and what each may give [N s].
         self._breakable: list[tuple[int, float]] = []
 
@@ -114,6 +114,7 @@ class Machine:
         :param read: returns poses and velocities in the engine's listing, (m, 6) float64
         """
         linkage = self._linked(listed)
+        self._first_step = self._fresh
         if self._fresh:
             self._spare(linkage.redundant(read()))
             self._fresh = False
@@ -142,7 +143,9 @@ class Machine:
 
     def broken(self) -> list[tuple[str, float]]:
         """Return the joints that have given more than they can bear, and how much [N]."""
-        if not self._breakable or self._linkage is None:
+        # What was just let go of flies half a step ahead, which the first step takes back: that
+        # is no load.
+        if not self._breakable or self._linkage is None or self._first_step:
             return []
         held, beside = list(self.joints.values()), self._linkage.impulses
         return [
