@@ -85,7 +85,9 @@ class _Reader:
         begin = self._at + self._stamp.size
         self._at = begin + length
         last = self._at - 1
-        return seconds * 1_000_000_000 + nanoseconds, bytes(self._data[begin:last]).decode()
+        # What is no UTF-8 is no frame either, and is refused as such.
+        frame = bytes(self._data[begin:last]).decode(errors='replace')
+        return seconds * 1_000_000_000 + nanoseconds, frame
 
     def number(self) -> int:
         """Return how many elements follow."""

@@ -103,6 +103,12 @@ def test_a_path_that_is_too_long_is_not_looked_into() -> None:
         stroke_from(message, frame_id='world')
 
 
+def test_a_frame_that_is_no_text_is_another_frame_and_no_accident() -> None:
+    message = path((1, 2), frame='worlds', frames=['']).replace(b'worlds', b'\xffworld')
+    _, frame = stroke_from(message, frame_id='world')
+    assert frame == '\N{REPLACEMENT CHARACTER}world'
+
+
 def test_big_endian_paths_are_read_too() -> None:
     said = struct.pack('>iII1s3xI', 0, 0, 1, b'', 1)
     sample = struct.pack('>iII1s7x7d', 3, 0, 1, b'', 1.5, -2.5, 0.0, 0.0, 0.0, 0.0, 1.0)
