@@ -78,7 +78,8 @@ def line(points: Floats, tolerance: float) -> Floats:
             while last < len(still) and still[last]:
                 last += 1
             if last > first:
-                made[first : last + 1, axis] = points[first : last + 1, axis].mean()
+                run = slice(first, last + 1)
+                made[run, axis] = points[run, axis].mean()
             first = last + 1
     return made if tolerance > 0 else points
 

@@ -159,7 +159,8 @@ def _meant(way: Floats, places: NDArray[np.intp]) -> list[int]:
         del kept[least + 1], points[least + 1], turning[least]
         # Those beside it turn by more now.
         for corner in range(max(least, 1), min(least + 2, len(points) - 1)):
-            turning[corner - 1] = _turn(*points[corner - 1 : corner + 2])
+            before, after = points[corner - 1], points[corner + 1]
+            turning[corner - 1] = _turn(before, points[corner], after)
     return kept
 
 

@@ -90,7 +90,7 @@ def _traced(way: Floats, tolerance: float) -> Floats:
     kept, parts = {0, len(way) - 1}, [(0, len(way) - 1)]
     while parts:
         first, last = parts.pop()
-        off = _off(way[first : last + 1], way[first], way[last])
+        off = _off(way[slice(first, last + 1)], way[first], way[last])
         furthest = first + int(off.argmax())
         if off.max() > tolerance:
             kept.add(furthest)

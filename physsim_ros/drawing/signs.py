@@ -154,8 +154,8 @@ def crossed(stroke: Stroke, crossings: list[Crossing]) -> Candidate:
     for at, first, last in crossings:
         before, loop, after = first / count, (last - first) / count, 1.0 - last / count
         # Each line half as far beyond the crossing as its end lies before it.
-        one = stroke.points[: int(1.5 * first) + 1]
-        other = stroke.points[int(1.5 * last - 0.5 * count) :]
+        until, since = int(1.5 * first) + 1, int(1.5 * last - 0.5 * count)
+        one, other = stroke.points[:until], stroke.points[since:]
         if min(len(one), len(other)) < 5:
             continue
         (_, along, bent), (_, beside, curved) = line(one), line(other)

@@ -106,7 +106,8 @@ def _without_hooks(way: Floats) -> Floats:
     """Cut off the flicks of a pen that was set down before it rested, or lifted late."""
     points = way[::FINER]
     first, last = _hook(points), len(points) - 1 - _hook(points[::-1])
-    return way[FINER * first : FINER * last + 1] if last - first > len(points) // 2 else way
+    kept = slice(FINER * first, FINER * last + 1)
+    return way[kept] if last - first > len(points) // 2 else way
 
 
 def _hook(points: Floats) -> int:
@@ -144,5 +145,5 @@ def _outline(points: Floats, way: Floats) -> tuple[Floats | None, float]:
     gap = float(apart[first, last]) / (step * (count - 1))
     if gap > GAP:
         return None, gap
-    once = way[FINER * first : FINER * (count - ends + last) + 1]
+    once = way[slice(FINER * first, FINER * (count - ends + last) + 1)]
     return spaced(np.vstack((once, once[:1])), FINELY)[:-1], gap

@@ -51,7 +51,7 @@ def smoothed(points: Floats, width: float, *, closed: bool) -> Floats:
     else:
         # Mirrored about the ends, which so stay where they are.
         first = 2 * points[0] - points[reach:0:-1]
-        last = 2 * points[-1] - points[-2 : -reach - 2 : -1]
+        last = 2 * points[-1] - points[::-1][slice(1, reach + 1)]
     padded = np.vstack((first, points, last))
     return np.column_stack([np.convolve(axis, kernel, 'valid') for axis in padded.T])
 

@@ -40,7 +40,7 @@ class Figure:
     :param corners: how many it has, of which a reader should find every one; -1 where there are
         none to count
     :param thin: its width by its length, as far as that makes a hand careful
-    :param round: whether it is smooth, its points only standing for a curve
+    :param smooth: whether its points only stand for a curve
     """
 
     kind: str
@@ -48,7 +48,7 @@ class Figure:
     closed: bool = False
     corners: int = -1
     thin: float = 1.0
-    round: bool = False
+    smooth: bool = False
 
 
 def disc(rng: Random) -> Figure:
@@ -59,7 +59,7 @@ def disc(rng: Random) -> Figure:
     lump = rng.normal(0.0, 0.015) * np.cos(3 * angle + rng.uniform(0, 7))
     radius = 0.5 * (1.0 + egg + lump)
     way = np.column_stack((radius * np.cos(angle), max(flat, 0.72) * radius * np.sin(angle)))
-    return Figure(kind='disc', way=_turned(way, rng.uniform(0, 7)), closed=True, round=True)
+    return Figure(kind='disc', way=_turned(way, rng.uniform(0, 7)), closed=True, smooth=True)
 
 
 def rectangle(rng: Random) -> Figure:
@@ -116,7 +116,7 @@ def curve(rng: Random) -> Figure:
     else:
         y = rng.uniform(0.06, 0.16) * np.sin(2 * math.pi * (x * rng.uniform(1.0, 1.6)))
     way = np.column_stack((x, y))
-    return Figure(kind='line', way=_turned(way, rng.uniform(0, 7)), round=True)
+    return Figure(kind='line', way=_turned(way, rng.uniform(0, 7)), smooth=True)
 
 
 def zigzag(rng: Random) -> Figure:
@@ -126,7 +126,7 @@ def zigzag(rng: Random) -> Figure:
     if rng.random() < 0.3:
         x = np.linspace(-0.5, 0.5, 30 * teeth)
         way = np.column_stack((x, high * np.sin(math.pi * teeth * (x + 0.5))))
-        return Figure(kind='zigzag', way=_turned(way, rng.uniform(0, 7)), round=True)
+        return Figure(kind='zigzag', way=_turned(way, rng.uniform(0, 7)), smooth=True)
     lead = rng.choice([0.0, rng.uniform(0.05, 0.2)])
     x = np.linspace(-0.5 + lead, 0.5 - lead, teeth + 1)
     x[1:-1] += rng.uniform(-0.2, 0.2, teeth - 1) * (1.0 - 2.0 * lead) / teeth
@@ -147,7 +147,7 @@ def coil(rng: Random) -> Figure:
     radius = rng.uniform(0.06, 0.13)
     x = angle / angle[-1] - 0.5 - rng.uniform(0.7, 1.0) * radius * np.sin(angle)
     way = np.column_stack((x, radius * np.cos(angle) * rng.choice([-1.0, 1.0])))
-    return Figure(kind='zigzag', way=_turned(way, rng.uniform(0, 7)), round=True)
+    return Figure(kind='zigzag', way=_turned(way, rng.uniform(0, 7)), smooth=True)
 
 
 def cross(rng: Random) -> Figure:
@@ -194,7 +194,7 @@ def scribble(rng: Random) -> Figure:
         radius = 0.3 + 0.15 * np.sin(angle * rng.uniform(0.2, 0.7) + rng.uniform(0, 7))
         drift = np.outer(angle / angle[-1] - 0.5, rng.uniform(-0.4, 0.4, 2))
         way = np.column_stack((radius * np.cos(angle), radius * np.sin(angle))) + drift
-        return Figure(kind='scribble', way=_turned(way, rng.uniform(0, 7)), round=True)
+        return Figure(kind='scribble', way=_turned(way, rng.uniform(0, 7)), smooth=True)
     x = np.linspace(-0.5, 0.5, swings) * rng.uniform(0.4, 1.0)
     x += rng.normal(0.0, 0.04, swings)
     sign = np.where(np.arange(swings) % 2, 1.0, -1.0)

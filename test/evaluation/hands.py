@@ -72,7 +72,7 @@ class Hand:
 
 def hand(rng: Random, figure: Figure) -> Hand:
     """Return somebody."""
-    corners = max(len(figure.way) if not figure.round else 4, 3)
+    corners = max(len(figure.way) if not figure.smooth else 4, 3)
     # Whoever draws something thin takes more care, if not enough.
     care = min(1.0, math.sqrt(figure.thin / 0.25))
     return Hand(
@@ -102,7 +102,7 @@ def drawn(figure: Figure, somebody: Hand, rng: Random) -> Floats:
     :return: (n, 3) float64: x, y [m], time [s]
     """
     way = _dense(_way(figure, somebody, rng))
-    if not figure.round:
+    if not figure.smooth:
         way = _bowed(way, figure, somebody, rng)
     length = float(np.hypot(*np.diff(way, axis=0).T).sum())
     way = _smoothed(way, somebody.rounding / length * len(way))
@@ -135,7 +135,7 @@ def _way(figure: Figure, somebody: Hand, rng: Random) -> Floats:
         return way
     way = np.roll(way, rng.integers(len(way)), axis=0)
     # Most begin at a corner, some in the middle of a side.
-    if not figure.round and rng.random() < 0.25:
+    if not figure.smooth and rng.random() < 0.25:
         share = rng.uniform(0.2, 0.8)
         way = np.vstack((way[0] + share * (way[1] - way[0]), way[1:], way[0]))
     way = np.vstack((way, way[:1]))
@@ -185,9 +185,9 @@ def _smoothed(way: Floats, width: float) -> Floats:
     kernel /= kernel.sum()
     padded = np.vstack(
         (
-            2 * way[0] - way[1 : reach + 1][::-1],
+            2 * way[0] - way[slice(1, reach + 1)][::-1],
             way,
-            2 * way[-1] - way[-1 - reach : -1][::-1],
+            2 * way[-1] - way[slice(-1 - reach, -1)][::-1],
         )
     )
     return np.column_stack([np.convolve(padded[:, axis], kernel, 'valid') for axis in (0, 1)])

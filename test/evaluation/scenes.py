@@ -136,7 +136,7 @@ def _squiggle(rng: Random) -> Figure:
         )
         for wave in np.arange(0.6, 3.2, 0.5)
     )
-    return Figure(kind='', way=np.asarray(way), round=True)
+    return Figure(kind='', way=np.asarray(way), smooth=True)
 
 
 _Around = Callable[[Figure, Hand, Random], list[Placed]]
