@@ -52,6 +52,7 @@ setup(
         ('share/ament_index/resource_index/packages', [f'resource/{PACKAGE}']),
         (SHARE, ['package.xml']),
         (f'{SHARE}/config', sorted(glob('config/*.yaml'))),
+        (f'{SHARE}/config/drawings', sorted(glob('config/drawings/*'))),
         (f'{SHARE}/config/worlds', sorted(glob('config/worlds/*.yaml'))),
     ],
     zip_safe=False,
@@ -62,6 +63,8 @@ setup(
         'pymunk>=7.3,<8',
         'PyYAML',
         'rerun-sdk>=0.41,<0.42',
+        # Reads SVG; pure Python, and needs nothing itself.
+        'svgelements>=1.9,<2',
     ],
     extras_require={
         # ROS 2 Jazzy as wheels. Without fastrtps importing rclpy fails: it brings the only
@@ -101,7 +104,10 @@ setup(
         ],
     },
     entry_points={
-        'console_scripts': ['physsim = physsim_ros.node:main'],
+        'console_scripts': [
+            'physsim = physsim_ros.node:main',
+            'physsim_draw = physsim_ros.draw:main',
+        ],
         'pytest11': ['physsim = physsim_ros.testing'],
     },
 )

@@ -31,10 +31,24 @@ from functools import lru_cache
 import struct
 
 import numpy as np
+from numpy.typing import NDArray
+from physsim_ros.core.joint_properties import JointKind
 from physsim_ros.core.names import WORLD
-from physsim_ros.core.snapshot import Answer, Body, Contacts, Floats, Ints, Scene, Snapshot
-from physsim_ros.symbols import Key, Symbol, symbols, walls
+from physsim_ros.core.snapshot import (
+    Answer,
+    Body,
+    Contacts,
+    Floats,
+    Ints,
+    Joint,
+    Scene,
+    Snapshot,
+)
+from physsim_ros.linework import Linework, segments, size_of, strips
+from physsim_ros.symbols import joint_symbols, Key, Symbol, symbols, walls
 from visualization_msgs.msg import Marker
+
+Singles = NDArray[np.float32]
 
 # The header of a message; before it four bytes, so that what follows it lies aligned in memory.
 _START = b'\0\0\0\0\0\1\0\0'
@@ -42,6 +56,8 @@ _SECOND = 1_000_000_000
 
 # A marker from its pose on: pose, scale, color, lifetime, frame_locked, number of points.
 _POSED = struct.Struct('<7d3d4f8xx3xi')
+# Where in that the color begins [bytes].
+_COLORED = struct.calcsize('<7d3d')
 _IDENTITY = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 # No colors, texture_resource, texture (stamp, frame_id, format, data), uv_coordinates.
 _UNTEXTURED = struct.pack('<ii4s8xi4si4sii', 0, 1, b'', 1, b'', 1, b'', 0, 0)
@@ -155,12 +171,16 @@ class MarkersEncoder:
         self._gone: dict[Key, tuple[_Piece, int]] = {}
         self._until = -1
         self._count = 0
+        self._joints: _JointPieces | None = None
+        self._lined: dict[str, tuple[tuple[Joint, float], tuple[_Piece, _Piece]]] = {}
 
     def encode(self, snapshot: Snapshot) -> bytes:
         """Return the serialised message."""
         if snapshot.scene is not self._scene or self._count == self._until:
             self._draw(snapshot.scene)
         self._count += 1
+        if self._joints is not None:
+            self._joints.fill(self._template, snapshot)
         for spots, values in zip(self._spots, _places(snapshot), strict=True):
             self._template.doubles[spots] = values[self._rows]
         return self._template.stamped(snapshot.stamp)
@@ -168,6 +188,8 @@ class MarkersEncoder:
     def _draw(self, scene: Scene) -> None:
         """Lay out a new template from the pieces of the last one, as far as they still hold."""
         pieces = self._pieces(scene)
+        lined = [(-1, piece) for pair in self._joint_pieces(scene) for piece in pair]
+        pieces += lined
         shown = dict.fromkeys(piece.key for _, piece in pieces)
         until = self._count + DELETE_REPEATS
         gone = {
@@ -190,6 +212,9 @@ class MarkersEncoder:
             spots.append(len(writer.data))
             writer.data += piece.rest
         self._template = _Template(writer, starts)
+        first = len(pieces) - len(gone) - len(lined)
+        last = first + len(lined)
+        self._joints = _JointPieces(scene, spots[first:last]) if lined else None
         rows = np.array([row for row, _ in pieces], np.intp)
         moving = rows >= 0
         self._rows = rows[moving]
@@ -211,6 +236,24 @@ class MarkersEncoder:
         if scene.settings.bounds is not None:
             pieces.append((-1, self._piece(walls(scene.settings.bounds))))
         return pieces
+
+    def _joint_pieces(self, scene: Scene) -> list[tuple[_Piece, _Piece]]:
+        """Return the picture of the joints: for each its points, and its lines."""
+        if not scene.joints:
+            self._lined = {}
+            return []
+        bodies = dict(zip(scene.names, scene.bodies, strict=True))
+        lined = {}
+        for joint in scene.joints:
+            before = self._lined.get(joint.name)
+            size = size_of(joint, bodies)
+            if before is None or before[0] != (joint, size):
+                corners = len(segments([len(strip) for strip in strips(joint, size)]))
+                points, lines = joint_symbols(joint, size, corners)
+                before = (joint, size), (self._piece(points), self._piece(lines))
+            lined[joint.name] = before
+        self._lined = lined
+        return [pieces for _, pieces in lined.values()]
 
     def _deletion(self, key: Key) -> _Piece:
         return self._piece(Symbol(key, action=Marker.DELETE))
@@ -247,6 +290,7 @@ def encode_event(answer: Answer) -> bytes:
     values = [('code', answer.code or 'ok')]
     if answer.field:
         values.append(('field', answer.field))
+    values.extend(answer.values)
     writer.ints(len(values))
     for key, value in values:
         writer.text(key)
@@ -268,6 +312,60 @@ class _Piece:
     key: Key
     head: bytes
     rest: bytes
+
+
+class _JointPieces:
+    """
+    Where in a message the joints of a scene are.
+
+    :param scene: whose they are
+    :param starts: where the poses of their markers are [bytes], two for each joint
+    """
+
+    def __init__(self, scene: Scene, starts: Sequence[int]) -> None:
+        self._linework = Linework(scene)
+        self._corners = segments(self._linework.lengths.tolist())
+        counts = np.bincount(self._linework.owner, 2 * self._linework.lengths - 2)
+        spots: list[int] = []
+        # Of the points of the joints: number of the joint, and whether it is the second one.
+        points: list[tuple[int, int]] = []
+        for number, joint in enumerate(scene.joints):
+            first = (starts[2 * number] + _POSED.size) // 8
+            spots += (first + 3 * each for each in range(joint.kind.points))
+            points += ((number, each) for each in range(joint.kind.points))
+        for number, count in enumerate(counts.tolist()):
+            first = (starts[2 * number + 1] + _POSED.size) // 8
+            spots += (first + 3 * each for each in range(int(count)))
+        self._spots = np.array(spots, np.intp)
+        self._points = tuple(np.array(points, np.intp).T)
+        self._colors = (np.array(starts, np.intp) + _COLORED) // 4
+        self._sliders = np.array(
+            [row for row, joint in enumerate(scene.joints) if joint.kind is JointKind.SLIDER],
+            np.intp,
+        )
+
+    def fill(self, template: _Template, snapshot: Snapshot) -> None:
+        """Write where the joints are, and in what colours, into a message."""
+        ends = snapshot.ends
+        if len(self._sliders):
+            ends = ends.copy()
+            ends[self._sliders, 1] = ends[self._sliders, 0] + self._lines(snapshot)
+        corners = self._linework.corners(snapshot.poses)[self._corners]
+        places = np.concatenate((ends[self._points], corners))
+        template.doubles[self._spots] = places[:, 0]
+        template.doubles[self._spots + 1] = places[:, 1]
+        colors = np.repeat(self._linework.colors(snapshot.forces), 2, axis=0)
+        for channel in range(4):
+            template.floats[self._colors + channel] = colors[:, channel]
+
+    def _lines(self, snapshot: Snapshot) -> Floats:
+        """Return (s, 2) float64: unit vectors along the lines of sliders."""
+        scene = snapshot.scene
+        x, y = scene.seats[self._sliders, 4:6].T
+        # The background is the last row.
+        yaw = np.append(snapshot.poses[:, 2], 0.0)[scene.joint_rows[self._sliders, 1]]
+        cos, sin = np.cos(yaw), np.sin(yaw)
+        return np.column_stack((cos * x - sin * y, sin * x + cos * y))
 
 
 # Templates: written slowly once, then filled fast.
@@ -321,6 +419,7 @@ class _Template:
     :param starts: where the stamps are [bytes]
 
     :ivar doubles: (k,) float64: all of it, as if it were nothing but doubles
+    :ivar floats: (k,) float32: all of it, as if it were nothing but floats
     :ivar blocks: (count, width) float64 each: where room was left
     """
 
@@ -330,6 +429,7 @@ class _Template:
         self._seconds = np.array(starts, np.intp) // 4
         self._nanoseconds = self._seconds + 1
         self.doubles: Floats = np.frombuffer(writer.data, '<f8', len(writer.data) // 8)
+        self.floats: Singles = np.frombuffer(writer.data, '<f4', len(writer.data) // 4)
         self.blocks = [
             np.frombuffer(writer.data, '<f8', count * width, start).reshape(count, width)
             for start, count, width in writer.blocks

@@ -23,6 +23,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 import math
+from typing import Any
 
 from geometry_msgs.msg import Point, PointStamped, Quaternion
 from physsim_ros.core.errors import (
@@ -33,8 +34,21 @@ from physsim_ros.core.errors import (
     Refusal,
     UnknownShape,
 )
-from physsim_ros.core.properties import check_finite, Properties, properties_from
-from physsim_ros.core.requests import Anchor, Command, Delete, DeleteAll, Release, Spawn
+from physsim_ros.core.properties import check_finite, properties_from
+from physsim_ros.core.requests import (
+    Anchor,
+    Axle,
+    Command,
+    Delete,
+    DeleteAll,
+    Join,
+    join_from,
+    Pin,
+    Release,
+    Spawn,
+    Unjoin,
+    UnjoinAll,
+)
 from physsim_ros.core.shapes import (
     Box,
     Chain,
@@ -47,12 +61,13 @@ from physsim_ros.core.shapes import (
     Shape,
     Triangles,
 )
+from physsim_ros.symbols import JOINT_PREFIX
 from physsim_ros.yaml_text import load_mapping
 from sensor_msgs.msg import MultiDOFJointState
 from visualization_msgs.msg import Marker
 
-# The namespace of markers that have none.
-NAMESPACE = 'body'
+# The namespaces of markers that have none.
+NAMESPACE, JOINT_NAMESPACE = 'body', 'joint'
 # Roll and pitch [rad] up to which a rotation counts as planar: rounding of float32 tools.
 MOST_TILT = 1e-3
 # All properties with all their digits fit ten times over; longer text is an accident.
@@ -77,10 +92,15 @@ def name_of(marker: Marker) -> str:
     return f'{marker.ns or NAMESPACE}/{marker.id}'
 
 
-def subject_of(message: Marker | PointStamped | MultiDOFJointState) -> str:
-    """Return the one body that a message names, or ''."""
+def joint_name_of(marker: Marker) -> str:
+    """Return the joint's name that a marker means."""
+    return f'{marker.ns.removeprefix(JOINT_PREFIX) or JOINT_NAMESPACE}/{marker.id}'
+
+
+def subject_of(message: Marker | PointStamped | MultiDOFJointState, *, joint: bool = False) -> str:
+    """Return the one body that a message names, or joint where it is of one, or ''."""
     if isinstance(message, Marker):
-        return name_of(message)
+        return joint_name_of(message) if joint else name_of(message)
     names: list[str] = getattr(message, 'joint_names', [])
     return names[0] if len(names) == 1 else ''
 
@@ -107,7 +127,29 @@ def body_request(marker: Marker, *, frame_id: str) -> Spawn | Delete | DeleteAll
         frame=_frame(marker.header.frame_id, frame_id),
         color=_color(marker),
         lifetime=marker.lifetime.sec + marker.lifetime.nanosec * 1e-9,
-        properties=_properties(marker.text),
+        properties=properties_from(_mapping(marker.text)),
+    )
+
+
+def joint_request(marker: Marker, *, frame_id: str) -> Join | Unjoin | UnjoinAll:
+    """
+    Return what a marker asks of a joint.
+
+    :param marker: from `~/join`
+    :param frame_id: name of the world's frame
+    :raises Refusal: the marker cannot be meant for this world
+    """
+    if marker.action == Marker.DELETE:
+        return Unjoin(name=joint_name_of(marker))
+    if marker.action == Marker.DELETEALL:
+        return UnjoinAll(namespace=marker.ns.removeprefix(JOINT_PREFIX) or None)
+    if marker.action != Marker.ADD:
+        raise BadProperty(f'there is no action {marker.action}', field='action')
+    return join_from(
+        _mapping(marker.text),
+        name=joint_name_of(marker),
+        points=_points(marker.points),
+        frame=_frame(marker.header.frame_id, frame_id),
     )
 
 
@@ -117,8 +159,7 @@ def anchor_request(message: PointStamped, *, frame_id: str) -> Anchor:
 
     :raises Malformed: the point is not finite
     """
-    point = (message.point.x, message.point.y)
-    return Anchor(point=point, frame=_frame(message.header.frame_id, frame_id))
+    return Anchor(point=_point(message), frame=_frame(message.header.frame_id, frame_id))
 
 
 def release_request(message: PointStamped, *, frame_id: str) -> Release:
@@ -127,8 +168,25 @@ def release_request(message: PointStamped, *, frame_id: str) -> Release:
 
     :raises Malformed: the point is not finite
     """
-    point = (message.point.x, message.point.y)
-    return Release(point=point, frame=_frame(message.header.frame_id, frame_id))
+    return Release(point=_point(message), frame=_frame(message.header.frame_id, frame_id))
+
+
+def pin_request(message: PointStamped, *, frame_id: str) -> Pin:
+    """
+    Return the pin that a point asks for.
+
+    :raises Malformed: the point is not finite
+    """
+    return Pin(point=_point(message), frame=_frame(message.header.frame_id, frame_id))
+
+
+def axle_request(message: PointStamped, *, frame_id: str) -> Axle:
+    """
+    Return the axle that a point asks for.
+
+    :raises Malformed: the point is not finite
+    """
+    return Axle(point=_point(message), frame=_frame(message.header.frame_id, frame_id))
 
 
 def command_request(message: MultiDOFJointState, *, frame_id: str) -> Command:
@@ -150,6 +208,11 @@ def command_request(message: MultiDOFJointState, *, frame_id: str) -> Command:
     )
 
 
+def click(message: PointStamped, *, frame_id: str) -> tuple[tuple[float, float], str]:
+    """Return the point of a click and its frame, '' for the world; nothing is checked yet."""
+    return (message.point.x, message.point.y), _frame(message.header.frame_id, frame_id)
+
+
 def quaternion_of(yaw: float) -> Quaternion:
     """Return the rotation about z by an angle [rad]."""
     return Quaternion(z=math.sin(yaw / 2), w=math.cos(yaw / 2))
@@ -158,6 +221,10 @@ def quaternion_of(yaw: float) -> Quaternion:
 def planar(position: Point, rotation: Quaternion) -> Pose:
     """Return x, y [m] and yaw [rad] of a pose in the plane."""
     return position.x, position.y, _yaw(rotation, 'pose.orientation')
+
+
+def _point(message: PointStamped) -> tuple[float, float]:
+    return message.point.x, message.point.y
 
 
 def _frame(frame: str, world_frame: str) -> str:
@@ -191,12 +258,12 @@ def _color(marker: Marker) -> Color | None:
     return None if marker.color.a == 0.0 else color
 
 
-def _properties(text: str) -> Properties:
+def _mapping(text: str) -> dict[Any, Any]:
     if len(text) > LONGEST_TEXT:
         raise Malformed(f'text is longer than {LONGEST_TEXT} characters', field='text')
     if text.count('[') + text.count('{') > MOST_BRACKETS:
         raise Malformed(f'text has more than {MOST_BRACKETS} brackets', field='text')
-    return properties_from(load_mapping(text, field='text'))
+    return load_mapping(text, field='text')
 
 
 def _shape(marker: Marker) -> Shape:

@@ -78,6 +78,7 @@ class Meter:
             'frame cost [ms]': f'{self._frame_ns / frames * 1e-6:.3f}',
             'kinetic energy [J]': f'{snapshot.kinetic_energy:.6g}',
             'potential energy [J]': f'{snapshot.potential_energy:.6g}',
+            'elastic energy [J]': f'{snapshot.elastic_energy:.6g}',
             'momentum [kg m/s]': f'{px:.6g}, {py:.6g}',
             'viewer': viewer,
         }

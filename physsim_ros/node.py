@@ -20,7 +20,8 @@ It wires and reports, and decides nothing.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 import gc
 from pathlib import Path
@@ -31,12 +32,15 @@ from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PointStamped
-from physsim_ros import conversions, parameters, world_file
+from nav_msgs.msg import Path as PathMessage
+from physsim_ros import conversions, parameters, paths, world_file
 from physsim_ros.core.errors import PhysSimError, Refusal
 from physsim_ros.core.requests import Configure, DeleteAll, Request
 from physsim_ros.core.simulation import Simulation
-from physsim_ros.core.snapshot import Answer, Frame, run_state, WorldState
+from physsim_ros.core.snapshot import Answer, Frame, run_state, Snapshot, WorldState
 from physsim_ros.diagnostics import Meter
+from physsim_ros.drawing.pen import Pen, told
+from physsim_ros.drawing.tools import Tool
 from physsim_ros.sender import Sender
 from physsim_ros.streams import Streams
 from physsim_ros.viewer import Viewer, ViewerMode
@@ -90,6 +94,7 @@ class PhysSimNode(Node):
             self, frame_id=self._frame_id, publish_clock=self._values['publish_clock']
         )
         self._sender = Sender()
+        self._pen = Pen(parameters.drawing_settings(self._values), Tool(self._values['tool']))
         self._meter = Meter()
         self._diagnostics = self.create_publisher(DiagnosticArray, '/diagnostics', 10)
         self._viewer: Viewer | None = None
@@ -129,6 +134,9 @@ class PhysSimNode(Node):
         for frame in frames:
             self.deliver(frame)
         if not frames:
+            if self.frame is not None and self.frame.preview != self._pen.preview:
+                # Nothing has happened but that what was half drawn has been dropped.
+                self.deliver(replace(self.frame, answers=(), moved=False))
             self._sender.send(self._streams.welcome)
             return
         last = frames[-1]
@@ -144,6 +152,8 @@ class PhysSimNode(Node):
 
     def deliver(self, frame: Frame) -> None:
         """Send a frame to topics and viewer."""
+        if self._pen.preview != frame.preview:
+            frame = replace(frame, preview=self._pen.preview)
         self.frame = frame
         self._follow()
         for answer in frame.answers:
@@ -195,11 +205,16 @@ class PhysSimNode(Node):
             self.create_subscription(kind, topic, callback, _REQUESTS)
 
         listen(Marker, '~/spawn', conversions.body_request)
+        listen(Marker, '~/join', conversions.joint_request)
+        listen(PointStamped, '~/pin', conversions.pin_request)
+        listen(PointStamped, '~/axle', conversions.axle_request)
         listen(PointStamped, '~/anchor', conversions.anchor_request)
         listen(PointStamped, '~/release', conversions.release_request)
         listen(MultiDOFJointState, '~/command', conversions.command_request)
         self.create_subscription(MarkerArray, '~/spawn_array', self._spawn_array, _REQUESTS)
         self.create_subscription(Float64, '~/speed', self._speed, _REQUESTS)
+        self.create_subscription(PointStamped, 'clicked_point', self._click, _REQUESTS)
+        self.create_subscription(PathMessage, '~/stroke', self._stroke, _REQUESTS, raw=True)
         self.create_subscription(Clock, '~/seek', self._seek, _REQUESTS)
 
     def _submit(
@@ -208,10 +223,15 @@ class PhysSimNode(Node):
         try:
             request = convert(message, frame_id=self._frame_id)
         except Refusal as refusal:
-            subject = conversions.subject_of(message)
+            subject = conversions.subject_of(message, joint=topic == '~/join')
             self.simulation.refuse(refusal, topic=topic, subject=subject, joined=joined)
             return
         self.simulation.submit(request, topic=topic, joined=joined)
+
+    def _submit_all(self, requests: Iterable[Request], topic: str) -> None:
+        """Submit what one gesture asks for: it is undone as one."""
+        for number, request in enumerate(requests):
+            self.simulation.submit(request, topic=topic, joined=number > 0)
 
     def _spawn_array(self, message: MarkerArray) -> None:
         for number, marker in enumerate(message.markers):
@@ -238,6 +258,31 @@ class PhysSimNode(Node):
         self._meter.pause()
         self._follow()
         self._report(Answer(topic='~/seek', message=done))
+
+    def _click(self, message: PointStamped) -> None:
+        with self._drawing('clicked_point') as snapshot:
+            point, frame = conversions.click(message, frame_id=self._frame_id)
+            step = self._pen.click(point, frame, snapshot)
+            if step.message:
+                self.simulation.tell(Answer(topic='clicked_point', message=step.message))
+            self._submit_all(step.requests, 'clicked_point')
+
+    def _stroke(self, message: bytes) -> None:
+        with self._drawing('~/stroke') as snapshot:
+            samples, frame = paths.stroke_from(message, frame_id=self._frame_id)
+            reading = self._pen.stroke(samples, frame, snapshot)
+            self.simulation.tell(told(reading, topic='~/stroke'))
+            self._submit_all(reading.requests, '~/stroke')
+
+    @contextmanager
+    def _drawing(self, topic: str) -> Iterator[Snapshot]:
+        """Give what is seen, with all that was asked before; refuse what cannot be drawn."""
+        self.apply()
+        try:
+            yield self.simulation.world.snapshot() if self.frame is None else self.frame.snapshot
+        except Refusal as refusal:
+            self.simulation.refuse(refusal, topic=topic, subject='')
+        self._sender.send(self._streams.show, self._pen.preview)
 
     def _report(self, answer: Answer) -> None:
         """Tell of what comes without a frame."""
@@ -336,6 +381,8 @@ class PhysSimNode(Node):
             for parameter in changed:
                 parameters.check(parameter)
             replace(self.simulation.settings, **parameters.world_changes(changed))
+            values = {parameter.name: parameter.value for parameter in changed}
+            parameters.drawing_settings(self._values | values)
         except Refusal as refusal:
             return SetParametersResult(successful=False, reason=f'{refusal.code}: {refusal}')
         return SetParametersResult(successful=True)
@@ -351,6 +398,9 @@ class PhysSimNode(Node):
         names = {parameter.name for parameter in changed}
         if 'speed' in names:
             self.simulation.speed = self._values['speed']
+        self._pen.settings = parameters.drawing_settings(self._values)
+        self._pen.tool = Tool(self._values['tool'])
+        self._sender.send(self._streams.show, self._pen.preview)
         if 'history' in names:
             self.simulation.history = self._values['history']
         if 'publish_clock' in names:

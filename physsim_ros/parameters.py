@@ -26,7 +26,11 @@ import math
 from typing import Any
 
 from physsim_ros.core.errors import BadProperty, Malformed
+from physsim_ros.core.palette import color_from
 from physsim_ros.core.settings import WorldSettings
+from physsim_ros.core.shapes import Color
+from physsim_ros.drawing.settings import DrawingSettings
+from physsim_ros.drawing.tools import Tool
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
@@ -34,6 +38,9 @@ from rclpy.parameter import Parameter
 Type = Parameter.Type
 VIEWERS = ('none', 'spawn', 'web', 'connect', 'auto')
 _WORLD = {each.name for each in fields(WorldSettings)}
+_DRAWING = {each.name for each in fields(DrawingSettings)}
+# Of parameter draw_color: each body gets a colour of its own.
+AUTO = 'auto'
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -138,6 +145,40 @@ SPECS: dict[str, Spec] = {
     'elasticity': Spec(
         default=0.5, meaning='of what is made next without saying', low=0.0, high=1.0
     ),
+    'draw_velocity': Spec(
+        default=[0.0, 0.0], meaning='of what is drawn next [m/s]', low=-1e5, high=1e5
+    ),
+    'draw_color': Spec(
+        default=AUTO,
+        meaning="of what is drawn next: '#rrggbb', '#rrggbbaa', or auto, one for each",
+    ),
+    'tool': Spec(
+        default='none',
+        meaning='what a click on clicked_point does; another one drops what is half drawn',
+        choices=tuple(Tool),
+    ),
+    'snap': Spec(
+        default=0.15,
+        meaning='what is drawn as near as this to something is meant to meet it [m]',
+        low=0.0,
+        high=10.0,
+    ),
+    'sketch_confidence': Spec(
+        default=0.6,
+        meaning='least confidence with which a stroke is taken for something',
+        low=0.0,
+        high=1.0,
+    ),
+    'beautify': Spec(
+        default=0.12,
+        meaning='how far a stroke may be from regular and still be meant so: angles [rad], '
+        'lengths as a share; 0 keeps it as it was drawn',
+        low=0.0,
+        high=0.5,
+    ),
+    'wall_thickness': Spec(
+        default=0.1, meaning='of walls that are drawn [m]', low=0.001, high=10.0
+    ),
     'command_timeout': Spec(
         default=0.5,
         meaning='of a wrench [s of simulation time]; 0 means no limit',
@@ -185,6 +226,7 @@ def declare(node: Node) -> dict[str, Any]:
         node.set_descriptor(name, spec.descriptor)
         values[name] = _plain(parameter.value, spec)
     world_settings(values)
+    drawing_settings(values)
     node.add_pre_set_parameters_callback(coerced)
     return values
 
@@ -241,6 +283,18 @@ def world_settings(values: Mapping[str, Any]) -> WorldSettings:
     return WorldSettings(**{name: _setting(name, values[name]) for name in _WORLD})
 
 
+def drawing_settings(values: Mapping[str, Any]) -> DrawingSettings:
+    """
+    Return the settings of drawing among parameter values.
+
+    :raises PhysSimError: they do not fit
+    """
+    settings = {name: values[name] for name in _DRAWING}
+    settings['draw_velocity'] = tuple(values['draw_velocity'])
+    settings['draw_color'] = _draw_color(values['draw_color'])
+    return DrawingSettings(**settings)
+
+
 def world_parameters(settings: WorldSettings) -> list[Parameter]:
     """Return the parameters that tell of the world's settings."""
     parameters = []
@@ -268,6 +322,13 @@ def _coerced(parameter: Parameter) -> Parameter:
 
 def _plain(value: Any, spec: Spec) -> Any:
     return list(value) if isinstance(spec.default, list) else value
+
+
+def _draw_color(text: str) -> Color | None:
+    try:
+        return None if text == AUTO else color_from(text)
+    except BadProperty as refusal:
+        raise BadProperty(f'draw_color: {refusal}, or {AUTO}', field='draw_color') from refusal
 
 
 def _setting(name: str, value: Any) -> Any:

@@ -31,8 +31,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros import band
+from physsim_ros.core.preview import NOTHING
 from physsim_ros.core.settings import Bounds
+from physsim_ros.core.shapes import Point
 from physsim_ros.core.snapshot import Answer, Floats, Frame, Snapshot
+from physsim_ros.joint_picture import JointPicture
+from physsim_ros.joint_picture import PATH as JOINTS
 from physsim_ros.layout import (
     DEPTH,
     Layout,
@@ -64,6 +68,8 @@ NOWHERE = (-10.0, 0.0, 10.0, 12.0)
 MARGIN = 0.08
 # Half the thickness of the walls [units].
 WALL_HALF = 0.1
+# How long the reading of a stroke is seen [frames].
+LINGER = 180
 # How far back the plots go: ten seconds at 60 Hz [frames].
 PLOTTED = 600
 # Energies are plotted at each so many-th frame.
@@ -71,6 +77,7 @@ SAMPLE = 6
 PAPER = (250, 250, 247)
 WALL = (0.35, 0.37, 0.4, 1.0)
 CONTACT = (214, 39, 40)
+PREVIEW = (230, 51, 128)
 FACTOR = (84, 162, 75)
 ENERGIES = {'kinetic': (245, 133, 24), 'potential': (76, 120, 168), 'total': (150, 150, 150)}
 
@@ -91,9 +98,13 @@ class Picture:
         self._due = 0
         self._last: Frame | None = None
         self._layout: Layout | None = None
+        self._joints: JointPicture | None = None
         self._area = NOWHERE
         self._framed = False
         self._touching = False
+        # What is shown of what is half drawn, what was last asked for, and when.
+        self._preview = self._asked = NOTHING
+        self._asked_at = 0
         # Entities that are not empty, and where the bodies were drawn last.
         self._drawn: set[str] = set()
         self._poses: Floats = np.empty((0, 3))
@@ -124,6 +135,8 @@ class Picture:
         if self._last is None or frame.moved or frame.answers or frame.speed != self._last.speed:
             return True
         before, now = self._last.snapshot, frame.snapshot
+        if frame.preview != self._last.preview:
+            return True
         return now.scene is not before.scene or not np.array_equal(now.poses, before.poses)
 
     def _draw_run(self, frames: Sequence[Frame]) -> None:
@@ -137,10 +150,12 @@ class Picture:
         layout = self._layout
         if layout is None or scene is not layout.scene:
             layout = Layout(scene, _unit(self._area), layout)
-            self._look_at(layout, motion)
+            self._look_at(layout, Motion.of(poses[:1]), snapshots[0].ends)
             if layout.unit != _unit(self._area):
                 layout = Layout(scene, _unit(self._area))
             self._layout, self._due = layout, self._count
+            above = 2 * (THICK + DEPTH) * layout.unit
+            self._joints = JointPicture(scene, layout.unit, above) if scene.joints else None
         if self._count >= self._due:
             self._due = self._count + REPEAT
             self._send_geometry(layout, _times(snapshots[:1], numbers[:1]))
@@ -151,19 +166,23 @@ class Picture:
         for path, table in layout.tables.items():
             if stirred[table.rows].any():
                 self._send_motion(path, table, motion, times)
+        if self._joints is not None and self._joints.stirs(stirred):
+            columns = self._joints.columns(poses, [each.forces for each in snapshots])
+            self._recording.send_columns(JOINTS, times, columns)
         self._send_energy(frames, numbers)
         self._send_contacts(frames, times)
+        self._send_previews(frames, numbers)
         self._send_events(frames, numbers)
         self._band.draw(frames, numbers)
         self._count += len(frames)
 
-    def _look_at(self, layout: Layout, motion: Motion) -> None:
+    def _look_at(self, layout: Layout, motion: Motion, ends: Floats) -> None:
         """Choose what is seen: seldom anew, as a picture that jumps is hard to read."""
         bounds = layout.scene.settings.bounds
         if bounds is not None:
             self._area, self._framed = _widened(bounds, MARGIN / 2), True
         elif layout.scene.bodies:
-            left, bottom, right, top = extent = layout.extent(motion)
+            left, bottom, right, top = extent = _around(layout.extent(motion), ends)
             near = _widened(self._area, 0.5)
             inside = left >= near[0] and bottom >= near[1] and right <= near[2] and top <= near[3]
             if not self._framed or not inside:
@@ -183,6 +202,12 @@ class Picture:
             'world/walls': rr.Boxes3D.from_fields(fill_mode='solid', colors=wall),
             'world/contacts': rr.Points3D.from_fields(
                 radii=rr.Radius.ui_points(2.0), colors=[CONTACT]
+            ),
+            'world/preview/lines': rr.LineStrips3D.from_fields(
+                radii=rr.Radius.ui_points(1.5), colors=[PREVIEW]
+            ),
+            'world/preview/points': rr.Points3D.from_fields(
+                radii=rr.Radius.ui_points(3.0), colors=[PREVIEW], show_labels=True
             ),
             'energy': rr.SeriesLines(names=list(ENERGIES), colors=list(ENERGIES.values())),
             'real_time_factor': rr.SeriesLines(names='real-time factor', colors=[FACTOR]),
@@ -207,9 +232,10 @@ class Picture:
                     radii=table.sizes[:, 0], lengths=2 * table.sizes[:, 2], colors=table.colors
                 )
             self._recording.send_columns(path, times, columns.partition([len(table.rows)]))
-        for path in self._drawn - layout.tables.keys():
+        gone = self._drawn - layout.tables.keys() - ({JOINTS} if layout.scene.joints else set())
+        for path in gone:
             self._recording.send_columns(path, times, rr.Clear.columns(is_recursive=[False]))
-        self._drawn = set(layout.tables)
+        self._drawn = set(layout.tables) | ({JOINTS} if layout.scene.joints else set())
         centers, sizes = _walls(layout.scene.settings.bounds, layout.unit)
         walls = rr.Boxes3D.columns(centers=centers, half_sizes=sizes).partition([len(centers)])
         self._recording.send_columns('world/walls', times, walls)
@@ -242,7 +268,9 @@ class Picture:
             if number % SAMPLE == 0 or number == last
         }
         kinetic = np.array([each.kinetic_energy for each in chosen.values()])
-        potential = np.array([each.potential_energy for each in chosen.values()])
+        potential = np.array(
+            [each.potential_energy + each.elastic_energy for each in chosen.values()]
+        )
         energies = np.column_stack((kinetic, potential, kinetic + potential)).ravel()
         column = _column(_SCALARS, energies, [len(ENERGIES)] * len(chosen))
         times = _times(list(chosen.values()), list(chosen))
@@ -259,6 +287,32 @@ class Picture:
         positions = np.hstack((np.concatenate(points), height)).astype(np.float32)
         columns = rr.Points3D.columns(positions=positions).partition(lengths)
         self._recording.send_columns('world/contacts', times, columns)
+
+    def _send_previews(self, frames: Sequence[Frame], numbers: Sequence[int]) -> None:
+        """Send what is half drawn where that has changed, or is to be repeated."""
+        for frame, number in zip(frames, numbers, strict=True):
+            preview = frame.preview
+            if preview != self._asked:
+                self._asked, self._asked_at = preview, number
+            if not preview.points and number - self._asked_at >= LINGER:
+                preview = NOTHING
+            if preview == self._preview and (preview == NOTHING or number % REPEAT):
+                continue
+            self._preview = preview
+            times = _times([frame.snapshot], [number])
+            lines = [self._raised(line) for line in preview.lines]
+            strips = rr.LineStrips3D.columns(strips=lines).partition([len(lines)])
+            self._recording.send_columns('world/preview/lines', times, strips)
+            # The label stands at a point of its own.
+            points = self._raised([*preview.points, *([preview.top] if preview.label else [])])
+            labels = ['' for _ in preview.points] + [preview.label] * bool(preview.label)
+            dots = rr.Points3D.columns(positions=points, labels=labels).partition([len(points)])
+            self._recording.send_columns('world/preview/points', times, dots)
+
+    def _raised(self, points: Sequence[Point]) -> Singles:
+        """Return points of the plane above all that is in the world, (n, 3) float32 [m]."""
+        height = 3 * (THICK + DEPTH) * _unit(self._area)
+        return np.array([(x, y, height) for x, y in points], dtype=np.float32).reshape(-1, 3)
 
     def _send_events(self, frames: Sequence[Frame], numbers: Sequence[int]) -> None:
         rows = [
@@ -317,6 +371,14 @@ def _unit(area: Bounds) -> float:
     """Return the length that is drawn as 50 pixels [m]: about 1 m for a world of 20 m."""
     left, bottom, right, top = area
     return PIXELS * max((right - left) / WIDTH, (top - bottom) / HEIGHT)
+
+
+def _around(area: Bounds, ends: Floats) -> Bounds:
+    """Return an area with the points of joints, (j, 2, 2), in it."""
+    points = ends.reshape(-1, 2)
+    left, bottom = np.minimum(points.min(axis=0, initial=np.inf), area[:2]).tolist()
+    right, top = np.maximum(points.max(axis=0, initial=-np.inf), area[2:]).tolist()
+    return left, bottom, right, top
 
 
 def _widened(area: Bounds, share: float) -> Bounds:

@@ -30,7 +30,8 @@ from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import PoseArray
-from physsim_ros import cdr
+from physsim_ros import cdr, overlay
+from physsim_ros.core.preview import NOTHING, Preview
 from physsim_ros.core.snapshot import Answer, Frame
 from rclpy.duration import Duration
 from rclpy.node import Node
@@ -96,6 +97,9 @@ class Streams:
                 lambda it: markers.encode(it.snapshot),
             ),
         )
+        self._frame_id = frame_id
+        self._preview = node.create_publisher(MarkerArray, '~/preview', picture)
+        self._shown: Preview = NOTHING
         self._events = publisher(DiagnosticStatus, '~/events', KEPT_ANSWERS)
         self._answers: deque[bytes] = deque()
         # Answers since all were known to have arrived, and until when more of them wait for that.
@@ -132,6 +136,14 @@ class Streams:
         if self._last is not None:
             for stream in self._lasting:
                 stream.welcome(self._last)
+
+    def show(self, preview: Preview) -> None:
+        """Publish what is half drawn where it has changed; who comes late gets the last."""
+        if preview != self._shown:
+            self._shown = preview
+            stamp = self._last.snapshot.stamp if self._last else 0
+            message = overlay.markers(preview, frame_id=self._frame_id, stamp=stamp)
+            self._preview.publish(message)
 
     def report(self, answer: Answer) -> None:
         """Publish what became of a request, once listeners have kept up with those before."""

@@ -15,13 +15,15 @@
 """
 The picture as markers: each body drawn with the marker that would spawn it, and what is on it.
 
-Law: whoever publishes a body's marker again gets the same body.
+Law: whoever publishes a body's marker again gets the same body, and a joint's the same joint.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+import json
 
+from physsim_ros.core.joint_properties import JointKind
 from physsim_ros.core.names import split_name
 from physsim_ros.core.settings import Bounds
 from physsim_ros.core.shapes import (
@@ -35,14 +37,21 @@ from physsim_ros.core.shapes import (
     Shape,
     Triangles,
 )
-from physsim_ros.core.snapshot import Body
+from physsim_ros.core.snapshot import Body, Joint
 from visualization_msgs.msg import Marker
+
+# What stands before the namespace of a joint, so that a body and a joint of one name do not hide
+# each other; `~/join` knows it. What stands before that of its lines.
+JOINT_PREFIX, LINES_PREFIX = 'joint:', 'lines:'
 
 Size = tuple[float, float, float]
 Key = tuple[str, int]
 
 # How thick flat bodies and how wide outlines are drawn [m]: seen from anywhere, in nobody's way.
 _THIN = 0.02
+# Joints lie on top of bodies and their crosses [m].
+_RAISED = 2 * _THIN
+_LENGTHS = {JointKind.SPRING: 'rest_length', JointKind.ROPE: 'length'}
 _DARK, _LIGHT, _GREY = (0.1, 0.1, 0.1, 1.0), (0.9, 0.9, 0.9, 1.0), (0.5, 0.5, 0.5, 1.0)
 # Luminance from which a dark line shows better than a light one.
 _BRIGHT = 0.35
@@ -76,6 +85,60 @@ def symbols(body: Body) -> list[Symbol]:
     if body.anchored:
         symbols.append(_cross(body, (f'anchor:{key[0]}', key[1])))
     return symbols
+
+
+def joint_symbols(joint: Joint, size: float, corners: int) -> tuple[Symbol, Symbol]:
+    """
+    Return the markers of a joint: its points, which would join it again, and its lines.
+
+    The points are those of a frame, to be filled in.
+
+    :param size: half that of its symbol [m]
+    :param corners: of its lines, two for each segment
+    """
+    namespace, number = split_name(joint.name)
+    if joint.kind.points == 1:
+        kind, scale = Marker.SPHERE_LIST, (size, size, size)
+    else:
+        kind, scale = Marker.LINE_STRIP, (size / 10, 0.0, 0.0)
+    nowhere = ((0.0, 0.0),)
+    return (
+        Symbol(
+            (f'{JOINT_PREFIX}{namespace}', number),
+            kind,
+            scale,
+            nowhere * joint.kind.points,
+            _RAISED,
+            text=_terms(joint),
+        ),
+        Symbol(
+            (f'{LINES_PREFIX}{namespace}', number),
+            Marker.LINE_LIST,
+            (size / 4, 0.0, 0.0),
+            nowhere * corners,
+            _RAISED,
+        ),
+    )
+
+
+def _terms(joint: Joint) -> str:
+    """Return the YAML mapping that gives a joined marker the bodies and properties of a joint."""
+    terms = [f'kind: {joint.kind}', f'a: {_word(joint.a)}', f'b: {_word(joint.b)}']
+    said = joint.properties.said()
+    if joint.kind in (JointKind.SPRING, JointKind.ROPE):
+        # As drawn is as drawn then, not as it will be drawn.
+        said[_LENGTHS[joint.kind]] = joint.rest_length
+    if joint.kind is JointKind.GEAR:
+        said['phase'] = joint.seat.phase
+    for key, value in said.items():
+        shown = str(value).lower() if isinstance(value, bool) else _number(value)
+        terms.append(f'{key}: {shown}')
+    return f'{{{", ".join(terms)}}}'
+
+
+def _word(name: str) -> str:
+    """Return a name as a YAML string."""
+    return json.dumps(name, ensure_ascii=False)
 
 
 def _geometry(shape: Shape) -> tuple[int, Size, tuple[Point, ...]]:

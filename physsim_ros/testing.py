@@ -219,6 +219,30 @@ class PhysSim:
         """
         return self._ask('release', _stamped(point))
 
+    def join(self, marker: Marker) -> str:
+        """
+        Join two bodies by a marker, and return the joint's name.
+
+        :raises Refused: with the code
+        """
+        return self._ask('join', marker)
+
+    def pin(self, point: PointStamped | tuple[float, float]) -> str:
+        """
+        Weld the bodies under a point [m] together, and return the joint's name.
+
+        :raises Refused: with the code
+        """
+        return self._ask('pin', _stamped(point))
+
+    def axle(self, point: PointStamped | tuple[float, float]) -> str:
+        """
+        Let the bodies under a point [m] turn about it, and return the joint's name.
+
+        :raises Refused: with the code
+        """
+        return self._ask('axle', _stamped(point))
+
     def command(self, command: MultiDOFJointState) -> str:
         """
         Set poses, twists or wrenches, and return the body's name where it is one.
@@ -299,9 +323,25 @@ class PhysSim:
         return [each for each in contacts if name is None or name in (each.a, each.b)]
 
     def energy(self) -> float:
-        """Return kinetic and potential energy of all bodies [J], potential zero at y = 0."""
+        """Return the energy of all bodies and springs [J], that of height zero at y = 0."""
         snapshot = self._snapshot
-        return snapshot.kinetic_energy + snapshot.potential_energy
+        return snapshot.kinetic_energy + snapshot.potential_energy + snapshot.elastic_energy
+
+    def force(self, joint: str) -> float:
+        """
+        Return what a joint gave in the last step [N].
+
+        :raises KeyError: there is no such joint
+        """
+        snapshot = self._snapshot
+        if joint not in self.joints:
+            raise KeyError(joint)
+        return float(snapshot.forces[self.joints.index(joint)])
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        """Names of all joints, in the order in which they were made."""
+        return tuple(joint.name for joint in self._snapshot.scene.joints)
 
     def digest(self) -> str:
         """Return a hash of everything that decides how the world goes on."""
@@ -370,6 +410,9 @@ class _Client:
         kinds = {
             'spawn': Marker,
             'spawn_array': MarkerArray,
+            'join': Marker,
+            'pin': PointStamped,
+            'axle': PointStamped,
             'anchor': PointStamped,
             'release': PointStamped,
             'command': MultiDOFJointState,

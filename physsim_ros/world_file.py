@@ -26,12 +26,13 @@ from contextlib import contextmanager
 from dataclasses import fields, replace
 import os
 from pathlib import Path
-import sys
 import tempfile
 from typing import Any
 
 import numpy as np
 from physsim_ros.core.errors import BadProperty, BadWorldFile, Malformed, Refusal
+from physsim_ros.core.joining import drawn_points
+from physsim_ros.core.palette import color_from
 from physsim_ros.core.properties import (
     check_key,
     number,
@@ -39,8 +40,9 @@ from physsim_ros.core.properties import (
     Properties,
     properties_from,
     shown,
+    within,
 )
-from physsim_ros.core.requests import Command, Spawn
+from physsim_ros.core.requests import Command, join_from, Restore, Spawn
 from physsim_ros.core.rigid_body import rotated
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.shapes import (
@@ -54,10 +56,18 @@ from physsim_ros.core.shapes import (
     Shape,
     Triangles,
 )
-from physsim_ros.core.snapshot import BodyState, ContactMemory, Motion, WorldState
+from physsim_ros.core.snapshot import (
+    BodyState,
+    ContactMemory,
+    Joint,
+    Motion,
+    Seat,
+    WorldState,
+)
 from physsim_ros.core.space import LOST
 from physsim_ros.core.world import World
 from physsim_ros.packed import pack, unpack
+from physsim_ros.shipped import shipped
 from physsim_ros.yaml_text import load_mapping
 import yaml
 
@@ -67,6 +77,8 @@ _SETTINGS = [each.name for each in fields(WorldSettings) if each.name != 'max_bo
 _PROPERTIES = [each.name for each in fields(Properties)]
 _SHAPES = ('circle', 'box', 'polygon', 'chain', 'triangles', 'compound')
 _BODY_KEYS = ['name', *_SHAPES, 'at', 'color', 'lifetime', *_PROPERTIES, 'motion', 'wrench']
+# Of a joint, what is not the node's own `text` of markers.
+_JOINT_KEYS = ('name', 'points', 'seat')
 _MEMORY = [each.name for each in fields(ContactMemory)]
 _MOTION = ('at', 'velocity', 'spin')
 # Saved numbers and the engine's own may differ by rounding; more, and somebody edited the file.
@@ -75,14 +87,7 @@ _ROUNDING = 1e-9
 
 def shipped_worlds() -> Path:
     """Return the directory of the worlds that come with the package."""
-    source = Path(__file__).resolve().parent.parent / 'config' / 'worlds'
-    if source.is_dir():
-        return source
-    for prefix in (*os.environ.get('AMENT_PREFIX_PATH', '').split(os.pathsep), sys.prefix):
-        installed = Path(prefix) / 'share' / 'physsim_ros' / 'config' / 'worlds'
-        if prefix and installed.is_dir():
-            return installed
-    return source
+    return shipped('worlds')
 
 
 def find(name: str, *, world_dir: Path, confined: bool) -> Path:
@@ -186,14 +191,12 @@ def _state(content: Mapping[Any, Any], settings: WorldSettings, physics_rate: fl
         check_key(key, ['format', 'bodies', 'joints', 'memory', *_SETTINGS])
     if content.get('format') != FORMAT or isinstance(content['format'], bool):
         raise BadProperty(f'format must be {FORMAT}', field='format')
-    if content.get('joints'):
-        raise BadProperty('joints cannot be loaded yet', field='joints')
     changes = {key: content[key] for key in _SETTINGS if key in content}
     if changes.get('bounds') == []:
         changes['bounds'] = None
     # Bodies go through a world of their own, so that a file is held to what a message is.
     world = World(physics_rate=physics_rate, settings=replace(settings, **changes))
-    entries = _spawned(world, _entries(content.get('bodies')))
+    entries = _spawned(world, _entries(content.get('bodies'), 'bodies'))
     resumed: dict[str, BodyState] = {}
     for state in world.save().bodies:
         entry = entries[state.body.name]
@@ -208,11 +211,15 @@ def _state(content: Mapping[Any, Any], settings: WorldSettings, physics_rate: fl
     bodies = [resumed.get(state.body.name, state) for state in saved.bodies]
     # Where somebody has edited a body, nothing is what was remembered.
     intact = len(resumed) == len(bodies) and 'memory' in content
-    return replace(
+    unjoined = replace(
         saved,
         bodies=tuple(_timed(state, entries[state.body.name]) for state in bodies),
         memory=_memory(content['memory'], len(bodies)) if intact else None,
     )
+    joints = _entries(content.get('joints'), 'joints')
+    if not joints:
+        return unjoined
+    return replace(unjoined, joints=_joined(unjoined, joints, physics_rate))
 
 
 def _spawned(world: World, entries: list[dict[Any, Any]]) -> dict[str, dict[Any, Any]]:
@@ -232,20 +239,61 @@ def _spawned(world: World, entries: list[dict[Any, Any]]) -> dict[str, dict[Any,
     return named
 
 
+def _joined(
+    state: WorldState, entries: list[dict[Any, Any]], physics_rate: float
+) -> tuple[Joint, ...]:
+    """Join the bodies of a file, in a world of their own where they are by now."""
+    world = World(physics_rate=physics_rate, settings=state.settings)
+    world.apply(Restore(state=state))
+    names: set[str] = set()
+    seats: dict[str, Seat] = {}
+    for entry in entries:
+        with _naming(entry.get('name'), 'joint'):
+            name = entry.get('name')
+            if not isinstance(name, str):
+                raise BadProperty('a joint needs a name', field='name')
+            if name in names:
+                raise BadProperty('the name comes twice', field='name')
+            said = {key: entry[key] for key in entry if key not in _JOINT_KEYS}
+            points = _points(entry.get('points'), 'points')
+            world.apply(join_from(said, name=name, points=points))
+            names.add(name)
+            if 'seat' in entry:
+                seats[name] = _seat(entry['seat'])
+    poses = {saved.body.name: saved.pose for saved in state.bodies}
+    return tuple(_seated(joint, seats.get(joint.name), poses) for joint in world.save().joints)
+
+
+def _seated(joint: Joint, seat: Seat | None, poses: Mapping[str, Pose]) -> Joint:
+    """Return a joint with the numbers that only the node writes, unless somebody edited it."""
+    if seat is None:
+        return joint
+    saved = replace(joint, seat=seat)
+    drawn, written = drawn_points(joint, poses), drawn_points(saved, poses)
+    return saved if np.allclose(drawn, written, rtol=_ROUNDING, atol=_ROUNDING) else joint
+
+
+def _seat(value: object) -> Seat:
+    count = len(Seat._fields)
+    if not isinstance(value, list) or len(value) != count:
+        raise BadProperty(f'seat must be {count} numbers', field='seat')
+    return Seat(*(within(-LOST, LOST)(each, 'seat') for each in value))
+
+
 @contextmanager
-def _naming(name: object) -> Iterator[None]:
-    """Say of which body a refusal is."""
+def _naming(name: object, what: str = 'body') -> Iterator[None]:
+    """Say of which body or joint a refusal is."""
     try:
         yield
     except Refusal as refusal:
-        raise BadWorldFile(f'body {shown(name)}: {refusal}', field=refusal.field) from refusal
+        raise BadWorldFile(f'{what} {shown(name)}: {refusal}', field=refusal.field) from refusal
 
 
-def _entries(value: object) -> list[dict[Any, Any]]:
+def _entries(value: object, what: str) -> list[dict[Any, Any]]:
     if value is None:
         return []
     if not isinstance(value, list) or not all(isinstance(each, dict) for each in value):
-        raise BadProperty('bodies must be a list of mappings', field='bodies')
+        raise BadProperty(f'{what} must be a list of mappings', field=what)
     return value
 
 
@@ -326,18 +374,7 @@ def _points(value: object, name: str) -> tuple[tuple[float, float], ...]:
 
 def _color(value: object) -> Color:
     if isinstance(value, str):
-        digits = value.removeprefix('#')
-        try:
-            channels = bytes.fromhex(digits)
-        except ValueError:
-            channels = b''
-        # The spaces that bytes.fromhex skips are none of a colour's.
-        if not value.startswith('#') or len(channels) not in (3, 4) or ' ' in digits:
-            raise BadProperty(
-                f"color must be '#rrggbb' or '#rrggbbaa', not {value!r}", field='color'
-            )
-        red, green, blue, alpha = (each / 255 for each in (*channels, 255)[:4])
-        return red, green, blue, alpha
+        return color_from(value)
     if not isinstance(value, list) or len(value) != 4:
         raise BadProperty('color must be a string or [r, g, b, a]', field='color')
     red, green, blue, alpha = (number(each, 'color') for each in value)
@@ -414,6 +451,10 @@ def _text(state: WorldState, physics_rate: float) -> str:
         lines.append(f'{key}: {_flow(_lists(value) if value is not None else [])}\n')
     lines.append('bodies:\n' if state.bodies else 'bodies: []\n')
     lines += [f'  - {_flow(_entry(body, physics_rate))}\n' for body in state.bodies]
+    if state.joints:
+        poses = {body.body.name: body.pose for body in state.bodies}
+        lines.append('joints:\n')
+        lines += [f'  - {_flow(_joint_entry(joint, poses))}\n' for joint in state.joints]
     if state.memory is not None:
         lines.append(
             '# What the engine remembers of contacts: not to be edited, but may be deleted.\n'
@@ -458,6 +499,13 @@ def _entry(state: BodyState, physics_rate: float) -> dict[str, object]:
     if state.motion is not None:
         entry['motion'] = [*state.motion[:6], state.motion.free]
     return entry
+
+
+def _joint_entry(joint: Joint, poses: Mapping[str, Pose]) -> dict[str, object]:
+    points = drawn_points(joint, poses)
+    entry: dict[str, object] = {'name': joint.name, 'kind': str(joint.kind)}
+    entry |= {'a': joint.a, 'b': joint.b, 'points': [list(point) for point in points]}
+    return entry | joint.properties.said() | {'seat': list(joint.seat)}
 
 
 def _memory_entry(memory: ContactMemory) -> dict[str, object]:

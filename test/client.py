@@ -39,6 +39,7 @@ class Event(NamedTuple):
     message: str
     code: str
     field: str
+    values: dict[str, str] = {}  # noqa: RUF012 - nothing writes to it
 
 
 class Client:
@@ -59,10 +60,9 @@ class Client:
     def _hear(self, status: DiagnosticStatus) -> None:
         values = {pair.key: pair.value for pair in status.values}
         code, field = values.pop('code'), values.pop('field', '')
-        assert not values
         level = status.level[0]
         self.events.append(
-            Event(level, status.name, status.hardware_id, status.message, code, field)
+            Event(level, status.name, status.hardware_id, status.message, code, field, values)
         )
 
     def spin_until(self, predicate: Callable[[], object]) -> None:

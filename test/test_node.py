@@ -43,6 +43,7 @@ TYPES = {
     '/physsim/states': 'sensor_msgs/msg/MultiDOFJointState',
     '/physsim/contacts': 'sensor_msgs/msg/MultiDOFJointState',
     '/physsim/markers': 'visualization_msgs/msg/MarkerArray',
+    '/physsim/preview': 'visualization_msgs/msg/MarkerArray',
     '/physsim/events': 'diagnostic_msgs/msg/DiagnosticStatus',
     '/clock': 'rosgraph_msgs/msg/Clock',
     '/diagnostics': 'diagnostic_msgs/msg/DiagnosticArray',
@@ -52,16 +53,20 @@ DEPTHS = {
     '/physsim/states': 5,
     '/physsim/contacts': 5,
     '/physsim/markers': 1,
+    '/physsim/preview': 1,
     '/physsim/events': 1000,
     '/clock': 10,
     '/diagnostics': 10,
 }
+KEPT = ('/physsim/markers', '/physsim/preview')
 REQUESTS = {
     '/physsim/spawn': 'visualization_msgs/msg/Marker',
     '/physsim/spawn_array': 'visualization_msgs/msg/MarkerArray',
     '/physsim/anchor': 'geometry_msgs/msg/PointStamped',
     '/physsim/release': 'geometry_msgs/msg/PointStamped',
     '/physsim/command': 'sensor_msgs/msg/MultiDOFJointState',
+    '/clicked_point': 'geometry_msgs/msg/PointStamped',
+    '/physsim/stroke': 'nav_msgs/msg/Path',
     '/physsim/speed': 'std_msgs/msg/Float64',
 }
 SERVICES = ('play', 'pause', 'step', 'reset', 'clear', 'save_world', 'load_world')
@@ -102,7 +107,7 @@ def frames_of(stamps: list[int]) -> list[int]:
 
 def test_topics_have_the_types_and_qos_of_the_contract(seen: dict[str, Any]) -> None:
     for topic, type_ in TYPES.items():
-        durability = 'TRANSIENT_LOCAL' if topic == '/physsim/markers' else 'VOLATILE'
+        durability = 'TRANSIENT_LOCAL' if topic in KEPT else 'VOLATILE'
         assert seen['publishers'][topic] == [[type_, 'RELIABLE', durability]], topic
     for topic, type_ in REQUESTS.items():
         assert seen['subscriptions'][topic] == [[type_, 'RELIABLE', 'VOLATILE']], topic

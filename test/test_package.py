@@ -38,7 +38,7 @@ from packaging.version import Version
 import pytest
 
 ROOT = Path(__file__).parents[1]
-CONFIG = sorted(path.relative_to(ROOT) for path in ROOT.glob('config/**/*.yaml'))
+CONFIG = sorted(path.relative_to(ROOT) for path in ROOT.glob('config/**/*.*'))
 
 # Left out of the copy: what was built, and what a clone does not have.
 NOT_SOURCE = shutil.ignore_patterns(
@@ -158,9 +158,11 @@ def test_pip_installs_the_executable_and_the_pytest_plugin(installed, distributi
 
     assert points == {
         ('console_scripts', 'physsim', 'physsim_ros.node:main'),
+        ('console_scripts', 'physsim_draw', 'physsim_ros.draw:main'),
         ('pytest11', 'physsim', 'physsim_ros.testing'),
     }
-    assert (installed / 'bin' / 'physsim').is_file()
+    for program in ('physsim', 'physsim_draw'):
+        assert (installed / 'bin' / program).is_file()
 
 
 def test_pip_is_told_what_rosdep_cannot_bring(distribution):
@@ -168,7 +170,7 @@ def test_pip_is_told_what_rosdep_cannot_bring(distribution):
     always = {each.name.lower(): each.specifier for each in requirements if each.marker is None}
     extras = {str(each.marker) for each in requirements if each.marker is not None}
 
-    assert set(always) == {'numpy', 'pymunk', 'pyyaml', 'rerun-sdk'}
+    assert set(always) == {'numpy', 'pymunk', 'pyyaml', 'rerun-sdk', 'svgelements'}
     assert '1.26.4' not in always['numpy']
     assert '8.0.0' not in always['pymunk']
     assert extras == {'extra == "jazzy"', 'extra == "test"'}

@@ -24,10 +24,11 @@ from pathlib import Path
 import subprocess
 
 import numpy as np
+from physsim_ros.core.preview import NOTHING, Preview
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.shapes import Box, Chain, Compound, Disc, Polygon, Triangles
 from physsim_ros.core.snapshot import Answer, Body, Contacts, Frame, Scene, Snapshot
-from physsim_ros.picture import Picture, REPEAT
+from physsim_ros.picture import LINGER, Picture, REPEAT
 import pytest
 
 rr = pytest.importorskip('rerun')
@@ -429,6 +430,30 @@ def test_contacts_are_points_as_long_as_they_last(recording):
 
 def eyes(recording):
     return [row.value[0] for row in recording.rows('world/camera', 'Transform3D:translation')]
+
+
+def test_what_is_half_drawn_lies_over_the_world_until_it_is_dropped(recording):
+    box, half = scene(body()), Preview(lines=(((0, 0), (3, 4)),), points=((3, 4),), label='wall')
+    # Nothing moves: a preview alone is something new to see.
+    for preview in (NOTHING, half, half, NOTHING):
+        recording.draw(frame(box, [(0, 0, 0)], moved=False, preview=preview))
+
+    (shown, cleared) = recording.rows('world/preview/lines', 'LineStrips3D:strips')
+    assert (shown.frame, cleared.frame) == (1, 2)
+    ((start, end),) = shown.value
+    assert [*start[:2], *end[:2]] == [0, 0, 3, 4]
+    assert len(cleared.value) == 0
+    labels = recording.rows('world/preview/points', 'Points3D:labels')
+    assert [[*row.value] for row in labels] == [['', 'wall'], []]
+
+
+def test_the_reading_of_a_stroke_is_seen_for_a_while(recording):
+    box, read = scene(body()), Preview(lines=(((0, 0), (3, 4)),), label='wall 90%')
+    for step in range(LINGER + 2):
+        recording.draw(frame(box, [(step, 0, 0)], step=step, preview=read))
+
+    rows = recording.rows('world/preview/lines', 'LineStrips3D:strips')
+    assert [(row.frame, len(row.value)) for row in rows] == [(0, 1), (LINGER, 0)]
 
 
 def test_the_camera_stands_still_while_bodies_move(recording):

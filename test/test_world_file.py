@@ -480,7 +480,7 @@ REFUSED = {
     'an unknown key': ('format: 1\ngravitation: [0, 0]', 'gravitation'),
     'a setting that is not the files': ('format: 1\nmax_bodies: 7', 'max_bodies'),
     'a key of another kind': ('format: 1\n5: 3', '5'),
-    'joints': ('format: 1\njoints: [{name: joint/0}]', 'joints'),
+    'joints': ('format: 1\njoints: [{name: joint/0}]', 'points'),
     'a setting out of range': ('format: 1\ndamping: 2', 'damping'),
     'a setting of another kind': ('format: 1\niterations: many', 'iterations'),
     'a setting without a value': ('format: 1\ngravity:', 'gravity'),

@@ -77,7 +77,7 @@ class UnknownFrame(Refusal):
 
 
 class UnknownProperty(Refusal):
-    """A property that bodies do not have."""
+    """A property that a body, or a joint of that kind, does not have."""
 
     code = 'unknown_property'
 
@@ -94,8 +94,14 @@ class UnknownBody(Refusal):
     code = 'unknown_body'
 
 
+class UnknownJoint(Refusal):
+    """A name that no joint has."""
+
+    code = 'unknown_joint'
+
+
 class Anchored(Refusal):
-    """Motion asked of a body that is fixed to the background."""
+    """Motion asked of a body that is fixed to the background, or a joint between two that are."""
 
     code = 'anchored'
 
@@ -110,6 +116,12 @@ class WorldFull(Refusal):
     """One body more than the world may hold."""
 
     code = 'world_full'
+
+
+class NotRecognised(Refusal):
+    """A stroke that might mean anything."""
+
+    code = 'not_recognised'
 
 
 class BadWorldFile(Refusal):

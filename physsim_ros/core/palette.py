@@ -13,7 +13,9 @@
 # limitations under the License.
 
 """
-Colours for bodies that ask for none: distinct on white and on black, also for the colour-blind.
+Colours as they are written, and those of bodies that ask for none.
+
+The latter are distinct on white and on black, also for the colour-blind.
 
 The ten colours of Tableau 10 (https://www.tableau.com/blog/colors-upgrade-tableau-10-56782).
 """
@@ -22,13 +24,35 @@ from __future__ import annotations
 
 import zlib
 
+from physsim_ros.core.errors import BadProperty
 from physsim_ros.core.names import split_name
+from physsim_ros.core.properties import shown
 from physsim_ros.core.shapes import Color
 
 _PALETTE = (
     '#4c78a8', '#f58518', '#e45756', '#72b7b2', '#54a24b',
     '#eeca3b', '#b279a2', '#ff9da6', '#9d755d', '#bab0ac',
 )  # fmt: skip
+
+
+def color_from(text: str) -> Color:
+    """
+    Return the colour that '#rrggbb' or '#rrggbbaa' means.
+
+    :raises BadProperty: it is neither
+    """
+    digits = text.removeprefix('#')
+    try:
+        channels = bytes.fromhex(digits)
+    except ValueError:
+        channels = b''
+    # The spaces that bytes.fromhex skips are none of a colour's.
+    if not text.startswith('#') or len(channels) not in (3, 4) or ' ' in digits:
+        raise BadProperty(
+            f"color must be '#rrggbb' or '#rrggbbaa', not {shown(text)}", field='color'
+        )
+    red, green, blue, alpha = (each / 255 for each in (*channels, 255)[:4])
+    return red, green, blue, alpha
 
 
 def color_of(name: str) -> Color:

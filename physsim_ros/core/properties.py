@@ -188,7 +188,12 @@ def _velocity(value: object, name: str) -> tuple[float, float]:
     return velocity
 
 
-def _flag(value: object, name: str) -> bool:
+def flag(value: object, name: str) -> bool:
+    """
+    Return true or false.
+
+    :raises BadProperty: it is neither
+    """
     if not isinstance(value, bool):
         raise BadProperty(f'{name} must be true or false, not {shown(value)}', field=name)
     return value
@@ -210,8 +215,8 @@ _CHECKS: dict[str, Callable[[object, str], Any]] = {
     'elasticity': within(0.0, 1.0),
     'velocity': _velocity,
     'spin': within(-FASTEST, FASTEST, 'rad/s'),
-    'anchored': _flag,
-    'kinematic': _flag,
+    'anchored': flag,
+    'kinematic': flag,
     'group': _group,
-    'sensor': _flag,
+    'sensor': flag,
 }

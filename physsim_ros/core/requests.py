@@ -27,11 +27,17 @@ from dataclasses import dataclass, field
 import math
 from typing import Any
 
-from physsim_ros.core.errors import BadProperty, Malformed
-from physsim_ros.core.names import check_name
-from physsim_ros.core.properties import check_finite, FASTEST, HEAVIEST, Properties
+from physsim_ros.core.errors import BadProperty, BadSize, Malformed
+from physsim_ros.core.joint_properties import (
+    joint_properties_from,
+    JointKind,
+    JointProperties,
+    kind_from,
+)
+from physsim_ros.core.names import check_name, WORLD
+from physsim_ros.core.properties import check_finite, FASTEST, HEAVIEST, Properties, shown
 from physsim_ros.core.settings import check_setting
-from physsim_ros.core.shapes import Color, Point, Pose, Shape
+from physsim_ros.core.shapes import Color, Point, Pose, Shape, SMALLEST
 from physsim_ros.core.snapshot import WorldState
 
 # 10 000 km: beyond it float64 positions are coarser than a nanometre.
@@ -85,7 +91,7 @@ class Spawn:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Delete:
-    """Remove the body of that name."""
+    """Remove the body of that name, and its joints."""
 
     name: str
 
@@ -93,12 +99,103 @@ class Delete:
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DeleteAll:
     """
-    Remove all bodies, or all of a namespace.
+    Remove all bodies, or all of a namespace, and their joints.
 
     :param namespace: what stands before the last slash of the names; None is every body
     """
 
     namespace: str | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Join:
+    """
+    Join two bodies, or a body and the background; or change the joint of that name in place.
+
+    A change takes over the bodies and the points, and the properties that are said; where the
+    kind stays, the others are kept.
+
+    :param name: of the joint
+    :param kind: how it holds them
+    :param points: one or two, as the kind has them [m]
+    :param frame: of the points: '' for the world, or a body's name
+    :param a: a body's name; '' is the topmost under the (first) point
+    :param b: the same, or 'world' for the background; '' is the next body under the point, or the
+        topmost under the second one, or where there is none the background
+    :param properties: as far as said
+    :raises Malformed: a number is not finite, the name is none, or the points are too few or many
+    :raises BadProperty: a body would be joined to itself, or a point is too far away
+    :raises BadSize: the points of a rod or slider lie too close together
+    :raises UnknownProperty: that kind of joint does not have a property
+    """
+
+    name: str
+    kind: JointKind
+    points: tuple[Point, ...]
+    frame: str = ''
+    a: str = ''
+    b: str = ''
+    properties: JointProperties = field(default_factory=JointProperties)
+
+    def __post_init__(self) -> None:
+        check_name(self.name)
+        count = self.kind.points
+        if len(self.points) != count:
+            raise Malformed(
+                f'a {self.kind} has {count} point{"s" * (count - 1)}, not {len(self.points)}',
+                field='points',
+            )
+        for point in self.points:
+            check_point(point, 'points')
+        if self.a == WORLD:
+            raise BadProperty('a is a body; the background can only be b', field='a')
+        if self.a and self.a == self.b:
+            raise BadProperty(f'{self.a} cannot be joined to itself', field='b')
+        self.properties.check_kind(self.kind)
+        if self.kind in (JointKind.ROD, JointKind.SLIDER) and math.dist(*self.points) < SMALLEST:
+            raise BadSize(
+                f'the points of a {self.kind} must be {SMALLEST:g} m apart', field='points'
+            )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Unjoin:
+    """Remove the joint of that name."""
+
+    name: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class UnjoinAll:
+    """
+    Remove all joints, or all of a namespace.
+
+    :param namespace: what stands before the last slash of the names; None is every joint
+    """
+
+    namespace: str | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Pin:
+    """Weld the two topmost bodies under a point [m], or the only one to the background."""
+
+    point: Point
+    frame: str = ''
+
+    def __post_init__(self) -> None:
+        check_point(self.point, 'point')
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Axle:
+    """Let the two topmost bodies under a point [m] turn about it, or the only one by itself."""
+
+    point: Point
+    frame: str = ''
+
+    def __post_init__(self) -> None:
+        check_point(self.point, 'point')
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -114,7 +211,7 @@ class Anchor:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Release:
-    """Free the topmost body under a point [m] from the background."""
+    """Free the topmost body under a point [m], and remove the pins and axles there."""
 
     point: Point
     frame: str = ''
@@ -193,7 +290,42 @@ class Restore:
     state: WorldState
 
 
-Request = Spawn | Delete | DeleteAll | Anchor | Release | Command | Configure | Restore
+def join_from(
+    mapping: Mapping[Any, Any], *, name: str, points: tuple[Point, ...], frame: str = ''
+) -> Join:
+    """
+    Return the joint that a YAML mapping asks for: `kind`, `a`, `b` and properties.
+
+    Where the mapping names the one body, a `b` that is left out is the background; where it names
+    none, the bodies under the points are meant.
+
+    :param name: of the joint
+    :param points: in the frame [m]
+    :param frame: '' for the world, or a body's name
+    :raises Refusal: a key is not known, or a value not possible
+    """
+    properties = {key: mapping[key] for key in mapping if key not in {'kind', 'a', 'b'}}
+    a, b = _body_name(mapping, 'a'), _body_name(mapping, 'b')
+    return Join(
+        name=name,
+        kind=kind_from(mapping.get('kind')),
+        points=points,
+        frame=frame,
+        a=a,
+        b=WORLD if a and not b else b,
+        properties=joint_properties_from(properties),
+    )
+
+
+def _body_name(mapping: Mapping[Any, Any], key: str) -> str:
+    name = mapping.get(key, '')
+    if not isinstance(name, str):
+        raise BadProperty(f'{key} must be the name of a body, not {shown(name)}', field=key)
+    return name
+
+
+Joining = Join | Unjoin | UnjoinAll | Pin | Axle
+Request = Spawn | Delete | DeleteAll | Joining | Anchor | Release | Command | Configure | Restore
 
 
 def check_point(point: Point, name: str) -> None:

@@ -31,6 +31,10 @@ from physsim_ros.core.snapshot import Body, Motion
 import pymunk
 
 REST = (0.0, 0.0, 0.0)
+# Discs are smaller by this [m]: what is drawn touching would press by rounding alone, and a row of
+# balls would take a blow as one body instead of handing it on. It is above all rounding within
+# some hundred metres, and below whatever counts.
+GRAZE = 1e-12
 
 
 @dataclass(slots=True, eq=False)
@@ -160,7 +164,7 @@ def _shape(piece: Piece, engine: pymunk.Body, offset: Point) -> pymunk.Shape:
 
     match piece:
         case Circle(center, radius):
-            return pymunk.Circle(engine, radius, local(center))
+            return pymunk.Circle(engine, radius - GRAZE, local(center))
         case Capsule(start, end, radius):
             return pymunk.Segment(engine, local(start), local(end), radius)
         case Convex(vertices):

@@ -30,7 +30,7 @@ from physsim_ros.core.clock import Clock
 from physsim_ros.core.errors import BadProperty, OutOfHistory, Refusal
 from physsim_ros.core.history import Entry, Tail
 from physsim_ros.core.past import Past, Shot
-from physsim_ros.core.requests import Command, Delete, Request, Restore, Spawn
+from physsim_ros.core.requests import Command, Delete, Join, Request, Restore, Spawn, Unjoin
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.snapshot import Answer, Contacts, Frame, Snapshot, WorldState
 from physsim_ros.core.timeline import Timeline
@@ -47,9 +47,9 @@ MOST_UNDONE, MOST_RESETS = 100, 10
 
 
 class _Asked(NamedTuple):
-    """A request that waits, or the refusal of what could not even be one."""
+    """A request that waits, or the refusal of what could not even be one, or an answer."""
 
-    request: Request | Refusal
+    request: Request | Refusal | Answer
     topic: str
     subject: str
     gesture: int
@@ -170,9 +170,19 @@ class Simulation:
         """
         subject = ''
         match request:
-            case Spawn(name=subject) | Delete(name=subject) | Command(names=(subject,)):
+            case (
+                Spawn(name=subject)
+                | Delete(name=subject)
+                | Join(name=subject)
+                | Unjoin(name=subject)
+                | Command(names=(subject,))
+            ):
                 pass
         self._queue(request, topic, subject, joined=joined)
+
+    def tell(self, answer: Answer) -> None:
+        """Queue an answer to what asked nothing of the world, so that answers keep the order."""
+        self._queue(answer, answer.topic, answer.subject, joined=True)
 
     def refuse(self, refusal: Refusal, *, topic: str, subject: str, joined: bool = False) -> None:
         """Queue the answer to what could not even be a request, so that answers keep the order."""
@@ -360,7 +370,7 @@ class Simulation:
     # Inside
 
     def _queue(
-        self, request: Request | Refusal, topic: str, subject: str, *, joined: bool
+        self, request: Request | Refusal | Answer, topic: str, subject: str, *, joined: bool
     ) -> None:
         self._gesture += not joined
         self._requests.append(_Asked(request, topic, subject, self._gesture))
@@ -369,6 +379,9 @@ class Simulation:
         while self._requests:
             request, topic, subject, gesture = self._requests.popleft()
             self._changed = True
+            if isinstance(request, Answer):
+                self._answers.append(request)
+                continue
             try:
                 if isinstance(request, Refusal):
                     raise request

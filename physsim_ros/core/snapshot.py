@@ -27,6 +27,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.core.errors import Refusal
+from physsim_ros.core.joint_properties import DEFAULTS, JointKind, JointProperties
+from physsim_ros.core.names import WORLD
+from physsim_ros.core.preview import NOTHING, Preview
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.shapes import Color, Pose, Shape
 
@@ -77,6 +80,69 @@ class Body:
         return self.anchored or self.kinematic
 
 
+class Seat(NamedTuple):
+    """
+    Where a joint sits on its two bodies, as it was when it was drawn.
+
+    ax, ay [m]: its point in the frame of a; bx, by [m]: the same in the frame of b; ux, uy: the
+    unit vector of a slider's line in the frame of b; phase [rad]: turn of b times ratio less turn
+    of a; length [m]: distance of the two points as drawn.
+    """
+
+    ax: float
+    ay: float
+    bx: float
+    by: float
+    ux: float
+    uy: float
+    phase: float
+    length: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Joint:
+    """
+    What a joint is: all that it goes on from.
+
+    :param name: unique among the joints of its world
+    :param kind: how it holds its bodies
+    :param a: a body's name
+    :param b: another one's, or 'world' for the background
+    :param seat: where it sits on them
+    :param properties: as far as said
+    """
+
+    name: str
+    kind: JointKind
+    a: str
+    b: str
+    seat: Seat
+    properties: JointProperties
+
+    @property
+    def rest_length(self) -> float:
+        """Return the length at which a spring is slack, or a rope taut [m]."""
+        said = self.properties
+        length = said.length if self.kind is JointKind.ROPE else said.rest_length
+        return self.seat.length if length is None else length
+
+    @property
+    def stiffness(self) -> float:
+        """Return that of a spring [N/m], 0 for other kinds."""
+        return float(self.number('stiffness')) if self.kind is JointKind.SPRING else 0.0
+
+    @property
+    def collide(self) -> bool:
+        """Whether the joined bodies collide with each other."""
+        return bool(self.properties.collide)
+
+    def number(self, name: str) -> float:
+        """Return a property that is said, or its default."""
+        value: float | None = getattr(self.properties, name)
+        default: float = getattr(DEFAULTS, name)
+        return default if value is None else value
+
+
 class Motion(NamedTuple):
     """
     The engine's own numbers for a body: enough to go on from to the bit.
@@ -122,11 +188,13 @@ class WorldState:
 
     :param settings: of the world
     :param bodies: in spawn order
+    :param joints: in the order in which they were made
     :param memory: of contacts; None where the state comes from a person
     """
 
     settings: WorldSettings
     bodies: tuple[BodyState, ...] = ()
+    joints: tuple[Joint, ...] = ()
     memory: ContactMemory | None = field(default=None, compare=False)
 
 
@@ -161,15 +229,17 @@ class Scene:
 
     :param bodies: in spawn order
     :param settings: of the world
+    :param joints: in the order in which they were made
     """
 
     bodies: tuple[Body, ...]
     settings: WorldSettings
+    joints: tuple[Joint, ...] = ()
 
     @cached_property
     def key(self) -> bytes:
         """Everything of it as bytes, for digests."""
-        return repr((self.bodies, self.settings)).encode()
+        return repr((self.bodies, self.settings, self.joints)).encode()
 
     @cached_property
     def names(self) -> tuple[str, ...]:
@@ -189,6 +259,24 @@ class Scene:
     def centroids(self) -> Floats:
         """(n, 2) float64: centre of mass in the body's frame [m]."""
         rows = [body.shape.form.centroid for body in self.bodies]
+        return np.array(rows, dtype=np.float64).reshape(-1, 2)
+
+    @cached_property
+    def joint_rows(self) -> Ints:
+        """(j, 2) int64: rows of the bodies a and b of each joint; -1 is the background."""
+        rows = {name: row for row, name in enumerate(self.names)} | {WORLD: -1}
+        pairs = [(rows[joint.a], rows[joint.b]) for joint in self.joints]
+        return np.array(pairs, dtype=np.int64).reshape(-1, 2)
+
+    @cached_property
+    def seats(self) -> Floats:
+        """(j, 8) float64: the seat of each joint."""
+        return np.array([joint.seat for joint in self.joints], dtype=np.float64).reshape(-1, 8)
+
+    @cached_property
+    def springs(self) -> Floats:
+        """(j, 2) float64: stiffness [N/m] and rest length [m] of each joint."""
+        rows = [(joint.stiffness, joint.rest_length) for joint in self.joints]
         return np.array(rows, dtype=np.float64).reshape(-1, 2)
 
 
@@ -242,6 +330,7 @@ class Answer:
     :param message: a sentence
     :param code: '' for success, else the stable code of the refusal
     :param field: the offending field of a refusal
+    :param values: what else there is to tell, as pairs of key and value
     """
 
     topic: str
@@ -249,6 +338,7 @@ class Answer:
     message: str = ''
     code: str = ''
     field: str = ''
+    values: tuple[tuple[str, str], ...] = ()
 
     @classmethod
     def refused(cls, refusal: Refusal, *, topic: str, subject: str = '') -> Answer:
@@ -272,6 +362,8 @@ class Snapshot:
     :param scene: what the rows are
     :param poses: (n, 3) float64: x, y [m], yaw [rad] of each body's origin
     :param twists: (n, 3) float64: vx, vy [m/s] of each centre of mass, spin [rad/s]; world axes
+    :param forces: (j,) float64: what each joint gave in the last step [N]; where it turns, at an
+        arm of 1 m; empty where it is not known
     """
 
     step: int
@@ -279,6 +371,7 @@ class Snapshot:
     scene: Scene
     poses: Floats
     twists: Floats
+    forces: Floats = field(default_factory=lambda: np.empty(0))
 
     @cached_property
     def centers(self) -> Floats:
@@ -301,6 +394,24 @@ class Snapshot:
         return float(-(self.scene.inertia[:, 0] @ (self.centers @ self.scene.settings.gravity)))
 
     @cached_property
+    def elastic_energy(self) -> float:
+        """In the springs [J]."""
+        stiffness, rest = self.scene.springs.T
+        apart = self.ends[:, 0] - self.ends[:, 1]
+        return float((stiffness * (np.hypot(apart[:, 0], apart[:, 1]) - rest) ** 2).sum() / 2)
+
+    @cached_property
+    def ends(self) -> Floats:
+        """(j, 2, 2) float64: the points of each joint on its bodies a and b, world [m]."""
+        seats, rows = self.scene.seats, self.scene.joint_rows
+        # The background is the last row.
+        poses = np.vstack((self.poses, np.zeros((1, 3))))[rows]
+        cos, sin = np.cos(poses[..., 2]), np.sin(poses[..., 2])
+        x, y = seats[:, (0, 2)], seats[:, (1, 3)]
+        turned: Floats = np.stack((cos * x - sin * y, sin * x + cos * y), axis=-1)
+        return poses[..., :2] + turned
+
+    @cached_property
     def momentum(self) -> tuple[float, float]:
         """Of all bodies that forces move [kg m/s]."""
         x, y = (self.scene.inertia[:, 0] @ self.twists[:, :2]).tolist()
@@ -317,6 +428,7 @@ class Frame:
     :param answers: to the requests that were applied, in their order
     :param speed: at which time runs; 0 is paused
     :param moved: whether time went on since the frame before
+    :param preview: what is half drawn over it
     """
 
     snapshot: Snapshot
@@ -324,6 +436,7 @@ class Frame:
     answers: tuple[Answer, ...] = field(default=())
     speed: float = 1.0
     moved: bool = True
+    preview: Preview = NOTHING
 
 
 def run_state(speed: float) -> str:

@@ -13,7 +13,7 @@
 # limitations under the License.
 
 """
-The engine's side of the world: bodies in a Pymunk space, stepped, read and changed.
+The engine's side of the world: bodies and joints in a Pymunk space, stepped, read and changed.
 
 Laws: a Pymunk object never leaves the modules that import Pymunk; what is read is a fresh array in
 spawn order; true velocities do not jump when gravity or a wrench changes.
@@ -30,10 +30,11 @@ from physsim_ros.core import rigid_body, sweep
 from physsim_ros.core.contact_memory import recall, remind, ShapeIds
 from physsim_ros.core.contacts import ContactLog, Ids
 from physsim_ros.core.layout import lay_out, Layout
+from physsim_ros.core.machine import Machine
 from physsim_ros.core.rigid_body import REST, RigidBody
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.shapes import Point, Pose
-from physsim_ros.core.snapshot import Body, Contacts, Floats, Keyframe, Motion, Scene
+from physsim_ros.core.snapshot import Body, Contacts, Floats, Joint, Keyframe, Motion, Scene
 from physsim_ros.core.stillness import RATE, Stillness
 import pymunk
 from pymunk import batch
@@ -90,6 +91,9 @@ class Space:
         self._watching = False
         self._walls: list[pymunk.Shape] = []
         self._first_wall = 0
+        self.machine = Machine(self._space, self.bodies, dt)
+        # Joints that have broken, and what each gave then [N]; whoever reads it empties it.
+        self.broken: list[tuple[str, float]] = []
         self._contacts = ContactLog(self._space)
         self._stillness = Stillness(self._space)
         self._calm_steps = max(1, round(1.0 / (RATE * dt)))
@@ -119,6 +123,10 @@ class Space:
             poses[:, 1] -= sin * x + cos * y
         twists -= np.where(layout.free[:, None], layout.lead, 0.0)
         return layout.scene, poses, twists
+
+    def forces(self) -> Floats:
+        """Return (j,) float64: what each joint gave in the last step [N]."""
+        return self.machine.forces(self._lay_out().listed)
 
     def contacts(self, centers: Floats) -> Contacts:
         """
@@ -160,11 +168,11 @@ class Space:
             memory=recall(self._shapes, [rigid.first for rigid in rigids], self._first_wall),
         )
 
-    def body_at(self, point: Point) -> str | None:
-        """Return the body with the highest serial that covers a point of the world [m]."""
+    def bodies_at(self, point: Point) -> list[str]:
+        """Return the bodies that cover a point of the world [m], the highest serial first."""
         hits = self._space.point_query(point, SEAM, pymunk.ShapeFilter())
         names = {self._names[hit.shape.body] for hit in hits if hit.shape.body in self._names}
-        return max(names, key=lambda name: self.bodies[name].serial, default=None)
+        return sorted(names, key=lambda name: -self.bodies[name].serial)
 
     def twist(self, rigid: RigidBody) -> Pose:
         """Return the true velocity of a body."""
@@ -210,20 +218,35 @@ class Space:
                 self.set_twist(old, twist)
             return
         rigid = rigid_body.build(body, old.serial)
+        pose = self._unwound(old, pose)
+        self.machine.detach(body.name)
         self._take(old)
         self._put(rigid, pose, twist)
+        self.machine.attach(body.name)
         if old.wrench != REST and not body.fixed:
             self.push(rigid, old.wrench, old.wrench_until)
 
     def remove(self, name: str) -> None:
-        """Take a body out of the space for good."""
+        """Take a body and its joints out of the space for good."""
+        for joint in self.machine.of(name):
+            self.machine.remove(joint)
         self._take(self.bodies[name])
         del self.bodies[name]
 
     def set_pose(self, rigid: RigidBody, pose: Pose) -> None:
         """Put a body somewhere else."""
-        rigid.pose = pose
+        rigid.pose = self._unwound(rigid, pose)
         self._forget_state()
+
+    def join(self, joint: Joint) -> None:
+        """Take in a joint; it replaces one of that name in its place."""
+        self._unlay()
+        self.machine.put(joint)
+
+    def unjoin(self, name: str) -> None:
+        """Take a joint out."""
+        self._unlay()
+        self.machine.remove(name)
 
     def set_twist(self, rigid: RigidBody, twist: Pose) -> None:
         """Let a body fly freely at a velocity."""
@@ -254,11 +277,13 @@ class Space:
     def inherit(self, old: Space) -> None:
         """Take over what an older space of the same bodies has seen of the frame so far."""
         self._contacts.inherit(old._contacts, old._engine_ids(), self._engine_ids())
+        self.broken = old.broken
 
     def give_up(self) -> RigidBody | None:
         """Take a body out of a space that is used no more, as good as new; None is none left."""
         if not self.bodies:
             return None
+        self.machine.clear()
         rigid = self.bodies.popitem()[1]
         self._shapes.remove(rigid.engine.shapes)
         self._space.remove(rigid.engine)
@@ -291,12 +316,21 @@ class Space:
             rigid.first = self._shapes.add(rigid.engine.shapes)
         remind(self._space, self._shapes, key.memory, self._dt)
         self._write_state(layout, key.state)
+        for joint in key.scene.joints:
+            self.machine.put(joint)
         layout.free = key.free.copy()
         for row, wrench, until in key.wrenches:
             rigid = rigids[row]
             rigid.wrench, rigid.wrench_until = wrench, until
             self._pushed[rigid.body.name] = rigid
             layout.lead[row] = rigid.lead(self._settings.gravity, self._dt)
+
+    def _unwound(self, rigid: RigidBody, pose: Pose) -> Pose:
+        """Return a pose with as many whole turns as a jointed body has made: joints count them."""
+        if not self.machine.of(rigid.body.name):
+            return pose
+        turns = round((rigid.engine.angle - pose[2]) / math.tau)
+        return pose[0], pose[1], pose[2] + turns * math.tau
 
     def _put(self, rigid: RigidBody, pose: Pose, twist: Pose) -> None:
         """Take a body into the space."""
@@ -353,9 +387,13 @@ class Space:
             self._stillness.calm(layout.ground, before)
         self._arrest(layout, before)
         self._watching = watching
+        if self.machine.joints:
+            self.machine.prepare(layout.listed, lambda: self._read(_STATE, 6))
         self._space.step(self._dt)
         self._age += 1
         layout.state = None
+        if self.machine.joints:
+            self._hold(layout)
         if watching:
             self._contacts.add_step()
         expired = layout.expiries.get(number + 1, ())
@@ -365,6 +403,9 @@ class Space:
             self._judge_flight(layout, before)
         for name in expired:
             self.remove(name)
+        for name, force in self.machine.broken():
+            self.unjoin(name)
+            self.broken.append((name, force))
 
     def drop_lost(self) -> tuple[str, ...]:
         """Remove what has left the range of numbers, before it poisons what it touches."""
@@ -410,6 +451,14 @@ class Space:
                 reach=float(speed.max()) * self._dt,
                 rigid_of=lambda engine: self.bodies.get(self._names.get(engine, '')),
             )
+
+    def _hold(self, layout: Layout) -> None:
+        """Hold what the engine has not held of the joints."""
+        state = self._read(_STATE, 6)
+        if self.machine.hold(layout.listed, state):
+            self._written.set_float_buf(state[:, 3:].copy())
+            batch.set_space_bodies(self._space, _TWIST, self._written)
+        layout.state = state[layout.order]
 
     def _judge_flight(self, layout: Layout, before: Floats) -> None:
         """Find which bodies the last step only accelerated: those are in free flight."""
@@ -461,7 +510,8 @@ class Space:
             rigids = tuple(self.bodies.values())
             if scene is None:
                 bodies = tuple(rigid.body for rigid in rigids)
-                scene = Scene(bodies=bodies, settings=self._settings)
+                joints = tuple(held.joint for held in self.machine.joints.values())
+                scene = Scene(bodies=bodies, settings=self._settings, joints=joints)
             self._layout = lay_out(scene, rigids, listing, self._dt)
         return self._layout
 

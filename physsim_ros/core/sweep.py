@@ -248,7 +248,6 @@ def _near(space: pymunk.Space, mover: _Mover, reach: float) -> Iterator[_Pair]:
     for own in engine.shapes:
         if own.sensor:
             continue
-        touching = _contacts(space, own)
         start = own.bb
         if mover.turns:
             start = pymunk.BB.newForCircle(engine.position, mover.reach)
@@ -257,16 +256,22 @@ def _near(space: pymunk.Space, mover: _Mover, reach: float) -> Iterator[_Pair]:
         around = pymunk.BB(
             start.left + left, start.bottom + bottom, start.right + right, start.top + top
         )
-        for other in space.bb_query(around, own.filter):
-            if not (other.sensor or _body(other) is engine or _body(other) in apart):
-                contact = touching.get(other)
-                yield _Pair(
-                    own,
-                    other,
-                    0.0 if contact is None else _depth(contact),
-                    Vec2d.zero() if contact is None else contact.normal,
-                    _skin(own, other, mover.skin),
-                )
+        others = [
+            other
+            for other in space.bb_query(around, own.filter)
+            if not (other.sensor or _body(other) is engine or _body(other) in apart)
+        ]
+        # Only where something is near: this takes as long again.
+        touching = _contacts(space, own) if others else {}
+        for other in others:
+            contact = touching.get(other)
+            yield _Pair(
+                own,
+                other,
+                0.0 if contact is None else _depth(contact),
+                Vec2d.zero() if contact is None else contact.normal,
+                _skin(own, other, mover.skin),
+            )
 
 
 def _stop(

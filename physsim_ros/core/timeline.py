@@ -87,6 +87,8 @@ class Course:
         stop = self.history.next_stop(step, end)
         for name in self.world.step(stop - step):
             self._tell('divergence', f'{name} left the range of numbers and was removed', name)
+        for name, force in self.world.take_broken():
+            self._tell('joint_broken', f'{name} broke at {force:.3g} N and was removed', name)
         self._carry_out(self.history.seen_at(stop))
 
     def _carry_out(self, serial: int) -> None:

@@ -25,6 +25,7 @@ from dataclasses import replace
 import hashlib
 import math
 
+from physsim_ros.core import joining
 from physsim_ros.core.errors import (
     Anchored,
     BadProperty,
@@ -33,20 +34,27 @@ from physsim_ros.core.errors import (
     UnknownFrame,
     WorldFull,
 )
+from physsim_ros.core.joint_properties import JointKind
 from physsim_ros.core.names import split_name
 from physsim_ros.core.palette import color_of
 from physsim_ros.core.properties import HEAVIEST, LIGHTEST
 from physsim_ros.core.requests import (
     Anchor,
+    Axle,
     check_pose,
     Command,
     Configure,
     Delete,
     DeleteAll,
+    Join,
+    Joining,
+    Pin,
     Release,
     Request,
     Restore,
     Spawn,
+    Unjoin,
+    UnjoinAll,
 )
 from physsim_ros.core.rigid_body import REST, RigidBody, rotated
 from physsim_ros.core.settings import WorldSettings
@@ -115,7 +123,12 @@ class World:
         """Return where everything is."""
         scene, poses, twists = self._space.rows()
         return Snapshot(
-            step=self.step_count, stamp=self.stamp, scene=scene, poses=poses, twists=twists
+            step=self.step_count,
+            stamp=self.stamp,
+            scene=scene,
+            poses=poses,
+            twists=twists,
+            forces=self._space.forces(),
         )
 
     def contacts(self, snapshot: Snapshot) -> Contacts:
@@ -136,7 +149,7 @@ class World:
 
     def body_at(self, point: Point) -> str | None:
         """Return the topmost body, that spawned last, which covers a point of the world [m]."""
-        return self._space.body_at(point)
+        return next(iter(self._space.bodies_at(point)), None)
 
     def save(self) -> WorldState:
         """Return everything that the world goes on from."""
@@ -157,7 +170,10 @@ class World:
                 )
             )
         memory = self._space.keyframe(now).memory
-        return WorldState(settings=self._settings, bodies=tuple(bodies), memory=memory)
+        joints = tuple(held.joint for held in self._space.machine.joints.values())
+        return WorldState(
+            settings=self._settings, bodies=tuple(bodies), joints=joints, memory=memory
+        )
 
     # Changing
 
@@ -165,10 +181,12 @@ class World:
         """
         Carry out a request.
 
-        :return: the body concerned, or '', and a sentence that says what was done
+        :return: the body or joint concerned, or '', and a sentence that says what was done
         :raises Refusal: and nothing is changed
         """
         self.changed = True
+        if isinstance(request, Joining):
+            return self._join(request)
         match request:
             case Spawn():
                 return self._spawn(request)
@@ -188,7 +206,13 @@ class World:
                 return '', f'set {", ".join(changes)}'
             case Restore(state=state):
                 self._restore(state)
-                return '', f'loaded {len(state.bodies)} bodies'
+                joints = f' and {len(state.joints)} joints' if state.joints else ''
+                return '', f'loaded {len(state.bodies)} bodies{joints}'
+
+    def take_broken(self) -> list[tuple[str, float]]:
+        """Return the joints that have broken since the last call, and what each gave then [N]."""
+        broken, self._space.broken = self._space.broken, []
+        return broken
 
     def step(self, count: int) -> tuple[str, ...]:
         """
@@ -302,8 +326,21 @@ class World:
             changes['expires'] = self._step_after(request.lifetime)
         return replace(old, shape=request.shape, **changes)
 
+    def _join(self, request: Joining) -> tuple[str, str]:
+        match request:
+            case Join(points=points, frame=frame):
+                return joining.join(self._space, request, self._points(points, frame))
+            case Unjoin(name=name):
+                return joining.unjoin(self._space, name)
+            case UnjoinAll(namespace=namespace):
+                return '', joining.unjoin_all(self._space, namespace)
+            case Pin(point=point, frame=frame) | Axle(point=point, frame=frame):
+                kind = JointKind.PIN if isinstance(request, Pin) else JointKind.AXLE
+                (point,) = self._points((point,), frame)
+                return joining.pin(self._space, kind, point)
+
     def _hold(self, point: Point, frame: str, *, anchored: bool) -> tuple[str, str]:
-        x, y, _ = self._in_world((*point, 0.0), frame)
+        ((x, y),) = self._points((point,), frame)
         name = self.body_at((x, y))
         if name is None:
             raise NothingThere(f'there is no body at ({x:g}, {y:g})', field='point')
@@ -312,7 +349,11 @@ class World:
         if self.changed:
             body = replace(rigid.body, anchored=anchored)
             self._space.change(rigid, body, rigid.pose, REST)
-        return name, f'{"anchored" if anchored else "released"} {name}'
+        if anchored:
+            return name, f'anchored {name}'
+        loosened = joining.loosen(self._space, name, (x, y))
+        self.changed |= bool(loosened)
+        return name, ' and removed '.join((f'released {name}', *loosened))
 
     def _delete_all(self, namespace: str | None) -> str:
         names = [
@@ -368,10 +409,16 @@ class World:
                 space.push(rigid, saved.wrench, None if steps is None else now + steps)
             if saved.motion is not None:
                 space.set_motion(rigid, saved.motion)
+        for joint in state.joints:
+            space.join(joint)
         if state.memory is not None:
             key = replace(space.keyframe(now), memory=state.memory)
             space = Space(state.settings, self.dt, key=key)
         self._take(space)
+
+    def _points(self, points: tuple[Point, ...], frame: str) -> tuple[Point, ...]:
+        """Return points of a frame as points of the world."""
+        return tuple(self._in_world((*point, 0.0), frame)[:2] for point in points)
 
     def _known(self, name: str) -> RigidBody:
         if name not in self._space.bodies:

@@ -29,8 +29,10 @@ CODES = {
     'UnknownProperty': 'unknown_property',
     'BadProperty': 'bad_property',
     'UnknownBody': 'unknown_body',
+    'UnknownJoint': 'unknown_joint',
     'Anchored': 'anchored',
     'NothingThere': 'nothing_there',
+    'NotRecognised': 'not_recognised',
     'WorldFull': 'world_full',
     'BadWorldFile': 'bad_world_file',
 }

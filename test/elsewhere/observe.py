@@ -25,6 +25,7 @@ from sensor_msgs.msg import MultiDOFJointState
 from visitor import disc, KEPT, stamp_of, Visitor
 from visualization_msgs.msg import Marker, MarkerArray
 
+REQUESTS = ('spawn', 'spawn_array', 'anchor', 'release', 'command', 'stroke', 'speed')
 STREAMS = {
     'poses': PoseArray,
     'states': MultiDOFJointState,
@@ -103,13 +104,18 @@ def main() -> None:
     visitor.finish(
         publishers={
             topic: endpoints(visitor.node.get_publishers_info_by_topic(topic))
-            for topic in (*(f'/physsim/{name}' for name in STREAMS), '/clock', '/diagnostics')
+            for topic in (
+                *(f'/physsim/{name}' for name in (*STREAMS, 'preview')),
+                '/clock',
+                '/diagnostics',
+            )
         },
         subscriptions={
-            f'/physsim/{name}': endpoints(
-                visitor.node.get_subscriptions_info_by_topic(f'/physsim/{name}')
+            topic: endpoints(visitor.node.get_subscriptions_info_by_topic(topic))
+            for topic in (
+                '/clicked_point',
+                *(f'/physsim/{name}' for name in REQUESTS),
             )
-            for name in ('spawn', 'spawn_array', 'anchor', 'release', 'command', 'speed')
         },
         services=dict(services),
         events=[

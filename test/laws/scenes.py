@@ -17,8 +17,9 @@
 import math
 
 import numpy as np
+from physsim_ros.core.joint_properties import JointKind, JointProperties
 from physsim_ros.core.properties import Properties
-from physsim_ros.core.requests import Configure, Spawn
+from physsim_ros.core.requests import Configure, Join, Spawn
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.shapes import Box
 from physsim_ros.core.simulation import Simulation
@@ -96,3 +97,15 @@ def until_velocity_changes(sim, row, most=2000):
             return before, after
         before = after
     raise AssertionError('nothing happened')
+
+
+def join(sim, name, kind, points, *, a='', b='', **properties):
+    """Join two bodies, or one and the background."""
+    said = JointProperties(**properties)
+    kind = JointKind(kind)
+    sim.perform(Join(name=name, kind=kind, points=tuple(points), a=a, b=b, properties=said))
+
+
+def energy(snapshot):
+    """Return all the energy there is [J]."""
+    return snapshot.kinetic_energy + snapshot.potential_energy + snapshot.elastic_energy

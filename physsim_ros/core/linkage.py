@@ -1,0 +1,244 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Linkages: joints that are held exactly.
+
+The engine goes from joint to joint a few times a step and stops. What hangs together over many
+joints then stretches, beams of pinned boxes bend and break into flutter, and pendulums lose their
+energy. Here all joints that hang together are solved at once, after the engine's own attempt,
+which has also to do with contacts: their velocities are moved, by the least there is to move, to
+where every joint will be closed again at the end of the coming step.
+
+Laws: momentum is kept, since bodies only push each other; ropes and limits only hold back; what
+is solved depends on the state alone, nothing is remembered from step to step.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+import itertools
+
+import numpy as np
+from physsim_ros.core.equations import Equations
+from physsim_ros.core.joint_properties import JointKind
+from physsim_ros.core.joints import EngineJoint, FASTEST_CORRECTION
+from physsim_ros.core.restraints import Restraints
+from physsim_ros.core.snapshot import Floats
+import pymunk
+
+# What hangs together over more rows is solved part by part: these take three milliseconds.
+MOST_ROWS = 600
+# So often it is looked at which ropes are taut and which limits are reached.
+_ROUNDS = 6
+# Below it [m/s, rad/s] nothing moves on into a limit.
+_STILL = 1e-9
+# The most rows that a joint of a kind has.
+_ROWS = {
+    JointKind.PIN: 3,
+    JointKind.AXLE: 4,
+    JointKind.MOTOR: 2,
+    JointKind.ROD: 1,
+    JointKind.ROPE: 1,
+    JointKind.SLIDER: 4,
+    JointKind.GEAR: 1,
+}
+
+
+class Linkage:
+    """
+    The joints that are held exactly.
+
+    :param joints: of the space, in their order; springs, and what gives way, are left out
+    :param places: of the engine's bodies in the listing that states come in
+    :param listed: how many that listing has
+    :param dt: of a step [s]
+    """
+
+    def __init__(
+        self,
+        joints: Sequence[EngineJoint],
+        places: dict[pymunk.Body, int],
+        listed: int,
+        dt: float,
+    ) -> None:
+        held = [number for number, each in enumerate(joints) if each.exact]
+        self._dt = dt
+        # What each joint of the space has given beside the engine in the last step [N s].
+        self.impulses: Floats = np.zeros(len(joints))
+        self._systems = [
+            _System(
+                Restraints([joints[number] for number in stage], places, listed), stage, groups
+            )
+            for stage, groups in _stages(held, joints)
+        ]
+
+    def hold(self, state: Floats) -> bool:
+        """
+        Move velocities to where the joints will be closed at the end of the coming step.
+
+        :param state: (m, 6) float64: poses and velocities in the engine's listing; kept up to date
+        :return: whether there was anything to hold
+        """
+        for system in self._systems:
+            system.hold(state, self._dt, self.impulses)
+        return bool(self._systems)
+
+    def redundant(self, state: Floats) -> set[tuple[int, int]]:
+        """
+        Return what says nothing new: number of the joint, and which of its constraints.
+
+        The engine hands impulses round and round among joints that say the same, more of them at
+        each step.
+
+        :param state: (m, 6) float64: poses and velocities in the engine's listing
+        """
+        return {each for system in self._systems for each in system.redundant(state)}
+
+
+def _stages(
+    held: Sequence[int], joints: Sequence[EngineJoint]
+) -> list[tuple[list[int], list[list[int]]]]:
+    """
+    Part the joints into what is solved one after the other.
+
+    :param held: numbers of the joints
+    :return: for each stage its joints, and these again in groups that hang together
+    """
+    stages: list[list[list[int]]] = []
+    for island in _islands(held, joints):
+        parts: list[list[int]] = [[]]
+        room = MOST_ROWS
+        for number in island:
+            rows = _ROWS[joints[number].joint.kind]
+            if rows > room:
+                parts.append([])
+                room = MOST_ROWS
+            parts[-1].append(number)
+            room -= rows
+        for stage, part in itertools.zip_longest(range(len(parts)), parts):
+            if stage == len(stages):
+                stages.append([])
+            stages[stage].append(part)
+    return [([*itertools.chain(*groups)], groups) for groups in stages]
+
+
+def _islands(held: Sequence[int], joints: Sequence[EngineJoint]) -> list[list[int]]:
+    """Part joints into groups that have no body in common which forces move."""
+    owner: dict[pymunk.Body, list[int]] = {}
+    for number in held:
+        ends = joints[number].ends
+        island = [number]
+        for body in (ends.a, ends.b):
+            if body.body_type != pymunk.Body.DYNAMIC:
+                continue
+            other = owner.get(body)
+            if other is not None and other is not island:
+                # The longer list takes in the shorter one.
+                island, other = (other, island) if len(other) > len(island) else (island, other)
+                island += other
+                for each in other:
+                    for end in (joints[each].ends.a, joints[each].ends.b):
+                        if owner.get(end) is other:
+                            owner[end] = island
+            owner[body] = island
+        for body in (ends.a, ends.b):
+            if body.body_type == pymunk.Body.DYNAMIC:
+                owner[body] = island
+    unique = {id(island): island for island in owner.values()}
+    return sorted((sorted(island) for island in unique.values()), key=lambda island: island[0])
+
+
+class _System:
+    """
+    Joints that are solved at once.
+
+    :param restraints: what they keep
+    :param numbers: of the joints in the space
+    :param groups: of these that hang together
+    """
+
+    def __init__(
+        self, restraints: Restraints, numbers: Sequence[int], groups: Sequence[Sequence[int]]
+    ) -> None:
+        self._restraints = restraints
+        self._numbers = np.array(numbers, np.intp)
+        self._limited = bool(restraints.limits.any())
+        members: dict[int, list[int]] = {}
+        for row, joint in enumerate(restraints.owner.tolist()):
+            members.setdefault(numbers[joint], []).append(row)
+        # Rows meet that push the same body.
+        on: dict[int, list[int]] = {}
+        for side, body in enumerate(restraints.sides.tolist()):
+            if restraints.inverse[side].any():
+                on.setdefault(body, []).append(side)
+        self._equations = Equations(
+            [[row for number in group for row in members[number]] for group in groups],
+            [pair for sides in on.values() for pair in itertools.product(sides, sides)],
+            len(restraints.owner),
+        )
+
+    def hold(self, state: Floats, dt: float, impulses: Floats) -> None:
+        """Move velocities; see `Linkage.hold`."""
+        restraints, equations = self._restraints, self._equations
+        # The background comes last.
+        states = np.vstack((state, np.zeros((1, 6))))
+        gaps, pushes = restraints.read(states)
+        moves = pushes * restraints.inverse
+        shared = (moves[equations.left] * pushes[equations.right]).sum(axis=1)
+        wanted = -np.clip(gaps / dt, -FASTEST_CORRECTION, FASTEST_CORRECTION)
+        short = wanted - self._speeds(pushes, states)
+        active = ~restraints.limits | (short < -_STILL)
+        given = equations.solve(shared, short, active)
+        for _ in range(_ROUNDS if self._limited else 0):
+            # What pushes where it can only pull lets go; what goes on into its limit is stopped.
+            pushed = states.copy()
+            self._push(pushed, moves, given)
+            left = wanted - self._speeds(pushes, pushed)
+            wrong = restraints.limits & active & (given > 0.0)
+            missed = restraints.limits & ~active & (left < -_STILL)
+            if not (wrong | missed).any():
+                break
+            active = (active & ~wrong) | missed
+            given = equations.solve(shared, short, active)
+        given[restraints.limits] = np.minimum(given[restraints.limits], 0.0)
+        self._push(states, moves, given)
+        state[:, 3:] = states[:-1, 3:]
+        # Joint by joint, what its rows give together.
+        total = np.bincount(restraints.owner, given * given, len(self._numbers))
+        impulses[self._numbers] = np.sqrt(total)
+
+    def redundant(self, state: Floats) -> Iterator[tuple[int, int]]:
+        """Yield what says nothing new; see `Linkage.redundant`."""
+        restraints, equations = self._restraints, self._equations
+        _, pushes = restraints.read(np.vstack((state, np.zeros((1, 6)))))
+        shared = (pushes * restraints.inverse)[equations.left] * pushes[equations.right]
+        keeps = ~restraints.limits
+        for row in equations.dependent(shared.sum(axis=1), keeps):
+            constraint = int(row >= restraints.angles_from)
+            joint = int(restraints.owner[row])
+            yield int(self._numbers[joint]), constraint if restraints.has_both[joint] else 0
+
+    def _speeds(self, pushes: Floats, states: Floats) -> Floats:
+        """Return how fast each number changes."""
+        each: Floats = (pushes * states[self._restraints.sides, 3:]).sum(axis=1)
+        count = len(each) // 2
+        return each[:count] + each[count:]
+
+    def _push(self, states: Floats, moves: Floats, given: Floats) -> None:
+        """Give each row's impulse to its bodies."""
+        changes = moves * np.concatenate((given, given))[:, None]
+        for axis in range(3):
+            change = np.bincount(self._restraints.sides, changes[:, axis], len(states))
+            states[:, 3 + axis] += change

@@ -1,0 +1,214 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+The joints of a space: made, taken apart and held together.
+
+Laws: a joint goes with either of its bodies; a body whose engine objects are made anew keeps its
+joints; a joint that gives more than it can bear is gone after that step, and told of.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Mapping, Sequence
+import math
+
+import numpy as np
+from physsim_ros.core import joints
+from physsim_ros.core.joint_properties import JointKind
+from physsim_ros.core.joints import EngineJoint
+from physsim_ros.core.linkage import Linkage
+from physsim_ros.core.names import WORLD
+from physsim_ros.core.rigid_body import RigidBody
+from physsim_ros.core.snapshot import Floats, Joint
+import pymunk
+
+# The roughest that the engine's own attempt may be with all bodies together [m/s²].
+_ROUGHEST = 60.0
+
+
+class Machine:
+    """
+    Joints in the engine.
+
+    :param space: of the engine
+    :param bodies: by name; kept by the space
+    :param dt: of a step [s]
+    """
+
+    def __init__(self, space: pymunk.Space, bodies: Mapping[str, RigidBody], dt: float) -> None:
+        self.joints: dict[str, EngineJoint] = {}
+        self._space = space
+        self._bodies = bodies
+        self._dt = dt
+        # Names of the joints of each body.
+        self._on: dict[str, dict[str, None]] = {}
+        self._linkage: Linkage | None = None
+        self._listed: Sequence[RigidBody | None] = ()
+        # Whether the linkage has not been through a step, and whether the last one was its first.
+        self._fresh = self._first_step = True
+        # Numbers of the joints that can break, and what each may give [N s].
+        self._breakable: list[tuple[int, float]] = []
+
+    def __len__(self) -> int:
+        return len(self.joints)
+
+    def of(self, body: str) -> tuple[str, ...]:
+        """Return the names of a body's joints, in the order in which they were made."""
+        return tuple(name for name in self.joints if name in self._on.get(body, ()))
+
+    def put(self, joint: Joint) -> None:
+        """Take in a joint; it replaces one of that name in its place."""
+        old = self.joints.get(joint.name)
+        if old is not None:
+            self._take(old)
+        self._build(joint)
+        for body in (joint.a, joint.b):
+            self._on.setdefault(body, {})[joint.name] = None
+
+    def remove(self, name: str) -> None:
+        """Take a joint out for good."""
+        held = self.joints[name]
+        self._take(held)
+        del self.joints[name]
+
+    def clear(self) -> None:
+        """Take all joints out of the engine, before its bodies serve another one."""
+        for held in self.joints.values():
+            self._space.remove(*held.constraints)
+        self.joints.clear()
+        self._on.clear()
+        self._linkage = None
+
+    def detach(self, body: str) -> None:
+        """Take the joints of a body out of the engine, before its engine objects go."""
+        for name in self.of(body):
+            held = self.joints[name]
+            self._space.remove(*held.constraints)
+            self.joints[name] = EngineJoint(held.joint, held.ends, ())
+        self._linkage = None
+
+    def attach(self, body: str) -> None:
+        """Put the joints of a body back into the engine."""
+        for name in self.of(body):
+            self._build(self.joints[name].joint)
+
+    def hold(self, listed: Sequence[RigidBody | None], state: Floats) -> bool:
+        """
+        Hold after a step what the engine has not held in it.
+
+        :param listed: the bodies in the engine's listing
+        :param state: (m, 6) float64: their poses and velocities; kept up to date
+        :return: whether velocities have been moved
+        """
+        return self._linked(listed).hold(state)
+
+    def prepare(self, listed: Sequence[RigidBody | None], read: Callable[[], Floats]) -> None:
+        """
+        Get ready for a step, where something has changed since the last one.
+
+        :param read: returns poses and velocities in the engine's listing, (m, 6) float64
+        """
+        linkage = self._linked(listed)
+        self._first_step = self._fresh
+        if self._fresh:
+            self._spare(linkage.redundant(read()))
+            self._fresh = False
+
+    def _spare(self, redundant: set[tuple[int, int]]) -> None:
+        """
+        Leave out of the engine's own attempt what says nothing new, and bound the rest.
+
+        Near where joints say the same, as at the dead centre of a crank, the engine's impulses
+        grow out of all measure; what it has not given, the linkage gives.
+        """
+        masses = (rigid.engine.mass for rigid in self._bodies.values() if not rigid.body.fixed)
+        most = _ROUGHEST * math.fsum(masses)
+        for number, held in enumerate(self.joints.values()):
+            if held.exact:
+                for place, constraint in enumerate(held.constraints):
+                    if not isinstance(constraint, pymunk.SimpleMotor):
+                        # Not removed: it also keeps the two bodies from colliding.
+                        constraint.max_force = 0.0 if (number, place) in redundant else most
+
+    def forces(self, listed: Sequence[RigidBody | None]) -> Floats:
+        """Return (j,) float64: what each joint gave in the last step [N]."""
+        if not self.joints:
+            return np.empty(0)
+        return (self._impulses() + self._linked(listed).impulses) / self._dt
+
+    def broken(self) -> list[tuple[str, float]]:
+        """Return the joints that have given more than they can bear, and how much [N]."""
+        # What was just let go of flies half a step ahead, which the first step takes back: that
+        # is no load.
+        if not self._breakable or self._linkage is None or self._first_step:
+            return []
+        held, beside = list(self.joints.values()), self._linkage.impulses
+        return [
+            (held[number].joint.name, given / self._dt)
+            for number, most in self._breakable
+            if (given := held[number].impulse + float(beside[number])) > most
+        ]
+
+    def _impulses(self) -> Floats:
+        """Return (j,) float64: what the engine's constraints gave in the last step [N s]."""
+        return np.array([held.impulse for held in self.joints.values()])
+
+    def _build(self, joint: Joint) -> None:
+        other = None if joint.b == WORLD else self._bodies[joint.b]
+        held = joints.build(joint, self._bodies[joint.a], other, self._space.static_body, self._dt)
+        self._space.add(*held.constraints)
+        self.joints[joint.name] = held
+        self._linkage = None
+
+    def _take(self, held: EngineJoint) -> None:
+        self._space.remove(*held.constraints)
+        for body in (held.joint.a, held.joint.b):
+            self._on[body].pop(held.joint.name, None)
+            if not self._on[body]:
+                del self._on[body]
+        self._linkage = None
+
+    def _linked(self, listed: Sequence[RigidBody | None]) -> Linkage:
+        """Return what holds the joints, made anew where a body or a joint has come or gone."""
+        if self._linkage is None or self._listed is not listed:
+            self._soften()
+            held = list(self.joints.values())
+            places = {
+                rigid.engine: place for place, rigid in enumerate(listed) if rigid is not None
+            }
+            count = len(listed)
+            self._linkage = Linkage(held, places, count, self._dt)
+            self._listed, self._fresh = listed, True
+            self._breakable = [
+                (number, most * self._dt)
+                for number, each in enumerate(held)
+                if (most := each.joint.properties.break_force) is not None
+            ]
+        return self._linkage
+
+    def _soften(self) -> None:
+        """Let no spring be stiffer than steps can follow."""
+        springs = [
+            held
+            for held in self.joints.values()
+            if held.joint.kind is JointKind.SPRING and held.constraints
+        ]
+        count = Counter(body for held in springs for body in (held.ends.a, held.ends.b))
+        for held in springs:
+            most = joints.stiffest(held.ends, count, self._dt)
+            (spring,) = held.constraints
+            assert isinstance(spring, pymunk.DampedSpring)  # noqa: S101 - what the table makes
+            spring.stiffness = min(held.joint.stiffness, most)

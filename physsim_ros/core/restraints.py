@@ -1,0 +1,183 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+What joints keep: numbers that are zero, or not above zero, while nothing is strained.
+
+Law: a number changes with the velocities of its two bodies, along one direction and with their
+turning; this knows how much it is now and how it changes, for all joints by arrays alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+from physsim_ros.core.joint_properties import JointKind
+from physsim_ros.core.joints import EngineJoint
+from physsim_ros.core.snapshot import Floats, Joint
+import pymunk
+
+Rows = NDArray[np.intp]
+
+_PIVOTS = (JointKind.PIN, JointKind.AXLE, JointKind.MOTOR)
+_TURNS = (JointKind.PIN, JointKind.SLIDER, JointKind.GEAR)
+
+
+class Restraints:
+    """
+    The numbers that joints keep, one a row.
+
+    :param joints: whose they are
+    :param places: of the engine's bodies in the listing that states come in
+    :param listed: how many that listing has
+
+    :ivar owner: (r,) the joint of each row
+    :ivar sides: (2 r,) the place of the first body of each row, then of the second
+    :ivar inverse: (2 r, 3) float64: 1 / mass, 1 / mass, 1 / moment of these
+    :ivar limits: (r,) bool: whether the number may be below zero
+    :ivar angles_from: from which row on the number is an angle
+    :ivar has_both: for each joint, whether it keeps a place and an angle
+    """
+
+    def __init__(
+        self, joints: Sequence[EngineJoint], places: dict[pymunk.Body, int], listed: int
+    ) -> None:
+        whats = [each.joint for each in joints]
+
+        def rows(wanted: Callable[[Joint], object]) -> Rows:
+            return np.array([row for row, joint in enumerate(whats) if wanted(joint)], np.intp)
+
+        def of(*kinds: JointKind) -> Rows:
+            return rows(lambda joint: joint.kind in kinds)
+
+        # The background, which does not move, comes behind the bodies of the listing.
+        self._a = np.array([places.get(each.ends.a, listed) for each in joints], np.intp)
+        self._b = np.array([places.get(each.ends.b, listed) for each in joints], np.intp)
+        self._at_a = np.array([each.ends.at_a for each in joints])
+        self._at_b = np.array([each.ends.at_b for each in joints])
+        self._axis = np.array([(joint.seat.ux, joint.seat.uy) for joint in whats])
+
+        pivots, rods, ropes = of(*_PIVOTS), of(JointKind.ROD), of(JointKind.ROPE)
+        self._straight, self._sliders = np.concatenate((rods, ropes)), of(JointKind.SLIDER)
+        slider, axle = JointKind.SLIDER, JointKind.AXLE
+        self._most = rows(lambda each: each.kind is slider and each.properties.upper is not None)
+        self._least = rows(lambda each: each.kind is slider and each.properties.lower is not None)
+        self._points = np.concatenate(
+            (pivots, pivots, self._straight, self._sliders, self._most, self._least)
+        )
+        self._fixed = np.repeat(np.eye(2), len(pivots), axis=0)
+        self._offsets = np.concatenate(
+            (
+                np.zeros(2 * len(pivots)),
+                [whats[row].seat.length for row in rods],
+                [whats[row].rest_length for row in ropes],
+                np.zeros(len(self._sliders)),
+                [_said(whats[row].properties.upper) for row in self._most],
+                [-_said(whats[row].properties.lower) for row in self._least],
+            )
+        )
+
+        turns = of(*_TURNS)
+        most = rows(lambda each: each.kind is axle and each.properties.upper is not None)
+        least = rows(lambda each: each.kind is axle and each.properties.lower is not None)
+        self._angles = np.concatenate((turns, most, least))
+        # How the turns of the two bodies count, and what they come to.
+        ratios = [whats[row].number('ratio') for row in turns]
+        self._with_a = np.concatenate(
+            (-np.ones(len(turns)), np.ones(len(most)), -np.ones(len(least)))
+        )
+        self._with_b = np.concatenate((ratios, -np.ones(len(most)), np.ones(len(least))))
+        phase = np.array([joint.seat.phase for joint in whats])
+        self._comes_to = np.concatenate(
+            (
+                phase[turns],
+                [_said(whats[row].properties.upper) for row in most] - phase[most],
+                phase[least] - [_said(whats[row].properties.lower) for row in least],
+            )
+        )
+
+        self.owner = np.concatenate((self._points, self._angles))
+        self.sides = np.concatenate((self._a[self.owner], self._b[self.owner]))
+        self.angles_from = len(self._points)
+        self.has_both = [joint.kind in (JointKind.PIN, JointKind.SLIDER) for joint in whats]
+        self.limits = np.zeros(len(self.owner), dtype=np.bool_)
+        ropes_from = 2 * len(pivots) + len(rods)
+        self.limits[ropes_from : ropes_from + len(ropes)] = True
+        limits_from = ropes_from + len(ropes) + len(self._sliders)
+        self.limits[limits_from : len(self._points)] = True
+        self.limits[len(self._points) + len(turns) :] = True
+        inverse = np.zeros((listed + 1, 3))
+        for each in joints:
+            for body in (each.ends.a, each.ends.b):
+                if body.body_type == pymunk.Body.DYNAMIC:
+                    inverse[places[body]] = 1 / body.mass, 1 / body.mass, 1 / body.moment
+        self.inverse = inverse[self.sides]
+
+    def read(self, states: Floats) -> tuple[Floats, Floats]:
+        """
+        Return how far each number is from zero, and how it changes.
+
+        :param states: (m + 1, 6) float64: poses and velocities in the listing, then the background
+        :return: (r,) float64 [m, rad], and (2 r, 3) float64: direction and moment on the first
+            body of each row, then on the second
+        """
+        yaw_a, yaw_b = states[self._a, 2], states[self._b, 2]
+        arm_a, arm_b = _turned(self._at_a, yaw_a), _turned(self._at_b, yaw_b)
+        apart = states[self._a, :2] + arm_a - states[self._b, :2] - arm_b
+        lines = _turned(self._axis, yaw_b)
+        between = apart[self._straight]
+        length = np.hypot(between[:, 0], between[:, 1])[:, None]
+        along = np.where(length > 0, between / np.maximum(length, 1e-300), (1.0, 0.0))
+        line = lines[self._sliders]
+        across = np.column_stack((-line[:, 1], line[:, 0]))
+        direction = np.concatenate(
+            (self._fixed, along, across, lines[self._most], -lines[self._least])
+        )
+        # A slider's line turns with the second body, all the way out to where the first one is.
+        arm_b[self._sliders] += apart[self._sliders]
+
+        points, angles = self._points, self._angles
+        count, rows = len(points), len(self.owner)
+        second = rows + count
+        pushes = np.zeros((2 * rows, 3))
+        pushes[:count, :2], pushes[rows:second, :2] = direction, -direction
+        pushes[:count, 2] = _cross(arm_a[points], direction)
+        pushes[rows:second, 2] = -_cross(arm_b[points], direction)
+        pushes[count:rows, 2], pushes[second:, 2] = self._with_a, self._with_b
+
+        gaps = np.empty(rows)
+        gaps[:count] = (apart[points] * direction).sum(axis=1) - self._offsets
+        turned = self._with_a * yaw_a[angles] + self._with_b * yaw_b[angles]
+        gaps[count:] = turned - self._comes_to
+        return gaps, pushes
+
+
+def _said(value: float | None) -> float:
+    """Return a number that is known to be said."""
+    assert value is not None  # noqa: S101 - who has none was left out
+    return value
+
+
+def _turned(vectors: Floats, yaw: Floats) -> Floats:
+    """Return vectors, (k, 2), each turned counter-clockwise [rad]."""
+    cos, sin = np.cos(yaw), np.sin(yaw)
+    x, y = vectors.T
+    return np.column_stack((cos * x - sin * y, sin * x + cos * y))
+
+
+def _cross(a: Floats, b: Floats) -> Floats:
+    product: Floats = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
+    return product

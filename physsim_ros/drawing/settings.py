@@ -1,0 +1,69 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""What whoever draws can set: how near is near, what counts as meant, what drawn things are."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+import math
+
+from physsim_ros.core.errors import BadProperty
+from physsim_ros.core.properties import FASTEST, pair, within
+from physsim_ros.core.shapes import Color, Point, SMALLEST
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DrawingSettings:
+    """
+    The settings of drawing; each is the ROS parameter of the same name.
+
+    :param snap: what ends as near as this to something is meant to end there [m], 0 .. 10
+    :param sketch_confidence: the least confidence with which a stroke is taken for something,
+        0 .. 1
+    :param beautify: how far what is drawn may be from regular and still be meant so, 0 .. 0.5:
+        an angle in radians from right, level or upright, a length in shares of its neighbour's;
+        0 keeps the geometry as it was drawn
+    :param wall_thickness: of walls that are drawn [m], 0.001 .. 10
+    :param draw_velocity: of bodies that are drawn [m/s]
+    :param draw_color: of bodies that are drawn, red, green, blue, alpha, each 0 .. 1; None
+        chooses one for each
+    :raises Malformed: a number is not finite
+    :raises BadProperty: a value is out of range
+    """
+
+    snap: float = 0.15
+    sketch_confidence: float = 0.6
+    beautify: float = 0.12
+    wall_thickness: float = 0.1
+    draw_velocity: Point = (0.0, 0.0)
+    draw_color: Color | None = None
+
+    def __post_init__(self) -> None:
+        for name, check in _CHECKS.items():
+            object.__setattr__(self, name, check(getattr(self, name), name))
+        velocity = pair(self.draw_velocity, 'draw_velocity')
+        if math.hypot(*velocity) > FASTEST:
+            raise BadProperty(
+                f'draw_velocity is faster than {FASTEST:g} m/s', field='draw_velocity'
+            )
+        object.__setattr__(self, 'draw_velocity', velocity)
+
+
+_CHECKS = {
+    'snap': within(0.0, 10.0, 'm'),
+    'sketch_confidence': within(0.0, 1.0),
+    'beautify': within(0.0, 0.5),
+    'wall_thickness': within(SMALLEST, 10.0, 'm'),
+}

@@ -1,0 +1,139 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Where the ends of what is drawn belong: on the bodies that they were drawn to.
+
+Law: a point moves by no more than `snap`, and only onto something that is there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+import math
+
+from physsim_ros.core.names import WORLD
+from physsim_ros.core.shapes import Capsule, Chain, Circle, Convex, Disc, Piece, Point
+from physsim_ros.drawing.settings import DrawingSettings
+from physsim_ros.drawing.view import View
+
+
+@dataclass(frozen=True, slots=True)
+class End:
+    """
+    An end of something that joins bodies.
+
+    :param point: in the world [m]
+    :param body: a body's name, or 'world' for the background
+    """
+
+    point: Point
+    body: str
+
+
+def ends_on(
+    start: Point, end: Point, view: View, settings: DrawingSettings
+) -> tuple[End, End] | None:
+    """
+    Return the ends of what joins the bodies at two points, the first one on a body that moves.
+
+    :return: None where there is nothing to join: no body that moves, or one body at both ends
+    """
+    first, last = _bodies(start, view, settings), _bodies(end, view, settings)
+    pairs = [(a, b) for a in first or (WORLD,) for b in last or (WORLD,) if a != b]
+    for a, b in pairs:
+        ends = End(_onto(start, a, view, settings), a), End(_onto(end, b, view, settings), b)
+        if a != WORLD and not view.body(a).fixed:
+            return ends
+        if b != WORLD and not view.body(b).fixed:
+            return ends[::-1]
+    return None
+
+
+def pivot(center: Point, view: View, settings: DrawingSettings) -> Point:
+    """Return where an axle belongs: in the middle of a wheel, if it is as near to it as that."""
+    under = view.bodies_at(center)[:2]
+    for name in under:
+        if isinstance(view.body(name).shape, Disc):
+            x, y, _ = view.pose(name)
+            if math.dist((x, y), center) <= settings.snap and view.bodies_at((x, y))[:2] == under:
+                return x, y
+    return center
+
+
+def wall_end(point: Point, view: View, settings: DrawingSettings) -> Point:
+    """Return where the end of a wall belongs: at the end of another, or on a body's surface."""
+    near = view.bodies_at(point, settings.snap)
+    for name in near:
+        shape = view.body(name).shape
+        if isinstance(shape, Chain):
+            for end in (shape.points[0], shape.points[-1]):
+                there = view.in_world(name, end)
+                if math.dist(there, point) <= settings.snap:
+                    return there
+    covering = view.bodies_at(point)
+    return point if covering or not near else _surface(point, near[0], view)
+
+
+def _bodies(point: Point, view: View, settings: DrawingSettings) -> tuple[str, ...]:
+    """Return the bodies that a point belongs to, topmost first: those that cover it, or near."""
+    return view.bodies_at(point) or view.bodies_at(point, settings.snap)
+
+
+def _onto(point: Point, name: str, view: View, settings: DrawingSettings) -> Point:
+    """Return where on a body an end belongs: in its middle, where it was drawn, or nearest."""
+    if name == WORLD:
+        return point
+    body = view.body(name)
+    # What is hung up in its middle does not turn for a slip of the hand.
+    middle = view.in_world(name, body.shape.form.centroid)
+    if not body.fixed and math.dist(point, middle) <= min(settings.snap, body.shape.form.inner):
+        return middle
+    return point if name in view.bodies_at(point) else _surface(point, name, view)
+
+
+def _surface(point: Point, name: str, view: View) -> Point:
+    """Return the point of a body that is nearest to a point outside it."""
+    local = view.local(name, point)
+    pieces = view.body(name).shape.form.pieces
+    nearest = (near for piece in pieces for near in _nearest(piece, local))
+    return view.in_world(name, min(nearest, key=lambda each: math.dist(each, local)))
+
+
+def _nearest(piece: Piece, point: Point) -> Iterator[Point]:
+    """Yield points of a piece, that nearest to a point outside it among them."""
+    match piece:
+        case Circle(center, radius):
+            yield _towards(center, point, radius)
+        case Capsule(start, end, radius):
+            yield _towards(_on_segment(start, end, point), point, radius)
+        case Convex(vertices):
+            for start, end in zip(vertices, (*vertices[1:], vertices[0]), strict=True):
+                yield _on_segment(start, end, point)
+
+
+def _towards(start: Point, end: Point, length: float) -> Point:
+    """Return the point that lies so far from one point towards another."""
+    distance = max(math.dist(start, end), 1e-12)
+    share = length / distance
+    return start[0] + share * (end[0] - start[0]), start[1] + share * (end[1] - start[1])
+
+
+def _on_segment(start: Point, end: Point, point: Point) -> Point:
+    """Return the point of a segment that is nearest to a point."""
+    along = end[0] - start[0], end[1] - start[1]
+    dot = (point[0] - start[0]) * along[0] + (point[1] - start[1]) * along[1]
+    share = min(max(dot / max(along[0] ** 2 + along[1] ** 2, 1e-24), 0.0), 1.0)
+    return start[0] + share * along[0], start[1] + share * along[1]

@@ -1,0 +1,182 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+The world as whoever draws sees it: names, what lies under a point, where it is.
+
+Law: it reads a snapshot, so drawing needs neither engine nor running time, and a picture of the
+past will do.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from functools import cached_property
+import math
+
+import numpy as np
+from physsim_ros.core.errors import UnknownFrame
+from physsim_ros.core.names import split_name
+from physsim_ros.core.settings import WorldSettings
+from physsim_ros.core.shapes import Capsule, Circle, Convex, Piece, Point, Pose
+from physsim_ros.core.snapshot import Body, Floats, Snapshot
+
+# The namespace of all that is drawn.
+DRAWN = 'drawn'
+
+
+class View:
+    """
+    A world at a moment.
+
+    :param snapshot: of the world
+    :param first: the lowest number that no drawn body has had, as far as is remembered
+    :param first_joint: the same of drawn joints
+    """
+
+    def __init__(self, snapshot: Snapshot, *, first: int = 0, first_joint: int = 0) -> None:
+        self.snapshot = snapshot
+        self._first, self._first_joint = first, first_joint
+
+    @property
+    def settings(self) -> WorldSettings:
+        """Return what holds for the whole world."""
+        return self.snapshot.scene.settings
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Return the names of all bodies, in spawn order."""
+        return self.snapshot.scene.names
+
+    def body(self, name: str) -> Body:
+        """Return what a body is."""
+        return self.snapshot.scene.bodies[self._rows[name]]
+
+    def pose(self, name: str) -> Pose:
+        """Return x, y [m] and yaw [rad] of a body's origin."""
+        x, y, yaw = self.snapshot.poses[self._rows[name]].tolist()
+        return x, y, yaw
+
+    def twist(self, name: str) -> Pose:
+        """Return vx, vy [m/s] of a body's centre of mass and its spin [rad/s], world axes."""
+        vx, vy, spin = self.snapshot.twists[self._rows[name]].tolist()
+        return vx, vy, spin
+
+    def bodies_at(self, point: Point, slack: float = 0.0) -> tuple[str, ...]:
+        """
+        Return the bodies that cover a point, topmost (that spawned last) first.
+
+        :param point: in the world [m]
+        :param slack: how far outside a body a point may lie and still count [m]
+        """
+        away = self.snapshot.centers - point
+        near = np.hypot(away[:, 0], away[:, 1]) <= self._reaches + slack
+        return tuple(
+            self.names[row]
+            for row in np.flatnonzero(near)[::-1]
+            if self._covers(row, point, slack)
+        )
+
+    def covers(self, name: str, point: Point) -> bool:
+        """Tell whether a body covers a point of the world [m]."""
+        return self._covers(self._rows[name], point, 0.0)
+
+    def local(self, name: str, point: Point) -> Point:
+        """Return a point of the world as it is in a body's frame [m]."""
+        x, y, yaw = self.pose(name)
+        dx, dy = point[0] - x, point[1] - y
+        cos, sin = math.cos(yaw), math.sin(yaw)
+        return cos * dx + sin * dy, cos * dy - sin * dx
+
+    def in_world(self, name: str, point: Point) -> Point:
+        """Return a point of a body's frame as it is in the world [m]."""
+        x, y, yaw = self.pose(name)
+        cos, sin = math.cos(yaw), math.sin(yaw)
+        return x + cos * point[0] - sin * point[1], y + sin * point[0] + cos * point[1]
+
+    def placed(self, point: Point, frame: str) -> Point:
+        """
+        Return where a point lies in the world [m].
+
+        :param point: [m]
+        :param frame: of it: '' for the world, or a body's name
+        :raises UnknownFrame: there is no such body
+        """
+        if not frame:
+            return point
+        if frame not in self._rows:
+            raise UnknownFrame(
+                f'frame {frame!r} is neither the world nor a body', field='header.frame_id'
+            )
+        return self.in_world(frame, point)
+
+    def next_drawn(self) -> int:
+        """Return the lowest number above all that drawn bodies have, or have had."""
+        return max(_above(self.names), self._first)
+
+    def next_joint(self) -> int:
+        """Return the lowest number above all that drawn joints have, or have had."""
+        return max(_above(joint.name for joint in self.snapshot.scene.joints), self._first_joint)
+
+    @cached_property
+    def _rows(self) -> dict[str, int]:
+        return {name: row for row, name in enumerate(self.names)}
+
+    @cached_property
+    def _reaches(self) -> Floats:
+        """(n,) float64: how far each body reaches from its centre of mass [m]."""
+        return np.array([body.shape.form.outer for body in self.snapshot.scene.bodies])
+
+    def _covers(self, row: int, point: Point, slack: float) -> bool:
+        body = self.snapshot.scene.bodies[row]
+        local = self.local(body.name, point)
+        return any(_covers(piece, local, slack) for piece in body.shape.form.pieces)
+
+
+def _above(names: Iterable[str]) -> int:
+    """Return the lowest number above all that drawn things among these have."""
+    numbers = (split_name(name) for name in names)
+    return 1 + max((id_ for space, id_ in numbers if space == DRAWN), default=-1)
+
+
+def _covers(piece: Piece, point: Point, slack: float) -> bool:
+    """Tell whether a convex piece covers a point, or lies as near to it as the slack."""
+    match piece:
+        case Circle(center, radius):
+            return math.dist(center, point) <= radius + slack
+        case Capsule(start, end, radius):
+            return _distance(start, end, point) <= radius + slack
+        case Convex(vertices):
+            sides = list(zip(vertices, (*vertices[1:], vertices[0]), strict=True))
+            if all(_left_of(start, end, point) for start, end in sides):
+                return True
+            return slack > 0 and min(_distance(*side, point) for side in sides) <= slack
+
+
+def _left_of(start: Point, end: Point, point: Point) -> bool:
+    turn = (end[0] - start[0]) * (point[1] - start[1]) - (end[1] - start[1]) * (
+        point[0] - start[0]
+    )
+    return turn >= 0
+
+
+def _distance(start: Point, end: Point, point: Point) -> float:
+    """Return how far a point lies from a segment [m]."""
+    along = end[0] - start[0], end[1] - start[1]
+    length2 = along[0] ** 2 + along[1] ** 2
+    share = (point[0] - start[0]) * along[0] + (point[1] - start[1]) * along[1]
+    share = min(max(share / length2, 0.0), 1.0) if length2 > 0 else 0.0
+    return math.hypot(
+        point[0] - start[0] - share * along[0], point[1] - start[1] - share * along[1]
+    )

@@ -1,0 +1,116 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Machines at random: no number leaves the range, nothing raises, and no energy comes from nowhere.
+
+`PHYSSIM_MACHINES` sets how many; a few hundred take some minutes.
+"""
+
+from __future__ import annotations
+
+import os
+import random
+from typing import Any
+
+from hypothesis import given, settings, strategies
+import numpy as np
+from physsim_ros.core.errors import Anchored
+from physsim_ros.core.joint_properties import JointKind, JointProperties
+from physsim_ros.core.requests import Join
+from physsim_ros.core.settings import WorldSettings
+from physsim_ros.core.shapes import Box, Disc, Polygon, Shape
+from physsim_ros.core.snapshot import Snapshot
+from physsim_ros.core.world import World
+
+from .worlds import G, spawn
+
+COUNT = int(os.environ.get('PHYSSIM_MACHINES', '12'))
+# Share of all the energy that the bodies can fall through which contacts and joints that work
+# against each other may add in ten seconds.
+GROWTH = 0.25
+
+
+def energy(snapshot: Snapshot) -> float:
+    return snapshot.kinetic_energy + snapshot.potential_energy + snapshot.elastic_energy
+
+
+def properties(pick: random.Random, kind: JointKind) -> dict[str, Any]:
+    said: dict[str, Any] = {}
+    if kind is JointKind.SPRING:
+        # No stiffer than steps can follow, so that what is in it is known.
+        said = {'stiffness': 10 ** pick.uniform(0.0, 2.3), 'damping': pick.choice([0.0, 1.0])}
+    elif kind in (JointKind.AXLE, JointKind.SLIDER) and pick.random() < 0.4:
+        said = {'lower': pick.uniform(-1.0, 0.0), 'upper': pick.uniform(0.0, 1.0)}
+    elif kind is JointKind.GEAR:
+        said = {'ratio': pick.choice([-2.0, -1.0, 0.5, 3.0])}
+    if kind is not JointKind.SPRING and pick.random() < 0.1:
+        said['max_force'] = 10 ** pick.uniform(0.0, 3.0)
+    if pick.random() < 0.1:
+        said['break_force'] = 10 ** pick.uniform(1.0, 3.0)
+    if pick.random() < 0.2:
+        said['collide'] = True
+    return said
+
+
+def machine(pick: random.Random, *, sensors: bool) -> World:
+    """Return a world of bodies and joints anyhow, without motors."""
+    world = World(settings=WorldSettings(elasticity=pick.choice([0.0, 0.5])))
+    names = [f'body/{number}' for number in range(pick.randint(2, 9))]
+    for name in names:
+        shapes: list[Shape] = [
+            Disc(radius=pick.uniform(0.1, 0.5)),
+            Box(width=pick.uniform(0.1, 1.5), height=pick.uniform(0.1, 0.6)),
+            Polygon(outline=((0.0, 0.0), (1.0, 0.0), (0.3, 0.8))),
+        ]
+        place = (pick.uniform(-3.0, 3.0), pick.uniform(0.0, 4.0), pick.uniform(-3.0, 3.0))
+        said: dict[str, Any] = {'mass': 10 ** pick.uniform(-0.5, 1.0), 'sensor': sensors}
+        said['anchored'] = pick.random() < 0.15
+        spawn(world, name, pick.choice(shapes), place, **said)
+    spawn(world, 'ground/0', Box(width=40.0, height=1.0), (0.0, -3.0, 0.0), anchored=True)
+    kinds = [kind for kind in JointKind if kind is not JointKind.MOTOR]
+    for number in range(pick.randint(1, 2 * len(names))):
+        kind, a = pick.choice(kinds), pick.choice(names)
+        b = pick.choice(['world', *(name for name in names if name != a)])
+        points = tuple((pick.uniform(-3.0, 3.0), pick.uniform(0.0, 5.0)) for _ in range(2))
+        try:
+            world.apply(
+                Join(
+                    name=f'joint/{number}',
+                    kind=kind,
+                    points=points[: kind.points],
+                    a=a,
+                    b=b,
+                    properties=JointProperties(**properties(pick, kind)),
+                )
+            )
+        except Anchored:
+            continue
+    return world
+
+
+@settings(max_examples=COUNT, deadline=None, derandomize=True)
+@given(seed=strategies.integers(0, 2**32), sensors=strategies.booleans())
+def test_any_machine_runs_for_ten_seconds(seed: int, sensors: bool) -> None:
+    world = machine(random.Random(seed), sensors=sensors)
+    before = world.snapshot()
+    mass = float(before.scene.inertia[:, 0].sum())
+    for _ in range(100):
+        world.step(24)
+        now = world.snapshot()
+        assert np.isfinite(now.poses).all()
+        assert np.isfinite(now.twists).all()
+        fallen = max(0.0, -float(now.poses[:, 1].min()))
+        most = max(1.0, mass * G * (4.0 + fallen))
+        assert energy(now) - energy(before) < GROWTH * most

@@ -1,0 +1,103 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Whatever is clicked with whatever tool, it is drawn or refused, and the world can go on."""
+
+from __future__ import annotations
+
+import math
+
+from hypothesis import given, settings
+from hypothesis import strategies as st
+import numpy as np
+from physsim_ros.core.errors import Refusal
+from physsim_ros.core.requests import Spawn
+from physsim_ros.core.shapes import Box, Disc
+from physsim_ros.core.world import World
+from physsim_ros.drawing.pen import Pen
+from physsim_ros.drawing.settings import DrawingSettings
+from physsim_ros.drawing.tools import Tool
+
+# Where people click: near one another and near bodies; and where only programs do.
+near = st.integers(-8, 8).map(lambda eighths: eighths / 8)
+number = st.one_of(near, st.floats(-5, 5), st.floats())
+point = st.tuples(number, number)
+frame = st.sampled_from(['', '', '', 'a/0', 'a/1', 'drawn/0', 'nobody/0'])
+action = st.one_of(
+    st.tuples(st.sampled_from(Tool), st.none(), st.none()), st.tuples(st.none(), point, frame)
+)
+
+
+@settings(max_examples=300, deadline=None)
+@given(
+    st.lists(st.tuples(near, near) | st.tuples(st.floats(-3, 3), st.floats(-3, 3)), max_size=40),
+    st.sampled_from([(0.0, 0.0), (math.nan, 0.0), (1e9, 0.0), (1e-9, 1e300)]),
+    st.booleans(),
+    frame,
+)
+def test_any_stroke_is_read_or_refused_and_leaves_the_world_sound(
+    points: list[tuple[float, float]], odd: tuple[float, float], with_odd: bool, where: str
+) -> None:
+    world = World()
+    world.apply(Spawn(name='a/0', shape=Disc(radius=0.5)))
+    world.apply(Spawn(name='a/1', shape=Box(width=2.0, height=0.5), pose=(0.5, 0.25, 0.3)))
+    pen = Pen(DrawingSettings(sketch_confidence=0.0))
+    samples = np.array([*points, *([odd] if with_odd else [])]).reshape(-1, 2)
+    before = world.digest()
+    try:
+        reading = pen.stroke(
+            np.column_stack((samples, np.arange(len(samples)) / 60)), where, world.snapshot()
+        )
+    except Refusal:
+        assert world.digest() == before
+        return
+    assert 0.0 <= reading.confidence <= 1.0
+    assert np.isfinite(reading.outline).all()
+    for request in reading.requests:
+        try:
+            world.apply(request)
+        except Refusal:
+            continue
+    world.step(4)
+    assert np.isfinite(world.snapshot().poses).all()
+
+
+@settings(max_examples=300, deadline=None)
+@given(st.sampled_from(Tool), st.lists(action, max_size=15))
+def test_any_clicks_are_drawn_or_refused_and_leave_the_world_sound(
+    tool: Tool, actions: list[tuple[Tool | None, tuple[float, float] | None, str | None]]
+) -> None:
+    world = World()
+    world.apply(Spawn(name='a/0', shape=Disc(radius=0.5)))
+    world.apply(Spawn(name='a/1', shape=Box(width=2.0, height=0.5), pose=(0.5, 0.25, 0.3)))
+    pen = Pen(DrawingSettings(), tool)
+    for taken, clicked, where in actions:
+        if taken is not None:
+            pen.tool = taken
+            continue
+        before = world.digest()
+        try:
+            step = pen.click(clicked, where, world.snapshot())
+        except Refusal:
+            assert world.digest() == before
+            continue
+        assert bool(step.message) != bool(step.requests)
+        for request in step.requests:
+            try:
+                world.apply(request)
+            except Refusal:
+                continue
+        world.step(4)
+    assert np.isfinite(world.snapshot().poses).all()
+    assert all(math.isfinite(x) for line in pen.preview.lines for place in line for x in place)

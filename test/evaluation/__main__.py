@@ -1,0 +1,106 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+`make evaluate`: how well strokes are read, by hands that were not there when limits were chosen.
+
+`make evaluate ARGS='300 tuning'` chooses the strokes of each kind and the half: `report`, or
+`tuning`, by which limits are chosen.
+"""
+
+from __future__ import annotations
+
+from collections import Counter, defaultdict
+import statistics
+import sys
+import time
+
+from physsim_ros.core.errors import Refusal
+from physsim_ros.drawing.reading import Meaning, read
+from physsim_ros.drawing.recogniser import recognise
+from physsim_ros.drawing.settings import DrawingSettings
+from physsim_ros.drawing.stroke import stroke
+
+from .scenes import Scene, scenes
+
+SEEDS = {'tuning': 1, 'report': 2}
+CLOSED = ('disc', 'rectangle', 'polygon')
+SETTINGS = DrawingSettings()
+_REFUSED = 'refused'
+
+
+class Tally:
+    """What became of the strokes."""
+
+    def __init__(self) -> None:
+        self.readings: dict[str, Counter[str]] = defaultdict(Counter)
+        self.right: dict[str, list[bool]] = defaultdict(list)
+        self.corners: dict[str, list[bool]] = defaultdict(list)
+        self.milliseconds: list[float] = []
+
+    def add(self, scene: Scene) -> None:
+        """Read the stroke of a scene."""
+        begun = time.process_time_ns()
+        try:
+            what = str(read(scene.samples, scene.view, SETTINGS).what)
+        except Refusal:
+            what = _REFUSED
+        self.milliseconds.append((time.process_time_ns() - begun) / 1e6)
+        self.readings[scene.name][what] += 1
+        if scene.meaning is None:
+            return
+        right = what == scene.meaning
+        group = 'signs' if scene.meaning in _SIGNS else 'shapes and lines'
+        self.right[group].append(right)
+        self.right['all'].append(right)
+        if scene.name in CLOSED and what in CLOSED:
+            self.right['disc or polygon'].append((what == 'disc') == (scene.name == 'disc'))
+        if scene.name in _CORNERED:
+            found = recognise(stroke(scene.samples))
+            exact = bool(found) and len(found[0].points) == scene.figure.corners
+            self.corners[_CORNERED[scene.name]].append(exact)
+
+    def show(self) -> None:
+        """Print the tables."""
+        columns = [*map(str, Meaning), _REFUSED]
+        print(f'{"drawn":<20}' + ''.join(f'{column[:9]:>10}' for column in columns))
+        for name, counts in self.readings.items():
+            cells = (f'{counts[column] or "·":>10}' for column in columns)
+            print(f'{name:<20}' + ''.join(cells))
+        print()
+        for name, hits in self.right.items():
+            print(f'{name + " read right":<34}{statistics.fmean(hits):7.1%} of {len(hits)}')
+        for name, hits in self.corners.items():
+            print(f'{f"corners exact, {name}":<34}{statistics.fmean(hits):7.1%} of {len(hits)}')
+        worst = statistics.quantiles(self.milliseconds, n=100)[-1]
+        middle = statistics.median(self.milliseconds)
+        print(f'{"CPU time of a stroke":<34}{middle:7.2f} ms median, {worst:.2f} ms 99th of 100')
+
+
+_CORNERED = {'rectangle': 'closed', 'polygon': 'closed', 'line': 'open', 'bent line': 'open'}
+_SIGNS = (Meaning.ANCHOR, Meaning.AXLE, Meaning.DELETION, Meaning.GRAVITY, Meaning.SPRING)
+
+
+def main(arguments: list[str]) -> None:
+    """Read all strokes of a half and print what became of them."""
+    count = int(arguments[0]) if arguments else 300
+    half = arguments[1] if len(arguments) > 1 else 'report'
+    tally = Tally()
+    for scene in scenes(count, SEEDS[half]):
+        tally.add(scene)
+    print(f'{count} strokes of each kind, half `{half}`\n')
+    tally.show()
+
+
+main(sys.argv[1:])

@@ -1,0 +1,231 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Figures as people mean them: ways of a pen before a hand has drawn them.
+
+Each is about one metre across, about the origin; the hand moves, turns and sizes it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+import itertools
+import math
+
+import numpy as np
+
+from .outlines import Floats, POLYGONS, Random
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Figure:
+    """
+    A way of the pen.
+
+    :param kind: what it is
+    :param way: (n, 2) float64: from pen-down to pen-up, straight between the points; not closed
+    :param closed: whether the pen goes back to where it began
+    :param corners: how many it has, of which a reader should find every one; -1 where there are
+        none to count
+    :param thin: its width by its length, as far as that makes a hand careful
+    :param smooth: whether its points only stand for a curve
+    """
+
+    kind: str
+    way: Floats
+    closed: bool = False
+    corners: int = -1
+    thin: float = 1.0
+    smooth: bool = False
+
+
+def disc(rng: Random) -> Figure:
+    """Return a circle as people draw it: rarely as high as it is wide, often egg-shaped."""
+    angle = np.linspace(0.0, 2.0 * math.pi, 120, endpoint=False)
+    flat = 1.0 - abs(rng.normal(0.0, 0.1))
+    egg = rng.normal(0.0, 0.035) * np.cos(2 * angle + rng.uniform(0, 7))
+    lump = rng.normal(0.0, 0.015) * np.cos(3 * angle + rng.uniform(0, 7))
+    radius = 0.5 * (1.0 + egg + lump)
+    way = np.column_stack((radius * np.cos(angle), max(flat, 0.72) * radius * np.sin(angle)))
+    return Figure(kind='disc', way=_turned(way, rng.uniform(0, 7)), closed=True, smooth=True)
+
+
+def rectangle(rng: Random) -> Figure:
+    """Return a rectangle, its corners not quite where they should be."""
+    width = 1.0
+    height = math.exp(rng.uniform(math.log(0.045), 0.0))
+    way = np.array([(0, 0), (width, 0), (width, height), (0, height)], dtype=np.float64)
+    way += rng.uniform(-0.03, 0.03, way.shape) * min(width, 2.0 * height)
+    turn = rng.choice([rng.normal(0.0, 0.04), rng.uniform(0.0, 7.0)])
+    if rng.random() < 0.5:
+        way = way[:, ::-1]
+    return Figure(kind='rectangle', way=_turned(way, turn), closed=True, corners=4, thin=height)
+
+
+def polygon(rng: Random) -> Figure:
+    """Return one of the polygons that people draw."""
+    way = POLYGONS[rng.integers(len(POLYGONS))](rng)
+    way = way * (1.0, rng.uniform(0.75, 1.3)) if rng.random() < 0.5 else way
+    way = _turned(way, rng.uniform(0, 7))
+    return Figure(kind='polygon', way=way, closed=True, corners=len(way))
+
+
+def line(rng: Random) -> Figure:
+    """Return a straight line."""
+    way = np.array([(-0.5, 0.0), (0.5, 0.0)])
+    return Figure(kind='line', way=_turned(way, rng.uniform(0, 7)), corners=2)
+
+
+def bent_line(rng: Random) -> Figure:
+    """Return a line with one to three bends, as of a wall, a step or a bowl."""
+    count = int(rng.integers(1, 4))
+    heading, here = 0.0, np.zeros(2)
+    way = [here]
+    sign = rng.choice([-1.0, 1.0])
+    for number in range(count + 1):
+        here = here + rng.uniform(0.5, 1.0) * np.array([math.cos(heading), math.sin(heading)])
+        way.append(here)
+        # A bowl goes on turning, stairs turn back; a whole turn would close it.
+        sign = -sign if number % 2 or rng.random() < 0.3 else sign
+        heading += sign * rng.uniform(0.6, 1.75)
+    points = np.array(way)
+    points /= np.ptp(points, axis=0).max()
+    if _meets_itself(points) or math.dist(points[0], points[-1]) < 0.45:
+        return bent_line(rng)
+    return Figure(kind='line', way=_turned(points, rng.uniform(0, 7)), corners=len(points))
+
+
+def curve(rng: Random) -> Figure:
+    """Return an open curve, as of a hill, a valley or a wave."""
+    x = np.linspace(-0.5, 0.5, 100)
+    if rng.random() < 0.5:
+        bow = rng.uniform(0.12, 0.45)
+        y = bow * np.cos(math.pi * x)
+    else:
+        y = rng.uniform(0.06, 0.16) * np.sin(2 * math.pi * (x * rng.uniform(1.0, 1.6)))
+    way = np.column_stack((x, y))
+    return Figure(kind='line', way=_turned(way, rng.uniform(0, 7)), smooth=True)
+
+
+def zigzag(rng: Random) -> Figure:
+    """Return a spring: teeth, sharp or round, with or without straight ends."""
+    teeth = int(rng.integers(6, 13))
+    high = rng.uniform(0.07, 0.2)
+    if rng.random() < 0.3:
+        x = np.linspace(-0.5, 0.5, 30 * teeth)
+        way = np.column_stack((x, high * np.sin(math.pi * teeth * (x + 0.5))))
+        return Figure(kind='zigzag', way=_turned(way, rng.uniform(0, 7)), smooth=True)
+    lead = rng.choice([0.0, rng.uniform(0.05, 0.2)])
+    x = np.linspace(-0.5 + lead, 0.5 - lead, teeth + 1)
+    x[1:-1] += rng.uniform(-0.2, 0.2, teeth - 1) * (1.0 - 2.0 * lead) / teeth
+    sign = np.where(np.arange(teeth + 1) % 2, 1.0, -1.0)
+    y = high * sign * rng.uniform(0.75, 1.25, teeth + 1)
+    if lead or rng.random() < 0.5:
+        y[[0, -1]] = 0.0
+    way = np.column_stack((x, y))
+    if lead:
+        way = np.vstack(((-0.5, 0.0), way, (0.5, 0.0)))
+    return Figure(kind='zigzag', way=_turned(way, rng.uniform(0, 7)))
+
+
+def coil(rng: Random) -> Figure:
+    """Return a spring drawn as loops."""
+    loops = rng.integers(4, 9)
+    angle = np.linspace(0.0, 2.0 * math.pi * loops, 40 * int(loops))
+    radius = rng.uniform(0.06, 0.13)
+    x = angle / angle[-1] - 0.5 - rng.uniform(0.7, 1.0) * radius * np.sin(angle)
+    way = np.column_stack((x, radius * np.cos(angle) * rng.choice([-1.0, 1.0])))
+    return Figure(kind='zigzag', way=_turned(way, rng.uniform(0, 7)), smooth=True)
+
+
+def cross(rng: Random) -> Figure:
+    """Return an x in one stroke: a diagonal, along a side, the other diagonal."""
+    high = rng.uniform(0.7, 1.35)
+    way = np.array([(-0.5, high / 2), (0.5, -high / 2), (0.5, high / 2), (-0.5, -high / 2)])
+    way += rng.uniform(-0.09, 0.09, way.shape)
+    if rng.random() < 0.4:
+        way = _rounded(way, rng.uniform(0.03, 0.09))
+    way = way * (rng.choice([-1.0, 1.0]), rng.choice([-1.0, 1.0]))
+    if rng.random() < 0.3:
+        way = way[:, ::-1]
+    return Figure(kind='x', way=_turned(way, rng.normal(0.0, 0.15)))
+
+
+def arrow(rng: Random) -> Figure:
+    """Return an arrow in one stroke: shaft and head, open or a triangle, in any order."""
+    length, opening = rng.uniform(0.15, 0.36), rng.uniform(0.35, 0.85)
+    along, across = length * math.cos(opening), length * math.sin(opening)
+    tip, tail = np.array([0.5, 0.0]), np.array([-0.5, rng.normal(0.0, 0.03)])
+    side = rng.choice([-1.0, 1.0])
+    one = tip + np.array((-along, side * across)) * rng.uniform(0.8, 1.2, 2)
+    other = tip + np.array((-along, -side * across)) * rng.uniform(0.8, 1.2, 2)
+    again = tip + rng.normal(0.0, 0.02, 2)
+    neck = tip - (along, 0.0)
+    ways = (
+        (tail, tip, one, again, other),
+        (tail, tip, one, again, other),
+        (tail, tip, one, other),
+        (tail, tip, one, other, again),
+        (tail, neck, one, tip, other, neck + rng.normal(0.0, 0.02, 2)),
+        (one, tip, other, again, tail),
+    )
+    way = np.array(ways[rng.integers(len(ways))])
+    way = way @ np.diag((1.0, rng.uniform(0.9, 1.1)))
+    return Figure(kind='arrow', way=_turned(way, rng.uniform(0, 7)))
+
+
+def scribble(rng: Random) -> Figure:
+    """Return a scribble: to and fro, or round and round."""
+    swings = int(rng.integers(6, 16))
+    if rng.random() < 0.25:
+        angle = np.linspace(0.0, 2.0 * math.pi * rng.uniform(2.6, 6.0), 300)
+        radius = 0.3 + 0.15 * np.sin(angle * rng.uniform(0.2, 0.7) + rng.uniform(0, 7))
+        drift = np.outer(angle / angle[-1] - 0.5, rng.uniform(-0.4, 0.4, 2))
+        way = np.column_stack((radius * np.cos(angle), radius * np.sin(angle))) + drift
+        return Figure(kind='scribble', way=_turned(way, rng.uniform(0, 7)), smooth=True)
+    x = np.linspace(-0.5, 0.5, swings) * rng.uniform(0.4, 1.0)
+    x += rng.normal(0.0, 0.04, swings)
+    sign = np.where(np.arange(swings) % 2, 1.0, -1.0)
+    y = sign * rng.uniform(0.3, 0.5, swings) + rng.normal(0.0, 0.05, swings)
+    way = np.column_stack((x + y * rng.uniform(-0.3, 0.3), y))
+    if rng.random() < 0.5:
+        way = _rounded(way, rng.uniform(0.01, 0.05))
+    return Figure(kind='scribble', way=_turned(way, rng.uniform(0, 7)))
+
+
+def _turned(way: Floats, angle: float) -> Floats:
+    """Turn about the middle."""
+    cos, sin = math.cos(angle), math.sin(angle)
+    middle = (way.min(axis=0) + way.max(axis=0)) / 2
+    return (way - middle) @ np.array([(cos, sin), (-sin, cos)])
+
+
+def _rounded(way: Floats, radius: float) -> Floats:
+    """Cut the inner corners off by a curve."""
+    parts = [way[:1]]
+    for before, corner, after in zip(way[:-2], way[1:-1], way[2:], strict=True):
+        start = corner + (before - corner) * min(2 * radius / math.dist(before, corner), 0.45)
+        end = corner + (after - corner) * min(2 * radius / math.dist(after, corner), 0.45)
+        share = np.linspace(0.0, 1.0, 9)[:, None]
+        parts.append((1 - share) ** 2 * start + 2 * share * (1 - share) * corner + share**2 * end)
+    return np.vstack((*parts, way[-1:]))
+
+
+def _meets_itself(way: Floats) -> bool:
+    """Tell whether an open way comes too near to itself."""
+    dense = np.vstack([np.linspace(a, b, 12) for a, b in itertools.pairwise(way)])
+    apart = np.hypot(*(dense[:, None] - dense[None]).transpose(2, 0, 1))
+    sides = np.repeat(np.arange(len(way) - 1), 12)
+    return bool((apart[np.abs(sides[:, None] - sides[None]) > 1] < 0.12).any())

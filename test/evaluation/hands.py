@@ -1,0 +1,237 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Hands: they draw a figure with tremor, haste, hooks and all that pens and screens add.
+
+Every figure is drawn by a hand of its own. What a hand does is drawn from wide ranges, each
+effect often absent, so that there are tidy hands, hasty ones, old ones and mice among them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+import math
+
+import numpy as np
+
+from .figures import Figure, Floats, Random
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Hand:
+    """
+    How somebody draws; lengths as shares of the figure's size.
+
+    :param size: of the figure [m]
+    :param place: where it is drawn [m]
+    :param rate: samples a second [Hz]
+    :param duration: of the stroke [s]
+    :param drift: slow wandering
+    :param tremor: of 6 to 12 Hz
+    :param noise: of every sample
+    :param rounding: how far before a corner the pen begins to turn
+    :param bow: how much straight lines are bent
+    :param hook_down: flick when the pen is set down
+    :param hook_up: flick when it is lifted
+    :param closing: how much of a closed way is missing (< 0) or drawn twice (> 0)
+    :param slip: how far the end misses the beginning
+    :param slowing: of the pen at corners, 0 .. 1
+    :param unsteady: of the pen's speed
+    :param pixel: to which samples are rounded; 0 is none
+    """
+
+    size: float
+    place: tuple[float, float]
+    rate: float
+    duration: float
+    drift: float
+    tremor: float
+    noise: float
+    rounding: float
+    bow: float
+    hook_down: float
+    hook_up: float
+    closing: float
+    slip: float
+    slowing: float
+    unsteady: float
+    pixel: float
+
+
+def hand(rng: Random, figure: Figure) -> Hand:
+    """Return somebody."""
+    corners = max(len(figure.way) if not figure.smooth else 4, 3)
+    # Whoever draws something thin takes more care, if not enough.
+    care = min(1.0, math.sqrt(figure.thin / 0.25))
+    return Hand(
+        size=math.exp(rng.uniform(math.log(0.4), math.log(6.0))),
+        place=(rng.uniform(-20.0, 20.0), rng.uniform(-20.0, 20.0)),
+        rate=math.exp(rng.uniform(math.log(20.0), math.log(200.0))),
+        duration=corners * math.exp(rng.uniform(math.log(0.25), math.log(0.9))),
+        drift=care * _often(rng, 0.8, 0.012),
+        tremor=care * _often(rng, 0.6, 0.004),
+        noise=_often(rng, 0.5, 0.0025),
+        rounding=care * _often(rng, 0.7, 0.025),
+        bow=care * _often(rng, 0.7, 0.03),
+        hook_down=care * _often(rng, 0.2, 0.05),
+        hook_up=care * _often(rng, 0.25, 0.05),
+        closing=float(rng.choice([0.0, rng.uniform(-0.07, 0.0), rng.uniform(0.0, 0.1)])),
+        slip=care * _often(rng, 0.8, 0.035),
+        slowing=rng.uniform(0.0, 0.85),
+        unsteady=rng.uniform(0.0, 0.4),
+        pixel=float(rng.choice([0.0, rng.uniform(0.0025, 0.012)])),
+    )
+
+
+def drawn(figure: Figure, somebody: Hand, rng: Random) -> Floats:
+    """
+    Return the samples of a figure that somebody draws.
+
+    :return: (n, 3) float64: x, y [m], time [s]
+    """
+    way = _dense(_way(figure, somebody, rng))
+    if not figure.smooth:
+        way = _bowed(way, figure, somebody, rng)
+    length = float(np.hypot(*np.diff(way, axis=0).T).sum())
+    way = _smoothed(way, somebody.rounding / length * len(way))
+    way = _with_hooks(way, somebody, rng)
+    here, times = _paced(way, somebody, rng)
+    here = here + _wandering(times, somebody, rng)
+    here = here * somebody.size + somebody.place
+    if somebody.pixel:
+        pixel = somebody.pixel * somebody.size
+        here = np.round(here / pixel) * pixel
+    return np.column_stack((here, times))
+
+
+def stroke(figure: Figure, rng: Random) -> Floats:
+    """Return the samples of a figure that anybody draws."""
+    return drawn(figure, hand(rng, figure), rng)
+
+
+def _often(rng: Random, chance: float, spread: float) -> float:
+    """Return 0, or with some chance a length whose typical size is the spread."""
+    return float(abs(rng.normal(0.0, spread))) if rng.random() < chance else 0.0
+
+
+def _way(figure: Figure, somebody: Hand, rng: Random) -> Floats:
+    """Return the way that the pen is to take: where it begins, which way round, where it ends."""
+    way = figure.way / np.hypot(*np.ptp(figure.way, axis=0))
+    if rng.random() < 0.5:
+        way = way[::-1] if figure.kind != 'arrow' else way
+    if not figure.closed:
+        return way
+    way = np.roll(way, rng.integers(len(way)), axis=0)
+    # Most begin at a corner, some in the middle of a side.
+    if not figure.smooth and rng.random() < 0.25:
+        share = rng.uniform(0.2, 0.8)
+        way = np.vstack((way[0] + share * (way[1] - way[0]), way[1:], way[0]))
+    way = np.vstack((way, way[:1]))
+    length = np.concatenate(([0.0], np.cumsum(np.hypot(*np.diff(way, axis=0).T))))
+    end = length[-1] * (1.0 + somebody.closing)
+    if somebody.closing < 0:
+        keep = length < end
+        last = [np.interp(end, length, way[:, axis]) for axis in (0, 1)]
+        way = np.vstack((way[keep], last))
+    elif somebody.closing > 0:
+        again = length[1:] < end - length[-1]
+        last = [np.interp(end - length[-1], length, way[:, axis]) for axis in (0, 1)]
+        way = np.vstack((way, way[1:][again], last))
+    # The end misses the beginning more and more over the last third.
+    angle = rng.uniform(0, 7)
+    share = np.clip(np.linspace(-2.0, 1.0, len(way)), 0.0, 1.0)[:, None]
+    return way + somebody.slip * share * (math.cos(angle), math.sin(angle))
+
+
+def _dense(way: Floats, count: int = 600) -> Floats:
+    """Return points along a way, evenly spaced."""
+    length = np.concatenate(([0.0], np.cumsum(np.hypot(*np.diff(way, axis=0).T))))
+    at = np.linspace(0.0, length[-1], count)
+    return np.column_stack([np.interp(at, length, way[:, axis]) for axis in (0, 1)])
+
+
+def _bowed(way: Floats, figure: Figure, somebody: Hand, rng: Random) -> Floats:
+    """Bend what is straight: a wave about as long as the figure's sides."""
+    waves = max(len(figure.way) / 2, 1.0) * rng.uniform(0.3, 1.0)
+    share = np.linspace(0.0, 1.0, len(way))
+    along = np.gradient(way, axis=0)
+    along /= np.maximum(np.hypot(*along.T), 1e-12)[:, None]
+    across = np.column_stack((-along[:, 1], along[:, 0]))
+    # Across the way itself, but smoothly: at corners it turns at once.
+    across = _smoothed(across, len(way) / 80)
+    length = np.hypot(*np.diff(way, axis=0).T).sum() / max(len(figure.way), 2)
+    swing = somebody.bow * length * np.sin(2 * math.pi * (waves * share + rng.random()))
+    return np.asarray(way + swing[:, None] * across, dtype=np.float64)
+
+
+def _smoothed(way: Floats, width: float) -> Floats:
+    """Round the corners, by a width in points."""
+    if width < 0.5:
+        return way
+    reach = math.ceil(3 * width)
+    kernel = np.exp(-0.5 * (np.arange(-reach, reach + 1) / width) ** 2)
+    kernel /= kernel.sum()
+    padded = np.vstack(
+        (
+            2 * way[0] - way[slice(1, reach + 1)][::-1],
+            way,
+            2 * way[-1] - way[slice(-1 - reach, -1)][::-1],
+        )
+    )
+    return np.column_stack([np.convolve(padded[:, axis], kernel, 'valid') for axis in (0, 1)])
+
+
+def _with_hooks(way: Floats, somebody: Hand, rng: Random) -> Floats:
+    """Add the flicks of a pen that is set down before it rests, or lifted late."""
+    parts = [way]
+    for length, end, at in ((somebody.hook_down, 0, 0), (somebody.hook_up, 1, -1)):
+        if length:
+            angle = rng.uniform(0, 7)
+            tip = way[at] + min(length, 0.08) * np.array([math.cos(angle), math.sin(angle)])
+            flick = np.linspace(tip, way[at], 12, endpoint=False)
+            parts.insert(0, flick) if end == 0 else parts.append(flick[::-1])
+    return np.vstack(parts)
+
+
+def _paced(way: Floats, somebody: Hand, rng: Random) -> tuple[Floats, Floats]:
+    """Return the pen's places at even times, slow at corners, unsteady elsewhere."""
+    step = np.diff(way, axis=0)
+    heading = np.unwrap(np.arctan2(step[:, 1], step[:, 0]))
+    turn = np.abs(np.gradient(heading))
+    turn = np.convolve(turn, np.ones(15) / 15, 'same')
+    turn /= max(turn.max(), 1e-9)
+    slow = 1.0 - somebody.slowing * np.minimum(2.0 * turn, 1.0)
+    share = np.linspace(0.0, 1.0, len(step))
+    waves = rng.uniform(0.5, 4.0)
+    slow *= 1.0 + somebody.unsteady * np.sin(2 * math.pi * (waves * share + rng.random()))
+    # It starts and ends at rest.
+    slow *= np.clip(np.minimum(share, 1.0 - share) * 12.0 + 0.3, 0.0, 1.0)
+    spent = np.concatenate(([0.0], np.cumsum(np.hypot(*step.T) / np.maximum(slow, 0.05))))
+    spent *= somebody.duration / spent[-1]
+    times = np.arange(0.0, somebody.duration, 1.0 / somebody.rate)
+    times = np.append(times, somebody.duration)
+    here = np.column_stack([np.interp(times, spent, way[:, axis]) for axis in (0, 1)])
+    return here, times
+
+
+def _wandering(times: Floats, somebody: Hand, rng: Random) -> Floats:
+    """Return what the hand adds: drift below 2 Hz, tremor about 9 Hz, noise without memory."""
+    total = rng.normal(0.0, somebody.noise, (len(times), 2))
+    for spread, low, high in ((somebody.drift, 0.2, 2.0), (somebody.tremor, 6.0, 12.0)):
+        for axis in (0, 1):
+            for frequency in rng.uniform(low, high, 4):
+                swing = rng.normal(0.0, spread / 2.0)
+                total[:, axis] += swing * np.sin(2 * math.pi * (frequency * times + rng.random()))
+    return np.asarray(total, dtype=np.float64)

@@ -1,0 +1,159 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Scenes: a figure, the world that it is drawn in, and what it means there.
+
+Everything lies where the hand draws: bodies at the ends of a spring, under an x, under a scribble.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+import math
+
+import numpy as np
+from physsim_ros.core.requests import Spawn
+from physsim_ros.core.shapes import Box, Disc, Shape
+from physsim_ros.core.world import World
+from physsim_ros.drawing.reading import Meaning
+from physsim_ros.drawing.view import View
+
+from . import figures
+from .figures import Figure
+from .hands import drawn, Hand, hand
+from .outlines import Floats, Random
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Scene:
+    """
+    A stroke in a world.
+
+    :param name: of the row in the table
+    :param figure: what was meant to be drawn
+    :param samples: (n, 3) float64: x, y [m], time [s]
+    :param view: the world
+    :param meaning: of the stroke; None where it has none
+    """
+
+    name: str
+    figure: Figure
+    samples: Floats
+    view: View
+    meaning: Meaning | None
+
+
+def scenes(count: int, seed: int) -> Iterator[Scene]:
+    """Yield so many scenes of every kind, in turn; the same for the same seed."""
+    for number, (name, draw, meaning, around) in enumerate(_KINDS):
+        rng = np.random.default_rng((seed, number))
+        for _ in range(count):
+            figure = draw(rng)
+            somebody = hand(rng, figure)
+            world = World()
+            for index, (shape, x, y) in enumerate(around(figure, somebody, rng)):
+                world.apply(Spawn(name=f'body/{index}', shape=shape, pose=(x, y, 0.0)))
+            yield Scene(
+                name=name,
+                figure=figure,
+                samples=drawn(figure, somebody, rng),
+                view=View(world.snapshot()),
+                meaning=meaning,
+            )
+
+
+# A shape and where it lies.
+Placed = tuple[Shape, float, float]
+
+
+def _nothing(_figure: Figure, _somebody: Hand, _rng: Random) -> list[Placed]:
+    return []
+
+
+def _at_ends(figure: Figure, somebody: Hand, rng: Random) -> list[Placed]:
+    """Put a body about either end."""
+    way = figure.way / np.hypot(*np.ptp(figure.way, axis=0))
+    placed: list[Placed] = []
+    for end in way[[0, -1]] * somebody.size + somebody.place:
+        radius = somebody.size * rng.uniform(0.1, 0.2)
+        shape = Disc(radius=radius) if rng.random() < 0.5 else Box(width=2 * radius, height=radius)
+        x, y = (end + rng.uniform(-0.3, 0.3, 2) * radius).tolist()
+        placed.append((shape, x, y))
+    return placed
+
+
+def _under(figure: Figure, somebody: Hand, rng: Random) -> list[Placed]:
+    """Put a body under a sign that is a good deal smaller."""
+    del figure
+    size = somebody.size * rng.uniform(1.2, 4.0)
+    x, y = somebody.place
+    if rng.random() < 0.5:
+        return [(Disc(radius=0.7 * size), x, y)]
+    return [(Box(width=1.5 * size, height=size), x + rng.uniform(-0.2, 0.2) * size, y)]
+
+
+def _under_both(figure: Figure, somebody: Hand, rng: Random) -> list[Placed]:
+    """Put two bodies that overlap under a small sign: a wheel and what it carries."""
+    del figure
+    size = somebody.size * rng.uniform(2.2, 6.0)
+    x, y = somebody.place
+    carried = Box(width=size * rng.uniform(1.0, 4.0), height=size * rng.uniform(0.7, 1.2))
+    return [(carried, x + rng.uniform(-0.3, 0.3) * size, y), (Disc(radius=size / 2), x, y)]
+
+
+def _scribbled(figure: Figure, somebody: Hand, rng: Random) -> list[Placed]:
+    """Put a body under a scribble that is about as large."""
+    del figure
+    size = somebody.size * rng.uniform(0.35, 0.7)
+    x, y = somebody.place
+    if rng.random() < 0.5:
+        return [(Disc(radius=size / 2), x, y)]
+    return [(Box(width=size, height=size * rng.uniform(0.5, 1.0)), x, y)]
+
+
+def _squiggle(rng: Random) -> Figure:
+    """Return what means nothing: a signature, a letter, a knot."""
+    angle = np.linspace(0.0, 2.0 * math.pi, 200)
+    way = sum(
+        np.column_stack(
+            (
+                rng.normal(0.0, 0.3 / wave) * np.sin(wave * angle + rng.uniform(0, 7)),
+                rng.normal(0.0, 0.3 / wave) * np.sin(wave * angle + rng.uniform(0, 7)),
+            )
+        )
+        for wave in np.arange(0.6, 3.2, 0.5)
+    )
+    return Figure(kind='', way=np.asarray(way), smooth=True)
+
+
+_Around = Callable[[Figure, Hand, Random], list[Placed]]
+_KINDS: tuple[tuple[str, Callable[[Random], Figure], Meaning | None, _Around], ...] = (
+    ('disc', figures.disc, Meaning.DISC, _nothing),
+    ('rectangle', figures.rectangle, Meaning.RECTANGLE, _nothing),
+    ('polygon', figures.polygon, Meaning.POLYGON, _nothing),
+    ('line', figures.line, Meaning.WALL, _nothing),
+    ('bent line', figures.bent_line, Meaning.WALL, _nothing),
+    ('curve', figures.curve, Meaning.WALL, _nothing),
+    ('line, 2 bodies', figures.line, Meaning.ROD, _at_ends),
+    ('zigzag, 2 bodies', figures.zigzag, Meaning.SPRING, _at_ends),
+    ('coil, 2 bodies', figures.coil, Meaning.SPRING, _at_ends),
+    ('x, on a body', figures.cross, Meaning.ANCHOR, _under),
+    ('circle, on a body', figures.disc, Meaning.AXLE, _under),
+    ('circle, on 2', figures.disc, Meaning.AXLE, _under_both),
+    ('arrow', figures.arrow, Meaning.GRAVITY, _nothing),
+    ('scribble, on a body', figures.scribble, Meaning.DELETION, _scribbled),
+    ('squiggle', _squiggle, None, _nothing),
+)
