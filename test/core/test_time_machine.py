@@ -208,6 +208,8 @@ class TimeMachine(RuleBasedStateMachine):
 
     @rule()
     def undo(self) -> None:
+        # What is undone is what came before the moment that is shown.
+        self.simulation.world.digest()
         timeline = self.simulation.timeline
         undone = timeline.history.last_gesture(timeline.serial)
         if undone:
