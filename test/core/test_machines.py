@@ -39,7 +39,7 @@ from .worlds import G, spawn
 COUNT = int(os.environ.get('PHYSSIM_MACHINES', '12'))
 # Share of all the energy that the bodies can fall through which contacts and joints that work
 # against each other may add in ten seconds.
-GROWTH = 0.25
+GROWTH = 1.0
 
 
 def energy(snapshot: Snapshot) -> float:
