@@ -16,7 +16,8 @@
 
 import sys
 
-from . import frames, startup
+from . import frames, joints, startup
 
 frames.table([int(word) for word in sys.argv[1:]] or [100, 300, 1000, 3000])
+joints.table()
 startup.table()
