@@ -943,3 +943,79 @@ def test_any_nested_junk_is_loaded_or_refused(content: object, tmp_path_factory:
         except BadWorldFile:
             continue
         restored(state).step(1)
+
+
+# Joints
+
+
+MACHINE = """format: 1
+bodies:
+  - {name: arm/0, box: {width: 1, height: 0.1}, at: [0.5, 2]}
+  - {name: arm/1, box: {width: 1, height: 0.1}, at: [1.5, 2]}
+  - {name: ball/0, circle: {radius: 0.3}, at: [3, 2]}
+joints:
+  - {name: joint/0, kind: axle, a: arm/0, points: [[0, 2]], lower: -2}
+  - {name: joint/1, kind: pin, points: [[1, 2]]}
+  - {name: joint/2, kind: spring, a: arm/1, b: ball/0, points: [[2, 2], [3, 2]], stiffness: 30}
+  - {name: joint/3, kind: rope, a: ball/0, b: world, points: [[3, 2], [3, 5]], length: 3.5}
+  - {name: joint/4, kind: slider, a: ball/0, b: world, points: [[3, 2], [3, 3]], max_force: 2}
+"""
+
+
+def read_in(path: Path) -> WorldState:
+    return world_file.load(path, settings=WorldSettings(), physics_rate=RATE)
+
+
+def test_joints_round_trip_to_the_bit_in_the_middle_of_motion(tmp_path: Path) -> None:
+    path = tmp_path / 'machine.yaml'
+    path.write_text(MACHINE, encoding='utf-8')
+    world = World()
+    world.apply(Restore(state=read_in(path)))
+    world.step(333)
+    saved = world_file.save(world.save(), 'saved', world_dir=tmp_path, physics_rate=RATE)
+    one, other = World(), World()
+    one.apply(Restore(state=world.save()))
+    other.apply(Restore(state=read_in(saved)))
+    assert len(one.save().joints) == 5
+    assert one.save().joints == other.save().joints == world.save().joints
+    one.step(240)
+    other.step(240)
+    assert one.digest() == other.digest()
+
+
+def test_a_joint_whose_points_somebody_edited_sits_at_the_new_ones(tmp_path: Path) -> None:
+    world = World()
+    path = tmp_path / 'machine.yaml'
+    path.write_text(MACHINE, encoding='utf-8')
+    world.apply(Restore(state=read_in(path)))
+    saved = world_file.save(world.save(), 'saved', world_dir=tmp_path, physics_rate=RATE)
+    text = saved.read_text(encoding='utf-8')
+    edited = text.replace('points: [[0.0, 2.0]]', 'points: [[0.25, 2.0]]')
+    assert edited != text
+    saved.write_text(edited, encoding='utf-8')
+    joints = read_in(saved).joints
+    assert joints[0].seat.ax == pytest.approx(-0.25)
+    assert joints[1:] == world.save().joints[1:]
+
+
+@pytest.mark.parametrize(
+    ('joint', 'field'),
+    [
+        ('{kind: axle, points: [[0, 0]]}', 'name'),
+        ('{name: j/0, points: [[0, 0]]}', 'kind'),
+        ('{name: j/0, kind: axle}', 'points'),
+        ('{name: j/0, kind: axle, points: [[0, 0]], a: b/9}', 'a'),
+        ('{name: j/0, kind: axle, points: [[0, 0]], seat: [1, 2]}', 'seat'),
+        ('{name: j/0, kind: axle, points: [[0, 0]], glue: 1}', 'glue'),
+        ('{name: j/0, kind: axle, points: [[9, 9]]}', 'points'),
+    ],
+)
+def test_a_joint_that_is_none_is_refused_by_name(tmp_path: Path, joint: str, field: str) -> None:
+    path = tmp_path / 'bad.yaml'
+    path.write_text(
+        f'format: 1\nbodies: [{{name: b/0, circle: {{radius: 1}}}}]\njoints: [{joint}]\n',
+        encoding='utf-8',
+    )
+    with pytest.raises(BadWorldFile) as caught:
+        read_in(path)
+    assert caught.value.field == field

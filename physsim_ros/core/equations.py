@@ -179,8 +179,9 @@ class Equations:
                 if pivot <= least[place]:
                     found.append(row)
                     continue
-                rest = part[place + 1 :, place].copy()
-                part[place + 1 :, place + 1 :] -= np.outer(rest, rest) / pivot
+                after = slice(place + 1, None)
+                rest = part[after, place].copy()
+                part[after, after] -= np.outer(rest, rest) / pivot
         return found
 
 
@@ -202,12 +203,11 @@ class _Block:
 
     def solve(self, matrices: Floats, ordered: Floats) -> None:
         """Put the unknowns in the place of the right hand side."""
-        count, size = self.count, self.size
-        last, end = self.first + count * size, self.start + count * size * size
-        rows = ordered[self.first : last]
-        rows[:] = np.linalg.solve(
-            matrices[self.start : end].reshape(count, size, size), rows.reshape(count, size, 1)
-        ).ravel()
+        count, size, first, start = self.count, self.size, self.first, self.start
+        last, end = first + count * size, start + count * size * size
+        own = matrices[start:end].reshape(count, size, size)
+        solved = np.linalg.solve(own, ordered[first:last].reshape(count, size, 1))
+        ordered[first:last] = solved.ravel()
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -40,6 +40,8 @@ _CORRECTION = 0.1
 # The fastest that an error in place is taken out at [m/s, rad/s]: a body that is put elsewhere
 # comes back like a thrown one, not like a shot.
 FASTEST_CORRECTION = 20.0
+# The same of a joint that gives way, which pulls with all its force meanwhile: it creeps back.
+_CREEP = 1.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,7 +114,7 @@ def build(
         if most is not None and not isinstance(constraint, pymunk.SimpleMotor):
             constraint.max_force = most
         constraint.error_bias = left
-        constraint.max_bias = FASTEST_CORRECTION
+        constraint.max_bias = FASTEST_CORRECTION if _is_exact(joint) else _CREEP
         # With the background, which is the walls of `bounds` too, a body always collides.
         constraint.collide_bodies = joint.collide or b is None
     return EngineJoint(joint, ends, constraints)

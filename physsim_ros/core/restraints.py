@@ -115,10 +115,12 @@ class Restraints:
         self.has_both = [joint.kind in (JointKind.PIN, JointKind.SLIDER) for joint in whats]
         self.limits = np.zeros(len(self.owner), dtype=np.bool_)
         ropes_from = 2 * len(pivots) + len(rods)
-        self.limits[ropes_from : ropes_from + len(ropes)] = True
-        limits_from = ropes_from + len(ropes) + len(self._sliders)
-        self.limits[limits_from : len(self._points)] = True
-        self.limits[len(self._points) + len(turns) :] = True
+        ropes_to = ropes_from + len(ropes)
+        limits_from, limits_to = ropes_to + len(self._sliders), len(self._points)
+        turns_to = limits_to + len(turns)
+        self.limits[ropes_from:ropes_to] = True
+        self.limits[limits_from:limits_to] = True
+        self.limits[turns_to:] = True
         inverse = np.zeros((listed + 1, 3))
         for each in joints:
             for body in (each.ends.a, each.ends.b):

@@ -16,8 +16,9 @@
 
 import sys
 
-from . import frames, rewinding, startup
+from . import frames, joints, rewinding, startup
 
 frames.table([int(word) for word in sys.argv[1:]] or [100, 300, 1000, 3000])
+joints.table()
 rewinding.table()
 startup.table()

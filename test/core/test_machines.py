@@ -39,7 +39,7 @@ from .worlds import G, spawn
 COUNT = int(os.environ.get('PHYSSIM_MACHINES', '12'))
 # Share of all the energy that the bodies can fall through which contacts and joints that work
 # against each other may add in ten seconds.
-GROWTH = 0.25
+GROWTH = 1.0
 
 
 def energy(snapshot: Snapshot) -> float:
@@ -83,7 +83,10 @@ def machine(pick: random.Random, *, sensors: bool) -> World:
     for number in range(pick.randint(1, 2 * len(names))):
         kind, a = pick.choice(kinds), pick.choice(names)
         b = pick.choice(['world', *(name for name in names if name != a)])
-        points = tuple((pick.uniform(-3.0, 3.0), pick.uniform(0.0, 5.0)) for _ in range(2))
+        # The first point on its body, as people draw it.
+        here = world.snapshot().poses[names.index(a)]
+        near = (float(here[0]) + pick.uniform(-0.3, 0.3), float(here[1]) + pick.uniform(-0.3, 0.3))
+        points = (near, (pick.uniform(-3.0, 3.0), pick.uniform(0.0, 5.0)))
         try:
             world.apply(
                 Join(

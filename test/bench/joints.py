@@ -1,0 +1,64 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""What joints cost: a step of a machine, with its joints and without."""
+
+import statistics
+import time
+
+from physsim_ros.core.joint_properties import JointKind
+from physsim_ros.core.properties import Properties
+from physsim_ros.core.requests import Join, Spawn
+from physsim_ros.core.shapes import Box
+from physsim_ros.core.world import World
+
+STEPS = 480
+
+
+def chain(count: int, *, links: int, joined: bool) -> World:
+    """Return chains of so many links side by side, `count` links in all."""
+    world = World()
+    for number in range(count):
+        row, link = divmod(number, links)
+        name, x, y = f'link/{number}', 0.2 * link, 2.0 * row
+        shape = Box(width=0.2, height=0.1)
+        still = Properties(mass=0.1, sensor=True)
+        world.apply(Spawn(name=name, shape=shape, pose=(x + 0.1, y, 0.0), properties=still))
+        if joined:
+            other = f'link/{number - 1}' if link else 'world'
+            axle = Join(
+                name=f'joint/{number}', kind=JointKind.AXLE, points=((x, y),), a=name, b=other
+            )
+            world.apply(axle)
+    return world
+
+
+def median_step(world: World) -> float:
+    """Return what a step costs [ms]."""
+    costs = []
+    for _ in range(STEPS):
+        began = time.perf_counter_ns()
+        world.step(1)
+        costs.append((time.perf_counter_ns() - began) * 1e-6)
+    return statistics.median(costs)
+
+
+def table() -> None:
+    """Print it."""
+    print('\na step with joints, and of the same bodies without [ms]')
+    for count, links in ((1, 1), (100, 1), (10, 10), (50, 50), (200, 50), (1000, 1)):
+        with_, without = (
+            median_step(chain(count, links=links, joined=joined)) for joined in (True, False)
+        )
+        print(f'{count // links:>5} x {links:<3} links  {with_:7.3f} : {without:7.3f}')

@@ -1,0 +1,86 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""What the tests of the worlds have in common: a world by its name, and what became of it."""
+
+from pathlib import Path
+
+import numpy as np
+from physsim_ros import world_file
+from physsim_ros.core.settings import WorldSettings
+from physsim_ros.core.simulation import Simulation
+
+G = 9.81
+RATE = 240.0
+FRAMES = 60
+
+
+def state_of(name):
+    """Return the state that a world of the package begins with."""
+    path = world_file.find(name, world_dir=Path('nowhere'), confined=True)
+    return world_file.load(path, settings=WorldSettings(), physics_rate=RATE)
+
+
+def simulation(name):
+    """Begin with a world of the package."""
+    sim = Simulation(physics_rate=RATE, publish_rate=FRAMES)
+    sim.begin(state_of(name))
+    return sim
+
+
+class Film:
+    """
+    What became of a simulation, frame by frame, the first one before anything moved.
+
+    :param seconds: how long it goes on
+    """
+
+    def __init__(self, sim, seconds):
+        self.frames = [sim.world.snapshot()]
+        self.frames += [sim.advance_frame().snapshot for _ in range(round(seconds * FRAMES))]
+        self.names = self.frames[0].scene.names
+        self.poses = np.array([frame.poses for frame in self.frames])
+        self.twists = np.array([frame.twists for frame in self.frames])
+
+    def pose(self, name):
+        """Return the poses of a body, (f, 3)."""
+        return self.poses[:, self.names.index(name)]
+
+    def x(self, name):
+        """Return where a body is from left to right, (f,)."""
+        return self.pose(name)[:, 0]
+
+    def yaw(self, name):
+        """Return how far a body has turned, (f,)."""
+        return self.pose(name)[:, 2]
+
+    def twist(self, name):
+        """Return the twists of a body, (f, 3)."""
+        return self.twists[:, self.names.index(name)]
+
+    def weight(self, *namespaces):
+        """Return what all bodies of these namespaces weigh together [kg]."""
+        bodies = self.frames[0].scene.bodies
+        return sum(body.weight for body in bodies if body.name.partition('/')[0] in namespaces)
+
+
+def at(seconds):
+    """Return the frame at a time."""
+    return round(seconds * FRAMES)
+
+
+def first(condition):
+    """Return the first frame in which something is so."""
+    assert condition.any(), 'it never came to that'
+    return int(np.argmax(condition))

@@ -1,0 +1,87 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Every world that comes with the package loads, is saved, is repeatable, and is shown."""
+
+from pathlib import Path
+
+from physsim_ros import world_file
+from physsim_ros.core.requests import Restore
+from physsim_ros.core.settings import WorldSettings
+from physsim_ros.core.world import World
+import pytest
+
+from .film import RATE, simulation, state_of
+
+ROOT = Path(__file__).resolve().parents[2]
+FAMOUS = (
+    'newtons_cradle', 'pendulums', 'incline', 'dominoes', 'bridge', 'car', 'gear_train',
+    'catapult', 'galton',
+)  # fmt: skip
+WORLDS = sorted(path.stem for path in world_file.shipped_worlds().glob('*.yaml'))
+
+
+def world_of(state):
+    world = World(physics_rate=RATE)
+    world.apply(Restore(state=state))
+    return world
+
+
+def test_the_famous_ones_are_there():
+    assert set(FAMOUS) <= set(WORLDS)
+
+
+@pytest.mark.parametrize('name', WORLDS)
+def test_it_gives_the_same_bits_every_time(name):
+    one, other = simulation(name), simulation(name)
+
+    for _ in range(30):
+        one.advance_frame()
+        other.advance_frame()
+
+    assert one.world.digest() == other.world.digest()
+
+
+@pytest.mark.parametrize('name', WORLDS)
+def test_it_is_saved_and_loaded_to_the_bit(name, tmp_path):
+    world = world_of(state_of(name))
+    world.step(30)
+    state = world.save()
+
+    path = world_file.save(state, 'saved', world_dir=tmp_path, physics_rate=RATE)
+    again = world_file.load(path, settings=WorldSettings(), physics_rate=RATE)
+
+    assert again == state
+    one, other = world_of(state), world_of(again)
+    one.step(30)
+    other.step(30)
+    assert one.digest() == other.digest()
+
+
+@pytest.mark.parametrize('name', WORLDS)
+def test_it_begins_inside_its_bounds(name):
+    snapshot = simulation(name).world.snapshot()
+    left, bottom, right, top = snapshot.scene.settings.bounds
+
+    x, y = snapshot.poses[:, :2].T
+    assert ((left <= x) & (x <= right) & (bottom <= y) & (y <= top)).all()
+
+
+@pytest.mark.parametrize('name', FAMOUS)
+def test_the_readme_shows_it(name):
+    readme = (ROOT / 'README.md').read_text(encoding='utf-8')
+
+    assert f'config/worlds/{name}.yaml' in readme
+    assert f'docs/worlds/{name}.png' in readme
+    assert (ROOT / 'docs' / 'worlds' / f'{name}.png').stat().st_size < 100_000

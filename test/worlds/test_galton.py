@@ -1,0 +1,70 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""What lies in the bins of the Galton board is a binomial distribution."""
+
+from math import comb, sqrt
+
+import numpy as np
+import pytest
+
+from .film import Film, simulation
+
+ROWS = 12
+SPACING = 0.5
+# The chi-square that one in twenty fair boards exceeds, by degrees of freedom
+# (NIST/SEMATECH e-Handbook of Statistical Methods, 1.3.6.7.4).
+CRITICAL = {5: 11.070, 6: 12.592, 7: 14.067, 8: 15.507}
+# Fewer than so many expected make no fair class.
+FEWEST = 5
+
+
+@pytest.fixture(scope='module')
+def bins():
+    """Return the bin that each ball came to lie in, (n,)."""
+    film = Film(simulation('galton'), 50.0)
+    balls = [name for name in film.names if name.startswith('ball')]
+    ends = np.array([film.pose(name)[-1] for name in balls])
+    assert ends[:, 1].max() < 7.6, 'a ball is still under way'
+    return np.round(ends[:, 0] / SPACING + ROWS / 2).astype(int)
+
+
+def classes(counts, expected):
+    """Return counts and expectations, the tails taken together until enough are expected."""
+    tail = int(np.argmax(np.cumsum(expected) >= FEWEST))
+    inner = slice(tail + 1, ROWS - tail)
+    return [
+        np.array([each[: tail + 1].sum(), *each[inner], each[ROWS - tail :].sum()])
+        for each in (counts, expected)
+    ]
+
+
+def test_no_ball_goes_where_it_cannot(bins):
+    assert bins.min() >= 0
+    assert bins.max() <= ROWS
+
+
+def test_the_bins_fit_a_binomial(bins):
+    chances = np.array([comb(ROWS, right) for right in range(ROWS + 1)]) / 2**ROWS
+    counts = np.bincount(bins, minlength=ROWS + 1)
+
+    counted, expected = classes(counts, chances * len(bins))
+
+    chi_square = ((counted - expected) ** 2 / expected).sum()
+    assert chi_square < CRITICAL[len(counted) - 1]
+
+
+def test_left_and_right_are_even(bins):
+    # Within two standard deviations of the mean of so many balls.
+    assert abs(bins.mean() - ROWS / 2) < 2 * sqrt(ROWS / 4 / len(bins))

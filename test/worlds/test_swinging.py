@@ -1,0 +1,123 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The cradle and the pendulums do what they are famous for."""
+
+import math
+
+import numpy as np
+from numpy.testing import assert_allclose
+import pytest
+
+from .film import at, Film, FRAMES, G, simulation
+
+AMPLITUDE = math.radians(25)
+LENGTH = 3.0
+# Of the row of pendulums, all are together again after it [s].
+CYCLE = 20.0
+
+
+def period(length, amplitude):
+    """Return the period of a pendulum [s], by the arithmetic-geometric mean."""
+    a, b = 1.0, math.cos(amplitude / 2)
+    for _ in range(10):
+        a, b = (a + b) / 2, math.sqrt(a * b)
+    return math.tau * math.sqrt(length / G) / a
+
+
+def periods(speeds):
+    """Return the times from one turn at the left to the next [s], between frames by a line."""
+    turns = np.flatnonzero((speeds[:-1] < 0) & (speeds[1:] >= 0))
+    return np.diff(turns + speeds[turns] / (speeds[turns] - speeds[turns + 1])) / FRAMES
+
+
+@pytest.fixture(scope='module')
+def cradles():
+    return Film(simulation('newtons_cradle'), 3.2)
+
+
+@pytest.fixture(scope='module')
+def pendulums():
+    return Film(simulation('pendulums'), CYCLE)
+
+
+@pytest.mark.parametrize(('cradle', 'count'), [('one', 1), ('two', 2), ('three', 3)])
+def test_as_many_balls_leave_as_came(cradles, cradle, count):
+    top_speed = math.sqrt(2 * G * LENGTH * (1 - math.cos(AMPLITUDE)))
+    quarter = period(LENGTH, AMPLITUDE) / 4
+    balls = [f'{cradle}/{number}' for number in range(5)]
+    shortly = 0.15
+
+    there, back = (
+        np.array([math.hypot(*cradles.twist(ball)[at(time + shortly), :2]) for ball in balls])
+        for time in (quarter, 3 * quarter)
+    )
+
+    # Gone up for as long as that, they are slower by the cosine of what is left of the swing.
+    going = top_speed * math.cos(math.sqrt(G / LENGTH) * shortly)
+    assert_allclose(there[-count:], going, rtol=0.04)
+    assert (there[:-count] < 0.02 * top_speed).all()
+    # And at the other end the same ones that came are thrown out.
+    assert_allclose(back[:count], going, rtol=0.04)
+    assert (back[count:] < 0.03 * top_speed).all()
+
+
+@pytest.mark.parametrize(('cradle', 'count'), [('one', 1), ('two', 2), ('three', 3)])
+def test_they_swing_as_high_as_they_came_from(cradles, cradle, count):
+    heights = cradles.poses[:, :, 1]
+    leaving = cradles.names.index(f'{cradle}/4')
+
+    risen = heights[:, leaving].max() - heights[0, leaving]
+
+    # 5 %: twice the 2 % of speed that the law allows, and the air between the balls.
+    assert_allclose(risen, LENGTH * (1 - math.cos(AMPLITUDE)), rtol=0.05)
+
+
+def test_a_pendulum_keeps_time(pendulums):
+    amplitude = math.radians(30)
+
+    measured = periods(pendulums.twist('simple/0')[:, 0])
+
+    assert_allclose(measured, period(2.2, amplitude), rtol=1e-3)
+
+
+def test_a_bar_swings_as_two_thirds_of_its_length(pendulums):
+    length, width = 2.4, 0.2
+    # Not exactly two thirds, since it is not thin.
+    reduced = (length**2 / 3 + width**2 / 12) / (length / 2)
+    assert abs(reduced / (2 / 3 * length) - 1) < 0.01
+
+    measured = periods(pendulums.twist('compound/0')[:, 2])
+
+    assert_allclose(measured, period(reduced, math.radians(40)), rtol=1e-3)
+
+
+def test_the_row_comes_apart_and_together_again(pendulums):
+    middle, end = at(CYCLE / 2), at(CYCLE)
+    for swings in range(7, 18):
+        ball = f'row/{swings}'
+        pivot = -8 + 1.6 * (swings - 7)
+        aside = pendulums.x(ball) - pivot
+
+        # After half the time, those with an odd number of swings to make are on the other side.
+        assert_allclose(aside[middle], aside[0] * (-1) ** swings, rtol=0.01)
+        assert_allclose(aside[end], aside[0], rtol=0.01)
+
+
+def test_even_the_chaotic_one_keeps_its_energy(pendulums):
+    energies = np.array([f.kinetic_energy + f.potential_energy for f in pendulums.frames])
+
+    # Of the energy that moves at all: what there is more of at the start than hanging down.
+    moving = max(frame.kinetic_energy for frame in pendulums.frames)
+    assert np.abs(energies - energies[0]).max() < 0.05 * moving
