@@ -55,6 +55,8 @@ def rectangle(corners: Floats, tolerance: float) -> tuple[Pose, float, float]:
 
 def polygon(corners: Floats, tolerance: float) -> Floats:
     """Return the outline that corners mean: regular if it may be, else with straight angles."""
+    if tolerance == 0.0:
+        return corners
     regular = _regular(corners, tolerance)
     if regular is not None:
         return regular
@@ -101,8 +103,9 @@ def _regular(corners: Floats, tolerance: float) -> Floats | None:
     if off.max() > tolerance or np.ptp(radii) > 2 * tolerance * radii.mean():
         return None
     # A side that is nearly level or upright is so.
-    normal = first + turn / 2
-    slant = normal - round(normal / (math.pi / 2)) * math.pi / 2
+    normals = first + turn * (np.arange(count) + 0.5)
+    slants = normals - np.round(normals / (math.pi / 2)) * math.pi / 2
+    slant = float(slants[np.abs(slants).argmin()])
     if abs(slant) <= tolerance:
         first -= slant
     places = first + turn * np.arange(count)

@@ -52,6 +52,8 @@ SMALL, SMALL_ON_TWO = 0.5, 0.75
 # The share of a line between two bodies that is a joint, not a wall; how straight a rod is, by its
 # ends' distance and its length; and how often a line turns to be a spring.
 BETWEEN, STRAIGHT, FEWEST_TEETH = 0.9, 0.95, 3
+# What lies on the bodies at its ends by more than that share is no spring between them.
+LEAVING = 0.6
 # From so many corners on a small polygon may be a circle.
 EDGED = 5
 
@@ -216,11 +218,12 @@ def _to_and_fro(
     over = scribbling.passed(drawn.points, view)
     covered = scribbling.bodies_under(drawn.points, over, view)
     spring = 0.0
-    if joined is not None and (zigzag or joined[1].body != WORLD):
+    # A scribble may begin on one body and end on another that it is meant for as well.
+    if joined is not None and (zigzag or (joined[1].body != WORLD and not covered)):
         # A spring leaves the bodies that it joins; a scribble stays on them.
-        spring = 1.0 - scribbling.share_under(over, joined)
-        if zigzag and joined[1].body != WORLD:
-            spring = max(spring, BETWEEN)
+        share = scribbling.share_under(over, joined)
+        between = zigzag and joined[1].body != WORLD
+        spring = falls(share, LEAVING, 0.03) if between else 1.0 - share
     wall = BETWEEN if zigzag and not spring and not covered else 0.0
     return spring, wall, (1.0 - spring - wall) * (1.0 if covered else MISPLACED)
 

@@ -130,7 +130,7 @@ def test_a_pendulum_swings_with_its_period(tremor: float) -> None:
     assert np.ptp(arm) < 0.3
     length = float(arm.mean())
     swing = math.asin(float(np.ptp(places[:, 0])) / 2 / length)
-    # The period by the arithmetic-geometric mean, https://en.wikipedia.org/wiki/Pendulum_(mechanics).
+    # The period by the arithmetic-geometric mean.
     a, b = 1.0, math.cos(swing / 2)
     for _ in range(5):
         a, b = (a + b) / 2, math.sqrt(a * b)

@@ -441,6 +441,15 @@ def test_a_scribble_deletes_several_bodies_and_a_long_wall(world: World) -> None
     assert long.requests == (Delete(name='wall/0'),)
 
 
+def test_a_scribble_from_body_to_body_deletes_both(world: World) -> None:
+    spawn(world, 'a/0', Disc(radius=0.4), (-0.5, 0.0, 0.0))
+    spawn(world, 'a/1', Disc(radius=0.4), (0.5, 0.0, 0.0))
+
+    reading = draw(world, scribble(0.0, 0.0, 1.6, 0.7))
+
+    assert reading.requests == (Delete(name='a/0'), Delete(name='a/1'))
+
+
 def test_a_scribble_in_the_open_is_refused(world: World) -> None:
     with pytest.raises(NothingThere, match='there are none'):
         draw(world, scribble(0.0, 0.0, 1.0, 1.0))
