@@ -42,10 +42,10 @@ def bins():
 
 def classes(counts, expected):
     """Return counts and expectations, the tails taken together until enough are expected."""
-    tail = int(np.argmax(np.cumsum(expected) >= FEWEST))
-    inner = slice(tail + 1, ROWS - tail)
+    left = int(np.argmax(np.cumsum(expected) >= FEWEST)) + 1
+    right = len(expected) - left
     return [
-        np.array([each[: tail + 1].sum(), *each[inner], each[ROWS - tail :].sum()])
+        np.array([each[:left].sum(), *each[left:right], each[right:].sum()])
         for each in (counts, expected)
     ]
 

@@ -95,9 +95,9 @@ def test_the_gears_turn_by_their_teeth(gears):
     ]
 
     assert turned[0][-1] > 6 * math.tau
-    assert_allclose(12 * turned[0], -24 * turned[1], atol=0.01)
-    assert_allclose(turned[1], turned[2], atol=0.01)
-    assert_allclose(10 * turned[2], -30 * turned[3], atol=0.01)
+    assert_allclose(12 * turned[0], -24 * turned[1], atol=1e-6)
+    assert_allclose(turned[1], turned[2], atol=1e-6)
+    assert_allclose(10 * turned[2], -30 * turned[3], atol=1e-6)
 
 
 def test_the_piston_goes_twice_as_far_as_the_crank_is_long(gears):
