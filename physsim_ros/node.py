@@ -166,7 +166,7 @@ class PhysSimNode(Node):
         """Go on by one publish period, whatever the clock says, and deliver the frame."""
         self._watch()
         self.deliver(self.simulation.advance_frame())
-        self._sender.flush()
+        self.flush()
 
     def apply(self) -> None:
         """Carry out what was asked while time stands still."""
@@ -176,6 +176,10 @@ class PhysSimNode(Node):
             self.deliver(frame)
         else:
             self._sender.send(self._streams.tell)
+        self.flush()
+
+    def flush(self) -> None:
+        """Wait until all that was delivered has gone out."""
         self._sender.flush()
 
     @property

@@ -239,7 +239,7 @@ class Fuzzed:
 def test_thousands_of_arbitrary_messages_leave_a_world_that_goes_on() -> None:
     codes: dict[str, int] = {}
 
-    @given(st.lists(requests, min_size=3, max_size=12))
+    @given(st.lists(requests, min_size=7, max_size=12))
     @settings(
         max_examples=330,
         derandomize=True,
