@@ -41,7 +41,6 @@ from physsim_ros.core.snapshot import Answer, Frame, run_state, Snapshot, WorldS
 from physsim_ros.diagnostics import Meter
 from physsim_ros.drawing.pen import Pen, told
 from physsim_ros.drawing.tools import Tool
-from physsim_ros.sender import Sender
 from physsim_ros.streams import Streams
 from physsim_ros.viewer import Viewer, ViewerMode
 from rcl_interfaces.msg import SetParametersResult
@@ -93,7 +92,6 @@ class PhysSimNode(Node):
         self._streams = Streams(
             self, frame_id=self._frame_id, publish_clock=self._values['publish_clock']
         )
-        self._sender = Sender()
         self._pen = Pen(parameters.drawing_settings(self._values), Tool(self._values['tool']))
         self._meter = Meter()
         self._diagnostics = self.create_publisher(DiagnosticArray, '/diagnostics', 10)
@@ -137,7 +135,7 @@ class PhysSimNode(Node):
             if self.frame is not None and self.frame.preview != self._pen.preview:
                 # Nothing has happened but that what was half drawn has been dropped.
                 self.deliver(replace(self.frame, answers=(), moved=False))
-            self._sender.send(self._streams.welcome)
+            self._streams.welcome()
             return
         last = frames[-1]
         if last.moved:
@@ -158,7 +156,7 @@ class PhysSimNode(Node):
         self._follow()
         for answer in frame.answers:
             self._log(answer)
-        self._sender.send(self._streams.publish, frame)
+        self._streams.publish(frame)
         if self._viewer is not None:
             self._viewer.show(frame, real_time_factor=self._meter.real_time_factor)
 
@@ -166,7 +164,6 @@ class PhysSimNode(Node):
         """Go on by one publish period, whatever the clock says, and deliver the frame."""
         self._watch()
         self.deliver(self.simulation.advance_frame())
-        self.flush()
 
     def apply(self) -> None:
         """Carry out what was asked while time stands still."""
@@ -175,12 +172,7 @@ class PhysSimNode(Node):
         if frame is not None:
             self.deliver(frame)
         else:
-            self._sender.send(self._streams.tell)
-        self.flush()
-
-    def flush(self) -> None:
-        """Wait until all that was delivered has gone out."""
-        self._sender.flush()
+            self._streams.tell()
 
     @property
     def frame_period(self) -> float:
@@ -196,7 +188,6 @@ class PhysSimNode(Node):
         if self._viewer is not None:
             self._viewer.close()
             self._viewer = None
-        self._sender.close()
         super().destroy_node()
 
     # Requests
@@ -286,11 +277,11 @@ class PhysSimNode(Node):
             yield self.simulation.world.snapshot() if self.frame is None else self.frame.snapshot
         except Refusal as refusal:
             self.simulation.refuse(refusal, topic=topic, subject='')
-        self._sender.send(self._streams.show, self._pen.preview)
+        self._streams.show(self._pen.preview)
 
     def _report(self, answer: Answer) -> None:
         """Tell of what comes without a frame."""
-        self._sender.send(self._streams.report, answer)
+        self._streams.report(answer)
         self._log(answer)
 
     def _log(self, answer: Answer) -> None:
@@ -404,7 +395,7 @@ class PhysSimNode(Node):
             self.simulation.speed = self._values['speed']
         self._pen.settings = parameters.drawing_settings(self._values)
         self._pen.tool = Tool(self._values['tool'])
-        self._sender.send(self._streams.show, self._pen.preview)
+        self._streams.show(self._pen.preview)
         if 'history' in names:
             self.simulation.history = self._values['history']
         if 'publish_clock' in names:

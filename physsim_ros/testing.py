@@ -186,7 +186,6 @@ class PhysSim:
 
     def settle(self) -> None:
         """Let every message that is under way arrive, and all that it makes nodes send."""
-        self.node.flush()
         for _ in range(_MOST_ROUNDS):
             if self._spin_to_barrier() <= 1:
                 return

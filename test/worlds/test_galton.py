@@ -24,8 +24,8 @@ from .film import Film, simulation
 ROWS = 12
 SPACING = 0.5
 # The chi-square that one in a thousand fair boards exceeds, by degrees of freedom
-# (NIST/SEMATECH e-Handbook of Statistical Methods, 1.3.6.7.4): another last bit anywhere is another
-# board.
+# (NIST/SEMATECH e-Handbook of Statistical Methods, 1.3.6.7.4): another last bit anywhere makes
+# another board.
 CRITICAL = {5: 20.515, 6: 22.458, 7: 24.322, 8: 26.124}
 # Fewer than so many expected make no fair class.
 FEWEST = 5
