@@ -50,7 +50,7 @@ SETTLE = 20.0  # simulated seconds until a pile has come to rest, but for its la
 # Subscribes to everything from another process, as serialised bytes: what a viewer costs is its
 # own affair.
 LISTENER = """
-import sys, rclpy
+import sys, rclpy, rclpy.executors
 from rclpy.experimental import EventsExecutor
 from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import PoseArray
@@ -66,8 +66,11 @@ for kind, topic in ((PoseArray, 'poses'), (MultiDOFJointState, 'states'),
 node.create_subscription(Clock, '/clock', lambda _: None, 5, raw=True)
 executor = EventsExecutor()
 executor.add_node(node)
-while rclpy.ok():
-    executor.spin_once(timeout_sec=0.1)
+try:
+    while rclpy.ok():
+        executor.spin_once(timeout_sec=0.1)
+except rclpy.executors.ExternalShutdownException:
+    pass
 """
 
 
