@@ -36,6 +36,7 @@ from nav_msgs.msg import Path as PathMessage
 from physsim_ros import conversions, parameters, paths, world_file
 from physsim_ros.core.errors import PhysSimError, Refusal
 from physsim_ros.core.requests import Configure, DeleteAll, Request
+from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.simulation import Simulation
 from physsim_ros.core.snapshot import Answer, Frame, run_state, Snapshot, WorldState
 from physsim_ros.diagnostics import Meter
@@ -99,7 +100,7 @@ class PhysSimNode(Node):
         # The last one that was delivered.
         self.frame: Frame | None = None
         self._started = False
-        self._followed = self.simulation.settings
+        self._followed: WorldSettings | None = self.simulation.settings
         if self._values['world_file']:
             self.simulation.begin(self._read_world(confined=False)[0])
             self._follow()
@@ -389,7 +390,8 @@ class PhysSimNode(Node):
         settings = self.simulation.settings
         if replace(settings, **changes) != settings:
             self.simulation.perform(Configure(changes=changes))
-            self._followed = self.simulation.settings
+            # Others may have changed as well, by what waited before.
+            self._followed = None
         names = {parameter.name for parameter in changed}
         if 'speed' in names:
             self.simulation.speed = self._values['speed']
@@ -406,8 +408,8 @@ class PhysSimNode(Node):
     def _follow(self) -> None:
         """Let the parameters say what the world has been set to, where time has led to that."""
         if self.simulation.settings is not self._followed:
-            self._followed = self.simulation.settings
-            self.set_parameters(parameters.world_parameters(self._followed))
+            self._followed = settings = self.simulation.settings
+            self.set_parameters(parameters.world_parameters(settings))
         if self.simulation.speed != self._values['speed']:
             self.set_parameters([Parameter('speed', value=self.simulation.speed)])
 

@@ -43,7 +43,7 @@ from physsim_ros.core.properties import (
     within,
 )
 from physsim_ros.core.requests import Command, join_from, Restore, Spawn
-from physsim_ros.core.rigid_body import rotated
+from physsim_ros.core.rigid_body import REST, rotated
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.shapes import (
     Box,
@@ -243,8 +243,16 @@ def _joined(
     state: WorldState, entries: list[dict[Any, Any]], physics_rate: float
 ) -> tuple[Joint, ...]:
     """Join the bodies of a file, in a world of their own where they are by now."""
-    world = World(physics_rate=physics_rate, settings=state.settings)
+    world, loose = (World(physics_rate=physics_rate, settings=state.settings) for _ in range(2))
     world.apply(Restore(state=state))
+    # A joint may have been made before both its bodies were anchored.
+    bodies = tuple(
+        replace(
+            each, body=replace(each.body, anchored=False, kinematic=False), motion=None, twist=REST
+        )
+        for each in state.bodies
+    )
+    loose.apply(Restore(state=replace(state, bodies=bodies, memory=None)))
     names: set[str] = set()
     seats: dict[str, Seat] = {}
     for entry in entries:
@@ -256,12 +264,15 @@ def _joined(
                 raise BadProperty('the name comes twice', field='name')
             said = {key: entry[key] for key in entry if key not in _JOINT_KEYS}
             points = _points(entry.get('points'), 'points')
-            world.apply(join_from(said, name=name, points=points))
-            names.add(name)
+            join = join_from(said, name=name, points=points)
             if 'seat' in entry:
                 seats[name] = _seat(entry['seat'])
+            else:
+                world.apply(join)
+            loose.apply(join)
+            names.add(name)
     poses = {saved.body.name: saved.pose for saved in state.bodies}
-    return tuple(_seated(joint, seats.get(joint.name), poses) for joint in world.save().joints)
+    return tuple(_seated(joint, seats.get(joint.name), poses) for joint in loose.save().joints)
 
 
 def _seated(joint: Joint, seat: Seat | None, poses: Mapping[str, Pose]) -> Joint:

@@ -179,6 +179,8 @@ _CHECKS: dict[str, Callable[[object, str], Any]] = {
 
 _ALL = ('max_force', 'break_force', 'collide')
 # What each kind knows, what is its own first.
+# What the text of a joint may name.
+JOINT_KEYS = ['kind', 'a', 'b', *_CHECKS]
 KNOWN: dict[JointKind, tuple[str, ...]] = {
     JointKind.PIN: _ALL,
     JointKind.AXLE: ('lower', 'upper', *_ALL),

@@ -83,7 +83,8 @@ class EngineJoint:
     @property
     def impulse(self) -> float:
         """Return what it gave in the last step [N s]; where it turns, at an arm of 1 m."""
-        return max((each.impulse for each in self.constraints), default=0.0)
+        # A spring's is negative where it pulls.
+        return max((abs(each.impulse) for each in self.constraints), default=0.0)
 
 
 def build(

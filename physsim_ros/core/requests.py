@@ -29,13 +29,21 @@ from typing import Any
 
 from physsim_ros.core.errors import BadProperty, BadSize, Malformed
 from physsim_ros.core.joint_properties import (
+    JOINT_KEYS,
     joint_properties_from,
     JointKind,
     JointProperties,
     kind_from,
 )
 from physsim_ros.core.names import check_name, WORLD
-from physsim_ros.core.properties import check_finite, FASTEST, HEAVIEST, Properties, shown
+from physsim_ros.core.properties import (
+    check_finite,
+    check_key,
+    FASTEST,
+    HEAVIEST,
+    Properties,
+    shown,
+)
 from physsim_ros.core.settings import check_setting
 from physsim_ros.core.shapes import Color, Point, Pose, Shape, SMALLEST
 from physsim_ros.core.snapshot import WorldState
@@ -304,6 +312,8 @@ def join_from(
     :param frame: '' for the world, or a body's name
     :raises Refusal: a key is not known, or a value not possible
     """
+    for key in mapping:
+        check_key(key, JOINT_KEYS)
     properties = {key: mapping[key] for key in mapping if key not in {'kind', 'a', 'b'}}
     a, b = _body_name(mapping, 'a'), _body_name(mapping, 'b')
     return Join(

@@ -101,7 +101,9 @@ class Simulation:
         self._beginning = WorldState(settings=settings or WorldSettings())
         self._undone: deque[Tail | None] = deque(maxlen=MOST_UNDONE)
         # What was before each reset, and the step that was shown.
-        self._left: deque[tuple[Timeline, int]] = deque(maxlen=MOST_RESETS)
+        self._left: deque[tuple[Timeline, tuple[int, int]]] = deque(maxlen=MOST_RESETS)
+        # What the last reset began with.
+        self._begun: WorldState | None = None
         self.timeline, self.past = self._course_of(self._beginning)
         # The step that is shown where the world itself is at another; None where it is there.
         self._shown: Shot | None = None
@@ -228,10 +230,13 @@ class Simulation:
     def reset(self) -> str:
         """Return to the state that was loaded last, at time 0; `undo` comes back from there."""
         self._apply_all()
-        if self.step == 0 and self.timeline.serial == 0 and self._left:
+        self._catch_up()
+        history = self.timeline.history
+        if self._begun is self._beginning and history.head == 0 and self.timeline.serial == 0:
             # It has just been reset: there is nothing to come back to.
             return self._turn('~/reset', 'at the beginning, time 0')
-        self._left.append((self.timeline, self.step))
+        self._left.append((self.timeline, self.timeline.moment))
+        self._begun = self._beginning
         self.timeline, self.past = self._course_of(self._beginning)
         self._undone.clear()
         return self._turn('~/reset', 'back at the beginning, time 0')
@@ -249,9 +254,11 @@ class Simulation:
         except OutOfHistory:
             if not self._left:
                 raise
-            self.timeline, step = self._left.pop()
+            self.timeline, moment = self._left.pop()
+            self._begun = None
+            self.timeline.history.length = self._steps(self._history)
             self.past = self._past_of(self.timeline)
-            self.timeline.seek(step)
+            self.timeline.seek_moment(*moment)
             self._undone.append(None)
             message = 'undid reset'
         else:
@@ -270,13 +277,15 @@ class Simulation:
         self._apply_all()
         if not self._undone:
             raise OutOfHistory('there is nothing to redo', field='history')
-        tail = self._undone.pop()
+        tail = self._undone[-1]
         if tail is None:
+            self._undone.pop()
             undone = list(self._undone)
             self.reset()
             self._undone.extend(undone)
             return 'redid reset, back at time 0'
         self.timeline.redo(tail)
+        self._undone.pop()
         self.past.forget(tail.entries[0].step)
         self._shown = None
         return self._turn('~/redo', f'redid what was undone, at {self._time()}')
@@ -289,6 +298,8 @@ class Simulation:
         """
         self._apply_all()
         self._catch_up()
+        # What has just been carried out belongs to this step.
+        self.timeline.see()
         self.timeline.seek(round(stamp * 1e-9 * self.physics_rate))
         self._moved()
         return f'at {self._time()}'

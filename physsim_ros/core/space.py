@@ -76,6 +76,8 @@ class Space:
         spares: Mapping[str, RigidBody] | None = None,
     ) -> None:
         self.bodies: dict[str, RigidBody] = {}
+        # Counts what has been done to it from outside.
+        self.changes = 0
         self._settings = settings
         self._dt = dt
         self._names: dict[pymunk.Body, str] = {}
@@ -186,6 +188,7 @@ class Space:
         """Let other settings hold from now on."""
         self._unlay()
         old, self._settings = self._settings, settings
+        self.changes += old != settings
         if old.gravity != settings.gravity:
             for rigid in self.bodies.values():
                 if rigid.free:
@@ -211,6 +214,7 @@ class Space:
             # Nothing that the engine knows has changed; it keeps what it remembers of contacts.
             if body != old.body:
                 self._unlay()
+                self.changes += 1
                 old.body = body
             if pose != old.pose:
                 self.set_pose(old, pose)
@@ -235,21 +239,25 @@ class Space:
 
     def set_pose(self, rigid: RigidBody, pose: Pose) -> None:
         """Put a body somewhere else."""
+        self.changes += 1
         rigid.pose = self._unwound(rigid, pose)
         self._forget_state()
 
     def join(self, joint: Joint) -> None:
         """Take in a joint; it replaces one of that name in its place."""
         self._unlay()
+        self.changes += 1
         self.machine.put(joint)
 
     def unjoin(self, name: str) -> None:
         """Take a joint out."""
         self._unlay()
+        self.changes += 1
         self.machine.remove(name)
 
     def set_twist(self, rigid: RigidBody, twist: Pose) -> None:
         """Let a body fly freely at a velocity."""
+        self.changes += 1
         rigid.set_twist(twist, self._settings.gravity, self._dt)
         if self._layout is not None and not rigid.body.anchored:
             self._layout.free[self._layout.rows[rigid.body.name]] = True
@@ -262,6 +270,7 @@ class Space:
 
     def push(self, rigid: RigidBody, wrench: Pose, until: int | None) -> None:
         """Let a wrench act from now on, to the step `until`; None is for ever."""
+        self.changes += 1
         twist, free = self.twist(rigid), rigid.free
         rigid.wrench, rigid.wrench_until = wrench, until
         if wrench == REST:
@@ -335,6 +344,7 @@ class Space:
     def _put(self, rigid: RigidBody, pose: Pose, twist: Pose) -> None:
         """Take a body into the space."""
         self._unlay()
+        self.changes += 1
         rigid.pose = pose
         rigid.set_twist(twist, self._settings.gravity, self._dt)
         self.bodies[rigid.body.name] = rigid
@@ -345,6 +355,7 @@ class Space:
     def _take(self, rigid: RigidBody) -> None:
         """Take a body out of the space."""
         self._unlay()
+        self.changes += 1
         self._shapes.remove(rigid.engine.shapes)
         self._space.remove(rigid.engine)
         del self._names[rigid.engine]

@@ -76,29 +76,37 @@ class Course:
     def _go_to_stop(self, end: int) -> None:
         """Go on to the next step at which the history knows more, or to the end."""
         self._carry_out(self.history.made_at(self.world.step_count))
-        mark = self.history.at(*self.moment)
-        if mark is not None and self._resumed != mark.moment:
-            self.verify()
-            self.resume(mark)
+        self._go_over()
         self._step(end)
 
     def _step(self, end: int) -> None:
         step = self.world.step_count
         stop = self.history.next_stop(step, end)
-        for name in self.world.step(stop - step):
-            self._tell('divergence', f'{name} left the range of numbers and was removed', name)
-        for name, force in self.world.take_broken():
-            self._tell('joint_broken', f'{name} broke at {force:.3g} N and was removed', name)
+        lost, broken = self.world.step(stop - step), self.world.take_broken()
+        # What happens again has been told the first time.
+        if stop > self.history.head:
+            for name in lost:
+                self._tell('divergence', f'{name} left the range of numbers and was removed', name)
+            for name, force in broken:
+                self._tell('joint_broken', f'{name} broke at {force:.3g} N and was removed', name)
         self._carry_out(self.history.seen_at(stop))
 
     def _carry_out(self, serial: int) -> None:
         """Carry out again what was asked at this step, up to a serial."""
         for entry in self.history.between(self.serial, serial):
+            self._go_over()
             try:
                 self.world.apply(entry.request)
             except Refusal as refusal:
                 self._tell('divergence', f'what was done once is refused now: {refusal}')
             self.serial += 1
+
+    def _go_over(self) -> None:
+        """Go on in the space of a keyframe that was made at this moment, as was done then."""
+        mark = self.history.at(*self.moment)
+        if mark is not None and self._resumed != mark.moment:
+            self.verify()
+            self.resume(mark)
 
     def verify(self) -> None:
         """Tell where the world is not what it was when it was here first."""
@@ -152,10 +160,7 @@ class Timeline(Course):
         end = self.world.step_count + steps
         while self.world.step_count < end:
             if self.world.step_count < self.history.head:
-                told = len(self._told)
                 self._go_to_stop(min(end, self.history.head))
-                # Who was lost is lost again; only other bits than before are news.
-                self._told[told:] = [each for each in self._told[told:] if not each.subject]
             else:
                 self._carry_out(self.history.made_at(self.world.step_count))
                 self._make_keyframe()

@@ -184,7 +184,12 @@ class World:
         :return: the body or joint concerned, or '', and a sentence that says what was done
         :raises Refusal: and nothing is changed
         """
-        self.changed = True
+        before = self._space, self._space.changes
+        done = self._carry_out(request)
+        self.changed = before != (self._space, self._space.changes)
+        return done
+
+    def _carry_out(self, request: Request) -> tuple[str, str]:
         if isinstance(request, Joining):
             return self._join(request)
         match request:
@@ -345,14 +350,12 @@ class World:
         if name is None:
             raise NothingThere(f'there is no body at ({x:g}, {y:g})', field='point')
         rigid = self._space.bodies[name]
-        self.changed = rigid.body.anchored != anchored
-        if self.changed:
+        if rigid.body.anchored != anchored:
             body = replace(rigid.body, anchored=anchored)
             self._space.change(rigid, body, rigid.pose, REST)
         if anchored:
             return name, f'anchored {name}'
         loosened = joining.loosen(self._space, name, (x, y))
-        self.changed |= bool(loosened)
         return name, ' and removed '.join((f'released {name}', *loosened))
 
     def _delete_all(self, namespace: str | None) -> str:
@@ -361,7 +364,6 @@ class World:
             for name in self._space.bodies
             if namespace is None or split_name(name)[0] == namespace
         ]
-        self.changed = bool(names)
         for name in names:
             self._space.remove(name)
         return f'deleted {len(names)} bodies'
@@ -391,7 +393,6 @@ class World:
         return '', f'commanded {len(rigids)} bodies'
 
     def _configure(self, settings: WorldSettings) -> None:
-        self.changed = settings != self._settings
         self._settings = settings
         self._space.configure(settings)
 

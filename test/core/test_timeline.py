@@ -16,9 +16,23 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
+from physsim_ros import world_file
 from physsim_ros.core.errors import OutOfHistory
-from physsim_ros.core.requests import Configure, Delete, DeleteAll, Request, Restore
+from physsim_ros.core.joint_properties import JointKind, JointProperties
+from physsim_ros.core.requests import (
+    Anchor,
+    Configure,
+    Delete,
+    DeleteAll,
+    Join,
+    Pin,
+    Request,
+    Restore,
+    UnjoinAll,
+)
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.simulation import Simulation
 from physsim_ros.core.snapshot import Answer, Frame
@@ -336,3 +350,105 @@ def test_who_goes_on_from_what_was_saved_goes_on_alike(driven: Driven, frames: i
             snapshot = other.simulation.advance_frame().snapshot
             np.testing.assert_array_equal(snapshot.poses, expected.poses)
             np.testing.assert_array_equal(snapshot.twists, expected.twists)
+
+
+# Where requests meet keyframes
+
+
+def collide(driven: Driven) -> None:
+    for number in range(4):
+        driven.ask(spawning(f'a/{number}', BOX, (0.3 * number, 1.0 + 1.2 * number, 0.2)))
+
+
+def test_a_request_at_the_step_of_a_keyframe_is_made_again_where_it_was() -> None:
+    driven = Driven()
+    collide(driven)
+    for _ in range(150):
+        driven.simulation.advance_frame()
+    keyframe = driven.simulation.timeline.history.keyframes[-1].step
+    driven.simulation.seek(round(keyframe / 240 * SECOND))
+    driven.ask(spawning('b/0', BOX, (0.2, 6.0, 0.5)))
+    for _ in range(120):
+        frame = driven.simulation.advance_frame()
+        driven.shown[frame.snapshot.step] = frame
+    driven.simulation.seek(0)
+    for _ in range(200):
+        frame = driven.simulation.advance_frame()
+        if frame.snapshot.step in driven.shown:
+            driven.assert_same(frame)
+        assert told([frame], 'divergence') == []
+
+
+def test_a_seek_to_now_keeps_what_was_just_asked() -> None:
+    driven = Driven()
+    driven.record(0.5)
+    driven.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
+    driven.simulation.seek(round(driven.simulation.step / 240 * SECOND))
+    assert driven.names == ('b/0',)
+
+
+def test_reset_keeps_what_was_just_asked_for_undo() -> None:
+    driven = Driven()
+    driven.record(0.5)
+    driven.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
+    driven.simulation.reset()
+    driven.simulation.undo()
+    assert driven.names == ('b/0',)
+
+
+def test_reset_goes_to_what_was_loaded_since() -> None:
+    driven = Driven()
+    driven.simulation.reset()
+    driven.record(0.2)
+    other = Driven()
+    other.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
+    driven.simulation.load(other.simulation.save())
+    driven.record(0.2)
+    driven.simulation.seek(0)
+    driven.simulation.reset()
+    assert driven.names == ('b/0',)
+
+
+def test_what_changes_nothing_drops_nothing(driven: Driven) -> None:
+    same = spawning('c/0', BOX, (5.0, 0.5, 0.0), anchored=True)
+    driven.ask(same)
+    driven.record(1.0)
+    driven.run(-1.0, 0.5)
+    for request in (same, UnjoinAll(), DeleteAll(namespace='nobody'), Configure(changes={})):
+        driven.ask(request)
+        frame = driven.settle()
+        assert [answer.code for answer in frame.answers] == ['']
+        assert told([frame], 'branch') == []
+
+
+def test_a_joint_that_broke_is_told_of_once() -> None:
+    driven = Driven()
+    driven.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
+    driven.ask(
+        Join(
+            name='joint/0',
+            kind=JointKind.SPRING,
+            points=((0.0, 5.0), (0.0, 8.0)),
+            a='b/0',
+            b='world',
+            properties=JointProperties(stiffness=20.0, break_force=5.0),
+        )
+    )
+    frames = driven.run(1.0, 2.0)
+    assert len(told(frames, 'joint_broken')) == 1
+    driven.simulation.seek(0)
+    frames = driven.run(1.0, 1.5)
+    driven.simulation.seek(SECOND)
+    frames.append(driven.settle())
+    assert told(frames, 'joint_broken') == []
+
+
+def test_a_joint_whose_bodies_were_anchored_later_loads_again(tmp_path: Path) -> None:
+    driven = Driven()
+    driven.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
+    driven.ask(Pin(point=(0.0, 5.0)))
+    driven.ask(Anchor(point=(0.0, 5.0)))
+    driven.settle()
+    state = driven.simulation.save()
+    path = world_file.save(state, 'it', world_dir=tmp_path, physics_rate=240.0)
+    assert world_file.load(path, settings=FLOOR, physics_rate=240.0).joints == state.joints
