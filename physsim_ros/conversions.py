@@ -57,7 +57,6 @@ from physsim_ros.core.shapes import (
     Disc,
     MOST_POINTS,
     Polygon,
-    Pose,
     Shape,
     Triangles,
 )
@@ -211,16 +210,6 @@ def command_request(message: MultiDOFJointState, *, frame_id: str) -> Command:
 def click(message: PointStamped, *, frame_id: str) -> tuple[tuple[float, float], str]:
     """Return the point of a click and its frame, '' for the world; nothing is checked yet."""
     return (message.point.x, message.point.y), _frame(message.header.frame_id, frame_id)
-
-
-def quaternion_of(yaw: float) -> Quaternion:
-    """Return the rotation about z by an angle [rad]."""
-    return Quaternion(z=math.sin(yaw / 2), w=math.cos(yaw / 2))
-
-
-def planar(position: Point, rotation: Quaternion) -> Pose:
-    """Return x, y [m] and yaw [rad] of a pose in the plane."""
-    return position.x, position.y, _yaw(rotation, 'pose.orientation')
 
 
 def _point(message: PointStamped) -> tuple[float, float]:
