@@ -390,9 +390,10 @@ class PhysSim:
     def __exit__(self, *_: object) -> None:
         for node in (*self._added, self._client.node, self.node):
             self._executor.remove_node(node)
+        # Before its nodes: it listens to what they destroy.
+        self._executor.shutdown()
         self._client.node.destroy_node()
         self.node.destroy_node()
-        self._executor.shutdown()
 
 
 class _Client:

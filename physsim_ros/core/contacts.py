@@ -134,14 +134,22 @@ class ContactLog:
         """
         ascending = np.argsort(old_ids)
 
-        def renamed(pairs: Ids) -> Ids:
-            return ids[ascending[np.searchsorted(old_ids[ascending], pairs)]]
+        def renamed(pairs: Ids, values: Floats) -> tuple[Ids, Floats]:
+            # What has gone since the last step is known to the log, but has no other id.
+            known = np.isin(pairs, old_ids).all(axis=1)
+            places = np.searchsorted(old_ids[ascending], pairs[known])
+            return ids[ascending[places]], values[known]
 
-        self._ids, self._sums, self._steps = renamed(old._ids), old._sums, old._steps
-        self._gone = [(renamed(pairs), sums) for pairs, sums in old._gone]
-        self._places = (renamed(old._places[0]), old._places[1])
+        self._steps = old._steps
+        self._ids, self._sums = renamed(old._ids, old._sums)
+        self._gone = [renamed(pairs, sums) for pairs, sums in old._gone]
+        self._places = renamed(*old._places)
         names = dict(zip(old_ids.tolist(), ids.tolist(), strict=True))
-        self._begun = {(names[a], names[b]): place for (a, b), place in old._begun.items()}
+        self._begun = {
+            (names[a], names[b]): place
+            for (a, b), place in old._begun.items()
+            if a in names and b in names
+        }
 
     def take(self, ids: Ids, rows: Ints, centers: Floats) -> Contacts:
         """

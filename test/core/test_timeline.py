@@ -452,3 +452,20 @@ def test_a_joint_whose_bodies_were_anchored_later_loads_again(tmp_path: Path) ->
     state = driven.simulation.save()
     path = world_file.save(state, 'it', world_dir=tmp_path, physics_rate=240.0)
     assert world_file.load(path, settings=FLOOR, physics_rate=240.0).joints == state.joints
+
+
+@pytest.mark.parametrize('names', [None, 'a/0', 'a/4'])
+def test_what_is_deleted_at_a_keyframe_is_gone_from_the_contacts(names: str | None) -> None:
+    driven = Driven()
+    driven.simulation.watch_contacts(True)
+    for number in range(5):
+        driven.ask(spawning(f'a/{number}', BOX, (0.0, 0.5 + number, 0.0)))
+    for _ in range(3):
+        while driven.simulation.timeline.history.head % 480 or not driven.simulation.step:
+            driven.simulation.advance_frame()
+        driven.ask(DeleteAll() if names is None else Delete(name=names))
+        driven.ask(spawning('a/0' if names is None else names, BOX, (3.0, 0.5, 0.0)))
+        for _ in range(3):
+            contacts = driven.simulation.advance_frame().contacts
+            assert contacts is not None
+            assert contacts.pairs.max(initial=-1) < len(driven.names)
