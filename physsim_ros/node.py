@@ -239,21 +239,21 @@ class PhysSimNode(Node):
             # Here too, since rclpy refuses what is out of range in words without a code.
             parameters.check(speed)
         except Refusal as refusal:
-            self._report(Answer.refused(refusal, topic='~/speed'))
+            self._refuse(refusal, '~/speed')
             return
         self.set_parameters([speed])
-        self._report(Answer(topic='~/speed', message=f'speed {message.data:g}'))
+        self.simulation.tell(Answer(topic='~/speed', message=f'speed {message.data:g}'))
 
     def _seek(self, message: Clock) -> None:
         stamp = message.clock.sec * 10**9 + message.clock.nanosec
         try:
             done = self.simulation.seek(stamp)
         except Refusal as refusal:
-            self._report(Answer.refused(refusal, topic='~/seek'))
+            self._refuse(refusal, '~/seek')
             return
         self._meter.pause()
         self._follow()
-        self._report(Answer(topic='~/seek', message=done))
+        self.simulation.tell(Answer(topic='~/seek', message=done))
 
     def _click(self, message: PointStamped) -> None:
         with self._drawing('clicked_point') as snapshot:
@@ -279,6 +279,11 @@ class PhysSimNode(Node):
         except Refusal as refusal:
             self.simulation.refuse(refusal, topic=topic, subject='')
         self._streams.show(self._pen.preview)
+
+    def _refuse(self, refusal: Refusal, topic: str) -> None:
+        """Refuse what makes no frame, after the answers to what was asked before."""
+        self.apply()
+        self._report(Answer.refused(refusal, topic=topic))
 
     def _report(self, answer: Answer) -> None:
         """Tell of what comes without a frame."""

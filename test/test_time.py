@@ -18,6 +18,7 @@ from __future__ import annotations
 
 from hashlib import blake2b
 from itertools import pairwise
+import math
 from pathlib import Path
 import random
 import struct
@@ -372,6 +373,32 @@ def test_a_seek_out_of_history_is_refused_and_changes_nothing(journey: Journey, 
     assert journey.physsim.digest() == before
     assert parameter(journey.physsim, 'speed') == speed
     assert journey.tick(3) == []
+
+
+@pytest.mark.parametrize(
+    ('topic', 'message'),
+    [
+        ('~/seek', clock_of(0)),
+        ('~/seek', clock_of(10**15)),
+        ('~/speed', Float64(data=0.0)),
+        ('~/speed', Float64(data=math.nan)),
+    ],
+)
+def test_what_was_asked_before_is_answered_before(
+    journey: Journey, topic: str, message: Any
+) -> None:
+    journey.live(60)
+    # Both ways are known before anything is asked.
+    journey.client.ask('~/spawn', disc('a/0'))
+    journey.client.ask(topic, message)
+    told = len(journey.client.events)
+
+    journey.client.publish('~/spawn', disc('b/0'))
+    journey.physsim.settle()
+    journey.client.ask(topic, message)
+
+    names = [event.name for event in journey.client.events[told:] if event.name[:2] == '~/']
+    assert names == ['~/spawn', topic]
 
 
 # Something else in the past

@@ -33,6 +33,8 @@ from physsim_ros.core.world import World
 
 # Python's own share of a shot [bytes].
 _OVERHEAD = 1000
+# The memory that a body may take in a shot on average [bytes]: a pose.
+_BODY = 24
 
 
 class Shot(NamedTuple):
@@ -80,7 +82,8 @@ class Past:
     :param history: of what
     :param physics_rate: of its world [Hz]
     :param frame_steps: steps from one shot to the next, unless finer ones are asked for
-    :param budget: memory that may be taken [bytes]
+    :param budget: memory that may be taken, at most [bytes]; for few bodies it is less, a pose of
+        each body for each shot that the history is long
     """
 
     def __init__(
@@ -90,6 +93,8 @@ class Past:
         self._frame_steps = frame_steps
         self.budget = budget
         self._reels: dict[Mark, _Reel] = {}
+        # In the last shot that was kept.
+        self._bodies = 0
         # A world that makes the steps again which come next in going back.
         self._course = Course(World(physics_rate=physics_rate, frame_steps=frame_steps), history)
         self._making: _Making | None = None
@@ -105,6 +110,7 @@ class Past:
 
     def keep(self, shot: Shot) -> None:
         """Keep a shot of what has just been shown."""
+        self._bodies = len(shot.snapshot.poses)
         mark, _ = self._history.segment(shot.snapshot.step)
         self._reels.setdefault(mark, _Reel()).add(shot)
         self._drop(shot.snapshot.step)
@@ -169,8 +175,10 @@ class Past:
     def _drop(self, step: int) -> None:
         """Drop the reels that are farthest away, until the rest fits."""
         size = self.size
+        poses = self._history.length // self._frame_steps * self._bodies
+        budget = min(self.budget, poses * _BODY)
         # Never the one that is shown, nor those before and after it.
-        while size > self.budget and len(self._reels) > 3:
+        while size > budget and len(self._reels) > 3:
             farthest = max(self._reels, key=lambda mark: self._reels[mark].distance(step))
             size -= self._reels.pop(farthest).size
 

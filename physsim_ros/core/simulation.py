@@ -40,7 +40,7 @@ from physsim_ros.core.world import World
 _FRAMES_A_CALL = 2
 # From one keyframe to the next [s]: to reach a step, at most so much is simulated again.
 KEYFRAMES = 2.0
-# What is kept of what was shown [bytes]: all of ten minutes of 20 bodies, two minutes of 300.
+# What is kept of what was shown, at most [bytes]: three minutes of 100 bodies, 23 s of 1,000.
 MOST_KEPT = 64 * 2**20
 # So many steps back can be redone, and so many resets undone.
 MOST_UNDONE, MOST_RESETS = 100, 10
@@ -89,7 +89,6 @@ class Simulation:
             )
         self.frame_steps = round(steps)
         self.physics_rate = physics_rate
-        self._publish_rate = publish_rate
         self._clock = Clock(physics_rate=physics_rate, frame_steps=self.frame_steps, speed=speed)
         self._requests: deque[_Asked] = deque()
         self._gesture = 0
@@ -100,7 +99,7 @@ class Simulation:
         self._keyframes = keyframes
         self._beginning = WorldState(settings=settings or WorldSettings())
         self._undone: deque[Tail | None] = deque(maxlen=MOST_UNDONE)
-        # What was before each reset, and the step that was shown.
+        # What was before each reset, and the moment that was shown.
         self._left: deque[tuple[Timeline, tuple[int, int]]] = deque(maxlen=MOST_RESETS)
         # What the last reset began with.
         self._begun: WorldState | None = None
@@ -265,7 +264,6 @@ class Simulation:
             self.past.forget(undone[0].step)
             self._undone.append(tail)
             message = f'undid {_named(undone)}'
-        self._shown = None
         return self._turn('~/undo', f'{message}, back at {self._time()}')
 
     def redo(self) -> str:

@@ -27,7 +27,8 @@ from physsim_ros.core.requests import Request
 from physsim_ros.core.snapshot import Answer
 from physsim_ros.core.world import World
 
-# Keyframes for so many steps ahead are built in this many, so that none of them is long.
+# The share of the time between two keyframes in which the bodies for the next one are made ready,
+# so that no frame makes them all.
 _AHEAD = 0.75
 
 
@@ -185,7 +186,7 @@ class Timeline(Course):
     def seek_moment(self, step: int, serial: int) -> None:
         """Go to a moment of the past, from the nearest keyframe or from here."""
         mark = self.history.before(step, serial)
-        if not mark.moment <= self.moment <= (step, serial) or self.serial > serial:
+        if not mark.moment <= self.moment <= (step, serial):
             self.resume(mark)
         # Its contacts are those of one frame, as they were the first time.
         frame = self.world.frame_steps
@@ -229,17 +230,14 @@ class Timeline(Course):
         self.history.splice(tail)
         # What has been done since leads nowhere: from a keyframe, not from here.
         self.resume(self.history.before(tail.step, tail.serial))
-        self.follow(tail.step, tail.serial)
+        self.seek_moment(tail.step, tail.serial)
 
     def _make_keyframe(self) -> None:
         """Make a keyframe where one is due, or where the world has come from one and changed."""
-        step, serial = self.moment
-        mark = self.history.at(step, serial)
-        if mark is not None:
-            if self._resumed != mark.moment:
-                self.resume(mark)
-            return
-        if self.history.is_due(step) or (self._resumed is not None and self._resumed[0] == step):
+        self._go_over()
+        step = self.world.step_count
+        changed = self._resumed is not None and self._resumed[0] == step
+        if self.history.at(*self.moment) is None and (changed or self.history.is_due(step)):
             self._keep()
 
     def _keep(self) -> None:

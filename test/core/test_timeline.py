@@ -206,6 +206,20 @@ def test_redo_returns_to_where_undo_was_asked_for(driven: Driven) -> None:
     assert (driven.simulation.step, driven.simulation.world.digest()) == (step, digest)
 
 
+def test_redo_shows_the_contacts_of_one_frame(driven: Driven) -> None:
+    driven.simulation.watch_contacts(True)  # noqa: FBT003 - a state
+    before = driven.run(1.0, 1.0)[-1].contacts
+    driven.ask(spawning('more/0', BOX, (8.0, 18.0, 0.0)))
+    driven.settle()
+    driven.simulation.undo()
+    driven.simulation.redo()
+    again = driven.settle().contacts
+    assert before is not None
+    assert again is not None
+    assert again.pairs.tolist() == before.pairs.tolist()
+    np.testing.assert_allclose(again.impulses, before.impulses, rtol=1e-9, atol=1e-12)
+
+
 def test_several_undos_are_redone_one_by_one(driven: Driven) -> None:
     digests = [driven.simulation.world.digest()]
     for _ in range(6):
@@ -309,6 +323,18 @@ def test_shots_take_no_more_memory_than_they_may(monkeypatch: pytest.MonkeyPatch
     monkeypatch.setattr(driven.simulation.past, 'budget', 2_000_000)
     driven.record(20.0)
     assert driven.simulation.past.size <= 2_000_000
+
+
+@pytest.mark.parametrize('bodies', [1, 8])
+def test_few_bodies_take_no_more_memory_than_their_poses_would(bodies: int) -> None:
+    driven = Driven(history=120.0)
+    for number in range(bodies):
+        driven.ask(spawning(f'a/{number}', BOX, (1.5 * number - 6.0, 1.0, 0.0)))
+    driven.record(20.0)
+    a_reel = 120 * (1000 + bodies * 2 * 24)
+    assert driven.simulation.past.size <= max(120 * 60 * 24 * bodies, 3 * a_reel)
+    for frame in driven.run(-4.0, 5.0):
+        driven.assert_same(frame)
 
 
 def test_other_bits_than_before_are_told(driven: Driven) -> None:
