@@ -23,7 +23,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 import math
-from typing import Any
+from typing import Any, TypeVar
 
 from geometry_msgs.msg import Point, PointStamped, Quaternion
 from physsim_ros.core.errors import (
@@ -36,15 +36,12 @@ from physsim_ros.core.errors import (
 )
 from physsim_ros.core.properties import check_finite, properties_from
 from physsim_ros.core.requests import (
-    Anchor,
-    Axle,
+    AtPoint,
     Command,
     Delete,
     DeleteAll,
     Join,
     join_from,
-    Pin,
-    Release,
     Spawn,
     Unjoin,
     UnjoinAll,
@@ -73,6 +70,8 @@ MOST_TILT = 1e-3
 LONGEST_TEXT = 10_000
 # PyYAML takes a second for a thousand brackets in each other; a velocity and its mapping are two.
 MOST_BRACKETS = 50
+
+_AtPoint = TypeVar('_AtPoint', bound=AtPoint)
 
 # A shape's own fields, as the marker calls them.
 _FIELDS = {
@@ -152,40 +151,15 @@ def joint_request(marker: Marker, *, frame_id: str) -> Join | Unjoin | UnjoinAll
     )
 
 
-def anchor_request(message: PointStamped, *, frame_id: str) -> Anchor:
+def point_request(kind: type[_AtPoint], message: PointStamped, *, frame_id: str) -> _AtPoint:
     """
-    Return the anchoring that a point asks for.
+    Return what a point asks for.
 
+    :param kind: of request
     :raises Malformed: the point is not finite
     """
-    return Anchor(point=_point(message), frame=_frame(message.header.frame_id, frame_id))
-
-
-def release_request(message: PointStamped, *, frame_id: str) -> Release:
-    """
-    Return the release that a point asks for.
-
-    :raises Malformed: the point is not finite
-    """
-    return Release(point=_point(message), frame=_frame(message.header.frame_id, frame_id))
-
-
-def pin_request(message: PointStamped, *, frame_id: str) -> Pin:
-    """
-    Return the pin that a point asks for.
-
-    :raises Malformed: the point is not finite
-    """
-    return Pin(point=_point(message), frame=_frame(message.header.frame_id, frame_id))
-
-
-def axle_request(message: PointStamped, *, frame_id: str) -> Axle:
-    """
-    Return the axle that a point asks for.
-
-    :raises Malformed: the point is not finite
-    """
-    return Axle(point=_point(message), frame=_frame(message.header.frame_id, frame_id))
+    point, frame = click(message, frame_id=frame_id)
+    return kind(point=point, frame=frame)
 
 
 def command_request(message: MultiDOFJointState, *, frame_id: str) -> Command:
@@ -210,10 +184,6 @@ def command_request(message: MultiDOFJointState, *, frame_id: str) -> Command:
 def click(message: PointStamped, *, frame_id: str) -> tuple[tuple[float, float], str]:
     """Return the point of a click and its frame, '' for the world; nothing is checked yet."""
     return (message.point.x, message.point.y), _frame(message.header.frame_id, frame_id)
-
-
-def _point(message: PointStamped) -> tuple[float, float]:
-    return message.point.x, message.point.y
 
 
 def _frame(frame: str, world_frame: str) -> str:

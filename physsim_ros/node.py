@@ -23,6 +23,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
+from functools import partial
 import gc
 from pathlib import Path
 import signal
@@ -35,7 +36,15 @@ from geometry_msgs.msg import PointStamped
 from nav_msgs.msg import Path as PathMessage
 from physsim_ros import conversions, parameters, paths, world_file
 from physsim_ros.core.errors import PhysSimError, Refusal
-from physsim_ros.core.requests import Configure, DeleteAll, Request
+from physsim_ros.core.requests import (
+    Anchor,
+    Axle,
+    Configure,
+    DeleteAll,
+    Pin,
+    Release,
+    Request,
+)
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.simulation import Simulation
 from physsim_ros.core.snapshot import Answer, Frame, run_state, Snapshot, WorldState
@@ -202,10 +211,10 @@ class PhysSimNode(Node):
 
         listen(Marker, '~/spawn', conversions.body_request)
         listen(Marker, '~/join', conversions.joint_request)
-        listen(PointStamped, '~/pin', conversions.pin_request)
-        listen(PointStamped, '~/axle', conversions.axle_request)
-        listen(PointStamped, '~/anchor', conversions.anchor_request)
-        listen(PointStamped, '~/release', conversions.release_request)
+        listen(PointStamped, '~/pin', partial(conversions.point_request, Pin))
+        listen(PointStamped, '~/axle', partial(conversions.point_request, Axle))
+        listen(PointStamped, '~/anchor', partial(conversions.point_request, Anchor))
+        listen(PointStamped, '~/release', partial(conversions.point_request, Release))
         listen(MultiDOFJointState, '~/command', conversions.command_request)
         self.create_subscription(MarkerArray, '~/spawn_array', self._spawn_array, _REQUESTS)
         self.create_subscription(Float64, '~/speed', self._speed, _REQUESTS)

@@ -21,12 +21,11 @@ from typing import Any
 
 from geometry_msgs.msg import Pose, Quaternion, Transform
 from physsim_ros.conversions import (
-    anchor_request,
     body_request,
     command_request,
     LONGEST_TEXT,
     name_of,
-    release_request,
+    point_request,
 )
 from physsim_ros.core.errors import (
     BadOutline,
@@ -39,7 +38,7 @@ from physsim_ros.core.errors import (
     UnknownShape,
 )
 from physsim_ros.core.properties import Properties
-from physsim_ros.core.requests import Delete, DeleteAll, Spawn
+from physsim_ros.core.requests import Anchor, Axle, Delete, DeleteAll, Pin, Release, Spawn
 from physsim_ros.core.shapes import Box, Chain, Compound, Disc, MOST_POINTS, Polygon, Triangles
 import pytest
 from visualization_msgs.msg import Marker
@@ -84,8 +83,8 @@ def test_a_marker_without_a_namespace_is_a_body_of_the_default_one() -> None:
 @pytest.mark.parametrize(('frame', 'meant'), [('', ''), ('map', ''), ('a/0', 'a/0')])
 def test_the_world_frame_has_two_spellings(frame: str, meant: str) -> None:
     assert spawn_of(box(frame=frame)).frame == meant
-    assert anchor_request(point(1, 2, frame), frame_id='map').frame == meant
-    assert release_request(point(1, 2, frame), frame_id='map').frame == meant
+    assert point_request(Anchor, point(1, 2, frame), frame_id='map').frame == meant
+    assert point_request(Release, point(1, 2, frame), frame_id='map').frame == meant
     assert command_request(command('a/0', frame=frame), frame_id='map').frame == meant
 
 
@@ -191,9 +190,9 @@ def test_a_position_that_is_not_finite_is_refused(axis: str, number: float) -> N
     assert isinstance(refusal_of(message), Malformed)
     message = point(0, 0)
     setattr(message.point, axis, number)
-    for convert in (anchor_request, release_request):
+    for kind in (Anchor, Release, Pin, Axle):
         with pytest.raises(Malformed):
-            convert(message, frame_id='map')
+            point_request(kind, message, frame_id='map')
 
 
 # Colour, lifetime

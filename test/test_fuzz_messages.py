@@ -16,6 +16,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 import math
 from typing import Any
 
@@ -35,6 +36,7 @@ from hypothesis import strategies as st
 import numpy as np
 from physsim_ros import cdr, conversions
 from physsim_ros.core.errors import Refusal
+from physsim_ros.core.requests import Anchor, Release
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.simulation import Simulation
 from sensor_msgs.msg import MultiDOFJointState
@@ -175,8 +177,8 @@ requests = st.one_of(
 CONVERT = {
     '~/spawn': conversions.body_request,
     '~/command': conversions.command_request,
-    '~/anchor': conversions.anchor_request,
-    '~/release': conversions.release_request,
+    '~/anchor': partial(conversions.point_request, Anchor),
+    '~/release': partial(conversions.point_request, Release),
 }
 
 

@@ -21,13 +21,23 @@ world files agree.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, fields
+from collections.abc import Mapping
+from dataclasses import dataclass
 from enum import StrEnum
 from typing import Any
 
 from physsim_ros.core.errors import BadProperty, UnknownProperty
-from physsim_ros.core.properties import check_key, FASTEST, flag, HEAVIEST, shown, within
+from physsim_ros.core.properties import (
+    check_keys,
+    check_values,
+    Checks,
+    FASTEST,
+    flag,
+    HEAVIEST,
+    shown,
+    values_said,
+    within,
+)
 from physsim_ros.core.shapes import LARGEST
 
 # More turns than anyone winds, and still exact to a nanometre at an arm of a metre [rad].
@@ -94,10 +104,7 @@ class JointProperties:
     collide: bool | None = None
 
     def __post_init__(self) -> None:
-        for name, check in _CHECKS.items():
-            value = getattr(self, name)
-            if value is not None:
-                object.__setattr__(self, name, check(value, name))
+        check_values(self, _CHECKS)
         if self.lower is not None and self.upper is not None and self.lower > self.upper:
             raise BadProperty(
                 f'lower is {self.lower:g} and upper {self.upper:g}; lower is the lesser one',
@@ -106,8 +113,7 @@ class JointProperties:
 
     def said(self) -> dict[str, Any]:
         """Return what was said, key by key."""
-        pairs = ((each.name, getattr(self, each.name)) for each in fields(self))
-        return {name: value for name, value in pairs if value is not None}
+        return values_said(self, _CHECKS)
 
     def check_kind(self, kind: JointKind) -> None:
         """
@@ -130,11 +136,7 @@ def joint_properties_from(mapping: Mapping[Any, Any]) -> JointProperties:
     :raises Malformed: a number is not finite
     :raises BadProperty: a value is null, of the wrong kind, or out of range
     """
-    known = list(_CHECKS)
-    for key, value in mapping.items():
-        check_key(key, known)
-        if value is None:
-            raise BadProperty(f'{key} has no value', field=str(key))
+    check_keys(mapping, _CHECKS)
     return JointProperties(**mapping)
 
 
@@ -161,7 +163,7 @@ def _ratio(value: object, name: str) -> float:
 
 _LIMIT = within(-LARGEST, LARGEST, 'rad or m')
 _LENGTH = within(0.0, LARGEST, 'm')
-_CHECKS: dict[str, Callable[[object, str], Any]] = {
+_CHECKS: Checks = {
     'lower': _LIMIT,
     'upper': _LIMIT,
     'rate': within(-FASTEST, FASTEST, 'rad/s'),
@@ -178,9 +180,9 @@ _CHECKS: dict[str, Callable[[object, str], Any]] = {
 }
 
 _ALL = ('max_force', 'break_force', 'collide')
-# What each kind knows, what is its own first.
 # What the text of a joint may name.
 JOINT_KEYS = ['kind', 'a', 'b', *_CHECKS]
+# What each kind knows, what is its own first.
 KNOWN: dict[JointKind, tuple[str, ...]] = {
     JointKind.PIN: _ALL,
     JointKind.AXLE: ('lower', 'upper', *_ALL),

@@ -21,7 +21,7 @@ One table holds every key with its check, so that markers, world files and param
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 import difflib
 import math
 import reprlib
@@ -34,6 +34,9 @@ from physsim_ros.core.errors import BadProperty, Malformed, UnknownProperty
 FASTEST = 1e5
 # From a dust grain to a mountain; the engine's impulses stay finite between any two of these.
 LIGHTEST, HEAVIEST = 1e-9, 1e12
+
+# Of each key: a function of value and key that returns the value to be kept, or raises.
+Checks = Mapping[str, Callable[[object, str], Any]]
 
 # A few aliases of YAML make a value whose whole text would fill the memory.
 _LONGEST_SHOWN = 60
@@ -73,17 +76,13 @@ class Properties:
     sensor: bool | None = None
 
     def __post_init__(self) -> None:
-        for name, check in _CHECKS.items():
-            value = getattr(self, name)
-            if value is not None:
-                object.__setattr__(self, name, check(value, name))
+        check_values(self, _CHECKS)
         if self.mass is not None and self.density is not None:
             raise BadProperty('a body has a mass or a density, not both', field='mass')
 
     def said(self) -> dict[str, Any]:
         """Return what was said, key by key."""
-        pairs = ((each.name, getattr(self, each.name)) for each in fields(self))
-        return {name: value for name, value in pairs if value is not None}
+        return values_said(self, _CHECKS)
 
 
 def properties_from(mapping: Mapping[Any, Any]) -> Properties:
@@ -94,12 +93,39 @@ def properties_from(mapping: Mapping[Any, Any]) -> Properties:
     :raises Malformed: a number is not finite or an array has the wrong length
     :raises BadProperty: a value is null, of the wrong kind, or out of range
     """
-    known = list(_CHECKS)
+    check_keys(mapping, _CHECKS)
+    return Properties(**mapping)
+
+
+def check_values(properties: object, checks: Checks) -> None:
+    """
+    Put what the checks make of them in the place of values that were said.
+
+    :raises Refusal: what a check raises
+    """
+    for name, value in values_said(properties, checks).items():
+        # They are frozen for everybody else.
+        object.__setattr__(properties, name, checks[name](value, name))
+
+
+def values_said(properties: object, checks: Checks) -> dict[str, Any]:
+    """Return what was said, key by key."""
+    pairs = ((name, getattr(properties, name)) for name in checks)
+    return {name: value for name, value in pairs if value is not None}
+
+
+def check_keys(mapping: Mapping[Any, Any], checks: Checks) -> None:
+    """
+    Refuse keys that no check knows, and those without a value.
+
+    :raises UnknownProperty: a key is not a property; the nearest one is named
+    :raises BadProperty: a value is null
+    """
+    known = list(checks)
     for key, value in mapping.items():
         check_key(key, known)
         if value is None:
             raise BadProperty(f'{key} has no value', field=str(key))
-    return Properties(**mapping)
 
 
 def check_key(key: object, known: list[str]) -> None:
@@ -208,7 +234,7 @@ def _group(value: object, name: str) -> int:
     return value
 
 
-_CHECKS: dict[str, Callable[[object, str], Any]] = {
+_CHECKS: Checks = {
     'mass': within(LIGHTEST, HEAVIEST, 'kg'),
     'density': within(LIGHTEST, HEAVIEST, 'kg/m²'),
     'friction': within(0.0, 10.0),

@@ -185,8 +185,8 @@ class UnjoinAll:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Pin:
-    """Weld the two topmost bodies under a point [m], or the only one to the background."""
+class AtPoint:
+    """A request for what lies under a point [m], the topmost first."""
 
     point: Point
     frame: str = ''
@@ -196,36 +196,23 @@ class Pin:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Axle:
-    """Let the two topmost bodies under a point [m] turn about it, or the only one by itself."""
-
-    point: Point
-    frame: str = ''
-
-    def __post_init__(self) -> None:
-        check_point(self.point, 'point')
+class Pin(AtPoint):
+    """Weld the two topmost bodies under a point, or the only one to the background."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Anchor:
-    """Fix the topmost body under a point [m] to the background."""
-
-    point: Point
-    frame: str = ''
-
-    def __post_init__(self) -> None:
-        check_point(self.point, 'point')
+class Axle(AtPoint):
+    """Let the two topmost bodies under a point turn about it, or the only one by itself."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Release:
-    """Free the topmost body under a point [m], and remove the pins and axles there."""
+class Anchor(AtPoint):
+    """Fix the topmost body under a point to the background."""
 
-    point: Point
-    frame: str = ''
 
-    def __post_init__(self) -> None:
-        check_point(self.point, 'point')
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Release(AtPoint):
+    """Free the topmost body under a point, and remove the pins and axles there."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

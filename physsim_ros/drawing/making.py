@@ -25,7 +25,7 @@ from dataclasses import dataclass
 import math
 
 import numpy as np
-from physsim_ros.core.errors import BadProperty, NothingThere, NotRecognised
+from physsim_ros.core.errors import NothingThere, NotRecognised
 from physsim_ros.core.joint_properties import JointKind
 from physsim_ros.core.requests import Anchor, Axle, Configure, Delete, Join, Request
 from physsim_ros.core.shapes import Point
@@ -35,7 +35,7 @@ from physsim_ros.drawing.corners import bends_of
 from physsim_ros.drawing.fits import simplified
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.stroke import Stroke
-from physsim_ros.drawing.view import DRAWN, View
+from physsim_ros.drawing.view import View
 
 # Points of the outline of a disc that is shown.
 _SHOWN = 48
@@ -58,7 +58,7 @@ Make = Callable[[Floats, Stroke, View, DrawingSettings], Made]
 def disc(points: Floats, _drawn: Stroke, view: View, settings: DrawingSettings) -> Made:
     """Make a disc of its centre and a point on its rim."""
     center, radius = point_of(points[0]), math.dist(*points)
-    name = f'{DRAWN}/{view.next_drawn()}'
+    name = view.next_body()
     return Made(
         requests=(bodies.disc(name, center, radius, settings),),
         subject=name,
@@ -71,7 +71,7 @@ def rectangle(points: Floats, drawn: Stroke, view: View, settings: DrawingSettin
     """Make a rectangle of its corners."""
     if settings.beautify == 0.0:
         return polygon(points, drawn, view, settings)
-    name = f'{DRAWN}/{view.next_drawn()}'
+    name = view.next_body()
     pose, width, height = beautifying.rectangle(points, settings.beautify)
     x, y, yaw = pose
     along = np.array((math.cos(yaw), math.sin(yaw))) * width / 2
@@ -87,7 +87,7 @@ def rectangle(points: Floats, drawn: Stroke, view: View, settings: DrawingSettin
 
 def polygon(points: Floats, _drawn: Stroke, view: View, settings: DrawingSettings) -> Made:
     """Make a polygon of its corners."""
-    name = f'{DRAWN}/{view.next_drawn()}'
+    name = view.next_body()
     corners = beautifying.polygon(points, settings.beautify)
     return Made(
         requests=(bodies.polygon(name, list(map(point_of, corners)), settings),),
@@ -99,7 +99,7 @@ def polygon(points: Floats, _drawn: Stroke, view: View, settings: DrawingSetting
 
 def wall(points: Floats, drawn: Stroke, view: View, settings: DrawingSettings) -> Made:
     """Make a wall of its ends and bends, or of the curve that was drawn."""
-    name = f'{DRAWN}/{view.next_drawn()}'
+    name = view.next_body()
     # What sides do not explain is a curve, and is kept as one.
     curved = simplified(drawn.points, points)
     way = beautifying.line(points, settings.beautify) if curved is None else curved
@@ -174,11 +174,7 @@ def gravity(points: Floats, drawn: Stroke, view: View, settings: DrawingSettings
         raise NotRecognised(
             f'an arrow in free space turns gravity; this one begins on {tail[0]}', field='poses'
         )
-    strength = math.hypot(*view.settings.gravity)
-    if strength == 0.0:
-        raise BadProperty(
-            'there is no gravity to turn; set the parameter gravity first', field='gravity'
-        )
+    strength = view.gravity_strength()
     tip = beautifying.line(points, settings.beautify)
     x, y = (tip[1] - tip[0]).tolist()
     length = math.hypot(x, y)
@@ -216,7 +212,7 @@ def _join(
             field='poses',
         )
     first, last = joined
-    name = f'{DRAWN}/{view.next_joint()}'
+    name = view.next_joint()
     ends = first.point, last.point
     return Made(
         requests=(Join(name=name, kind=kind, points=ends, a=first.body, b=last.body),),

@@ -26,7 +26,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 import math
 
-from physsim_ros.core.errors import Anchored, BadProperty, NothingThere
+from physsim_ros.core.errors import Anchored, NothingThere
 from physsim_ros.core.joint_properties import JointKind
 from physsim_ros.core.names import WORLD
 from physsim_ros.core.requests import (
@@ -44,7 +44,7 @@ from physsim_ros.core.shapes import Point
 from physsim_ros.drawing import bodies
 from physsim_ros.drawing.clicks import Click, distinct, meant, span
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.view import DRAWN, View
+from physsim_ros.drawing.view import View
 
 
 class Tool(StrEnum):
@@ -87,7 +87,7 @@ def circle(clicks: Sequence[Click], view: View, settings: DrawingSettings) -> St
         return _more('the centre is set', 'a point on the rim')
     center, rim = _points(clicks)
     radius = span(center, rim, settings, 'the radius')
-    return _done(bodies.disc(_next_body(view), center, radius, settings))
+    return _done(bodies.disc(view.next_body(), center, radius, settings))
 
 
 def circle_diameter(clicks: Sequence[Click], view: View, settings: DrawingSettings) -> Step:
@@ -96,7 +96,7 @@ def circle_diameter(clicks: Sequence[Click], view: View, settings: DrawingSettin
         return _more('an end of a diameter is set', 'the other end')
     start, end = _points(clicks)
     radius = span(start, end, settings, 'the diameter') / 2
-    return _done(bodies.disc(_next_body(view), _middle(start, end), radius, settings))
+    return _done(bodies.disc(view.next_body(), _middle(start, end), radius, settings))
 
 
 def rectangle(clicks: Sequence[Click], view: View, settings: DrawingSettings) -> Step:
@@ -114,7 +114,7 @@ def rectangle(clicks: Sequence[Click], view: View, settings: DrawingSettings) ->
     x, y = _middle(start, end)
     center = x - along[1] * height / 2, y + along[0] * height / 2
     yaw = math.atan2(along[1], along[0])
-    name = _next_body(view)
+    name = view.next_body()
     return _done(bodies.rectangle(name, (*center, yaw), width, abs(height), settings))
 
 
@@ -123,7 +123,7 @@ def polygon(clicks: Sequence[Click], view: View, settings: DrawingSettings) -> S
     points = _points(clicks)
     if len(points) > 1 and math.dist(points[0], points[-1]) <= settings.snap:
         corners = distinct(points[:-1], settings)
-        return _done(bodies.polygon(_next_body(view), corners, settings))
+        return _done(bodies.polygon(view.next_body(), corners, settings))
     count = len(distinct(points, settings))
     said = 'a corner is set' if count == 1 else f'{count} corners are set'
     return _more(said, 'the next corner, or the first one again to close it')
@@ -135,7 +135,7 @@ def wall(clicks: Sequence[Click], view: View, settings: DrawingSettings) -> Step
         return _more('an end is set', 'the other end')
     start, end = _points(clicks)
     span(start, end, settings, 'the wall')
-    return _done(bodies.wall(_next_body(view), (start, end), settings))
+    return _done(bodies.wall(view.next_body(), (start, end), settings))
 
 
 def anchor(clicks: Sequence[Click], _view: View, _settings: DrawingSettings) -> Step:
@@ -194,11 +194,7 @@ def velocity(clicks: Sequence[Click], view: View, settings: DrawingSettings) -> 
 
 def gravity(clicks: Sequence[Click], view: View, settings: DrawingSettings) -> Step:
     """Turn gravity: the tail of an arrow, then its tip; how strong it is stays."""
-    strength = math.hypot(*view.settings.gravity)
-    if strength == 0.0:
-        raise BadProperty(
-            'there is no gravity to turn; set the parameter gravity first', field='gravity'
-        )
+    strength = view.gravity_strength()
     if len(clicks) < 2:
         return _more('the arrow begins there', 'its tip')
     tail, tip = _points(clicks)
@@ -241,9 +237,7 @@ def _join(kind: JointKind, clicks: Sequence[Click], view: View, settings: Drawin
     if a == WORLD:
         raise NothingThere(f'there is no body at either end of the {kind}', field='point')
     span(start, end, settings, f'the {kind}')
-    return _done(
-        Join(name=f'{DRAWN}/{view.next_joint()}', kind=kind, points=(start, end), a=a, b=b)
-    )
+    return _done(Join(name=view.next_joint(), kind=kind, points=(start, end), a=a, b=b))
 
 
 def _points(clicks: Sequence[Click]) -> list[Point]:
@@ -252,10 +246,6 @@ def _points(clicks: Sequence[Click]) -> list[Point]:
 
 def _middle(start: Point, end: Point) -> Point:
     return (start[0] + end[0]) / 2, (start[1] + end[1]) / 2
-
-
-def _next_body(view: View) -> str:
-    return f'{DRAWN}/{view.next_drawn()}'
 
 
 def _more(said: str, wanted: str) -> Step:

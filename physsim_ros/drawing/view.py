@@ -26,8 +26,9 @@ from functools import cached_property
 import math
 
 import numpy as np
-from physsim_ros.core.errors import UnknownFrame
+from physsim_ros.core.errors import BadProperty, UnknownFrame
 from physsim_ros.core.names import split_name
+from physsim_ros.core.rigid_body import rotated
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.shapes import Capsule, Circle, Convex, Piece, Point, Pose
 from physsim_ros.core.snapshot import Body, Floats, Snapshot
@@ -95,15 +96,13 @@ class View:
     def local(self, name: str, point: Point) -> Point:
         """Return a point of the world as it is in a body's frame [m]."""
         x, y, yaw = self.pose(name)
-        dx, dy = point[0] - x, point[1] - y
-        cos, sin = math.cos(yaw), math.sin(yaw)
-        return cos * dx + sin * dy, cos * dy - sin * dx
+        return rotated((point[0] - x, point[1] - y), -yaw)
 
     def in_world(self, name: str, point: Point) -> Point:
         """Return a point of a body's frame as it is in the world [m]."""
         x, y, yaw = self.pose(name)
-        cos, sin = math.cos(yaw), math.sin(yaw)
-        return x + cos * point[0] - sin * point[1], y + sin * point[0] + cos * point[1]
+        dx, dy = rotated(point, yaw)
+        return x + dx, y + dy
 
     def placed(self, point: Point, frame: str) -> Point:
         """
@@ -121,13 +120,27 @@ class View:
             )
         return self.in_world(frame, point)
 
-    def next_drawn(self) -> int:
-        """Return the lowest number above all that drawn bodies have, or have had."""
-        return max(_above(self.names), self._first)
+    def gravity_strength(self) -> float:
+        """
+        Return how strong the gravity is that is to be turned [m/s²].
 
-    def next_joint(self) -> int:
-        """Return the lowest number above all that drawn joints have, or have had."""
-        return max(_above(joint.name for joint in self.snapshot.scene.joints), self._first_joint)
+        :raises BadProperty: there is none
+        """
+        strength = math.hypot(*self.settings.gravity)
+        if strength == 0.0:
+            raise BadProperty(
+                'there is no gravity to turn; set the parameter gravity first', field='gravity'
+            )
+        return strength
+
+    def next_body(self) -> str:
+        """Return the name of the next body, numbered above all that are or have been drawn."""
+        return f'{DRAWN}/{max(_above(self.names), self._first)}'
+
+    def next_joint(self) -> str:
+        """Return the name of the next joint, numbered above all that are or have been drawn."""
+        names = (joint.name for joint in self.snapshot.scene.joints)
+        return f'{DRAWN}/{max(_above(names), self._first_joint)}'
 
     @cached_property
     def _rows(self) -> dict[str, int]:

@@ -207,7 +207,7 @@ def test_redo_returns_to_where_undo_was_asked_for(driven: Driven) -> None:
 
 
 def test_redo_shows_the_contacts_of_one_frame(driven: Driven) -> None:
-    driven.simulation.watch_contacts(True)  # noqa: FBT003 - a state
+    driven.simulation.watch_contacts(True)
     before = driven.run(1.0, 1.0)[-1].contacts
     driven.ask(spawning('more/0', BOX, (8.0, 18.0, 0.0)))
     driven.settle()
