@@ -14,9 +14,12 @@
 
 """World files: what is saved loads again to the bit; what cannot or must not be is refused."""
 
+import base64
+import math
 import os
 from pathlib import Path
 from typing import Any
+import zlib
 
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -29,6 +32,7 @@ from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.shapes import Disc
 from physsim_ros.core.snapshot import WorldState
 from physsim_ros.core.world import World
+from physsim_ros.packed import pack
 from physsim_ros.yaml_text import load_mapping
 import pytest
 import yaml
@@ -467,6 +471,129 @@ def test_a_body_that_was_anchored_in_the_file_needs_no_more_than_that(folder: Pa
     assert pose(again, 'a/0').tolist() == [1.0, 2.0, 0.3]
 
 
+@pytest.fixture
+def resting(folder: Path) -> Path:
+    """Return the file of a stack at rest, with what the engine remembers of its contacts."""
+    world = World(settings=WorldSettings(bounds=(-8.0, 0.0, 8.0, 30.0)))
+    stack(world, 5)
+    world.step(960)
+    return save(world, folder)
+
+
+def remembering(path: Path, changes: dict[str, Any]) -> WorldState:
+    content = yaml.safe_load(path.read_text())
+    content['memory'].update(changes)
+    path.write_text(yaml.safe_dump({k: v for k, v in content.items() if v is not None}))
+    return load(path)
+
+
+def packed(*rows: object, kind: type = np.int64) -> str:
+    return pack(np.array(rows, dtype=kind))
+
+
+@pytest.mark.parametrize(
+    ('changes', 'field'),
+    [
+        ({'walls': -1}, 'walls'),
+        ({'walls': 2.5}, 'walls'),
+        ({'walls': True}, 'walls'),
+        ({'walls': None}, 'walls'),
+        ({'following': 2**62}, 'following'),
+        ({'following': 'many'}, 'following'),
+        ({'ids': 'none of them'}, 'ids'),
+        ({'ids': None}, 'ids'),
+        ({'ids': base64.b64encode(zlib.compress(b'five!')).decode()}, 'ids'),
+        ({'pairs': packed(1, 2, 3)}, 'pairs'),
+        ({'pairs': packed(1, 2)}, 'memory'),
+        ({'hashes': packed(1)}, 'memory'),
+        ({'impulses': packed((1.0, 2.0), kind=np.float64)}, 'memory'),
+        ({'impulses': packed(*[(math.nan, 0.0)] * 10, kind=np.float64)}, 'memory'),
+        ({'impulse': packed(1)}, 'impulse'),
+    ],
+)
+def test_a_memory_that_is_none_is_refused(
+    changes: dict[str, Any], field: str, resting: Path
+) -> None:
+    assert remembering(resting, {}).memory is not None
+    with pytest.raises(BadWorldFile) as refused:
+        remembering(resting, changes)
+    assert refused.value.field == field
+
+
+def test_a_memory_without_one_of_its_keys_is_refused(resting: Path) -> None:
+    content = yaml.safe_load(resting.read_text())
+    for key in content['memory']:
+        left = {name: value for name, value in content['memory'].items() if name != key}
+        resting.write_text(yaml.safe_dump(content | {'memory': left}))
+        with pytest.raises(BadWorldFile) as refused:
+            load(resting)
+        assert refused.value.field == key
+
+
+@pytest.mark.parametrize('ids', [(), (1, 2), (-1, 0, 1, 2, 3), (0, 1, 2, 3, 10**9)])
+def test_a_memory_of_other_bodies_is_none(ids: tuple[int, ...], resting: Path) -> None:
+    state = remembering(resting, {'ids': packed(*ids)})
+    assert state.memory is None
+    restored(state).step(10)
+
+
+def test_the_memory_may_be_deleted(resting: Path) -> None:
+    content = yaml.safe_load(resting.read_text())
+    del content['memory']
+    resting.write_text(yaml.safe_dump(content))
+    state = load(resting)
+    assert state.memory is None
+    assert len(state.bodies) == 5
+
+
+def test_a_body_that_is_gone_or_edited_leaves_no_memory(resting: Path) -> None:
+    content = yaml.safe_load(resting.read_text())
+    fewer = content | {'bodies': content['bodies'][:-1]}
+    resting.write_text(yaml.safe_dump(fewer))
+    assert load(resting).memory is None
+    content['bodies'][0]['at'] = [3.0, 3.0, 0.0]
+    resting.write_text(yaml.safe_dump(content))
+    assert load(resting).memory is None
+
+
+@given(
+    ids=st.lists(st.integers(0, 20), min_size=5, max_size=5),
+    pairs=st.lists(
+        st.tuples(st.integers(-(2**63), 2**63 - 1), st.integers(0, 30)), min_size=8, max_size=8
+    ),
+    impulses=st.lists(
+        st.tuples(st.floats(-1e9, 1e9), st.floats(-1e9, 1e9)), min_size=8, max_size=8
+    ),
+    walls=st.integers(0, 2**62 - 1),
+)
+def test_whatever_is_remembered_the_world_goes_on(
+    ids: list[int],
+    pairs: list[tuple[int, int]],
+    impulses: list[tuple[float, float]],
+    walls: int,
+    tmp_path_factory: pytest.TempPathFactory,
+) -> None:
+    folder = tmp_path_factory.mktemp('remembered')
+    world = World(settings=WorldSettings(bounds=(-8.0, 0.0, 8.0, 30.0)))
+    stack(world, 5)
+    world.step(240)
+    path = save(world, folder)
+    state = remembering(
+        path,
+        {
+            'ids': packed(*ids),
+            'pairs': packed(*pairs),
+            'hashes': packed(*range(8), kind=np.uint64),
+            'impulses': packed(*impulses, kind=np.float64),
+            'walls': walls,
+            'following': 40,
+        },
+    )
+    going = restored(state)
+    going.step(20)
+    assert np.isfinite(going.snapshot().poses).all()
+
+
 # Refusals of what files say
 
 HEAD = 'format: 1\nbodies:\n'
@@ -856,7 +983,7 @@ def test_a_bug_in_the_middle_of_a_write_leaves_the_old_file(
     def fail(*_: object, **__: object) -> None:
         raise ZeroDivisionError
 
-    monkeypatch.setattr(world_file, '_entry', fail)
+    monkeypatch.setattr(world_file, 'text_of', fail)
     spawn(world, 'a/0', DISC)
     with pytest.raises(ZeroDivisionError):
         save(world, folder)
