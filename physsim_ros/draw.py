@@ -34,9 +34,9 @@ from nav_msgs.msg import Path
 from physsim_ros import drawing_file
 from physsim_ros.core.snapshot import Floats
 from physsim_ros.drawing_file import BadDrawing, Pace
+from physsim_ros.quiet_node import QuietNode
 import rclpy
 from rclpy.experimental import EventsExecutor
-from rclpy.node import Node
 from rclpy.qos import HistoryPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.signals import SignalHandlerOptions
 from rclpy.time import Time
@@ -54,7 +54,7 @@ class Interrupted(Exception):
     """Somebody wants it to end."""
 
 
-class Artist(Node):
+class Artist(QuietNode):
     """
     A node that draws strokes and hears what becomes of them.
 

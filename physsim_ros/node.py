@@ -51,6 +51,7 @@ from physsim_ros.core.snapshot import Answer, Frame, run_state, Snapshot, WorldS
 from physsim_ros.diagnostics import Meter
 from physsim_ros.drawing.pen import Pen, told
 from physsim_ros.drawing.tools import Tool
+from physsim_ros.quiet_node import QuietNode
 from physsim_ros.streams import Streams
 from physsim_ros.viewer import Viewer, ViewerMode
 from rcl_interfaces.msg import SetParametersResult
@@ -59,7 +60,6 @@ from rclpy.clock import Clock as RosClock
 from rclpy.clock import ClockType
 from rclpy.context import Context
 from rclpy.experimental import EventsExecutor
-from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import HistoryPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.signals import SignalHandlerOptions
@@ -73,7 +73,7 @@ from visualization_msgs.msg import Marker, MarkerArray
 _REQUESTS = QoSProfile(history=HistoryPolicy.KEEP_ALL, reliability=ReliabilityPolicy.RELIABLE)
 
 
-class PhysSimNode(Node):
+class PhysSimNode(QuietNode):
     """
     A physics world on the ROS graph.
 

@@ -402,12 +402,12 @@ class _Client:
     def __init__(self, context: Context) -> None:
         from diagnostic_msgs.msg import DiagnosticStatus
         from geometry_msgs.msg import PointStamped
-        from rclpy.node import Node
+        from physsim_ros.quiet_node import QuietNode
         from rclpy.qos import HistoryPolicy, QoSProfile, ReliabilityPolicy
         from sensor_msgs.msg import MultiDOFJointState
         from visualization_msgs.msg import Marker, MarkerArray
 
-        self.node = Node('physsim_test', context=context)
+        self.node = QuietNode('physsim_test', context=context)
         kinds = {
             'spawn': Marker,
             'spawn_array': MarkerArray,

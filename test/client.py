@@ -21,8 +21,8 @@ import time
 from typing import Any, NamedTuple
 
 from diagnostic_msgs.msg import DiagnosticStatus
+from physsim_ros.quiet_node import QuietNode
 from physsim_ros.testing import PhysSim
-from rclpy.node import Node
 from rclpy.qos import HistoryPolicy, QoSProfile, ReliabilityPolicy
 from std_srvs.srv import Trigger
 
@@ -47,7 +47,7 @@ class Client:
 
     def __init__(self, physsim: PhysSim) -> None:
         self.physsim = physsim
-        self.node = Node('client', context=physsim.context)
+        self.node = QuietNode('client', context=physsim.context)
         self.qos = QoSProfile(
             history=HistoryPolicy.KEEP_ALL, reliability=ReliabilityPolicy.RELIABLE
         )
