@@ -22,7 +22,7 @@ stiffer than steps can follow.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 import math
 
@@ -230,3 +230,33 @@ def stiffest(ends: Ends, springs: dict[pymunk.Body, int], dt: float) -> float:
         if body.body_type == pymunk.Body.DYNAMIC:
             softness += springs[body] * (1.0 / body.mass + (x * x + y * y) / body.moment)
     return 1.0 / (softness * dt * dt)
+
+
+def islands(joints: Sequence[EngineJoint], held: Sequence[int] | None = None) -> list[list[int]]:
+    """
+    Part joints into groups that have no body in common which forces move.
+
+    :param held: numbers of the joints that count; None is all
+    """
+    owner: dict[pymunk.Body, list[int]] = {}
+    for number in range(len(joints)) if held is None else held:
+        ends = joints[number].ends
+        island = [number]
+        for body in (ends.a, ends.b):
+            if body.body_type != pymunk.Body.DYNAMIC:
+                continue
+            other = owner.get(body)
+            if other is not None and other is not island:
+                # The longer list takes in the shorter one.
+                island, other = (other, island) if len(other) > len(island) else (island, other)
+                island += other
+                for each in other:
+                    for end in (joints[each].ends.a, joints[each].ends.b):
+                        if owner.get(end) is other:
+                            owner[end] = island
+            owner[body] = island
+        for body in (ends.a, ends.b):
+            if body.body_type == pymunk.Body.DYNAMIC:
+                owner[body] = island
+    unique = {id(island): island for island in owner.values()}
+    return sorted((sorted(island) for island in unique.values()), key=lambda island: island[0])

@@ -33,7 +33,7 @@ import itertools
 import numpy as np
 from physsim_ros.core.equations import Equations
 from physsim_ros.core.joint_properties import JointKind
-from physsim_ros.core.joints import EngineJoint, FASTEST_CORRECTION
+from physsim_ros.core.joints import EngineJoint, FASTEST_CORRECTION, islands
 from physsim_ros.core.restraints import Restraints
 from physsim_ros.core.snapshot import Floats
 import pymunk
@@ -117,7 +117,7 @@ def _stages(
     :return: for each stage its joints, and these again in groups that hang together
     """
     stages: list[list[list[int]]] = []
-    for island in _islands(held, joints):
+    for island in islands(joints, held):
         parts: list[list[int]] = [[]]
         room = MOST_ROWS
         for number in island:
@@ -132,32 +132,6 @@ def _stages(
                 stages.append([])
             stages[stage].append(part)
     return [([*itertools.chain(*groups)], groups) for groups in stages]
-
-
-def _islands(held: Sequence[int], joints: Sequence[EngineJoint]) -> list[list[int]]:
-    """Part joints into groups that have no body in common which forces move."""
-    owner: dict[pymunk.Body, list[int]] = {}
-    for number in held:
-        ends = joints[number].ends
-        island = [number]
-        for body in (ends.a, ends.b):
-            if body.body_type != pymunk.Body.DYNAMIC:
-                continue
-            other = owner.get(body)
-            if other is not None and other is not island:
-                # The longer list takes in the shorter one.
-                island, other = (other, island) if len(other) > len(island) else (island, other)
-                island += other
-                for each in other:
-                    for end in (joints[each].ends.a, joints[each].ends.b):
-                        if owner.get(end) is other:
-                            owner[end] = island
-            owner[body] = island
-        for body in (ends.a, ends.b):
-            if body.body_type == pymunk.Body.DYNAMIC:
-                owner[body] = island
-    unique = {id(island): island for island in owner.values()}
-    return sorted((sorted(island) for island in unique.values()), key=lambda island: island[0])
 
 
 class _System:

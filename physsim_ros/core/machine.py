@@ -27,6 +27,7 @@ import math
 
 import numpy as np
 from physsim_ros.core import joints
+from physsim_ros.core.balance import Balance
 from physsim_ros.core.joint_properties import JointKind
 from physsim_ros.core.joints import EngineJoint
 from physsim_ros.core.linkage import Linkage
@@ -56,6 +57,7 @@ class Machine:
         # Names of the joints of each body.
         self._on: dict[str, dict[str, None]] = {}
         self._linkage: Linkage | None = None
+        self._balance: Balance | None = None
         self._listed: Sequence[RigidBody | None] = ()
         # Whether the linkage has not been through a step, and whether the last one was its first.
         self._fresh = self._first_step = True
@@ -105,15 +107,20 @@ class Machine:
         for name in self.of(body):
             self._build(self.joints[name].joint)
 
-    def hold(self, listed: Sequence[RigidBody | None], state: Floats) -> bool:
+    def hold(self, listed: Sequence[RigidBody | None], state: Floats, *, driven: bool) -> bool:
         """
         Hold after a step what the engine has not held in it.
 
         :param listed: the bodies in the engine's listing
         :param state: (m, 6) float64: their poses and velocities; kept up to date
+        :param driven: whether anything has given them energy since the last step, or in it
         :return: whether velocities have been moved
         """
-        return self._linked(listed).hold(state)
+        moved = self._linked(listed).hold(state)
+        assert self._balance is not None  # noqa: S101 - made with the linkage
+        if driven:
+            self._balance.drive()
+        return self._balance.keep(state) or moved
 
     def prepare(self, listed: Sequence[RigidBody | None], read: Callable[[], Floats]) -> None:
         """
@@ -191,6 +198,7 @@ class Machine:
             }
             count = len(listed)
             self._linkage = Linkage(held, places, count, self._dt)
+            self._balance = Balance(held, places, count, gravity=self._space.gravity, dt=self._dt)
             self._listed, self._fresh = listed, True
             self._breakable = [
                 (number, most * self._dt)

@@ -78,6 +78,8 @@ class Space:
         self.bodies: dict[str, RigidBody] = {}
         # Counts what has been done to it from outside.
         self.changes = 0
+        # What it counted when joints were held last.
+        self._held_changes = 0
         self._settings = settings
         self._dt = dt
         self._names: dict[pymunk.Body, str] = {}
@@ -404,7 +406,8 @@ class Space:
         self._age += 1
         layout.state = None
         if self.machine.joints:
-            self._hold(layout)
+            self._hold(layout, driven=bool(self._pushed) or self.changes != self._held_changes)
+            self._held_changes = self.changes
         if watching:
             self._contacts.add_step()
         expired = layout.expiries.get(number + 1, ())
@@ -463,10 +466,10 @@ class Space:
                 rigid_of=lambda engine: self.bodies.get(self._names.get(engine, '')),
             )
 
-    def _hold(self, layout: Layout) -> None:
+    def _hold(self, layout: Layout, *, driven: bool) -> None:
         """Hold what the engine has not held of the joints."""
         state = self._read(_STATE, 6)
-        if self.machine.hold(layout.listed, state):
+        if self.machine.hold(layout.listed, state, driven=driven):
             self._written.set_float_buf(state[:, 3:].copy())
             batch.set_space_bodies(self._space, _TWIST, self._written)
         layout.state = state[layout.order]
