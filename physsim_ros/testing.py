@@ -469,6 +469,8 @@ def own_context(monkeypatch: pytest.MonkeyPatch) -> Iterator[Context]:
     import rclpy
 
     monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
+    # Shared memory outlives processes, with the locks that one held when it was killed.
+    monkeypatch.setenv('FASTDDS_BUILTIN_TRANSPORTS', 'UDPv4')
     with own_domain() as domain:
         context = rclpy.Context()
         rclpy.init(context=context, domain_id=domain, args=[])

@@ -104,8 +104,9 @@ class Visitor:
         foreign = [name for name in sys.modules if name.partition('.')[0] == 'physsim_ros']
         assert foreign == [], 'this program was to know the topics alone'
         print('RESULT ' + json.dumps(results), flush=True)  # noqa: T201 - that is the answer
-        self.node.destroy_node()
+        # Before its node: it listens to what that destroys.
         self._executor.shutdown()
+        self.node.destroy_node()
         rclpy.shutdown()
 
 
