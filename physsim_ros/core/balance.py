@@ -21,7 +21,7 @@ true forces would, again and again, and a machine begins to run by itself. Here 
 that moves is compared with what it was, and the excess is taken out of the motion of what gained.
 
 Laws: nothing is taken where energy is within what it is uncertain by, a step's worth of the
-forces' power; momentum is kept, since only motion against the centre of mass is slowed, save where
+forces' power; momentum is kept, since motion against the centre of mass is slowed first, save where
 the background holds; where a motor, a wrench or a commanded body drives, nothing is taken.
 """
 
@@ -91,6 +91,8 @@ class Balance:
         self._most = math.inf
         self._own: Floats = np.zeros(len(together) + 1)
         self._fresh = True
+        # The power of the joints that give way, in the step before [W].
+        self._yielded = 0.0
 
     def drive(self) -> None:
         """Note that energy has come from outside."""
@@ -111,7 +113,8 @@ class Balance:
         pulled, power = self._springs.energy(states)
         strained, more = self._yielding.energy(states)
         own += pulled + strained
-        power += more
+        # Before and after, or what is thrown apart would have leave to be.
+        power += min(more, self._yielded)
         total = float(own.sum())
         # Velocities are those of half a step before or after: energy is known to so much.
         power += math.hypot(*self._gravity) * float(mass @ np.hypot(state[:, 3], state[:, 4]))
@@ -127,12 +130,13 @@ class Balance:
         slowed = excess > 0.0 and bool(gained.any())
         if slowed:
             self._slow(state, gained, excess)
+            _, more = self._yielding.energy(np.vstack((state, np.zeros((1, 6)))))
             own += _sums(self._island, _kinetic(self._inertia, state[:, 3:]) - moving, count)
             total = float(own.sum())
             # What is left was not in their motion: they have been lifted, or strained.
             self._most = max(self._most, total - unsure)
         self._most = min(self._most, total + unsure)
-        self._own, self._fresh = own, False
+        self._own, self._yielded, self._fresh = own, more, False
         return slowed
 
     def _slow(self, state: Floats, gained: Floats, excess: float) -> None:
@@ -141,11 +145,22 @@ class Balance:
         for island in np.flatnonzero(gained).tolist():
             rows = np.flatnonzero(self._island == island + 1)
             moves, inertia = state[rows], self._inertia[rows]
-            apart = moves[:, 3:] - (0.0 if self._held[island] else _together(moves, inertia))
-            energy = float(_kinetic(inertia, apart).sum())
-            if energy > 0.0:
-                share = excess * float(gained[island]) / whole / energy
-                state[rows, 3:] -= apart * (1.0 - math.sqrt(max(0.0, 1.0 - share)))
+            owed = excess * float(gained[island]) / whole
+            together = (
+                np.zeros((len(rows), 3)) if self._held[island] else _together(moves, inertia)
+            )
+            apart, owed = _slower(inertia, moves[:, 3:] - together, owed)
+            # What is beyond that came by contacts: they alone move an island as a whole.
+            together, _ = _slower(inertia, together, owed)
+            state[rows, 3:] = together + apart
+
+
+def _slower(inertia: Floats, velocities: Floats, owed: float) -> tuple[Floats, float]:
+    """Take energy [J] out of (k, 3) velocities; return them, and what they did not have."""
+    energy = float(_kinetic(inertia, velocities).sum())
+    if owed >= energy:
+        return np.zeros_like(velocities), owed - energy
+    return velocities * math.sqrt(1.0 - owed / energy), 0.0
 
 
 def _kinetic(inertia: Floats, velocities: Floats) -> Floats:
