@@ -21,8 +21,8 @@ true forces would, again and again, and a machine begins to run by itself. Here 
 that moves is compared with what it was, and the excess is taken out of the motion of what gained.
 
 Laws: nothing is taken where energy is within what it is uncertain by, a step's worth of the
-forces' power; momentum is kept, since motion against the centre of mass is slowed first, save where
-the background holds; where a motor, a wrench or a commanded body drives, nothing is taken.
+forces' power; momentum is kept, since motion against the centre of mass is slowed first, save
+where the background holds; where a motor, a wrench or a commanded body drives, nothing is taken.
 """
 
 from __future__ import annotations
@@ -111,10 +111,10 @@ class Balance:
         lifted = mass * (state[:, :2] @ self._gravity)
         own = _sums(self._island, moving - lifted, count)
         pulled, power = self._springs.energy(states)
-        strained, more = self._yielding.energy(states)
+        strained, yielding = self._yielding.energy(states)
         own += pulled + strained
-        # Before and after, or what is thrown apart would have leave to be.
-        power += min(more, self._yielded)
+        # The lesser of before and after: what is thrown apart would have leave to be.
+        power += min(yielding, self._yielded)
         total = float(own.sum())
         # Velocities are those of half a step before or after: energy is known to so much.
         power += math.hypot(*self._gravity) * float(mass @ np.hypot(state[:, 3], state[:, 4]))
@@ -130,13 +130,13 @@ class Balance:
         slowed = excess > 0.0 and bool(gained.any())
         if slowed:
             self._slow(state, gained, excess)
-            _, more = self._yielding.energy(np.vstack((state, np.zeros((1, 6)))))
+            _, yielding = self._yielding.energy(np.vstack((state, np.zeros((1, 6)))))
             own += _sums(self._island, _kinetic(self._inertia, state[:, 3:]) - moving, count)
             total = float(own.sum())
             # What is left was not in their motion: they have been lifted, or strained.
             self._most = max(self._most, total - unsure)
         self._most = min(self._most, total + unsure)
-        self._own, self._yielded, self._fresh = own, more, False
+        self._own, self._yielded, self._fresh = own, yielding, False
         return slowed
 
     def _slow(self, state: Floats, gained: Floats, excess: float) -> None:
