@@ -62,8 +62,8 @@ class ContactLog:
         # The same of pairs that have parted since the frame began.
         self._gone: list[tuple[Ids, Floats]] = []
         # Where pairs touched at the end of the last frame, and first since then: normal, count of
-        # points, mean point.
-        self._places: tuple[Ids, Floats] = (self._ids, np.empty((0, 5)))
+        # points, mean point, a column each.
+        self._places: tuple[Ids, Floats] = (self._ids, np.empty((5, 0)))
         self._begun: dict[tuple[int, int], tuple[float, ...]] = {}
         self._listing: _Listing | None = None
         # Whether no pair has begun to touch since the ids were read: then as many are the same.
@@ -143,7 +143,9 @@ class ContactLog:
         self._steps = old._steps
         self._ids, self._sums = renamed(old._ids, old._sums)
         self._gone = [renamed(pairs, sums) for pairs, sums in old._gone]
-        self._places = renamed(*old._places)
+        pairs, places = old._places
+        pairs, rows = renamed(pairs, places.T)
+        self._places = pairs, rows.T
         names = dict(zip(old_ids.tolist(), ids.tolist(), strict=True))
         self._begun = {
             (names[a], names[b]): place
@@ -168,8 +170,8 @@ class ContactLog:
             parted = np.concatenate([each[0] for each in gone])
             touching = np.concatenate((touching, parted))
             sums = np.concatenate((sums, *(each[1] for each in gone)))
-            places = np.concatenate((places, self._last_places(parted)))
-        self._places = (self._ids, places[: len(self._ids)])
+            places = np.concatenate((places, self._last_places(parted)), axis=1)
+        self._places = (self._ids, places[:, : len(self._ids)])
         self._sums = np.zeros_like(self._sums)
         self._steps = 0
         self._begun.clear()
@@ -180,26 +182,25 @@ class ContactLog:
         return self._listing.contacts(places, sums, centers, len(self._ids))
 
     def _last_places(self, pairs: Ids) -> Floats:
-        """Return (m, 5) float64: where pairs that have parted touched last, as far as known."""
+        """Return (5, m) float64: where pairs that have parted touched last, as far as known."""
         ids, known = self._places
         rows = []
         for a, b in pairs.tolist():
             at = np.flatnonzero((ids[:, 0] == a) & (ids[:, 1] == b))
-            place = tuple(known[at[0]]) if len(at) else (1.0, 0.0, 0.0, 0.0, 0.0)
+            place = tuple(known[:, at[0]]) if len(at) else (1.0, 0.0, 0.0, 0.0, 0.0)
             rows.append(self._begun.get((a, b), place))
-        return np.array(rows, dtype=np.float64).reshape(-1, 5)
+        return np.array(rows, dtype=np.float64).reshape(-1, 5).T
 
     def _read_places(self) -> Floats:
-        """Return (m, 5) float64: normal, count of points, mean point, of the last step."""
+        """Return (5, m) float64: normal, count of points, mean point, of the last step."""
         ints, floats = self._read(_PLACES)
-        numbers = floats.reshape(-1, 10)
-        points = numbers[:, 2:].reshape(-1, 4, 2)
-        first = (points[:, 0] + points[:, 1]) / 2
-        both = (points[:, 0] + points[:, 1] + points[:, 2] + points[:, 3]) / 4
-        places = np.empty((len(ints), 5))
-        places[:, :2] = numbers[:, :2]
-        places[:, 2] = ints
-        places[:, 3:] = np.where((ints > 1)[:, None], both, first)
+        # Columns, because numpy adds them up five times as fast as pairs.
+        columns = np.ascontiguousarray(floats.reshape(-1, 10).T)
+        places = np.empty((5, len(ints)))
+        places[:2] = columns[:2]
+        places[2] = ints
+        first, second = columns[2:4] + columns[4:6], columns[6:8] + columns[8:10]
+        places[3:] = np.where(ints > 1, (first + second) / 4, first / 2)
         return places
 
     def _read(self, fields: batch.ArbiterFields) -> tuple[Ids, Floats]:
@@ -261,7 +262,7 @@ class _Listing:
     :param pairs: (m, 2): rows of each pair, the earlier spawned first
     :param order: (l,): where the contacts of the pairs are among those that come, pair by pair
     :param first: (m,): where in that order each pair begins
-    :param sign: (k, 1): -1 where the engine has a pair the other way round
+    :param sign: (k,): -1 where the engine has a pair the other way round
     """
 
     touching: Ids
@@ -279,19 +280,21 @@ class _Listing:
         """
         Return the contacts, from what is known of each in the engine's order.
 
+        :param places: (5, k) float64: normal, count of points, mean point
+        :param sums: (k, 2) float64: impulses
         :param current: so many touch still, those that come first
         """
         # The engine's impulse acts on the first body; the log tells what the first gives.
-        impulses = (sums * -self.sign)[self.order]
-        places = places[self.order]
-        places[:, :2] *= self.sign[self.order]
+        impulses = (sums.T * -self.sign)[:, self.order]
+        places = places[:, self.order]
+        places[:2] *= self.sign[self.order]
         if len(self.first) < len(self.order):
-            impulses = np.add.reduceat(impulses, self.first, axis=0)
+            impulses = np.add.reduceat(impulses, self.first, axis=1)
             places = self._means(places, self.order < current)
         contacts = Contacts(
-            pairs=self.pairs, points=places[:, 3:], normals=places[:, :2], impulses=impulses
+            pairs=self.pairs, points=places[3:].T, normals=places[:2].T, impulses=impulses.T
         )
-        _place_overlaps(contacts, places[:, 2] == 0, centers)
+        _place_overlaps(contacts, places[2] == 0, centers)
         return contacts
 
     def _means(self, places: Floats, current: NDArray[np.bool_]) -> Floats:
@@ -303,17 +306,17 @@ class _Listing:
         :param current: which touch still; the others count only where none of the pair does
         """
         pairs = np.repeat(np.arange(len(self.first)), np.diff(self.first, append=len(current)))
-        counts = places[:, 2] * (current | ~np.logical_or.reduceat(current, self.first)[pairs])
-        means = np.add.reduceat(places * counts[:, None], self.first, axis=0)
-        means[:, 2] = np.add.reduceat(counts, self.first)
-        means[:, 3:] /= np.maximum(means[:, 2:3], 1.0)
-        length = np.hypot(means[:, 0], means[:, 1])
+        counts = places[2] * (current | ~np.logical_or.reduceat(current, self.first)[pairs])
+        means = np.add.reduceat(places * counts, self.first, axis=1)
+        means[2] = np.add.reduceat(counts, self.first)
+        means[3:] /= np.maximum(means[2], 1.0)
+        length = np.hypot(means[0], means[1])
         # Squeezed from both sides, it has the normal of one of them.
-        angles = np.maximum.reduceat(np.arctan2(places[:, 1], places[:, 0]), self.first)
-        means[:, :2] = np.where(
-            (length > OPPOSED * means[:, 2])[:, None],
-            means[:, :2] / np.maximum(length, 1e-300)[:, None],
-            np.column_stack((np.cos(angles), np.sin(angles))),
+        angles = np.maximum.reduceat(np.arctan2(places[1], places[0]), self.first)
+        means[:2] = np.where(
+            length > OPPOSED * means[2],
+            means[:2] / np.maximum(length, 1e-300),
+            (np.cos(angles), np.sin(angles)),
         )
         return means
 
@@ -334,7 +337,7 @@ def _list(touching: Ids, ids: Ids, rows: Ints) -> _Listing:
         pairs=pairs[order[first]],
         order=order,
         first=first,
-        sign=np.where(swap, -1.0, 1.0)[:, None],
+        sign=np.where(swap, -1.0, 1.0),
     )
 
 

@@ -39,7 +39,7 @@ from physsim_ros.core.world import World
 # Frames in one call: the one that is due, and one to make up for a late one.
 _FRAMES_A_CALL = 2
 # From one keyframe to the next [s]: to reach a step, at most so much is simulated again.
-KEYFRAMES = 2.0
+KEYFRAMES = 3.0
 # What is kept of what was shown, at most [bytes]: three minutes of 100 bodies, 23 s of 1,000.
 MOST_KEPT = 64 * 2**20
 # So many steps back can be redone, and so many resets undone.

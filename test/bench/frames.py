@@ -37,7 +37,7 @@ from physsim_ros.core.properties import Properties
 from physsim_ros.core.requests import Configure, Spawn
 from physsim_ros.core.shapes import Box, Disc
 from physsim_ros.core.world import World
-from physsim_ros.node import PhysSimNode
+from physsim_ros.node import clear_the_way, PhysSimNode
 from physsim_ros.testing import own_domain
 import rclpy
 from rclpy.parameter import Parameter
@@ -173,7 +173,7 @@ def measure(count: int, directory: Path, domain: int) -> None:
 
 def table(counts: list[int]) -> None:
     """Print a row for each count of bodies."""
-    sys.setswitchinterval(0.0005)
+    clear_the_way()
     print('A frame of 4 steps of a settled pile, all streams subscribed, recorded by Rerun')
     print('bodies  bare [ms]  node [ms]  node/bare  naive/bare  bytes/body/frame')
     with own_domain() as domain, tempfile.TemporaryDirectory() as directory:

@@ -123,7 +123,7 @@ class TimeMachine(RuleBasedStateMachine):
         self.look(self.simulation.settle())
 
     def new(self) -> Simulation:
-        # Keyframes come every 2 s; here time is short.
+        # Keyframes come every 3 s; here time is short.
         return Simulation(history=5.0, keyframes=self.keyframes)
 
     # What is asked
