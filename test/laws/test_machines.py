@@ -97,11 +97,20 @@ def test_a_mass_on_a_spring_swings(report):
         report.check(16, 'mass on a spring for 10 s, energy kept', off, 1.0, 0.02, '–')
 
 
-@pytest.mark.parametrize('swung', [1, 2, 3])
-@pytest.mark.parametrize('gap', [0.0, 0.001, 0.002])
+# A blow takes a step from one ball to the next, and three that touch come as one body.
+AS_ONE = pytest.mark.xfail(reason='three balls need a gap of 1 mm', raises=AssertionError)
+
+
+@pytest.mark.parametrize(
+    ('swung', 'gap'),
+    [
+        (swung, gap) if (swung, gap) != (3, 0.0) else pytest.param(swung, gap, marks=AS_ONE)
+        for swung in (1, 2, 3)
+        for gap in (0.0, 0.001, 0.002)
+    ],
+)
 def test_as_many_balls_leave_the_cradle_as_came(report, swung, gap):
-    if swung == 3 and gap == 0.0:
-        pytest.skip('three balls that touch come as one body: a gap of 1 mm is needed')
+    apart = f'{1000 * gap:g} mm apart'
     sim, radius, angle = simulation(), 0.1, math.radians(30)
     for number in range(5):
         x, turn = number * (2 * radius + gap), angle if number < swung else 0.0
@@ -115,7 +124,7 @@ def test_as_many_balls_leave_the_cradle_as_came(report, swung, gap):
 
     for number, vx in enumerate(last.twists[:, 0] / hit):
         exact = 1.0 if number >= 5 - swung else 0.0
-        report.check(17, f'cradle, {swung} swung, speed', vx, exact, 0.02, 'v')
+        report.check(17, f'cradle, {swung} swung, {apart}, speed', vx, exact, 0.02, 'v')
 
 
 def test_a_chain_does_not_stretch(report):
