@@ -27,6 +27,7 @@ import math
 
 import numpy as np
 from physsim_ros.core import rigid_body, sweep
+from physsim_ros.core.cascade import Cascade
 from physsim_ros.core.contact_memory import recall, remind, ShapeIds
 from physsim_ros.core.contacts import ContactLog, Ids
 from physsim_ros.core.layout import lay_out, Layout
@@ -100,6 +101,7 @@ class Space:
         self.broken: list[tuple[str, float]] = []
         self._contacts = ContactLog(self._space)
         self._stillness = Stillness(self._space)
+        self._cascade = Cascade(self._space)
         self._calm_steps = max(1, round(1.0 / (RATE * dt)))
         # Steps since the space was empty: what is done every so many steps counts from there, so
         # that a restored state goes on alike at whatever step it is restored.
@@ -362,6 +364,7 @@ class Space:
         self._space.remove(rigid.engine)
         del self._names[rigid.engine]
         self._contacts.forget(rigid.engine.id)
+        self._cascade.forget(rigid.engine)
         self._pushed.pop(rigid.body.name, None)
 
     def _raise_walls(self) -> None:
@@ -446,6 +449,7 @@ class Space:
     def _begin(self, arbiter: pymunk.Arbiter, space: pymunk.Space, _: object) -> None:
         """Look at two shapes that touch for the first time."""
         sweep.relieve(arbiter, space, SLOP)
+        self._cascade.begin(arbiter)
         if self._watching:
             self._contacts.begin(arbiter)
         else:
