@@ -32,7 +32,7 @@ endif
 .PHONY: run test lint bench evaluate clean
 
 run: $(STAMP)
-	@echo 'The world `demo`. Where to look:'
+	@echo 'Where to look:'
 	@echo '  Rerun     opens by itself where there is a display, else at the address printed below'
 	@echo '  RViz      fixed frame `world`, add MarkerArray /physsim/markers'
 	@echo '  ros2      topics and services under /physsim'

@@ -25,7 +25,7 @@ import os
 import random
 from typing import Any
 
-from hypothesis import given, settings, strategies
+from hypothesis import given, Phase, settings, strategies
 import numpy as np
 from physsim_ros.core.errors import Anchored
 from physsim_ros.core.joint_properties import JointKind, JointProperties
@@ -117,7 +117,8 @@ def machine(pick: random.Random, *, sensors: bool) -> World:
     return world
 
 
-@settings(max_examples=COUNT, deadline=None, derandomize=True)
+# A smaller seed is no simpler machine: none is looked for.
+@settings(max_examples=COUNT, deadline=None, derandomize=True, phases=[Phase.generate])
 @given(seed=strategies.integers(0, 2**32), sensors=strategies.booleans())
 def test_any_machine_runs_for_ten_seconds(seed: int, sensors: bool) -> None:
     world = machine(random.Random(seed), sensors=sensors)
