@@ -59,6 +59,8 @@ class Machine:
         self._linkage: Linkage | None = None
         self._balance: Balance | None = None
         self._listed: Sequence[RigidBody | None] = ()
+        # What each joint gave [N] in a step that another space has made, until this one makes one.
+        self.given: Floats | None = None
         # Whether the linkage has not been through a step, and whether the last one was its first.
         self._fresh = self._first_step = True
         # Numbers of the joints that can break, and what each may give [N s].
@@ -128,6 +130,7 @@ class Machine:
 
         :param read: returns poses and velocities in the engine's listing, (m, 6) float64
         """
+        self.given = None
         linkage = self._linked(listed)
         self._first_step = self._fresh
         if self._fresh:
@@ -152,6 +155,8 @@ class Machine:
 
     def forces(self, listed: Sequence[RigidBody | None]) -> Floats:
         """Return (j,) float64: what each joint gave in the last step [N]."""
+        if self.given is not None:
+            return self.given
         if not self.joints:
             return np.empty(0)
         return (self._impulses() + self._linked(listed).impulses) / self._dt
@@ -178,7 +183,7 @@ class Machine:
         held = joints.build(joint, self._bodies[joint.a], other, self._space.static_body, self._dt)
         self._space.add(*held.constraints)
         self.joints[joint.name] = held
-        self._linkage = None
+        self._linkage = self.given = None
 
     def _take(self, held: EngineJoint) -> None:
         self._space.remove(*held.constraints)
@@ -186,7 +191,7 @@ class Machine:
             self._on[body].pop(held.joint.name, None)
             if not self._on[body]:
                 del self._on[body]
-        self._linkage = None
+        self._linkage = self.given = None
 
     def _linked(self, listed: Sequence[RigidBody | None]) -> Linkage:
         """Return what holds the joints, made anew where a body or a joint has come or gone."""

@@ -292,6 +292,7 @@ class Keyframe:
     :param wrenches: of the bodies that one acts on: row, wrench [N, N m], the step at which it
         ends or None
     :param memory: of contacts
+    :param forces: (j,) float64: what each joint gave in the step before [N]
     """
 
     step: int
@@ -300,6 +301,7 @@ class Keyframe:
     free: NDArray[np.bool_]
     wrenches: tuple[tuple[int, Pose, int | None], ...]
     memory: ContactMemory
+    forces: Floats
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -172,6 +172,7 @@ class Space:
                 if rigid.body.name in self._pushed
             ),
             memory=recall(self._shapes, [rigid.first for rigid in rigids], self._first_wall),
+            forces=self.forces(),
         )
 
     def bodies_at(self, point: Point) -> list[str]:
@@ -331,6 +332,7 @@ class Space:
         self._write_state(layout, key.state)
         for joint in key.scene.joints:
             self.machine.put(joint)
+        self.machine.given = key.forces
         layout.free = key.free.copy()
         for row, wrench, until in key.wrenches:
             rigid = rigids[row]

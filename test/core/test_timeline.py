@@ -82,6 +82,7 @@ class Driven:
         before = self.shown[frame.snapshot.step].snapshot
         np.testing.assert_array_equal(frame.snapshot.poses, before.poses)
         np.testing.assert_array_equal(frame.snapshot.twists, before.twists)
+        np.testing.assert_array_equal(frame.snapshot.forces, before.forces)
 
 
 @pytest.fixture
@@ -334,6 +335,28 @@ def test_few_bodies_take_no_more_memory_than_their_poses_would(bodies: int) -> N
     a_reel = 180 * (1000 + bodies * 2 * 24)
     assert driven.simulation.past.size <= max(120 * 60 * 24 * bodies, 3 * a_reel)
     for frame in driven.run(-4.0, 5.0):
+        driven.assert_same(frame)
+
+
+@pytest.mark.parametrize('back', [-1.0, -8.0])
+def test_forces_of_joints_come_again(back: float) -> None:
+    driven = Driven()
+    for number in range(2):
+        driven.ask(spawning(f'a/{number}', BOX, (1.0 + number, 8.0, 0.0)))
+        b = f'a/{number - 1}' if number else 'world'
+        points = ((1.0 * number, 8.0), (1.0 + number, 8.0))
+        driven.ask(
+            Join(
+                name=f'rod/{number}', kind=JointKind.ROD, points=points[::-1], a=f'a/{number}', b=b
+            )
+        )
+    driven.record(7.0)
+    keyframe = driven.simulation.timeline.history.keyframes[2].key.step
+    assert driven.shown[keyframe].snapshot.forces.all()
+    driven.simulation.past.forget(0)
+    driven.simulation.seek(keyframe * SECOND // 240)
+    driven.assert_same(driven.settle())
+    for frame in driven.run(1.0, 1.0) + driven.run(back, 1.5):
         driven.assert_same(frame)
 
 
