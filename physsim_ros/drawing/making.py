@@ -150,15 +150,14 @@ def anchor(points: Floats, drawn: Stroke, view: View, settings: DrawingSettings)
     if not under:
         # Made a little beside a thin body; the nearest thing that is under the pen.
         under = view.bodies_at(point, settings.snap)
-        way = map(point_of, drawn.points if under else ())
-        near = [each for each in way if view.covers(under[0], each)]
-        if not near:
+        near = drawn.points[view.covers(under[0], drawn.points)] if under else ()
+        if not len(near):
             x, y = point
             raise NothingThere(
                 f'an x anchors the body under it; there is none at ({x:.3g}, {y:.3g})',
                 field='poses',
             )
-        point = min(near, key=lambda each: math.dist(each, point))
+        point = min(map(point_of, near), key=lambda each: math.dist(each, point))
     return Made(
         requests=(Anchor(point=point),),
         subject=under[0],

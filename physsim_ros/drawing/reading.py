@@ -240,7 +240,7 @@ def _smallness(
     if len(under) == 1:
         angles = np.arange(8) * math.pi / 4
         rim = np.array(center) + radius * np.column_stack((np.cos(angles), np.sin(angles)))
-        inside = sum(view.covers(under[0], point_of(place)) for place in rim)
+        inside = np.count_nonzero(view.covers(under[0], rim))
         # What hangs over is a body of its own, unless it is as small as hands can draw.
         if inside < len(rim) - 1:
             limit = min(2 * settings.snap, 0.9 * least)

@@ -24,7 +24,6 @@ from collections.abc import Iterable
 
 import numpy as np
 from numpy.typing import NDArray
-from physsim_ros.core.shapes import Point
 from physsim_ros.core.snapshot import Floats
 from physsim_ros.drawing.snapping import End
 from physsim_ros.drawing.view import View
@@ -78,10 +77,9 @@ def passed(points: Floats, view: View) -> Over:
     low, high = points.min(axis=0), points.max(axis=0)
     x, y = ((low + high) / 2).tolist()
     reach = float(np.hypot(*(high - low))) / 2
-    places: list[Point] = list(map(tuple, points[::_EVERY].tolist()))
     over: Over = {}
     for name in view.bodies_at((x, y), reach):
-        hits = np.array([view.covers(name, place) for place in places])
+        hits = view.covers(name, points[::_EVERY])
         if hits.any():
             over[name] = hits
     return over

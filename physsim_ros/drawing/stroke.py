@@ -22,6 +22,7 @@ read 200 times a second draws the same square as one that is read 20 times.
 from __future__ import annotations
 
 from dataclasses import dataclass
+import math
 
 import numpy as np
 from physsim_ros.core.errors import BadSize, Malformed
@@ -105,18 +106,18 @@ def _checked(samples: Floats) -> Floats:
 def _without_hooks(way: Floats) -> Floats:
     """Cut off the flicks of a pen that was set down before it rested, or lifted late."""
     points = way[::FINER]
-    first, last = _hook(points), len(points) - 1 - _hook(points[::-1])
+    x, y = points.T
+    size = math.hypot(float(np.ptp(x)), float(np.ptp(y)))
+    reach = int(HOOK * size / float(np.hypot(np.diff(x), np.diff(y)).mean()))
+    if reach < 2:
+        return way
+    first, last = _hook(points, reach), len(points) - 1 - _hook(points[::-1], reach)
     kept = slice(FINER * first, FINER * last + 1)
     return way[kept] if last - first > len(points) // 2 else way
 
 
-def _hook(points: Floats) -> int:
-    """Return how many points at the beginning are a hook."""
-    size = float(np.hypot(*np.ptp(points, axis=0)))
-    step = float(np.hypot(*np.diff(points, axis=0).T).mean())
-    reach = int(HOOK * size / step)
-    if reach < 2:
-        return 0
+def _hook(points: Floats, reach: int) -> int:
+    """Return how many points at the beginning, of so many at most, are a hook."""
     at = np.arange(1, reach + 1)
     a = points[at] - points[0]
     b = points[at + np.maximum(at, 4)] - points[at]

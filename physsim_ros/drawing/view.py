@@ -26,6 +26,7 @@ from functools import cached_property
 import math
 
 import numpy as np
+from numpy.typing import NDArray
 from physsim_ros.core.errors import BadProperty, UnknownFrame
 from physsim_ros.core.names import split_name
 from physsim_ros.core.rigid_body import rotated
@@ -89,9 +90,19 @@ class View:
             if self._covers(row, point, slack)
         )
 
-    def covers(self, name: str, point: Point) -> bool:
-        """Tell whether a body covers a point of the world [m]."""
-        return self._covers(self._rows[name], point, 0.0)
+    def covers(self, name: str, points: Floats) -> NDArray[np.bool_]:
+        """
+        Tell which points a body covers, (k,) bool.
+
+        :param points: (k, 2) float64: in the world [m]
+        """
+        row = self._rows[name]
+        away = points - self.snapshot.centers[row]
+        hits: NDArray[np.bool_] = np.hypot(away[:, 0], away[:, 1]) <= self._reaches[row]
+        for place in np.flatnonzero(hits).tolist():
+            x, y = points[place].tolist()
+            hits[place] = self._covers(row, (x, y), 0.0)
+        return hits
 
     def local(self, name: str, point: Point) -> Point:
         """Return a point of the world as it is in a body's frame [m]."""

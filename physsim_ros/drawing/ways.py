@@ -35,10 +35,13 @@ WIDE, WIDEST = 0.3, 10.0
 
 def spaced(way: Floats, count: int = COUNT) -> Floats:
     """Return points along a way, the same distance apart."""
+    x, y = way.T
     length = np.zeros(len(way))
-    np.cumsum(np.hypot(*np.diff(way, axis=0).T), out=length[1:])
-    at = np.linspace(0.0, length[-1], count)
-    return np.column_stack((np.interp(at, length, way[:, 0]), np.interp(at, length, way[:, 1])))
+    np.hypot(np.diff(x), np.diff(y)).cumsum(out=length[1:])
+    at = np.arange(count) * (length[-1] / (count - 1))
+    points = np.empty((count, 2))
+    points[:, 0], points[:, 1] = np.interp(at, length, x), np.interp(at, length, y)
+    return points
 
 
 def smoothed(points: Floats, width: float, *, closed: bool) -> Floats:
@@ -89,5 +92,5 @@ def turns(points: Floats, arm: int, *, closed: bool) -> Floats:
 
 def angles(a: Floats, b: Floats) -> Floats:
     """Return by how much one direction turns into another [rad], counter-clockwise."""
-    result: Floats = np.arctan2(cross(a, b), (a * b).sum(axis=-1))
+    result: Floats = np.arctan2(cross(a, b), a[..., 0] * b[..., 0] + a[..., 1] * b[..., 1])
     return result
