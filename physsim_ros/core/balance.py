@@ -39,6 +39,8 @@ import pymunk
 
 # Of an energy, what is rounding.
 _ROUNDING = 1e-12
+# So often is what has been slowed looked at again, at most.
+_ROUNDS = 6
 
 
 class Balance:
@@ -91,8 +93,7 @@ class Balance:
         self._most = math.inf
         self._own: Floats = np.zeros(len(together) + 1)
         self._fresh = True
-        # The power of the joints that give way, in the step before [W].
-        self._yielded = 0.0
+        self._state: Floats = np.empty((0, 6))
 
     def drive(self) -> None:
         """Note that energy has come from outside."""
@@ -105,39 +106,52 @@ class Balance:
         :param state: (m, 6) float64: poses and velocities in the engine's listing; kept up to date
         :return: whether velocities have been moved
         """
+        driven = self._fresh or self._motors or bool(state[self._commanded, 3:].any())
+        own, unsure = self._look(state)
+        gained = np.maximum(own - self._own, 0.0)[1:]
+        # What bodies without joints have gained is none of this.
+        given = max(0.0, float(own.sum() - self._own.sum() - gained.sum()))
+        most = math.inf if driven else self._most + given
+        slowed = False
+        for _ in range(_ROUNDS):
+            excess = float(own.sum()) - most - unsure
+            if excess <= 0.0 or not gained.any():
+                break
+            self._slow(state, gained, excess)
+            slowed = True
+            # What was thrown apart is uncertain by far more than it is once slowed.
+            own, unsure = self._look(state)
+            gained = np.maximum(own - self._own, 0.0)[1:]
+        total = float(own.sum())
+        # What is left was not in their motion, where so: they have been lifted, or strained.
+        self._most = min(max(most, total - unsure) if slowed else most, total + unsure)
+        self._own, self._state, self._fresh = own, state.copy(), False
+        return slowed
+
+    def follow(self, before: Balance) -> None:
+        """Go on from a balance of the same bodies with more joints: none gives energy by going."""
+        if not before._fresh:
+            self._own, _ = self._look(before._state)
+            gone = float(before._own.sum() - self._own.sum())
+            self._most, self._fresh = before._most - gone, False
+
+    def _look(self, state: Floats) -> tuple[Floats, float]:
+        """
+        Return what energy there is, and how well that is known.
+
+        :return: (k,) float64: of each island [J]; by how much their sum may be off [J], since
+            velocities are those of half a step before or after
+        """
         states = np.vstack((state, np.zeros((1, 6))))
-        moving = _kinetic(self._inertia, state[:, 3:])
-        mass, count = self._inertia[:, 0], len(self._own)
-        lifted = mass * (state[:, :2] @ self._gravity)
-        own = _sums(self._island, moving - lifted, count)
+        moving, mass = _kinetic(self._inertia, state[:, 3:]), self._inertia[:, 0]
+        own = _sums(self._island, moving - mass * (state[:, :2] @ self._gravity), len(self._own))
         pulled, power = self._springs.energy(states)
         strained, yielding = self._yielding.energy(states)
         own += pulled + strained
-        # The lesser of before and after: what is thrown apart would have leave to be.
-        power += min(yielding, self._yielded)
-        total = float(own.sum())
-        # Velocities are those of half a step before or after: energy is known to so much.
+        power += yielding
         power += math.hypot(*self._gravity) * float(mass @ np.hypot(state[:, 3], state[:, 4]))
         rounding = _ROUNDING * (float(np.abs(own).sum()) + float(moving.sum()))
-        unsure = self._dt * power + rounding
-        gained = np.maximum(own - self._own, 0.0)[1:]
-        if self._fresh or self._motors or state[self._commanded, 3:].any():
-            self._most = math.inf
-        else:
-            # What bodies without joints have gained is none of this.
-            self._most += max(0.0, total - float(self._own.sum()) - float(gained.sum()))
-        excess = total - self._most - unsure
-        slowed = excess > 0.0 and bool(gained.any())
-        if slowed:
-            self._slow(state, gained, excess)
-            _, yielding = self._yielding.energy(np.vstack((state, np.zeros((1, 6)))))
-            own += _sums(self._island, _kinetic(self._inertia, state[:, 3:]) - moving, count)
-            total = float(own.sum())
-            # What is left was not in their motion: they have been lifted, or strained.
-            self._most = max(self._most, total - unsure)
-        self._most = min(self._most, total + unsure)
-        self._own, self._yielded, self._fresh = own, yielding, False
-        return slowed
+        return own, self._dt * power + rounding
 
     def _slow(self, state: Floats, gained: Floats, excess: float) -> None:
         """Take energy [J] out of the islands, from each its share of what they gained."""

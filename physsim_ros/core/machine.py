@@ -24,6 +24,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 import math
+import operator
 
 import numpy as np
 from physsim_ros.core import joints
@@ -203,7 +204,11 @@ class Machine:
             }
             count = len(listed)
             self._linkage = Linkage(held, places, count, self._dt)
+            before = self._balance
             self._balance = Balance(held, places, count, gravity=self._space.gravity, dt=self._dt)
+            same = len(self._listed) == count
+            if before and same and all(map(operator.is_, self._listed, listed)):
+                self._balance.follow(before)
             self._listed, self._fresh = listed, True
             self._breakable = [
                 (number, most * self._dt)

@@ -77,7 +77,7 @@ class Space:
         spares: Mapping[str, RigidBody] | None = None,
     ) -> None:
         self.bodies: dict[str, RigidBody] = {}
-        # Counts what has been done to it from outside.
+        # Counts what has been done to it from outside that may give energy.
         self.changes = 0
         # What it counted when joints were held last.
         self._held_changes = 0
@@ -257,7 +257,6 @@ class Space:
     def unjoin(self, name: str) -> None:
         """Take a joint out."""
         self._unlay()
-        self.changes += 1
         self.machine.remove(name)
 
     def set_twist(self, rigid: RigidBody, twist: Pose) -> None:
