@@ -106,7 +106,9 @@ class Balance:
         :param state: (m, 6) float64: poses and velocities in the engine's listing; kept up to date
         :return: whether velocities have been moved
         """
-        driven = self._fresh or self._motors or bool(state[self._commanded, 3:].any())
+        if self._motors:
+            return False
+        driven = self._fresh or bool(state[self._commanded, 3:].any())
         own, unsure = self._look(state)
         gained = np.maximum(own - self._own, 0.0)[1:]
         # What bodies without joints have gained is none of this.
