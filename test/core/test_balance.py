@@ -102,6 +102,33 @@ def test_what_is_lost_is_not_given_back_and_not_gained_again() -> None:
     assert energy(again) == pytest.approx(energy(rest), rel=1e-9)
 
 
+def test_what_contacts_have_given_an_island_as_a_whole_is_taken_too() -> None:
+    _, balance = machine(JointKind.ROD)
+    rest = state((0.0, 0.0, 0.0), (0.0, 0.0, 0.0), SLOW[2])
+    balance.keep(rest)
+    # Both alike: nothing of it is motion against each other.
+    thrown = state((3.0, 0.0, 0.0), (3.0, 0.0, 0.0), SLOW[2])
+    assert balance.keep(thrown)
+    assert energy(thrown) == pytest.approx(energy(rest), rel=1e-9)
+
+
+def test_a_balance_follows_another_of_the_same_bodies() -> None:
+    _, before = machine(JointKind.ROD, b='world')
+    _, after = machine(JointKind.ROD, b='world')
+    before.keep(state(*SLOW))
+    after.follow(before)
+    thrown = state(FAST[0], *SLOW[1:])
+    assert after.keep(thrown)
+    assert energy(thrown) == pytest.approx(energy(state(*SLOW)), rel=1e-9)
+
+
+def test_what_a_fresh_balance_has_not_seen_is_not_followed() -> None:
+    _, before = machine(JointKind.ROD, b='world')
+    _, after = machine(JointKind.ROD, b='world')
+    after.follow(before)
+    assert not after.keep(state(*FAST))
+
+
 def test_after_a_drive_all_is_kept() -> None:
     _, balance = machine(JointKind.ROD)
     balance.keep(state(*SLOW))

@@ -34,7 +34,7 @@ from physsim_ros.core.requests import (
     UnjoinAll,
 )
 from physsim_ros.core.settings import WorldSettings
-from physsim_ros.core.simulation import Simulation
+from physsim_ros.core.simulation import KEYFRAMES, Simulation
 from physsim_ros.core.snapshot import Answer, Frame
 import pytest
 
@@ -332,7 +332,7 @@ def test_few_bodies_take_no_more_memory_than_their_poses_would(bodies: int) -> N
     for number in range(bodies):
         driven.ask(spawning(f'a/{number}', BOX, (1.5 * number - 6.0, 1.0, 0.0)))
     driven.record(20.0)
-    a_reel = 180 * (1000 + bodies * 2 * 24)
+    a_reel = 60 * KEYFRAMES * (1000 + bodies * 2 * 24)
     assert driven.simulation.past.size <= max(120 * 60 * 24 * bodies, 3 * a_reel)
     for frame in driven.run(-4.0, 5.0):
         driven.assert_same(frame)
