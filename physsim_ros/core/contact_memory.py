@@ -64,6 +64,19 @@ class ShapeIds:
             self._numbers[shape._shape] = number
         return first
 
+    def put_back(self, numbered: Iterable[tuple[int, Collection[pymunk.Shape]]]) -> None:
+        """Add shapes under the numbers that they had: those of the first of each collection."""
+        # As many at once as follow one another, since each call costs as much as two shapes.
+        run: list[pymunk.Shape] = []
+        following = self.following
+        for first, shapes in numbered:
+            if first != following:
+                self.add(run)
+                run, self.following = [], first
+            run += shapes
+            following = first + len(shapes)
+        self.add(run)
+
     def remove(self, shapes: Iterable[pymunk.Shape]) -> None:
         """Remove shapes from the space."""
         for shape in shapes:

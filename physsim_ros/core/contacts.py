@@ -22,7 +22,7 @@ keeps its place from the frame before, or from its first touch.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -85,11 +85,11 @@ class ContactLog:
             if len(impulses) == len(self._ids):
                 self._sums += impulses
                 return
-        self._add_pairs(*self._read(_PAIRS_AND_IMPULSES))
+        ints, floats = self._read(_PAIRS_AND_IMPULSES)
+        self._add_pairs(ints.reshape(-1, 2).copy(), floats.reshape(-1, 2).copy())
         self.settled = True
 
-    def _add_pairs(self, ints: Ids, floats: Floats) -> None:
-        ids, sums = ints.reshape(-1, 2), floats.reshape(-1, 2)
+    def _add_pairs(self, ids: Ids, sums: Floats) -> None:
         if np.array_equal(self._ids, ids):
             self._sums += sums
         else:
@@ -153,14 +153,15 @@ class ContactLog:
             if a in names and b in names
         }
 
-    def take(self, ids: Ids, rows: Ints, centers: Floats) -> Contacts:
+    def take(self, ids: Ids, rows: Ints, centers: Callable[[], Floats]) -> Contacts:
         """
         Return the contacts since the last call, each pair once.
 
         :param ids: (n,) uintp: the engine's ids of the bodies, ascending
         :param rows: (n,) int64: the row in the scene of each; an id that is missing belongs to
             the walls of `bounds`, or to a body that has gone since
-        :param centers: (n, 2) float64: centres of mass, between which overlaps with sensors lie
+        :param centers: gives (n, 2) float64: centres of mass, between which overlaps with sensors
+            lie
         """
         if self._steps == 0:
             return NO_CONTACTS
@@ -179,7 +180,11 @@ class ContactLog:
             return NO_CONTACTS
         if self._listing is None or not self._listing.holds(touching, ids):
             self._listing = _list(touching, ids, rows)
-        return self._listing.contacts(places, sums, centers, len(self._ids))
+        contacts, pointless = self._listing.contacts(places, sums, len(self._ids))
+        overlaps = np.flatnonzero(pointless & (contacts.pairs[:, 1] >= 0))
+        if len(overlaps):
+            _place_overlaps(contacts, overlaps, centers())
+        return contacts
 
     def _last_places(self, pairs: Ids) -> Floats:
         """Return (5, m) float64: where pairs that have parted touched last, as far as known."""
@@ -199,16 +204,19 @@ class ContactLog:
         places = np.empty((5, len(ints)))
         places[:2] = columns[:2]
         places[2] = ints
+        # On either body; the second point is zero where there is but one.
         first, second = columns[2:4] + columns[4:6], columns[6:8] + columns[8:10]
-        places[3:] = np.where(ints > 1, (first + second) / 4, first / 2)
+        np.add(first, second, out=places[3:])
+        places[3:] *= 0.5 / np.maximum(ints, 1)
         return places
 
     def _read(self, fields: batch.ArbiterFields) -> tuple[Ids, Floats]:
-        # The buffer is reused (a new one a call would leak), so what leaves is a copy.
+        """Return what the engine tells of contacts; to be used up before the next call."""
+        # The buffer is reused: a new one a call would leak.
         self._buffer.clear()
         batch.get_space_arbiters(self._space, fields, self._buffer)
-        ints = np.frombuffer(self._buffer.int_buf(), dtype=np.uint64).copy()
-        return ints, np.frombuffer(self._buffer.float_buf(), dtype=np.float64).copy()
+        ints = np.frombuffer(self._buffer.int_buf(), dtype=np.uint64)
+        return ints, np.frombuffer(self._buffer.float_buf(), dtype=np.float64)
 
 
 NO_CONTACTS = Contacts(
@@ -262,7 +270,7 @@ class _Listing:
     :param pairs: (m, 2): rows of each pair, the earlier spawned first
     :param order: (l,): where the contacts of the pairs are among those that come, pair by pair
     :param first: (m,): where in that order each pair begins
-    :param sign: (k,): -1 where the engine has a pair the other way round
+    :param sign: (l,): -1 where the engine has a pair the other way round, in that order
     """
 
     touching: Ids
@@ -276,26 +284,28 @@ class _Listing:
         """Tell whether the same touch as when this was made."""
         return self.ids is ids and np.array_equal(self.touching, touching)
 
-    def contacts(self, places: Floats, sums: Floats, centers: Floats, current: int) -> Contacts:
+    def contacts(
+        self, places: Floats, sums: Floats, current: int
+    ) -> tuple[Contacts, NDArray[np.bool_]]:
         """
         Return the contacts, from what is known of each in the engine's order.
 
         :param places: (5, k) float64: normal, count of points, mean point
         :param sums: (k, 2) float64: impulses
         :param current: so many touch still, those that come first
+        :return: the contacts, and (m,) bool: which of them have no points
         """
         # The engine's impulse acts on the first body; the log tells what the first gives.
-        impulses = (sums.T * -self.sign)[:, self.order]
-        places = places[:, self.order]
-        places[:2] *= self.sign[self.order]
+        impulses = sums.take(self.order, axis=0).T * -self.sign
+        places = places.take(self.order, axis=1)
+        places[:2] *= self.sign
         if len(self.first) < len(self.order):
             impulses = np.add.reduceat(impulses, self.first, axis=1)
             places = self._means(places, self.order < current)
         contacts = Contacts(
             pairs=self.pairs, points=places[3:].T, normals=places[:2].T, impulses=impulses.T
         )
-        _place_overlaps(contacts, places[2] == 0, centers)
-        return contacts
+        return contacts, places[2] == 0
 
     def _means(self, places: Floats, current: NDArray[np.bool_]) -> Floats:
         """
@@ -337,15 +347,12 @@ def _list(touching: Ids, ids: Ids, rows: Ints) -> _Listing:
         pairs=pairs[order[first]],
         order=order,
         first=first,
-        sign=np.where(swap, -1.0, 1.0),
+        sign=np.where(swap, -1.0, 1.0)[order],
     )
 
 
-def _place_overlaps(contacts: Contacts, pointless: NDArray[np.bool_], centers: Floats) -> None:
+def _place_overlaps(contacts: Contacts, overlaps: NDArray[np.intp], centers: Floats) -> None:
     """Give overlaps with sensors, of which the engine has no points, a place and a normal."""
-    overlaps = np.flatnonzero(pointless & (contacts.pairs[:, 1] >= 0))
-    if len(overlaps) == 0:
-        return
     a, b = centers[contacts.pairs[overlaps, 0]], centers[contacts.pairs[overlaps, 1]]
     apart = b - a
     length = np.hypot(apart[:, 0], apart[:, 1])[:, None]

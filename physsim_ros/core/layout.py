@@ -23,6 +23,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -45,6 +47,7 @@ class Layout:
     :param listed: for each place in the engine's listing, its body; None for walls
     :param safe: for each place, the speed up to which no sweep is needed [m/s]
     :param arm: for each place, what turns a spin into a speed that counts for that [m]
+    :param unswept: while no velocity [m/s] and no spin [rad/s] is greater, all are that slow
     :param loose: (n,) bool: whether forces move the body
     :param offsets: (n, 2): the engine's origin in the body's frame [m]
     :param lead: (n, 3): how far the engine's velocity leads in free flight
@@ -63,6 +66,7 @@ class Layout:
     listed: tuple[RigidBody | None, ...]
     safe: Floats
     arm: Floats
+    unswept: float
     loose: NDArray[np.bool_]
     offsets: Floats
     lead: Floats
@@ -97,7 +101,7 @@ def lay_out(
     :param listing: the engine's ids, in the order of its own listing
     :param dt: of a step [s]
     """
-    bodies = scene.bodies
+    rows = _rows(scene, dt)
     places = {id_: place for place, id_ in enumerate(listing)}
     ids = np.array([rigid.engine.id for rigid in rigids], dtype=np.uintp)
     order = np.array([places[id_] for id_ in ids.tolist()], dtype=np.intp)
@@ -105,11 +109,55 @@ def lay_out(
     listed: list[RigidBody | None] = [None] * len(listing)
     for rigid, place in zip(rigids, order.tolist(), strict=True):
         listed[place] = rigid
-    swept = np.array([not (body.anchored or body.sensor) for body in bodies], dtype=np.bool_)
-    loose = np.array([not body.fixed for body in bodies], dtype=np.bool_)
     safe, arm = np.full(len(listing), np.inf), np.zeros(len(listing))
-    safe[order] = np.where(swept, [sweep.safe_depth(body) / dt for body in bodies], np.inf)
-    arm[order] = np.where(swept, [sweep.arm(body) for body in bodies], 0.0)
+    safe[order], arm[order] = rows.safe, rows.arm
+    lead = rows.lead.copy()
+    for row, rigid in enumerate(rigids):
+        if rigid.wrench != REST:
+            lead[row] = rigid.lead(scene.settings.gravity, dt)
+    return Layout(
+        scene=scene,
+        rows=rows.names,
+        ids=ids[ascending],
+        id_rows=ascending,
+        order=order,
+        listed=tuple(listed),
+        safe=safe,
+        arm=arm,
+        # The length of a vector is at most 1.42 times its greater coordinate.
+        unswept=float((safe / (1.42 + arm)).min(initial=np.inf)),
+        loose=rows.loose,
+        offsets=rows.offsets,
+        lead=lead,
+        free=np.array([rigid.free for rigid in rigids], dtype=np.bool_),
+        ground=stillness.ground(listed, listing, scene.settings.friction),
+        expiries=rows.expiries,
+    )
+
+
+class _Rows(NamedTuple):
+    """
+    What is constant about the rows of a scene, in whatever order the engine lists them.
+
+    The fields are those of `Layout`, in spawn order.
+    """
+
+    names: dict[str, int]
+    safe: Floats
+    arm: Floats
+    loose: NDArray[np.bool_]
+    offsets: Floats
+    lead: Floats
+    expiries: dict[int, list[str]]
+
+
+# A world is often built anew from the scene that it has, and then another one follows it.
+@lru_cache(maxsize=2)
+def _rows(scene: Scene, dt: float) -> _Rows:
+    bodies = scene.bodies
+    anchored = np.array([body.anchored for body in bodies], dtype=np.bool_)
+    swept = ~anchored & ~np.array([body.sensor for body in bodies], dtype=np.bool_)
+    loose = np.array([not body.fixed for body in bodies], dtype=np.bool_)
     lead = np.where(
         loose[:, None], (*(half * dt / 2 for half in scene.settings.gravity), 0.0), 0.0
     )
@@ -117,22 +165,12 @@ def lay_out(
     for body in bodies:
         if body.expires is not None:
             expiries.setdefault(body.expires, []).append(body.name)
-    for row, rigid in enumerate(rigids):
-        if rigid.wrench != REST:
-            lead[row] = rigid.lead(scene.settings.gravity, dt)
-    return Layout(
-        scene=scene,
-        rows={name: row for row, name in enumerate(scene.names)},
-        ids=ids[ascending],
-        id_rows=ascending,
-        order=order,
-        listed=tuple(listed),
-        safe=safe,
-        arm=arm,
+    return _Rows(
+        names={name: row for row, name in enumerate(scene.names)},
+        safe=np.where(swept, [sweep.safe_depth(body) / dt for body in bodies], np.inf),
+        arm=np.where(swept, [sweep.arm(body) for body in bodies], 0.0),
         loose=loose,
-        offsets=np.array([rigid.offset for rigid in rigids]).reshape(-1, 2),
+        offsets=np.where(anchored[:, None], 0.0, scene.centroids),
         lead=lead,
-        free=np.array([rigid.free for rigid in rigids], dtype=np.bool_),
-        ground=stillness.ground(listed, listing, scene.settings.friction),
         expiries=expiries,
     )

@@ -21,7 +21,7 @@ spawn order; true velocities do not jump when gravity or a wrench changes.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 import math
 
@@ -134,11 +134,11 @@ class Space:
         """Return (j,) float64: what each joint gave in the last step [N]."""
         return self.machine.forces(self._lay_out().listed)
 
-    def contacts(self, centers: Floats) -> Contacts:
+    def contacts(self, centers: Callable[[], Floats]) -> Contacts:
         """
         Return what touched since the last call while steps were watched.
 
-        :param centers: (n, 2) float64: centres of mass, world [m]
+        :param centers: gives (n, 2) float64: centres of mass, world [m]
         """
         layout = self._lay_out()
         return self._contacts.take(layout.ids, layout.id_rows, centers)
@@ -325,8 +325,8 @@ class Space:
         at_rest[:, 3:] = 0.0
         self._write_state(layout, at_rest)
         for rigid, first in zip(rigids, key.memory.ids.tolist(), strict=True):
-            self._shapes.following = first
-            rigid.first = self._shapes.add(rigid.engine.shapes)
+            rigid.first = first
+        self._shapes.put_back((rigid.first, rigid.engine.shapes) for rigid in rigids)
         remind(self._space, self._shapes, key.memory, self._dt)
         self._write_state(layout, key.state)
         for joint in key.scene.joints:
@@ -458,6 +458,8 @@ class Space:
 
     def _arrest(self, layout: Layout, before: Floats) -> None:
         """Shorten the coming step of the bodies that are too fast for the engine."""
+        if np.abs(before).max(initial=0.0) <= layout.unswept:
+            return
         speed = np.hypot(before[:, 0], before[:, 1]) + np.abs(before[:, 2]) * layout.arm
         fast = speed > layout.safe
         if fast.any():
@@ -482,11 +484,12 @@ class Space:
     def _judge_flight(self, layout: Layout, before: Floats) -> None:
         """Find which bodies the last step only accelerated: those are in free flight."""
         after = self._state(layout)[:, 3:]
-        kept = (1.0 - self._settings.damping) ** self._dt
-        flown = before[layout.order] * kept + 2.0 * layout.lead
+        flown = before.take(layout.order, axis=0)
+        flown *= (1.0 - self._settings.damping) ** self._dt
+        flown += 2.0 * layout.lead
         # Rounding of the same sum in another order, nothing more.
-        same = np.abs(after - flown) <= 1e-12 * (1.0 + np.abs(after))
-        layout.free = same.all(axis=1) & layout.loose
+        same = np.abs(flown - after) <= 1e-12 * (1.0 + np.abs(after))
+        layout.free = same[:, 0] & same[:, 1] & same[:, 2] & layout.loose
 
     # Rows
 
@@ -501,7 +504,7 @@ class Space:
     def _state(self, layout: Layout) -> Floats:
         """Return (n, 6) float64: poses and velocities of the engine's origins, in spawn order."""
         if layout.state is None:
-            layout.state = self._read(_STATE, 6)[layout.order]
+            layout.state = self._read(_STATE, 6).take(layout.order, axis=0)
         return layout.state
 
     def _write_state(self, layout: Layout, state: Floats) -> None:

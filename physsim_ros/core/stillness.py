@@ -158,6 +158,9 @@ class Stillness:
         a, b = a[stuck], b[stuck]
         held = ground.fixed.copy()
         # From the background up, contact by contact; as many rounds as a pile has layers.
-        while len(edge := np.flatnonzero(held[a] != held[b])):
-            held[a[edge]] = held[b[edge]] = True
-        return held
+        while True:
+            reached = held[a] | held[b]
+            if not reached.any():
+                return held
+            held[a[reached]] = held[b[reached]] = True
+            a, b = a[~reached], b[~reached]

@@ -133,7 +133,7 @@ class World:
 
     def contacts(self, snapshot: Snapshot) -> Contacts:
         """Return what touched since the last call while the world was being watched."""
-        return self._space.contacts(snapshot.centers)
+        return self._space.contacts(lambda: snapshot.centers)
 
     def clear_contacts(self) -> None:
         """Forget what touched since the last call of `contacts`."""
