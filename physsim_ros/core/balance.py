@@ -64,7 +64,7 @@ class Balance:
         dt: float,
     ) -> None:
         self._gravity, self._dt = gravity, dt
-        self._inertia = np.zeros((listed, 2))
+        self._inertia = np.zeros((listed + 1, 2))
         for body, place in places.items():
             if body.body_type == pymunk.Body.DYNAMIC:
                 self._inertia[place] = body.mass, body.moment
@@ -75,7 +75,7 @@ class Balance:
         self._motors = any(each.joint.kind is JointKind.MOTOR for each in joints)
         # The island of each body and of each joint, counted from 1; 0 is none.
         together = islands(joints)
-        self._island = np.zeros(listed, np.intp)
+        self._island = np.zeros(listed + 1, np.intp)
         island_of = np.zeros(len(joints), np.intp)
         # Whether an island hangs on what forces do not move.
         self._held = [False] * len(together)
@@ -93,23 +93,24 @@ class Balance:
         self._most = math.inf
         self._own: Floats = np.zeros(len(together) + 1)
         self._fresh = True
-        self._state: Floats = np.empty((0, 6))
+        self._states: Floats = np.empty((0, 6))
 
     def drive(self) -> None:
         """Note that energy has come from outside."""
         self._fresh = True
 
-    def keep(self, state: Floats) -> bool:
+    def keep(self, states: Floats) -> bool:
         """
         Slow what has gained energy that nothing gave it in the last step.
 
-        :param state: (m, 6) float64: poses and velocities in the engine's listing; kept up to date
+        :param states: (m + 1, 6) float64: poses and velocities in the engine's listing, then the
+            background; kept up to date
         :return: whether velocities have been moved
         """
         if self._motors:
             return False
-        driven = self._fresh or bool(state[self._commanded, 3:].any())
-        own, unsure = self._look(state)
+        driven = self._fresh or bool(states[self._commanded, 3:].any())
+        own, unsure = self._look(states)
         gained = np.maximum(own - self._own, 0.0)[1:]
         # What bodies without joints have gained is none of this.
         given = max(0.0, float(own.sum() - self._own.sum() - gained.sum()))
@@ -119,48 +120,47 @@ class Balance:
             excess = float(own.sum()) - most - unsure
             if excess <= 0.0 or not gained.any():
                 break
-            self._slow(state, gained, excess)
+            self._slow(states, gained, excess)
             slowed = True
             # What was thrown apart is uncertain by far more than it is once slowed.
-            own, unsure = self._look(state)
+            own, unsure = self._look(states)
             gained = np.maximum(own - self._own, 0.0)[1:]
         total = float(own.sum())
         # What is left was not in their motion, where so: they have been lifted, or strained.
         self._most = min(max(most, total - unsure) if slowed else most, total + unsure)
-        self._own, self._state, self._fresh = own, state.copy(), False
+        self._own, self._states, self._fresh = own, states.copy(), False
         return slowed
 
     def follow(self, before: Balance) -> None:
         """Go on from a balance of the same bodies with more joints: none gives energy by going."""
         if not before._fresh:
-            self._own, _ = self._look(before._state)
+            self._own, _ = self._look(before._states)
             gone = float(before._own.sum() - self._own.sum())
             self._most, self._fresh = before._most - gone, False
 
-    def _look(self, state: Floats) -> tuple[Floats, float]:
+    def _look(self, states: Floats) -> tuple[Floats, float]:
         """
         Return what energy there is, and how well that is known.
 
         :return: (k,) float64: of each island [J]; by how much their sum may be off [J], since
             velocities are those of half a step before or after
         """
-        states = np.vstack((state, np.zeros((1, 6))))
-        moving, mass = _kinetic(self._inertia, state[:, 3:]), self._inertia[:, 0]
-        own = _sums(self._island, moving - mass * (state[:, :2] @ self._gravity), len(self._own))
+        moving, mass = _kinetic(self._inertia, states[:, 3:]), self._inertia[:, 0]
+        own = _sums(self._island, moving - mass * (states[:, :2] @ self._gravity), len(self._own))
         pulled, power = self._springs.energy(states)
         strained, yielding = self._yielding.energy(states)
         own += pulled + strained
         power += yielding
-        power += math.hypot(*self._gravity) * float(mass @ np.hypot(state[:, 3], state[:, 4]))
+        power += math.hypot(*self._gravity) * float(mass @ np.hypot(states[:, 3], states[:, 4]))
         rounding = _ROUNDING * (float(np.abs(own).sum()) + float(moving.sum()))
         return own, self._dt * power + rounding
 
-    def _slow(self, state: Floats, gained: Floats, excess: float) -> None:
+    def _slow(self, states: Floats, gained: Floats, excess: float) -> None:
         """Take energy [J] out of the islands, from each its share of what they gained."""
         whole = float(gained.sum())
         for island in np.flatnonzero(gained).tolist():
             rows = np.flatnonzero(self._island == island + 1)
-            moves, inertia = state[rows], self._inertia[rows]
+            moves, inertia = states[rows], self._inertia[rows]
             owed = excess * float(gained[island]) / whole
             together = (
                 np.zeros((len(rows), 3)) if self._held[island] else _together(moves, inertia)
@@ -168,7 +168,7 @@ class Balance:
             apart, owed = _slower(inertia, moves[:, 3:] - together, owed)
             # What is beyond that came by contacts: they alone move an island as a whole.
             together, _ = _slower(inertia, together, owed)
-            state[rows, 3:] = together + apart
+            states[rows, 3:] = together + apart
 
 
 def _slower(inertia: Floats, velocities: Floats, owed: float) -> tuple[Floats, float]:

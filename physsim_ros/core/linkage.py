@@ -84,27 +84,29 @@ class Linkage:
             for stage, groups in _stages(held, joints)
         ]
 
-    def hold(self, state: Floats) -> bool:
+    def hold(self, states: Floats) -> bool:
         """
         Move velocities to where the joints will be closed at the end of the coming step.
 
-        :param state: (m, 6) float64: poses and velocities in the engine's listing; kept up to date
+        :param states: (m + 1, 6) float64: poses and velocities in the engine's listing, then the
+            background; kept up to date
         :return: whether there was anything to hold
         """
         for system in self._systems:
-            system.hold(state, self._dt, self.impulses)
+            system.hold(states, self._dt, self.impulses)
         return bool(self._systems)
 
-    def redundant(self, state: Floats) -> set[tuple[int, int]]:
+    def redundant(self, states: Floats) -> set[tuple[int, int]]:
         """
         Return what says nothing new: number of the joint, and which of its constraints.
 
         The engine hands impulses round and round among joints that say the same, more of them at
         each step.
 
-        :param state: (m, 6) float64: poses and velocities in the engine's listing
+        :param states: (m + 1, 6) float64: poses and velocities in the engine's listing, then the
+            background
         """
-        return {each for system in self._systems for each in system.redundant(state)}
+        return {each for system in self._systems for each in system.redundant(states)}
 
 
 def _stages(
@@ -163,15 +165,13 @@ class _System:
             len(restraints.owner),
         )
 
-    def hold(self, state: Floats, dt: float, impulses: Floats) -> None:
+    def hold(self, states: Floats, dt: float, impulses: Floats) -> None:
         """Move velocities; see `Linkage.hold`."""
         restraints, equations = self._restraints, self._equations
-        # The background comes last.
-        states = np.vstack((state, np.zeros((1, 6))))
         gaps, pushes = restraints.read(states)
         moves = pushes * restraints.inverse
-        shared = (moves[equations.left] * pushes[equations.right]).sum(axis=1)
-        wanted = -np.clip(gaps / dt, -FASTEST_CORRECTION, FASTEST_CORRECTION)
+        shared = _dot(moves[equations.left], pushes[equations.right])
+        wanted = np.minimum(np.maximum(gaps / -dt, -FASTEST_CORRECTION), FASTEST_CORRECTION)
         short = wanted - self._speeds(pushes, states)
         active = ~restraints.limits | (short < -_STILL)
         given = equations.solve(shared, short, active)
@@ -188,25 +188,24 @@ class _System:
             given = equations.solve(shared, short, active)
         given[restraints.limits] = np.minimum(given[restraints.limits], 0.0)
         self._push(states, moves, given)
-        state[:, 3:] = states[:-1, 3:]
         # Joint by joint, what its rows give together.
         total = np.bincount(restraints.owner, given * given, len(self._numbers))
         impulses[self._numbers] = np.sqrt(total)
 
-    def redundant(self, state: Floats) -> Iterator[tuple[int, int]]:
+    def redundant(self, states: Floats) -> Iterator[tuple[int, int]]:
         """Yield what says nothing new; see `Linkage.redundant`."""
         restraints, equations = self._restraints, self._equations
-        _, pushes = restraints.read(np.vstack((state, np.zeros((1, 6)))))
-        shared = (pushes * restraints.inverse)[equations.left] * pushes[equations.right]
+        _, pushes = restraints.read(states)
+        shared = _dot((pushes * restraints.inverse)[equations.left], pushes[equations.right])
         keeps = ~restraints.limits
-        for row in equations.dependent(shared.sum(axis=1), keeps):
+        for row in equations.dependent(shared, keeps):
             constraint = int(row >= restraints.angles_from)
             joint = int(restraints.owner[row])
             yield int(self._numbers[joint]), constraint if restraints.has_both[joint] else 0
 
     def _speeds(self, pushes: Floats, states: Floats) -> Floats:
         """Return how fast each number changes."""
-        each: Floats = (pushes * states[self._restraints.sides, 3:]).sum(axis=1)
+        each = _dot(pushes, states[self._restraints.sides, 3:])
         count = len(each) // 2
         return each[:count] + each[count:]
 
@@ -216,3 +215,9 @@ class _System:
         for axis in range(3):
             change = np.bincount(self._restraints.sides, changes[:, axis], len(states))
             states[:, 3 + axis] += change
+
+
+def _dot(a: Floats, b: Floats) -> Floats:
+    """Return (k,) float64: the products of (k, 3) vectors."""
+    product: Floats = np.einsum('ij,ij->i', a, b)
+    return product

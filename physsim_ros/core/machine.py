@@ -110,26 +110,28 @@ class Machine:
         for name in self.of(body):
             self._build(self.joints[name].joint)
 
-    def hold(self, listed: Sequence[RigidBody | None], state: Floats, *, driven: bool) -> bool:
+    def hold(self, listed: Sequence[RigidBody | None], states: Floats, *, driven: bool) -> bool:
         """
         Hold after a step what the engine has not held in it.
 
         :param listed: the bodies in the engine's listing
-        :param state: (m, 6) float64: their poses and velocities; kept up to date
+        :param states: (m + 1, 6) float64: their poses and velocities, then the background; kept
+            up to date
         :param driven: whether anything has given them energy since the last step, or in it
         :return: whether velocities have been moved
         """
-        moved = self._linked(listed).hold(state)
+        moved = self._linked(listed).hold(states)
         assert self._balance is not None  # noqa: S101 - made with the linkage
         if driven:
             self._balance.drive()
-        return self._balance.keep(state) or moved
+        return self._balance.keep(states) or moved
 
     def prepare(self, listed: Sequence[RigidBody | None], read: Callable[[], Floats]) -> None:
         """
         Get ready for a step, where something has changed since the last one.
 
-        :param read: returns poses and velocities in the engine's listing, (m, 6) float64
+        :param read: returns poses and velocities in the engine's listing, then the background,
+            (m + 1, 6) float64
         """
         self.given = None
         linkage = self._linked(listed)

@@ -64,29 +64,34 @@ class Restraints:
             return rows(lambda joint: joint.kind in kinds)
 
         # The background, which does not move, comes behind the bodies of the listing.
-        self._a = np.array([places.get(each.ends.a, listed) for each in joints], np.intp)
-        self._b = np.array([places.get(each.ends.b, listed) for each in joints], np.intp)
-        self._at_a = np.array([each.ends.at_a for each in joints])
-        self._at_b = np.array([each.ends.at_b for each in joints])
-        self._axis = np.array([(joint.seat.ux, joint.seat.uy) for joint in whats])
+        a, b = (
+            np.array([places.get(body, listed) for body in bodies], np.intp)
+            for bodies in ([each.ends.a for each in joints], [each.ends.b for each in joints])
+        )
+        self._ends = np.concatenate((a, b))
+        self._at = np.array(
+            [each.ends.at_a for each in joints] + [each.ends.at_b for each in joints]
+        )
+        lines = np.array([(joint.seat.ux, joint.seat.uy) for joint in whats])
 
         pivots, rods, ropes = of(*_PIVOTS), of(JointKind.ROD), of(JointKind.ROPE)
         self._straight, self._sliders = np.concatenate((rods, ropes)), of(JointKind.SLIDER)
         slider, axle = JointKind.SLIDER, JointKind.AXLE
-        self._most = rows(lambda each: each.kind is slider and each.properties.upper is not None)
-        self._least = rows(lambda each: each.kind is slider and each.properties.lower is not None)
-        self._points = np.concatenate(
-            (pivots, pivots, self._straight, self._sliders, self._most, self._least)
-        )
-        self._fixed = np.repeat(np.eye(2), len(pivots), axis=0)
+        most = rows(lambda each: each.kind is slider and each.properties.upper is not None)
+        least = rows(lambda each: each.kind is slider and each.properties.lower is not None)
+        # Which number is along the line of which slider, and how that lies on its second body.
+        self._slid = np.concatenate((self._sliders, most, least))
+        across = lines[self._sliders][:, ::-1] * (-1.0, 1.0)
+        self._axes = np.concatenate((across, lines[most], -lines[least]))
+        self._points = np.concatenate((pivots, pivots, self._straight, self._slid))
         self._offsets = np.concatenate(
             (
                 np.zeros(2 * len(pivots)),
                 [whats[row].seat.length for row in rods],
                 [whats[row].rest_length for row in ropes],
                 np.zeros(len(self._sliders)),
-                [_said(whats[row].properties.upper) for row in self._most],
-                [-_said(whats[row].properties.lower) for row in self._least],
+                [_said(whats[row].properties.upper) for row in most],
+                [-_said(whats[row].properties.lower) for row in least],
             )
         )
 
@@ -110,7 +115,7 @@ class Restraints:
         )
 
         self.owner = np.concatenate((self._points, self._angles))
-        self.sides = np.concatenate((self._a[self.owner], self._b[self.owner]))
+        self.sides = np.concatenate((a[self.owner], b[self.owner]))
         self.angles_from = len(self._points)
         self.has_both = [joint.kind in (JointKind.PIN, JointKind.SLIDER) for joint in whats]
         self.limits = np.zeros(len(self.owner), dtype=np.bool_)
@@ -127,6 +132,14 @@ class Restraints:
                 if body.body_type == pymunk.Body.DYNAMIC:
                     inverse[places[body]] = 1 / body.mass, 1 / body.mass, 1 / body.moment
         self.inverse = inverse[self.sides]
+        # What of the pushes is always the same, and where in them the other directions are.
+        self._pushes = np.zeros((2 * len(self.owner), 3))
+        self._pushes[: 2 * len(pivots), :2] = np.repeat(np.eye(2), len(pivots), axis=0)
+        second = len(self.owner) + self.angles_from
+        self._pushes[self.angles_from : len(self.owner), 2] = self._with_a
+        self._pushes[second:, 2] = self._with_b
+        slid_from = 2 * len(pivots) + len(self._straight)
+        self._along, self._aside = slice(2 * len(pivots), slid_from), slice(slid_from, None)
 
     def read(self, states: Floats) -> tuple[Floats, Floats]:
         """
@@ -136,33 +149,34 @@ class Restraints:
         :return: (r,) float64 [m, rad], and (2 r, 3) float64: direction and moment on the first
             body of each row, then on the second
         """
-        yaw_a, yaw_b = states[self._a, 2], states[self._b, 2]
-        arm_a, arm_b = _turned(self._at_a, yaw_a), _turned(self._at_b, yaw_b)
-        apart = states[self._a, :2] + arm_a - states[self._b, :2] - arm_b
-        lines = _turned(self._axis, yaw_b)
-        between = apart[self._straight]
-        length = np.hypot(between[:, 0], between[:, 1])[:, None]
-        along = np.where(length > 0, between / np.maximum(length, 1e-300), (1.0, 0.0))
-        line = lines[self._sliders]
-        across = np.column_stack((-line[:, 1], line[:, 0]))
-        direction = np.concatenate(
-            (self._fixed, along, across, lines[self._most], -lines[self._least])
-        )
-        # A slider's line turns with the second body, all the way out to where the first one is.
-        arm_b[self._sliders] += apart[self._sliders]
+        ends = states[self._ends]
+        yaw = ends[:, 2]
+        arms = _turned(self._at, yaw)
+        places = ends[:, :2] + arms
+        joints, count, rows = len(places) // 2, self.angles_from, len(self.owner)
+        apart = places[:joints] - places[joints:]
 
-        points, angles = self._points, self._angles
-        count, rows = len(points), len(self.owner)
-        second = rows + count
-        pushes = np.zeros((2 * rows, 3))
-        pushes[:count, :2], pushes[rows:second, :2] = direction, -direction
-        pushes[:count, 2] = _cross(arm_a[points], direction)
-        pushes[rows:second, 2] = -_cross(arm_b[points], direction)
-        pushes[count:rows, 2], pushes[second:, 2] = self._with_a, self._with_b
+        pushes = self._pushes.copy()
+        direction = pushes[:count, :2]
+        if len(self._straight):
+            between = apart[self._straight]
+            length = np.hypot(between[:, 0], between[:, 1])[:, None]
+            direction[self._along] = np.where(
+                length > 0, between / np.maximum(length, 1e-300), (1.0, 0.0)
+            )
+        if len(self._slid):
+            direction[self._aside] = _turned(self._axes, yaw[joints:][self._slid])
+            # The line turns with the second body, all the way out to where the first one is.
+            arms[joints:][self._sliders] += apart[self._sliders]
+        second = slice(rows, rows + count)
+        pushes[second, :2] = -direction
+        pushes[:count, 2] = _cross(arms[:joints][self._points], direction)
+        pushes[second, 2] = -_cross(arms[joints:][self._points], direction)
 
         gaps = np.empty(rows)
-        gaps[:count] = (apart[points] * direction).sum(axis=1) - self._offsets
-        turned = self._with_a * yaw_a[angles] + self._with_b * yaw_b[angles]
+        gaps[:count] = _dot(apart[self._points], direction) - self._offsets
+        turned = self._with_a * yaw[:joints][self._angles]
+        turned += self._with_b * yaw[joints:][self._angles]
         gaps[count:] = turned - self._comes_to
         return gaps, pushes
 
@@ -177,9 +191,17 @@ def _turned(vectors: Floats, yaw: Floats) -> Floats:
     """Return vectors, (k, 2), each turned counter-clockwise [rad]."""
     cos, sin = np.cos(yaw), np.sin(yaw)
     x, y = vectors.T
-    return np.column_stack((cos * x - sin * y, sin * x + cos * y))
+    turned = np.empty_like(vectors)
+    turned[:, 0] = cos * x - sin * y
+    turned[:, 1] = sin * x + cos * y
+    return turned
 
 
 def _cross(a: Floats, b: Floats) -> Floats:
     product: Floats = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
+    return product
+
+
+def _dot(a: Floats, b: Floats) -> Floats:
+    product: Floats = a[:, 0] * b[:, 0] + a[:, 1] * b[:, 1]
     return product

@@ -405,7 +405,7 @@ class Space:
         self._arrest(layout, before)
         self._watching = watching
         if self.machine.joints:
-            self.machine.prepare(layout.listed, lambda: self._read(_STATE, 6))
+            self.machine.prepare(layout.listed, self._states)
         self._space.step(self._dt)
         self._age += 1
         layout.state = None
@@ -475,11 +475,11 @@ class Space:
 
     def _hold(self, layout: Layout, *, driven: bool) -> None:
         """Hold what the engine has not held of the joints."""
-        state = self._read(_STATE, 6)
-        if self.machine.hold(layout.listed, state, driven=driven):
-            self._written.set_float_buf(state[:, 3:].copy())
+        states = self._states()
+        if self.machine.hold(layout.listed, states, driven=driven):
+            self._written.set_float_buf(states[:-1, 3:].copy())
             batch.set_space_bodies(self._space, _TWIST, self._written)
-        layout.state = state[layout.order]
+        layout.state = states.take(layout.order, axis=0)
 
     def _judge_flight(self, layout: Layout, before: Floats) -> None:
         """Find which bodies the last step only accelerated: those are in free flight."""
@@ -500,6 +500,13 @@ class Space:
         batch.get_space_bodies(self._space, fields, self._buffer)
         numbers = np.frombuffer(self._buffer.float_buf(), dtype=np.float64)
         return numbers.reshape(-1, width).copy()
+
+    def _states(self) -> Floats:
+        """Return (m + 1, 6) float64: poses and velocities in the listing, then the background."""
+        listed = self._read(_STATE, 6)
+        states = np.zeros((len(listed) + 1, 6))
+        states[:-1] = listed
+        return states
 
     def _state(self, layout: Layout) -> Floats:
         """Return (n, 6) float64: poses and velocities of the engine's origins, in spawn order."""

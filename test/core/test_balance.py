@@ -51,10 +51,12 @@ def machine(kind: JointKind, *, b: str = 'a/1') -> tuple[World, Balance]:
 
 def state(*twists: tuple[float, float, float]) -> np.ndarray:
     poses = ((0.0, 0.0, 0.0), (2.0, 0.0, 0.0), (9.0, 0.0, 0.0))
-    return np.array([(*pose, *twist) for pose, twist in zip(poses, twists, strict=True)])
+    bodies = [(*pose, *twist) for pose, twist in zip(poses, twists, strict=True)]
+    return np.array([*bodies, (0.0,) * 6])
 
 
-MASS = np.array([1.0, 3.0, 2.0])
+# The background, which comes last, has none.
+MASS = np.array([1.0, 3.0, 2.0, 0.0])
 MOMENT = MASS * 0.5**2 / 2
 SLOW = ((0.0, 1.0, 0.5), (0.4, -1.0, 0.0), (1.0, 0.0, 0.0))
 # Thrown apart: the momentum is that of SLOW.
