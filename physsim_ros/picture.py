@@ -31,13 +31,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros import band
-from physsim_ros.core.preview import NOTHING
-from physsim_ros.core.settings import Bounds
-from physsim_ros.core.shapes import Point
-from physsim_ros.core.snapshot import Answer, Floats, Frame, Snapshot
-from physsim_ros.joint_picture import JointPicture
-from physsim_ros.joint_picture import PATH as JOINTS
-from physsim_ros.layout import (
+from physsim_ros.body_picture import (
     DEPTH,
     Layout,
     Motion,
@@ -50,6 +44,12 @@ from physsim_ros.layout import (
     TRANSLUCENT,
     TRIANGLES,
 )
+from physsim_ros.core.preview import NOTHING
+from physsim_ros.core.settings import Bounds
+from physsim_ros.core.shapes import Point
+from physsim_ros.core.snapshot import Answer, Floats, Frame, Snapshot
+from physsim_ros.joint_picture import JointPicture
+from physsim_ros.joint_picture import PATH as JOINTS
 import rerun as rr
 import rerun.blueprint as rrb
 

@@ -18,12 +18,8 @@ from __future__ import annotations
 
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
-import importlib.util
 import math
-import os
 from pathlib import Path
-import socket
-import subprocess
 import time
 
 import numpy as np
@@ -33,6 +29,8 @@ from physsim_ros.core.shapes import Box, Chain, Compound, Disc, Polygon, Triangl
 from physsim_ros.core.snapshot import Answer, Body, Contacts, Frame, Scene, Snapshot
 from physsim_ros.picture import LINGER, Picture, REPEAT
 import pytest
+
+from .rerun_program import free_port, is_open, rerun
 
 rr = pytest.importorskip('rerun')
 chunk = pytest.importorskip('rerun.chunk')
@@ -504,27 +502,12 @@ def has_vulkan():
 @contextmanager
 def shown(path):
     """Give a connection to a viewer without a screen that shows a recording."""
-    with socket.socket() as probe:
-        probe.bind(('127.0.0.1', 0))
-        port = probe.getsockname()[1]
-    spec = importlib.util.find_spec('rerun_cli')
-    rerun = Path(spec.origin).with_name('rerun')
-    options = ('--headless', '--bind=127.0.0.1', f'--port={port}', '--window-size=1200x800')
-    process = subprocess.Popen(
-        [rerun, path, *options],
-        env={**os.environ, 'CI': '1'},
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-    )
+    port = free_port()
+    process = rerun(path, '--headless', f'--port={port}', '--window-size=1200x800')
     try:
         deadline = time.monotonic() + PATIENCE
-        while time.monotonic() < deadline:
-            try:
-                socket.create_connection(('127.0.0.1', port), 1.0).close()
-            except OSError:
-                continue
-            break
+        while not is_open(port) and time.monotonic() < deadline:
+            pass
         yield rr.experimental.ViewerClient.connect(f'rerun+http://127.0.0.1:{port}/proxy')
     finally:
         process.kill()

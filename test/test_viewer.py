@@ -17,11 +17,9 @@
 from __future__ import annotations
 
 from collections import Counter
-import importlib.util
 import os
 from pathlib import Path
 import signal
-import socket
 import subprocess
 import sys
 import textwrap
@@ -37,6 +35,8 @@ from physsim_ros.core.snapshot import Answer, Body, Frame, Scene, Snapshot
 from physsim_ros.outlet import Outlet, Way
 from physsim_ros.viewer import Viewer, ViewerMode
 import pytest
+
+from .rerun_program import free_port, is_open, rerun
 
 psutil = pytest.importorskip('psutil')
 chunk = pytest.importorskip('rerun.chunk')
@@ -112,28 +112,6 @@ def rows_when(path, entity, count):
         return counts if counts[entity] >= count else None
 
     return until(enough)
-
-
-def free_port():
-    with socket.socket() as probe:
-        probe.bind(('127.0.0.1', 0))
-        return probe.getsockname()[1]
-
-
-def is_open(port):
-    with socket.socket() as probe:
-        return probe.connect_ex(('127.0.0.1', port)) == 0
-
-
-def rerun(*arguments):
-    program = Path(importlib.util.find_spec('rerun_cli').origin).with_name('rerun')
-    return subprocess.Popen(
-        [program, '--bind=127.0.0.1', *arguments],
-        env={**os.environ, 'CI': '1'},
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-    )
 
 
 class Server:

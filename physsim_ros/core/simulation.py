@@ -462,9 +462,19 @@ class Simulation:
         return f'{self.step / self.physics_rate:.3f} s'
 
 
+# What requests are called whose classes' names are no words for it.
+_WORDS = {
+    'configure': 'settings',
+    'restore': 'load',
+    'deleteall': 'delete of many',
+    'unjoin': 'delete',
+    'unjoinall': 'delete of many',
+}
+
+
 def _named(entries: list[Entry]) -> str:
     """Return what a gesture was, in words."""
     kind = type(entries[0].request).__name__.lower()
     name = getattr(entries[0].request, 'name', '')
     more = f' and {len(entries) - 1} more' if len(entries) > 1 else ''
-    return f'{kind} {name}'.rstrip() + more
+    return f'{_WORDS.get(kind, kind)} {name}'.rstrip() + more
