@@ -77,10 +77,10 @@ class Space:
         spares: Mapping[str, RigidBody] | None = None,
     ) -> None:
         self.bodies: dict[str, RigidBody] = {}
-        # Counts what has been done to it from outside that may give energy.
+        # Counts what has been done to it from outside.
         self.changes = 0
-        # What it counted when joints were held last.
-        self._held_changes = 0
+        # What it counted when joints were held last, and what cannot have given energy since.
+        self._powerless = 0
         self._settings = settings
         self._dt = dt
         self._names: dict[pymunk.Body, str] = {}
@@ -257,6 +257,8 @@ class Space:
     def unjoin(self, name: str) -> None:
         """Take a joint out."""
         self._unlay()
+        self.changes += 1
+        self._powerless += 1
         self.machine.remove(name)
 
     def set_twist(self, rigid: RigidBody, twist: Pose) -> None:
@@ -410,8 +412,8 @@ class Space:
         self._age += 1
         layout.state = None
         if self.machine.joints:
-            self._hold(layout, driven=bool(self._pushed) or self.changes != self._held_changes)
-            self._held_changes = self.changes
+            self._hold(layout, driven=bool(self._pushed) or self.changes != self._powerless)
+            self._powerless = self.changes
         if watching:
             self._contacts.add_step()
         expired = layout.expiries.get(number + 1, ())

@@ -23,17 +23,23 @@ from hypothesis import HealthCheck, Phase, settings
 from hypothesis import strategies as st
 from hypothesis.stateful import initialize, invariant, rule, RuleBasedStateMachine
 import numpy as np
+from physsim_ros.core.joint_properties import JointKind, JointProperties
 from physsim_ros.core.properties import Properties
 from physsim_ros.core.requests import (
     Anchor,
+    Axle,
     Command,
     Configure,
     Delete,
     DeleteAll,
+    Join,
+    Pin,
     Release,
     Request,
     Restore,
     Spawn,
+    Unjoin,
+    UnjoinAll,
 )
 from physsim_ros.core.shapes import Box, Compound, Disc, Polygon, Shape
 from physsim_ros.core.simulation import Simulation
@@ -48,7 +54,8 @@ SHAPES: list[Shape] = [
     Compound(element=Box(width=0.3, height=0.3), centers=((-0.3, 0.0), (0.0, 0.0), (0.0, 0.3))),
 ]
 
-names = st.sampled_from([f'a/{number}' for number in range(8)])
+names = st.sampled_from([f'a/{number}' for number in range(6)])
+joint_names = st.sampled_from([f'j/{number}' for number in range(2)])
 coordinates = st.integers(-30, 30).map(lambda tenths: tenths / 10)
 points = st.tuples(coordinates, coordinates.map(lambda y: y + 3.0))
 changes = st.one_of(
@@ -89,6 +96,21 @@ def commands(draw: Any) -> Command:
     )
 
 
+@st.composite
+def joins(draw: Any) -> Join:
+    kind = draw(st.sampled_from(list(JointKind)))
+    ends = draw(st.lists(points, min_size=kind.points, max_size=kind.points, unique=True))
+    first, second = draw(st.lists(names, min_size=2, max_size=2, unique=True))
+    return Join(
+        name=draw(joint_names),
+        kind=kind,
+        points=tuple(ends),
+        a=first,
+        b=draw(st.sampled_from([second, 'world'])),
+        properties=JointProperties(break_force=draw(st.sampled_from([None, None, 30.0]))),
+    )
+
+
 requests: st.SearchStrategy[Request] = st.one_of(
     spawns(),
     spawns(),
@@ -98,6 +120,12 @@ requests: st.SearchStrategy[Request] = st.one_of(
     st.builds(DeleteAll),
     points.map(lambda point: Anchor(point=point)),
     points.map(lambda point: Release(point=point)),
+    points.map(lambda point: Pin(point=point)),
+    points.map(lambda point: Axle(point=point)),
+    joins(),
+    joins(),
+    joint_names.map(lambda name: Unjoin(name=name)),
+    st.builds(UnjoinAll),
 )
 
 
@@ -130,10 +158,14 @@ class TimeMachine(RuleBasedStateMachine):
 
     @rule(request=requests)
     def ask_while_it_stands(self, request: Request) -> None:
-        step = self.simulation.step
+        step, digest = self.simulation.step, self.simulation.world.digest()
+        made = self.simulation.timeline.serial
         self.simulation.submit(request, topic='')
         frame = self.simulation.settle()
         assert frame is not None
+        # What has changed anything will be done again.
+        changed = self.simulation.world.digest() != digest
+        assert not changed or self.simulation.timeline.serial == made + 1
         self.after_request(frame, step, accepted=not frame.answers[0].code)
 
     @rule(request=requests)
@@ -244,8 +276,10 @@ class TimeMachine(RuleBasedStateMachine):
         before = self.seen.setdefault(step, frame).snapshot
         assert snapshot.scene.names == before.scene.names
         assert snapshot.scene.settings == before.scene.settings
+        assert snapshot.scene.joints == before.scene.joints
         np.testing.assert_array_equal(snapshot.poses, before.poses)
         np.testing.assert_array_equal(snapshot.twists, before.twists)
+        np.testing.assert_array_equal(snapshot.forces, before.forces)
 
     def drop_after(self, step: int) -> None:
         for number in [number for number in self.seen if number > step]:

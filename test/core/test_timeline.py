@@ -29,8 +29,10 @@ from physsim_ros.core.requests import (
     DeleteAll,
     Join,
     Pin,
+    Release,
     Request,
     Restore,
+    Unjoin,
     UnjoinAll,
 )
 from physsim_ros.core.settings import WorldSettings
@@ -468,6 +470,42 @@ def test_what_changes_nothing_drops_nothing(driven: Driven) -> None:
         frame = driven.settle()
         assert [answer.code for answer in frame.answers] == ['']
         assert told([frame], 'branch') == []
+
+
+@pytest.mark.parametrize(
+    'request_',
+    [Unjoin(name='joint/0'), UnjoinAll(), Release(point=(0.0, 5.0))],
+    ids=['unjoin', 'unjoin all', 'release'],
+)
+def test_a_joint_that_is_taken_out_is_part_of_history(request_: Request) -> None:
+    driven = Driven()
+    driven.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
+    driven.ask(Join(name='joint/0', kind=JointKind.PIN, points=((0.0, 5.0),), a='b/0', b='world'))
+    driven.record(1.0)
+    hung = driven.simulation.world.snapshot().poses
+    driven.ask(request_)
+    driven.record(0.5)
+    driven.simulation.seek(0)
+    for frame in driven.run(1.0, 1.4):
+        if frame.snapshot.step:
+            driven.assert_same(frame)
+    assert driven.simulation.world.snapshot().scene.joints == ()
+    driven.simulation.undo()
+    assert driven.simulation.world.snapshot().poses == pytest.approx(hung)
+    assert len(driven.simulation.world.snapshot().scene.joints) == 1
+
+
+def test_a_joint_taken_out_in_the_past_begins_a_branch() -> None:
+    driven = Driven()
+    driven.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
+    driven.ask(Pin(point=(0.0, 5.0)))
+    driven.record(2.0)
+    driven.simulation.seek(SECOND)
+    driven.ask(UnjoinAll())
+    frames = [driven.settle(), *driven.run(1.0, 2.0)]
+    assert len(told(frames, 'branch')) == 1
+    assert told(frames, 'divergence') == []
+    assert driven.simulation.world.snapshot().scene.joints == ()
 
 
 def test_a_joint_that_broke_is_told_of_once() -> None:
