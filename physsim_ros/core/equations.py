@@ -164,25 +164,51 @@ class Equations:
         :param active: (r,) whether a row counts
         """
         count = len(active)
-        matrix = np.zeros((count, count))
+        counting = ([row for row in sorted(group) if active[row]] for group in self._groups)
+        groups = sorted(filter(None, counting), key=len)
+        sizes = np.array([len(group) for group in groups], np.intp)
+        starts = np.concatenate(((0,), np.cumsum(sizes**2)))
+        # For each row: where the matrix of its group begins, how wide that is, its place there.
+        spots = np.zeros((3, count), np.intp)
+        for group, start, size in zip(groups, starts.tolist(), sizes.tolist(), strict=False):
+            spots[:, group] = np.full(size, start), np.full(size, size), np.arange(size)
         rows, columns = self.left % count, self.right % count
-        np.add.at(matrix, (rows, columns), shared)
-        # Of rungs only one half is there.
-        matrix = np.where(matrix != 0.0, matrix, matrix.T)
-        found = []
-        for group in self._groups:
-            chosen = [row for row in sorted(group) if active[row]]
-            part = matrix[np.ix_(chosen, chosen)]
-            least = _DEPENDENT * np.diag(part)
-            for place, row in enumerate(chosen):
-                pivot = part[place, place]
-                if pivot <= least[place]:
-                    found.append(row)
-                    continue
-                after = slice(place + 1, None)
-                rest = part[after, place].copy()
-                part[after, after] -= np.outer(rest, rest) / pivot
+        both = active[rows] & active[columns]
+        start, width, slot = spots[:, rows[both]]
+        at = start + width * slot + spots[2, columns[both]]
+        numbers = np.bincount(at, shared[both], starts[-1]).astype(np.float64, copy=False)
+        found: list[int] = []
+        first = 0
+        for size, alike in itertools.groupby(groups, key=len):
+            chosen = np.array(list(alike))
+            end = first + chosen.size * size
+            found += chosen[_follow(numbers[first:end].reshape(-1, size, size))].tolist()
+            first = end
         return found
+
+
+def _follow(halves: Floats) -> NDArray[np.bool_]:
+    """
+    Tell which rows of matrices follow from those before them.
+
+    :param halves: (k, n, n) symmetric matrices, of which one half may be left out
+    :return: (k, n)
+    """
+    matrices = np.where(halves != 0.0, halves, halves.transpose(0, 2, 1))
+    count, size, _ = matrices.shape
+    least = _DEPENDENT * np.diagonal(matrices, axis1=1, axis2=2)
+    follows = np.zeros((count, size), np.bool_)
+    for place in range(size):
+        pivot = matrices[:, place, place]
+        follows[:, place] = pivot <= least[:, place]
+        pivot = np.where(follows[:, place], np.inf, pivot)
+        # A row meets few of the others.
+        after = slice(place + 1, None)
+        met = np.flatnonzero(matrices[:, after, place].any(axis=0)) + place + 1
+        rest = matrices[:, met, place]
+        share = rest / pivot[:, None]
+        matrices[:, met[:, None], met] -= rest[:, :, None] * share[:, None, :]
+    return follows
 
 
 @dataclass(frozen=True, slots=True, eq=False)
