@@ -106,7 +106,7 @@ class PhysSimNode(QuietNode):
         self._pen = Pen(parameters.drawing_settings(self._values), Tool(self._values['tool']))
         self._meter = Meter()
         self._diagnostics = self.create_publisher(DiagnosticArray, '/diagnostics', 10)
-        self._viewer: Viewer | None = None
+        self._viewer = Viewer()
         # The last one that was delivered.
         self.frame: Frame | None = None
         self._started = False
@@ -122,6 +122,8 @@ class PhysSimNode(QuietNode):
     def start(self) -> None:
         """Let time run: frames at the publish rate of a steady clock, and a viewer."""
         self._started = True
+        if self._values['record_file']:
+            self.record(Path(self._values['record_file']))
         self._open_viewer()
         # The node that publishes the clock must not wait for it.
         steady = RosClock(clock_type=ClockType.STEADY_TIME)
@@ -168,8 +170,7 @@ class PhysSimNode(QuietNode):
         for answer in frame.answers:
             self._log(answer)
         self._streams.publish(frame)
-        if self._viewer is not None:
-            self._viewer.show(frame, real_time_factor=self._meter.real_time_factor)
+        self._viewer.show(frame, real_time_factor=self._meter.real_time_factor)
 
     def advance_frame(self) -> None:
         """Go on by one publish period, whatever the clock says, and deliver the frame."""
@@ -192,13 +193,11 @@ class PhysSimNode(QuietNode):
 
     def _watch(self) -> None:
         """Have contacts read where somebody looks."""
-        self.simulation.watch_contacts(self._streams.wants_contacts or self._viewer is not None)
+        self.simulation.watch_contacts(self._streams.wants_contacts or self._viewer.is_open)
 
     def destroy_node(self) -> None:
         """Close the viewer, then everything of ROS."""
-        if self._viewer is not None:
-            self._viewer.close()
-            self._viewer = None
+        self._viewer.close()
         super().destroy_node()
 
     # Requests
@@ -431,15 +430,7 @@ class PhysSimNode(QuietNode):
     # Watching
 
     def _open_viewer(self) -> None:
-        if self._viewer is not None:
-            self._viewer.close()
-            self._viewer = None
-        mode = ViewerMode(self._values['viewer']) if self._started else ViewerMode.NONE
-        if mode is ViewerMode.NONE and not self._values['record_file']:
-            return
-        self._viewer = Viewer(
-            mode=mode, url=self._values['viewer_url'], record_file=self._values['record_file']
-        )
+        self._viewer.turn_to(ViewerMode(self._values['viewer']), self._values['viewer_url'])
 
     def record(self, path: Path) -> None:
         """
@@ -447,13 +438,11 @@ class PhysSimNode(QuietNode):
 
         :param path: of the `.rrd` file; complete when the node is destroyed
         """
-        self._values['record_file'] = str(path)
-        self._open_viewer()
+        self._viewer.record(str(path))
 
     def _diagnose(self) -> None:
-        if self._viewer is not None:
-            for answer in self._viewer.poll():
-                self._report(answer)
+        for answer in self._viewer.poll():
+            self._report(answer)
         if self.frame is None or self._diagnostics.get_subscription_count() == 0:
             return
         self._diagnostics.publish(
@@ -461,7 +450,7 @@ class PhysSimNode(QuietNode):
                 self.frame.snapshot,
                 speed=self.simulation.speed,
                 late_frames=self.simulation.late_frames,
-                viewer='none' if self._viewer is None else self._viewer.state,
+                viewer=self._viewer.state,
             )
         )
 

@@ -108,11 +108,13 @@ class Outlet:
 
     :param way: where
     :param tell: takes what happens, from any thread
+    :param after: one that ends, and whose place it takes
     """
 
-    def __init__(self, way: Way, *, tell: Tell) -> None:
+    def __init__(self, way: Way, *, tell: Tell, after: Outlet | None = None) -> None:
         self._way = way
         self._tell = tell
+        self._before = after
         self._lock = threading.Lock()
         self._frames: deque[Frame] = deque()
         self._answers: deque[Answer] = deque(maxlen=ANSWERS)
@@ -167,6 +169,9 @@ class Outlet:
 
     def _run(self) -> None:
         try:
+            if self._before is not None:
+                self._before.join()
+                self._before = None
             while not self._closing.is_set():
                 canvas = self._way.begin()
                 if canvas is None:

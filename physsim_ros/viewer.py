@@ -40,6 +40,8 @@ from physsim_ros.outlet import ANSWERS, Canvas, Outlet, PATIENCE, Tell, Way
 if TYPE_CHECKING:
     import rerun as rr
 
+# Under which Rerun lists what it is shown.
+NAME = 'physsim'
 USUAL_URL = 'rerun+http://127.0.0.1:9876/proxy'
 # What is served to browsers that come late.
 SERVED = '256MiB'
@@ -67,27 +69,64 @@ class Viewer:
     :param mode: where they are shown; with NONE they are recorded only
     :param url: of the Rerun server for CONNECT; '' is the usual one of this machine
     :param record_file: `.rrd` file that is written beside any viewer; '' is none
-    :param name: under which Rerun lists what it is shown
     """
 
     def __init__(
-        self, *, mode: ViewerMode, url: str = '', record_file: str = '', name: str = 'physsim'
+        self, *, mode: ViewerMode = ViewerMode.NONE, url: str = '', record_file: str = ''
     ) -> None:
         self._events: deque[Answer] = deque(maxlen=ANSWERS)
-        tell = self._events.append
-        if mode is ViewerMode.AUTO:
-            mode = ViewerMode.SPAWN if _has_display() else ViewerMode.WEB
-        ways: list[Way] = [_File(name, record_file)] if record_file else []
-        if mode is ViewerMode.CONNECT:
-            ways.append(_Client(name, url or USUAL_URL))
-        elif mode is not ViewerMode.NONE:
-            ways.append(_Server(name, native=mode is ViewerMode.SPAWN, tell=tell))
-        self._outlets = [Outlet(way, tell=tell) for way in ways]
+        self._file: Outlet | None = None
+        self._window: Outlet | None = None
+        # The window before, which may still be closing.
+        self._closing: Outlet | None = None
+        self._shown: tuple[Frame, float] | None = None
+        if record_file:
+            self.record(record_file)
+        self.turn_to(mode, url)
 
     @property
     def state(self) -> str:
         """Tell what is shown where, in a sentence."""
         return '; '.join(outlet.state for outlet in self._outlets) or 'none'
+
+    @property
+    def is_open(self) -> bool:
+        """Whether frames go anywhere."""
+        return bool(self._outlets)
+
+    @property
+    def _outlets(self) -> list[Outlet]:
+        return [outlet for outlet in (self._file, self._window) if outlet is not None]
+
+    def turn_to(self, mode: ViewerMode, url: str = '') -> None:
+        """
+        Show frames elsewhere from now on, the last one too; what is recorded goes on.
+
+        :param mode: where
+        :param url: of the Rerun server for CONNECT; '' is the usual one of this machine
+        """
+        if self._window is not None:
+            self._window.end()
+            self._closing, self._window = self._window, None
+        if mode is ViewerMode.AUTO:
+            mode = ViewerMode.SPAWN if _has_display() else ViewerMode.WEB
+        if mode is ViewerMode.NONE:
+            return
+        way = (
+            _Client(url or USUAL_URL)
+            if mode is ViewerMode.CONNECT
+            else _Server(native=mode is ViewerMode.SPAWN, tell=self._events.append)
+        )
+        self._window = Outlet(way, tell=self._events.append, after=self._closing)
+        if self._shown is not None:
+            frame, factor = self._shown
+            self._window.put(frame, real_time_factor=factor)
+
+    def record(self, path: str) -> None:
+        """Write what is shown from now on to a `.rrd` file, and no more to the one before."""
+        if self._file is not None:
+            self._file.end()
+        self._file = Outlet(_File(path), tell=self._events.append, after=self._file)
 
     def show(self, frame: Frame, *, real_time_factor: float) -> None:
         """
@@ -96,6 +135,7 @@ class Viewer:
         :param frame: its arrays are never written again
         :param real_time_factor: simulated seconds a second
         """
+        self._shown = frame, real_time_factor
         for outlet in self._outlets:
             outlet.put(frame, real_time_factor=real_time_factor)
 
@@ -105,9 +145,10 @@ class Viewer:
 
     def close(self) -> None:
         """Show and write what waits as far as that goes at once, and end."""
-        for outlet in self._outlets:
+        outlets = [*self._outlets] if self._closing is None else [*self._outlets, self._closing]
+        for outlet in outlets:
             outlet.end()
-        ended = [outlet.join() for outlet in self._outlets]
+        ended = [outlet.join() for outlet in outlets]
         if not all(ended) and 'rerun' in sys.modules:
             # At exit Rerun waits for every viewer, for a frozen one without end.
             sys.modules['rerun'].unregister_shutdown()
@@ -116,13 +157,13 @@ class Viewer:
 class _Stream:
     """A stream of Rerun's and the picture on it."""
 
-    def __init__(self, name: str, *sinks: rr.GrpcSink | rr.GrpcServerSink | rr.FileSink) -> None:
+    def __init__(self, *sinks: rr.GrpcSink | rr.GrpcServerSink | rr.FileSink) -> None:
         # Takes a second the first time, so this runs in the outlet's thread.
         from physsim_ros.picture import Picture
         import rerun as rr
 
         batching = rr.ChunkBatcherConfig(flush_tick=TICK)
-        self._recording = rr.RecordingStream(name, batcher_config=batching)
+        self._recording = rr.RecordingStream(NAME, batcher_config=batching)
         try:
             self._recording.set_sinks(*sinks)
         except RuntimeError as error:
@@ -152,14 +193,13 @@ class _File(Way):
     code = 'record_failed'
     period, waiting, closing, again = 0.5, sys.maxsize, 10.0, False
 
-    def __init__(self, name: str, path: str) -> None:
-        self._name = name
+    def __init__(self, path: str) -> None:
         self.where = path
 
     def begin(self) -> Canvas:
         import rerun as rr
 
-        return _Stream(self._name, rr.FileSink(self.where))
+        return _Stream(rr.FileSink(self.where))
 
 
 class _Client(Way):
@@ -167,8 +207,7 @@ class _Client(Way):
 
     kind = 'connect'
 
-    def __init__(self, name: str, url: str) -> None:
-        self._name = name
+    def __init__(self, url: str) -> None:
         self.where = url
 
     def begin(self) -> Canvas | None:
@@ -181,7 +220,7 @@ class _Client(Way):
         except (RuntimeError, ValueError) as error:
             raise ConnectionError(error) from error
         # Rerun would wait 5 s for nobody, and then keep all that it is given.
-        return _Stream(self._name, sink) if _is_open(host, port) else None
+        return _Stream(sink) if _is_open(host, port) else None
 
 
 class _Server(Way):
@@ -192,8 +231,7 @@ class _Server(Way):
     :param tell: takes what happens
     """
 
-    def __init__(self, name: str, *, native: bool, tell: Tell) -> None:
-        self._name = name
+    def __init__(self, *, native: bool, tell: Tell) -> None:
         self._tell = tell
         self.kind = 'spawn' if native else 'web'
         self._uri = ''
@@ -205,7 +243,7 @@ class _Server(Way):
 
         self.close()
         sink = rr.GrpcServerSink('127.0.0.1', _free_port(), server_memory_limit=SERVED)
-        stream = _Stream(self._name, sink)
+        stream = _Stream(sink)
         self._uri = sink.uri
         if self.kind == 'spawn' and not _has_display():
             self._fall_back('there is no display')

@@ -245,6 +245,23 @@ def test_the_web_viewer_is_served_on_this_machine_alone(viewers):
     }
 
 
+def test_what_is_recorded_goes_on_when_the_viewer_changes(viewers, server, tmp_path):
+    server.start()
+    path = tmp_path / 'it.rrd'
+    viewer = viewers(record_file=str(path))
+    viewer.show(frame(0, 'first'), real_time_factor=1.0)
+    viewer.turn_to(ViewerMode.CONNECT, server.url)
+    viewer.show(frame(4, 'second'), real_time_factor=1.0)
+    # The one before is in the new viewer too: the world may stand still.
+    server.wait_for('/events', 2)
+    viewer.turn_to(ViewerMode.NONE)
+    viewer.show(frame(8, 'third'), real_time_factor=1.0)
+    assert 'connect' not in viewer.state
+    viewer.close()
+
+    assert rows(path)['/events'] == 3
+
+
 def test_who_looks_late_at_what_is_served_sees_all_of_it(viewers, tmp_path):
     viewer = viewers(mode=ViewerMode.WEB)
     stream = parse_qs(urlsplit(page(Events(viewer).wait_for(''))).query)['url'][0]
