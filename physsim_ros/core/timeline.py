@@ -58,9 +58,13 @@ class Course:
         told, self._told = self._told, []
         return told
 
-    def resume(self, mark: Mark) -> None:
-        """Go to a keyframe."""
-        self.world.resume(mark.key)
+    def resume(self, mark: Mark, *, going_over: bool = False) -> None:
+        """
+        Go to a keyframe.
+
+        :param going_over: whether the world is at that moment now, with the same bits
+        """
+        self.world.resume(mark.key, going_over=going_over)
         self.serial = mark.serial
         self._resumed = mark.moment
 
@@ -106,15 +110,16 @@ class Course:
         """Go on in the space of a keyframe that was made at this moment, as was done then."""
         mark = self.history.at(*self.moment)
         if mark is not None and self._resumed != mark.moment:
-            self.verify()
-            self.resume(mark)
+            self.resume(mark, going_over=self.verify())
 
-    def verify(self) -> None:
-        """Tell where the world is not what it was when it was here first."""
+    def verify(self) -> bool:
+        """Return whether the world is what it was when it was here first; tell where it is not."""
         mark = self.history.at(*self.moment)
-        if mark is not None and self.world.digest() != mark.digest:
-            seconds = mark.step * self.world.dt
+        same = mark is None or self.world.digest() == mark.digest
+        if not same:
+            seconds = self.world.step_count * self.world.dt
             self._tell('divergence', f'{seconds:.3f} s was reached with other bits than before')
+        return same
 
     def _tell(self, code: str, message: str, subject: str = '') -> None:
         self._told.append(Answer(topic=code, subject=subject, message=message, code=code))
@@ -185,14 +190,17 @@ class Timeline(Course):
 
     def seek_moment(self, step: int, serial: int) -> None:
         """Go to a moment of the past, from the nearest keyframe or from here."""
-        mark = self.history.before(step, serial)
-        if not mark.moment <= self.moment <= (step, serial):
-            self.resume(mark)
+        history, frame = self.history, self.world.frame_steps
         # Its contacts are those of one frame, as they were the first time.
-        frame = self.world.frame_steps
-        begin = step - (step % frame or frame)
+        begin = max(history.oldest, step - (step % frame or frame))
+        first = (step, serial)
+        if self.world.watching:
+            first = min(first, (begin, history.seen_at(begin)))
+        mark = history.before(*first)
+        if not mark.moment <= self.moment <= first:
+            self.resume(mark)
         if self.world.step_count < begin:
-            self.follow(begin, self.history.seen_at(begin))
+            self.follow(begin, history.seen_at(begin))
         self.world.clear_contacts()
         self.follow(step, serial)
 

@@ -252,11 +252,19 @@ class World:
         self._retired = retired
         return key
 
-    def resume(self, key: Keyframe) -> None:
-        """Go back, or forward, to a keyframe."""
+    def resume(self, key: Keyframe, *, going_over: bool = False) -> None:
+        """
+        Go back, or forward, to a keyframe.
+
+        :param going_over: whether the world is at that moment now, with the same bodies; then
+            what has touched in the frame so far is not forgotten
+        """
         self.step_count = key.step
         self._settings = key.scene.settings
-        self._take(Space(self._settings, self.dt, key=key))
+        space = Space(self._settings, self.dt, key=key)
+        if going_over:
+            space.inherit(self._space)
+        self._take(space)
 
     def prepare(self, count: int) -> None:
         """

@@ -209,6 +209,23 @@ def test_redo_returns_to_where_undo_was_asked_for(driven: Driven) -> None:
     assert (driven.simulation.step, driven.simulation.world.digest()) == (step, digest)
 
 
+@pytest.mark.parametrize('steps', [(238, 240), (239, 240), (240, 240), (237, 239)])
+def test_a_seek_from_within_a_frame_shows_all_its_contacts(steps: tuple[int, int]) -> None:
+    driven = Driven()
+    driven.ask(spawning('a/0', BOX, (0.0, 0.5, 0.0)))
+    driven.simulation.watch_contacts(True)
+    driven.run(1.0, 2.0)
+    impulses = []
+    for step in (steps[1], *steps):
+        driven.simulation.seek(round(step * SECOND / 240))
+        contacts = driven.settle().contacts
+        assert contacts is not None
+        impulses.append(contacts.impulses.tolist())
+    first, _, again = impulses
+    assert first
+    np.testing.assert_allclose(again, first, rtol=1e-9, atol=1e-12)
+
+
 def test_redo_shows_the_contacts_of_one_frame(driven: Driven) -> None:
     driven.simulation.watch_contacts(True)
     before = driven.run(1.0, 1.0)[-1].contacts
