@@ -152,6 +152,8 @@ class Artist(QuietNode):
         deadline = time.monotonic() + (self._patience if patience is None else patience)
         while not predicate():
             if self._stopped:
+                # Told once: what is left to be put right can still be.
+                self._stopped.clear()
                 raise Interrupted
             if time.monotonic() > deadline:
                 raise Unanswered(f'{otherwise} (waited {self._patience:g} s)')
@@ -192,14 +194,17 @@ def _draw_all(artist: Artist, strokes: Sequence[Floats], options: argparse.Names
     refused = 0
     if options.pause:
         artist.call('pause')
-    for number, stroke in enumerate(strokes, 1):
-        answers = artist.draw(stroke, frame_id=options.frame, at_once=options.once)
-        refused += any(answer.level != DiagnosticStatus.OK for answer in answers)
-        for answer in answers:
-            words = 'refused: ' if answer.level != DiagnosticStatus.OK else ''
-            print(f'{number}/{len(strokes)}  {words}{answer.message}', flush=True)  # noqa: T201
-    if options.pause:
-        artist.call('play')
+    try:
+        for number, stroke in enumerate(strokes, 1):
+            answers = artist.draw(stroke, frame_id=options.frame, at_once=options.once)
+            refused += any(answer.level != DiagnosticStatus.OK for answer in answers)
+            for answer in answers:
+                words = 'refused: ' if answer.level != DiagnosticStatus.OK else ''
+                line = f'{number}/{len(strokes)}  {words}{answer.message}'
+                print(line, flush=True)  # noqa: T201
+    finally:
+        if options.pause:
+            artist.call('play')
     return refused
 
 

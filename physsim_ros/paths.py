@@ -51,10 +51,10 @@ def stroke_from(message: bytes, *, frame_id: str) -> tuple[Floats, str]:
         raise Malformed(f'a stroke has at most {MOST_SAMPLES} samples, not {count}', field='poses')
     frames = {frame}
     samples = np.empty((count, 3))
-    began = 0
+    began: int | None = None
     for sample in range(count):
         stamp, frame = reader.header()
-        began = began or stamp
+        began = stamp if began is None else began
         frames.add(frame)
         samples[sample] = *reader.position(), (stamp - began) * 1e-9
     # A pose without a frame is in that of the path, and a path without one in that of its poses.

@@ -111,13 +111,18 @@ def test_what_cannot_be_drawn_is_told_at_once(
     assert 'Traceback' not in ''.join(program.lines)
 
 
-def test_it_ends_when_it_is_interrupted(outside: Outside, tmp_path: Path) -> None:
+def test_it_ends_when_it_is_interrupted_and_lets_time_go_on(
+    outside: Outside, tmp_path: Path
+) -> None:
     # The first is drawn in a moment, and the second would take half a minute.
     long = '<path d="M 10 300 H 110"/><path d="M 0 100 H 400"/>'
     with outside.start_world() as world:
         world.wait_for('ready')
-        with draw(outside, drawing(tmp_path, long), '--scale', 0.05, '--speed', 0.7) as program:
+        words = (drawing(tmp_path, long), '--scale', 0.05, '--speed', 0.7, '--pause')
+        with draw(outside, *words) as program:
             program.wait_for('1/2')
             assert program.interrupt() == 130
         assert 'Traceback' not in ''.join(program.lines)
+        # Waits for as much simulation time.
+        outside.run_program('watch', 0.5)
         assert world.interrupt() == 0

@@ -74,11 +74,11 @@ def test_poses_of_different_frames_are_no_stroke() -> None:
     assert refused.value.field == 'header.frame_id'
 
 
-def test_times_count_from_the_first_sample() -> None:
-    samples, _ = stroke_from(
-        path((0, 0, 0), (1, 0, 0.25), (2, 0, 1.75), begin=10**18 + 999_999_999), frame_id='world'
-    )
-    assert samples[:, 2].tolist() == [0.0, 0.25, 1.75]
+@pytest.mark.parametrize('begin', [0, 10**18 + 999_999_999])
+def test_times_count_from_the_first_sample(begin: int) -> None:
+    points = ((0, 0, 0), (1, 0, 0.25), (2, 0, 0.125), (3, 0, 1.75))
+    samples, _ = stroke_from(path(*points, begin=begin), frame_id='world')
+    assert samples[:, 2].tolist() == [0.0, 0.25, 0.125, 1.75]
 
 
 def test_what_is_not_finite_is_left_for_the_reader_to_refuse() -> None:
