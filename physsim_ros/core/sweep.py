@@ -24,7 +24,7 @@ these changes a velocity.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass
 import math
 from typing import cast
@@ -80,6 +80,7 @@ class _Mover:
     :param skin: how far it is let in, for the engine to see the contact [m]; what overlaps less
         on its way, as a body that slides over tiles does, is not in the way
     :param reach: greatest distance of a point of it from its centre [m]; 0 for a disc
+    :param outer: the same, for a disc too
     """
 
     engine: pymunk.Body
@@ -87,11 +88,33 @@ class _Mover:
     depth: float
     skin: float
     reach: float
+    outer: float
 
     @property
     def turns(self) -> bool:
         """Whether its outermost point turns so fast that the turn counts too."""
         return abs(self.move.turn) * self.reach > max(self.depth, SLOW_TIP)
+
+
+class _Start:
+    """
+    What a shape of a body that is swept overlaps at the start; found when it is first wanted.
+
+    :param space: of the engine
+    :param own: the shape
+    """
+
+    def __init__(self, space: pymunk.Space, own: pymunk.Shape) -> None:
+        self._space = space
+        self._own = own
+        self._contacts: dict[pymunk.Shape, pymunk.ContactPointSet] | None = None
+
+    def overlap(self, other: pymunk.Shape) -> tuple[float, Vec2d]:
+        """Return how deep another shape lies in it [m], and the normal that leads there."""
+        if self._contacts is None:
+            self._contacts = _contacts(self._space, self._own)
+        contact = self._contacts.get(other)
+        return (0.0, Vec2d.zero()) if contact is None else (_depth(contact), contact.normal)
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,15 +124,13 @@ class _Pair:
 
     :param own: of the body that is swept
     :param other: of another body
-    :param overlap: how deep they lie in each other at the start [m]
-    :param normal: from own to other, where they overlap at the start
+    :param start: what the first overlaps at the start
     :param skin: how far they are let into each other [m]
     """
 
     own: pymunk.Shape
     other: pymunk.Shape
-    overlap: float
-    normal: Vec2d
+    start: _Start
     skin: float
 
 
@@ -164,15 +185,19 @@ def arrest(
                 movers[rigid.engine] = _mover(rigid, dt, slop)
     near = {engine: list(_near(space, mover, reach)) for engine, mover in movers.items()}
     moves = {engine: mover.move for engine, mover in (pushers | movers).items()}
+    heeded = {engine: {engine, *(_body(it.other) for it in near[engine])} for engine in movers}
+    stopped: Collection[pymunk.Body] = ()
     for number in range(ROUNDS):
         # All are measured before the first is stopped, or two would miss each other.
         stops = {
             engine: stop
             for engine, mover in movers.items()
-            if (stop := _stop(space, mover, near[engine], moves, dt, carried=number == 0))
+            if (number == 0 or not heeded[engine].isdisjoint(stopped))
+            and (stop := _stop(space, mover, near[engine], moves, dt, carried=number == 0))
         }
         if not stops:
             break
+        stopped = stops.keys()
         moves |= {engine: stop.move for engine, stop in stops.items()}
     for engine, mover in movers.items():
         move = moves[engine]
@@ -234,6 +259,7 @@ def _mover(rigid: RigidBody, dt: float, slop: float) -> _Mover:
         depth=depth,
         skin=min(slop, depth),
         reach=arm(rigid.body),
+        outer=rigid.body.shape.form.outer,
     )
 
 
@@ -256,22 +282,10 @@ def _near(space: pymunk.Space, mover: _Mover, reach: float) -> Iterator[_Pair]:
         around = pymunk.BB(
             start.left + left, start.bottom + bottom, start.right + right, start.top + top
         )
-        others = [
-            other
-            for other in space.bb_query(around, own.filter)
-            if not (other.sensor or _body(other) is engine or _body(other) in apart)
-        ]
-        # Only where something is near: this takes as long again.
-        touching = _contacts(space, own) if others else {}
-        for other in others:
-            contact = touching.get(other)
-            yield _Pair(
-                own,
-                other,
-                0.0 if contact is None else _depth(contact),
-                Vec2d.zero() if contact is None else contact.normal,
-                _skin(own, other, mover.skin),
-            )
+        at_start = _Start(space, own)
+        for other in space.bb_query(around, own.filter):
+            if not (other.sensor or _body(other) is engine or _body(other) in apart):
+                yield _Pair(own, other, at_start, _skin(own, other, mover.skin))
 
 
 def _stop(
@@ -303,17 +317,21 @@ def _stop(
             theirs = _Move(theirs.way, 0.0)
         relative = move.way - theirs.way
         arm = engine.position - _body(other).position
-        if mover.turns or abs(theirs.turn) * arm.length > max(mover.depth, SLOW_TIP):
-            touch = _touch_turning(space, pair, mover, move, theirs)
-        elif pair.overlap > ALREADY * pair.skin:
-            approach = relative.dot(pair.normal)
-            touch = (0.0, approach) if approach > 0.0 else None
-        else:
-            touch = _touch(pair.own, other, relative, pair.skin)
+        turning = mover.turns or abs(theirs.turn) * arm.length > max(mover.depth, SLOW_TIP)
+        # What the engine sees in time is left to it.
+        length = relative.length
+        if not turning and length <= mover.depth:
+            continue
+        if turning:
+            length += abs(theirs.turn) * arm.length
+        if _gap(engine.position, other.bb) > mover.outer + length:
+            continue
+        touch = (
+            _touch_turning(space, pair, mover, move, theirs) if turning else _touch(pair, relative)
+        )
         if touch is None:
             continue
         at, approach = touch
-        # What the engine sees in time is left to it.
         if (1.0 - at) * approach <= mover.depth or (first is not None and first.at <= at):
             continue
         made = move * at
@@ -324,15 +342,25 @@ def _stop(
     return first
 
 
-def _touch(
-    own: pymunk.Shape, other: pymunk.Shape, way: Vec2d, skin: float
-) -> tuple[float, float] | None:
+def _gap(point: Vec2d, box: pymunk.BB) -> float:
+    """Return how far a point is from a box [m]."""
+    x, y = point
+    left, bottom, right, top = box
+    return math.hypot(max(left - x, 0.0, x - right), max(bottom - y, 0.0, y - top))
+
+
+def _touch(pair: _Pair, way: Vec2d) -> tuple[float, float] | None:
     """
     Return when shapes come to overlap by the skin, if they do, neither turning.
 
     :param way: of the first, seen from the second [m]
     :return: share of the way until then, and the length of the way along the normal there
     """
+    own, other, skin = pair.own, pair.other, pair.skin
+    overlap, normal = pair.start.overlap(other)
+    if overlap > ALREADY * skin:
+        approach = way.dot(normal)
+        return (0.0, approach) if approach > 0.0 else None
     if isinstance(own, pymunk.Poly) and isinstance(other, pymunk.Poly):
         return _touch_convex(_corners(own), _corners(other), np.array(way), skin)
     # What is round meets with a corner, an end or a centre, on one of the two sides.
@@ -386,7 +414,8 @@ def _touch_turning(
     way, turn = move.way - theirs.way, move.turn - theirs.turn
     arm = place - pivot
     # What overlaps from the start may leave; only deeper is a touch.
-    limit = max(pair.skin, pair.overlap + (1.0 - ALREADY) * pair.skin)
+    overlap, _ = pair.start.overlap(pair.other)
+    limit = max(pair.skin, overlap + (1.0 - ALREADY) * pair.skin)
 
     def touches(share: float) -> bool:
         body.position = pivot + (arm + way * share).rotated(-theirs.turn * share)

@@ -1,0 +1,160 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Which fast bodies could meet anything: told by arrays, before each is looked at by itself.
+
+Law: whoever is left out would not have been stopped. What matters is the way as it is seen from
+the other: of a thousand balls that fall side by side only those near the floor are looked at.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from physsim_ros.core.snapshot import Floats, Ints
+
+Flags = NDArray[np.bool_]
+
+# What is so many times larger, or faster, than the fast bodies mostly are, is not in the grid.
+_ODD = 2.0
+# More cells than this, and their numbers would not fit.
+_MOST_CELLS = 1e15
+# So many boxes are compared with all bodies at once.
+_BOXES = 1000
+# For rounding.
+_LESS = 1.0 - 1e-9
+
+
+class Motions(NamedTuple):
+    """
+    What bodies do in the coming step, a row each.
+
+    :ivar centers: (m, 2) float64: centres of mass, world [m]
+    :ivar ways: (m, 2) float64: of these in the step [m]
+    :ivar turns: (m,) float64: by how much they turn either way [rad]; 0 for discs
+    :ivar outer: (m,) float64: greatest distance of a point from the centre [m]
+    :ivar depth: (m,) float64: how far each may enter something unseen [m]
+    """
+
+    centers: Floats
+    ways: Floats
+    turns: Floats
+    outer: Floats
+    depth: Floats
+
+    def at(self, rows: Ints | Flags) -> Motions:
+        """Return these rows alone."""
+        return Motions(*(each[rows] for each in self))
+
+
+def could_meet(fast: Ints, motions: Motions, boxes: Floats) -> Flags:
+    """
+    Tell which fast bodies could meet anything in the coming step.
+
+    :param fast: (k,) rows of the fast bodies
+    :param motions: of all bodies that are not fixed to the background
+    :param boxes: (b, 4) float64: left, bottom, right, top of all that is [m]
+    :return: (k,)
+    """
+    length = np.hypot(*motions.ways.T)
+    large, far = (_ODD * float(np.median(each[fast])) for each in (motions.outer, length))
+    plain = (motions.outer <= large) & (length <= far)
+    odd = motions.at(~plain)
+    wide = (odd.outer + length[~plain])[:, None]
+    boxes = np.concatenate((boxes, np.hstack((odd.centers - wide, odd.centers + wide))))
+    meets = ~plain
+    some = fast[plain[fast]]
+    meets[some] = _near_boxes(motions.at(some), boxes)
+    pairs = _neighbours(some, np.flatnonzero(plain), motions)
+    if pairs is None:
+        return np.ones(len(fast), np.bool_)
+    one, other = pairs
+    mine, theirs = motions.at(one), motions.at(other)
+    seen = np.hypot(*(mine.ways - theirs.ways).T)
+    meets[one[_meet(mine, theirs, seen)]] = True
+    # Whoever is stopped is met by who follows.
+    follow = _meet(mine, theirs, np.maximum(seen, length[one]))
+    one, other = one[follow], other[follow]
+    while (more := one[meets[other] & ~meets[one]]).size:
+        meets[more] = True
+    found: Flags = meets[fast]
+    return found
+
+
+def _near_boxes(mine: Motions, boxes: Floats) -> Flags:
+    """Return (k,): whose way leads into one of the boxes."""
+    ends = mine.centers + mine.ways
+    low = np.minimum(mine.centers, ends) - mine.outer[:, None]
+    high = np.maximum(mine.centers, ends) + mine.outer[:, None]
+    least, most = low.min(axis=0, initial=np.inf), high.max(axis=0, initial=-np.inf)
+    boxes = boxes[((boxes[:, :2] <= most) & (boxes[:, 2:] >= least)).all(axis=1)]
+    meets = np.zeros(len(low), np.bool_)
+    for first in range(0, len(boxes), _BOXES):
+        last = first + _BOXES
+        left, bottom, right, top = boxes[first:last].T
+        inside = (low[:, :1] <= right) & (high[:, :1] >= left)
+        inside &= (low[:, 1:] <= top) & (high[:, 1:] >= bottom)
+        meets |= inside.any(axis=1)
+    return meets
+
+
+def _meet(mine: Motions, theirs: Motions, seen: Floats) -> Flags:
+    """
+    Tell which pairs come together by more than goes unseen.
+
+    :param seen: (p,) float64: the way of the first as the second sees it, at most [m]
+    """
+    near = mine.outer + theirs.outer + seen
+    length = seen + mine.turns * mine.outer + theirs.turns * near
+    apart = np.hypot(*(mine.centers - theirs.centers).T)
+    found: Flags = (apart * _LESS <= near) & (length >= mine.depth * _LESS)
+    return found
+
+
+def _neighbours(fast: Ints, rows: Ints, motions: Motions) -> tuple[Ints, Ints] | None:
+    """
+    Return pairs of rows of which the first is fast: all that may come near each other.
+
+    :param fast: rows, which are among the others
+    :param rows: of bodies of about one size and speed
+    :return: (p,) and (p,); None where they are too far apart for a grid
+    """
+    plain = motions.at(rows)
+    way = float(np.hypot(*plain.ways.T).max(initial=0.0))
+    cell = 2.0 * (float(plain.outer.max(initial=0.0)) + way)
+    low = plain.centers.min(axis=0, initial=np.inf)
+    spread = plain.centers.max(axis=0, initial=-np.inf) - low
+    # NaN compares false.
+    if not np.prod(spread / cell + 4.0) < _MOST_CELLS:
+        return None
+    x, y = ((plain.centers - low) / cell).astype(np.int64).T
+    column = int(y.max(initial=0)) + 3
+    number = np.zeros(len(motions.outer), np.int64)
+    number[rows] = x * column + y
+    order = rows[np.argsort(number[rows], kind='stable')]
+    ranked = number[order]
+    ones, others = [], []
+    for side in (-column, 0, column):
+        middle = number[fast] + side
+        first = np.searchsorted(ranked, middle - 1, 'left')
+        count = np.searchsorted(ranked, middle + 1, 'right') - first
+        ones.append(np.repeat(fast, count))
+        within = np.arange(int(count.sum())) - np.repeat(np.cumsum(count) - count, count)
+        others.append(order[np.repeat(first, count) + within])
+    one, other = np.concatenate(ones), np.concatenate(others)
+    differ = one != other
+    return one[differ], other[differ]
