@@ -39,6 +39,8 @@ import pymunk
 
 # Of an energy, what is rounding.
 _ROUNDING = 1e-12
+# By so much of itself may a speed differ that is the same.
+_SAME = 1e-9
 # So often is what has been slowed looked at again, at most.
 _ROUNDS = 6
 
@@ -133,7 +135,8 @@ class Balance:
 
     def follow(self, before: Balance) -> None:
         """Go on from a balance of the same bodies with more joints: none gives energy by going."""
-        if not before._fresh:
+        if not before._fresh and len(before._states):
+            self._states = before._states
             self._own, _ = self._look(before._states)
             gone = float(before._own.sum() - self._own.sum())
             self._most, self._fresh = before._most - gone, False
@@ -162,13 +165,22 @@ class Balance:
             rows = np.flatnonzero(self._island == island + 1)
             moves, inertia = states[rows], self._inertia[rows]
             owed = excess * float(gained[island]) / whole
-            together = (
-                np.zeros((len(rows), 3)) if self._held[island] else _together(moves, inertia)
-            )
+            together = drift = np.zeros((len(rows), 3))
+            if not self._held[island]:
+                together, drift = _together(moves, inertia), self._drift(rows, moves)
             apart, owed = _slower(inertia, moves[:, 3:] - together, owed)
-            # What is beyond that came by contacts: they alone move an island as a whole.
-            together, _ = _slower(inertia, together, owed)
-            states[rows, 3:] = together + apart
+            # What is beyond that came by contacts, which may also move an island as a whole.
+            turning, _ = _slower(inertia, together - drift, owed)
+            states[rows, 3:] = drift + turning + apart
+
+    def _drift(self, rows: Ints, moves: Floats) -> Floats:
+        """Return the (3,) velocity of an island as a whole, if nothing has changed it; else 0."""
+        share = self._inertia[rows, 0] / self._inertia[rows, 0].sum()
+        now, before = share @ moves[:, 3:5], share @ self._states[rows, 3:5]
+        fallen = before + self._dt * np.array(self._gravity)
+        if np.hypot(*(now - fallen)) > _SAME * (1.0 + np.hypot(*now)):
+            return np.zeros(3)
+        return np.append(now, 0.0)
 
 
 def _slower(inertia: Floats, velocities: Floats, owed: float) -> tuple[Floats, float]:

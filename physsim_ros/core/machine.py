@@ -58,17 +58,18 @@ class Machine:
         # Names of the joints of each body.
         self._on: dict[str, dict[str, None]] = {}
         self._linkage: Linkage | None = None
+        # Of its joints.
+        self._linked_names: tuple[str, ...] = ()
         self._balance: Balance | None = None
         self._listed: Sequence[RigidBody | None] = ()
         # What each joint gave [N] in a step that another space has made, until this one makes one.
-        self.given: Floats | None = None
+        self._given: dict[str, float] | None = None
+        # What each gave beside the engine in the last step [N s], before others came or went.
+        self._beside: dict[str, float] = {}
         # Whether the linkage has not been through a step, and whether the last one was its first.
         self._fresh = self._first_step = True
         # Numbers of the joints that can break, and what each may give [N s].
         self._breakable: list[tuple[int, float]] = []
-
-    def __len__(self) -> int:
-        return len(self.joints)
 
     def of(self, body: str) -> tuple[str, ...]:
         """Return the names of a body's joints, in the order in which they were made."""
@@ -95,7 +96,7 @@ class Machine:
             self._space.remove(*held.constraints)
         self.joints.clear()
         self._on.clear()
-        self._linkage = None
+        self._unlink()
 
     def detach(self, body: str) -> None:
         """Take the joints of a body out of the engine, before its engine objects go."""
@@ -103,7 +104,7 @@ class Machine:
             held = self.joints[name]
             self._space.remove(*held.constraints)
             self.joints[name] = EngineJoint(held.joint, held.ends, ())
-        self._linkage = None
+        self._unlink()
 
     def attach(self, body: str) -> None:
         """Put the joints of a body back into the engine."""
@@ -133,7 +134,7 @@ class Machine:
         :param read: returns poses and velocities in the engine's listing, then the background,
             (m + 1, 6) float64
         """
-        self.given = None
+        self._given = None
         linkage = self._linked(listed)
         self._first_step = self._fresh
         if self._fresh:
@@ -158,11 +159,15 @@ class Machine:
 
     def forces(self, listed: Sequence[RigidBody | None]) -> Floats:
         """Return (j,) float64: what each joint gave in the last step [N]."""
-        if self.given is not None:
-            return self.given
+        if self._given is not None:
+            return np.array([self._given.get(name, 0.0) for name in self.joints])
         if not self.joints:
             return np.empty(0)
         return (self._impulses() + self._linked(listed).impulses) / self._dt
+
+    def go_on_from(self, forces: Floats) -> None:
+        """Take over what each joint gave in a step that another space has made, (j,) [N]."""
+        self._given = dict(zip(self.joints, forces.tolist(), strict=True))
 
     def broken(self) -> list[tuple[str, float]]:
         """Return the joints that have given more than they can bear, and how much [N]."""
@@ -186,7 +191,7 @@ class Machine:
         held = joints.build(joint, self._bodies[joint.a], other, self._space.static_body, self._dt)
         self._space.add(*held.constraints)
         self.joints[joint.name] = held
-        self._linkage = self.given = None
+        self._forget(joint.name)
 
     def _take(self, held: EngineJoint) -> None:
         self._space.remove(*held.constraints)
@@ -194,18 +199,34 @@ class Machine:
             self._on[body].pop(held.joint.name, None)
             if not self._on[body]:
                 del self._on[body]
-        self._linkage = self.given = None
+        self._forget(held.joint.name)
+
+    def _forget(self, name: str) -> None:
+        """Forget what a joint gave, and what all of them hold: it has come or gone."""
+        self._unlink()
+        self._beside.pop(name, None)
+        if self._given is not None:
+            self._given.pop(name, None)
+
+    def _unlink(self) -> None:
+        if self._linkage is not None:
+            given = self._linkage.impulses.tolist()
+            self._beside = dict(zip(self._linked_names, given, strict=True))
+        self._linkage = None
 
     def _linked(self, listed: Sequence[RigidBody | None]) -> Linkage:
         """Return what holds the joints, made anew where a body or a joint has come or gone."""
         if self._linkage is None or self._listed is not listed:
+            self._unlink()
             self._soften()
             held = list(self.joints.values())
+            self._linked_names = tuple(self.joints)
             places = {
                 rigid.engine: place for place, rigid in enumerate(listed) if rigid is not None
             }
             count = len(listed)
             self._linkage = Linkage(held, places, count, self._dt)
+            self._linkage.impulses[:] = [self._beside.get(name, 0.0) for name in self.joints]
             before = self._balance
             self._balance = Balance(held, places, count, gravity=self._space.gravity, dt=self._dt)
             same = len(self._listed) == count

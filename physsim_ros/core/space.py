@@ -350,7 +350,7 @@ class Space:
         self._write_state(layout, key.state)
         for joint in key.scene.joints:
             self.machine.put(joint)
-        self.machine.given = key.forces
+        self.machine.go_on_from(key.forces)
         layout.free = key.free.copy()
         for row, wrench, until in key.wrenches:
             rigid = rigids[row]

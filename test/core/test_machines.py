@@ -29,14 +29,15 @@ from hypothesis import given, Phase, settings, strategies
 import numpy as np
 from physsim_ros.core.errors import Anchored
 from physsim_ros.core.joint_properties import JointKind, JointProperties
-from physsim_ros.core.requests import Join
+from physsim_ros.core.requests import Join, Pin, Unjoin, UnjoinAll
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.shapes import Box, Disc, Polygon, Shape
 from physsim_ros.core.snapshot import Snapshot
 from physsim_ros.core.world import World
 import pymunk
+import pytest
 
-from .worlds import G, spawn
+from .worlds import BOX, G, spawn
 
 COUNT = int(os.environ.get('PHYSSIM_MACHINES', '12'))
 # Share of all the energy that the bodies can fall through which may be added in ten seconds.
@@ -133,3 +134,59 @@ def test_any_machine_runs_for_ten_seconds(seed: int, sensors: bool) -> None:
         fallen = max(0.0, -float(now.poses[:, 1].min()))
         most = max(1.0, mass * G * (4.0 + fallen))
         assert energy(world, now) - began < GROWTH * most
+
+
+@pytest.mark.parametrize('kind', [JointKind.AXLE, JointKind.ROD])
+def test_a_joint_against_a_contact_moves_no_free_machine(kind: JointKind) -> None:
+    world = World(settings=WorldSettings(gravity=(0.0, 0.0)))
+    # Drawn into each other, and yet to collide.
+    spawn(world, 'a/0', BOX, (0.0, 0.0, 0.0), velocity=(1.0, 0.0))
+    spawn(world, 'a/1', BOX, (0.98, 0.3, 0.0), velocity=(1.0, 0.0))
+    points = ((0.5, 0.15),) if kind is JointKind.AXLE else ((0.0, 0.0), (0.98, 0.3))
+    said = JointProperties(collide=True)
+    world.apply(Join(name='j/0', kind=kind, points=points, a='a/0', b='a/1', properties=said))
+    before = world.snapshot().momentum
+    world.step(480)
+    assert world.snapshot().momentum == pytest.approx(before, abs=1e-9)
+
+
+def hanging() -> World:
+    """Return two bars that hang from each other, and swing, and a disc beside them."""
+    world = World()
+    for number in range(2):
+        spawn(world, f'bar/{number}', Box(width=1.0, height=0.2), (0.5 + number, 5.0, 0.0))
+        axle = JointKind.AXLE
+        other = f'bar/{number - 1}' if number else 'world'
+        at = ((float(number), 5.0),)
+        world.apply(Join(name=f'axle/{number}', kind=axle, points=at, a=f'bar/{number}', b=other))
+    spawn(world, 'disc/0', pose=(9.0, 9.0, 0.0))
+    world.step(100)
+    return world
+
+
+def test_what_joints_gave_stays_where_others_come_and_go() -> None:
+    world = hanging()
+    forces = world.snapshot().forces
+    assert (forces > 1.0).all()
+    spawn(world, 'disc/0', pose=(9.0, 9.0, 0.0), color=(1.0, 0.0, 0.0, 1.0))
+    assert world.snapshot().forces.tolist() == forces.tolist()
+    rod = Join(name='rod/0', kind=JointKind.ROD, points=((9.0, 9.0), (9.0, 12.0)), a='disc/0')
+    world.apply(rod)
+    assert world.snapshot().forces.tolist() == [*forces.tolist(), 0.0]
+    world.renew()
+    world.apply(Unjoin(name='axle/0'))
+    assert world.snapshot().forces.tolist() == [forces[1], 0.0]
+
+
+def test_joints_come_and_go_in_a_world_that_stands() -> None:
+    world = hanging()
+    x, y, _ = world.snapshot().poses[2].tolist()
+    for _ in range(3):
+        for number in range(2):
+            world.apply(Pin(point=(x, y)))
+            world.snapshot()
+            if number:
+                world.apply(UnjoinAll(namespace='joint'))
+                world.snapshot()
+    world.step(10)
+    assert np.isfinite(world.snapshot().poses).all()
