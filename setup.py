@@ -60,6 +60,8 @@ setup(
     # What package.xml cannot name, and nothing of ROS: a sourced installation brings that itself.
     install_requires=[
         'numpy>=2',
+        # As recent as Rerun wants it.
+        'pyarrow',
         'pymunk>=7.3,<8',
         'PyYAML',
         'rerun-sdk>=0.41,<0.42',
@@ -75,6 +77,7 @@ setup(
         ],
         'test': [
             'hypothesis',
+            'psutil',
             'pytest>=8',
             'pytest-timeout',
             # With every rule selected, a new minor version of ruff is new rules.

@@ -61,18 +61,26 @@ class Meter:
         self.real_time_factor = 0.0
 
     def report(
-        self, snapshot: Snapshot, *, speed: float, late_frames: int, viewer: str
+        self, snapshot: Snapshot, *, node: str, speed: float, late_frames: int, viewer: str
     ) -> DiagnosticArray:
-        """Return what to publish, and begin the next second."""
+        """
+        Return what to publish, and begin the next second.
+
+        :param node: whole name of the node, which tells worlds apart
+        :param speed: simulation seconds a second
+        :param late_frames: since the world began
+        :param viewer: what is shown where
+        """
         late, self._late_told = late_frames - self._late_told, late_frames
-        frames = max(1, self._frames)
+        count = self._frames
+        frames = max(1, count)
         px, py = snapshot.momentum
         values = {
             'bodies': len(snapshot.scene.bodies),
             'simulation time [s]': f'{snapshot.stamp * 1e-9:.3f}',
             'speed': f'{speed:g}',
             'real-time factor': f'{self.real_time_factor:.3f}',
-            'frames': self._frames,
+            'frames': count,
             'late frames': late_frames,
             'step cost [ms]': f'{self._step_ns / frames * 1e-6:.3f}',
             'frame cost [ms]': f'{self._frame_ns / frames * 1e-6:.3f}',
@@ -83,13 +91,14 @@ class Meter:
             'viewer': viewer,
         }
         self._frames = self._step_ns = self._frame_ns = 0
-        message = run_state(speed) if speed <= 0 else f'{frames} frames'
+        message = run_state(speed) if speed <= 0 else f'{count} frames'
         if late > 0:
             message = f'{late} frames late: simulation time runs slow'
         status = DiagnosticStatus(
             level=DiagnosticStatus.WARN if late > 0 else DiagnosticStatus.OK,
             name='physsim: world',
             message=message,
+            hardware_id=node,
             values=[KeyValue(key=key, value=str(value)) for key, value in values.items()],
         )
         array = DiagnosticArray(status=[status])

@@ -20,6 +20,7 @@ It wires and reports, and decides nothing.
 
 from __future__ import annotations
 
+from argparse import ArgumentParser
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
@@ -64,6 +65,7 @@ from rclpy.experimental import EventsExecutor
 from rclpy.parameter import Parameter
 from rclpy.qos import HistoryPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.signals import SignalHandlerOptions
+from rclpy.utilities import remove_ros_args
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import MultiDOFJointState
 from std_msgs.msg import Float64
@@ -382,7 +384,10 @@ class PhysSimNode(QuietNode):
             world_dir=self._world_dir,
             physics_rate=self.simulation.physics_rate,
         )
-        return f'saved {len(state.bodies)} bodies to {path.name}'
+        message = f'saved {len(state.bodies)} bodies to {path.name}'
+        if (world_file.shipped_worlds() / path.name).exists():
+            message += '; from now on it comes before the shipped world of that name'
+        return message
 
     # Parameters
 
@@ -448,6 +453,7 @@ class PhysSimNode(QuietNode):
         self._diagnostics.publish(
             self._meter.report(
                 self.frame.snapshot,
+                node=self.get_fully_qualified_name(),
                 speed=self.simulation.speed,
                 late_frames=self.simulation.late_frames,
                 viewer=self._viewer.state,
@@ -466,10 +472,18 @@ def clear_the_way() -> None:
 
 def main() -> None:
     """Run the node until it is interrupted."""
+    # All that it is told comes as parameters; what stands elsewhere would be ignored.
+    usage = ArgumentParser(
+        prog='physsim',
+        description='Run a physics world as a ROS 2 node.',
+        epilog='Parameters, as config/physsim.yaml lists them, come after --ros-args: '
+        'physsim --ros-args -p world_file:=demo -p gravity:="[0.0, -1.62]"',
+    )
     clear_the_way()
     stopped: list[int] = []
     # rclpy's own handler raises wherever the interpreter is, which can abort it while it ends.
     try:
+        usage.parse_args(remove_ros_args(sys.argv)[1:])
         rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
     except RuntimeError as error:
         # rcl's own: arguments that it cannot read.

@@ -74,8 +74,10 @@ class Streams:
             )
 
         def clock(frame: Frame) -> bytes | None:
-            # To a node that uses simulation time, 0 means that no clock has come yet.
-            return cdr.encode_clock(frame.snapshot.stamp) if frame.snapshot.stamp else None
+            # To a node that uses simulation time, 0 means that no clock has come yet: that is so
+            # before the first step, and no more when the world comes back to its beginning.
+            self._began = self._began or frame.snapshot.stamp > 0
+            return cdr.encode_clock(max(1, frame.snapshot.stamp)) if self._began else None
 
         def publisher(kind: Any, topic: str, depth: int) -> Publisher:
             return node.create_publisher(kind, topic, _reliable(depth))
@@ -84,6 +86,7 @@ class Streams:
         self._contacts = _Stream(publisher(MultiDOFJointState, '~/contacts', 5), contacts)
         self._clock = _Stream(publisher(Clock, 'clock', 10), clock)
         self._clock.open = publish_clock
+        self._began = False
         # Contacts are what happened, not what is so: who comes late has missed them.
         self._lasting = (
             self._clock,

@@ -126,8 +126,8 @@ class PhysSim:
         from rclpy.parameter import Parameter
 
         # As everywhere in Python, a path counts from where the interpreter was started.
-        given = Path(world)
-        path = given.resolve() if given.suffix and given.is_file() else world
+        given = Path(world) if Path(world).suffix else Path(f'{world}.yaml')
+        path = given.resolve() if given.is_file() else world
         self.node.set_parameters([Parameter('world_file', value=str(path))])
         self.node.load_world(confined=False)
         self.node.apply()

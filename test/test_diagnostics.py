@@ -44,7 +44,7 @@ def snapshot_of(bodies: int = 0, *, stamp: int = 0) -> Snapshot:
 def report(
     meter: Meter, snapshot: Snapshot, *, speed: float = 1.0, late: int = 0
 ) -> DiagnosticArray:
-    return meter.report(snapshot, speed=speed, late_frames=late, viewer='none')
+    return meter.report(snapshot, speed=speed, late_frames=late, viewer='none', node='/it/physsim')
 
 
 def values_of(array: DiagnosticArray) -> dict[str, str]:

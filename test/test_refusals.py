@@ -114,7 +114,7 @@ REQUESTS: list[tuple[str, Any, str, str, str]] = [
     ),
     ('~/command', command('a/0', twists=[(1e9, 0, 0)]), 'a/0', 'bad_property', 'twist'),
     ('~/command', command('a/0', wrenches=[(1e19, 0, 0)]), 'a/0', 'bad_property', 'wrench'),
-    ('~/command', command('new/0', poses=[(0, 0, 0)]), 'new/0', 'unknown_body', 'name'),
+    ('~/command', command('new/0', poses=[(0, 0, 0)]), 'new/0', 'unknown_body', 'joint_names'),
     ('~/command', command('held/0', twists=[(0, 0, 0)]), 'held/0', 'anchored', 'joint_names'),
     ('~/command', command('held/0', wrenches=[(0, 0, 0)]), 'held/0', 'anchored', 'joint_names'),
     ('~/speed', Float64(data=NAN), '', 'malformed', 'speed'),

@@ -17,7 +17,7 @@ What the engine remembers of contacts: the impulses from which its next step sta
 
 A space built anew from poses and velocities alone has forgotten them, and what rests stirs until
 the solver has found them again. Pymunk has no public way to read or give them; this goes the way
-of its own pickling, through the structures of its binding, and nothing else here does.
+of its own pickling, through the structures of its binding.
 
 Law: two spaces built from one memory go on alike to the bit.
 """

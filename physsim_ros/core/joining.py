@@ -215,13 +215,12 @@ def _is_at(space: Space, joint: Joint, points: tuple[Point, ...]) -> bool:
     drawn = _drawn(space, joint)
     if joint.kind is JointKind.SLIDER:
         # Its second point says no more than where its line leads.
-        (x, y), (drawn_x, drawn_y) = points[0], drawn[1]
+        x, y = points[0]
         length = math.dist(*points)
         points = (
             points[0],
             (x + (points[1][0] - x) / length, y + (points[1][1] - y) / length),
         )
-        drawn = (drawn[0], (drawn_x, drawn_y))
     size = 1.0 + max(abs(number) for point in drawn for number in point)
     return all(
         math.dist(here, there) <= _SAME * size for here, there in zip(drawn, points, strict=True)

@@ -17,11 +17,12 @@ Colours as they are written, and those of bodies that ask for none.
 
 The latter are distinct on white and on black, also for the colour-blind.
 
-The ten colours of Tableau 10 (https://www.tableau.com/blog/colors-upgrade-tableau-10-56782).
+They are Vega's scheme `tableau10` (https://vega.github.io/vega/docs/schemes/).
 """
 
 from __future__ import annotations
 
+import re
 import zlib
 
 from physsim_ros.core.errors import BadProperty
@@ -41,17 +42,11 @@ def color_from(text: str) -> Color:
 
     :raises BadProperty: it is neither
     """
-    digits = text.removeprefix('#')
-    try:
-        channels = bytes.fromhex(digits)
-    except ValueError:
-        channels = b''
-    # The spaces that bytes.fromhex skips are none of a colour's.
-    if not text.startswith('#') or len(channels) not in (3, 4) or ' ' in digits:
+    if not re.fullmatch('#([0-9a-fA-F]{2}){3,4}', text):
         raise BadProperty(
             f"color must be '#rrggbb' or '#rrggbbaa', not {shown(text)}", field='color'
         )
-    red, green, blue, alpha = (each / 255 for each in (*channels, 255)[:4])
+    red, green, blue, alpha = (each / 255 for each in (*bytes.fromhex(text[1:]), 255)[:4])
     return red, green, blue, alpha
 
 

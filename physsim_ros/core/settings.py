@@ -79,7 +79,9 @@ def _bounds(value: object, name: str) -> Bounds | None:
         raise Malformed(f'{name} needs 4 numbers, not {len(value)}', field=name)
     left, bottom, right, top = (within(-LARGEST, LARGEST, 'm')(each, name) for each in value)
     if not (left < right and bottom < top):
-        raise BadProperty(f'{name} must be [xmin, ymin, xmax, ymax]', field=name)
+        raise BadProperty(
+            f'{name} must be [xmin, ymin, xmax, ymax], each min below its max', field=name
+        )
     return left, bottom, right, top
 
 

@@ -377,7 +377,7 @@ class World:
         return f'deleted {len(names)} bodies'
 
     def _command(self, request: Command) -> tuple[str, str]:
-        rigids = [self._known(name) for name in request.names]
+        rigids = [self._known(name, 'joint_names') for name in request.names]
         for rigid in rigids:
             if rigid.body.anchored and (request.twists or request.wrenches):
                 raise Anchored(
@@ -429,9 +429,9 @@ class World:
         """Return points of a frame as points of the world."""
         return tuple(self._in_world((*point, 0.0), frame)[:2] for point in points)
 
-    def _known(self, name: str) -> RigidBody:
+    def _known(self, name: str, field: str = 'name') -> RigidBody:
         if name not in self._space.bodies:
-            raise UnknownBody(f'there is no body {name!r}', field='name')
+            raise UnknownBody(f'there is no body {name!r}', field=field)
         return self._space.bodies[name]
 
     def _in_world(self, pose: Pose, frame: str) -> Pose:

@@ -33,7 +33,7 @@ COUNT = 128
 WIDE, WIDEST = 0.3, 10.0
 
 
-def spaced(way: Floats, count: int = COUNT) -> Floats:
+def spaced(way: Floats, count: int) -> Floats:
     """Return points along a way, the same distance apart."""
     x, y = way.T
     length = np.zeros(len(way))
