@@ -129,7 +129,7 @@ SPECS: dict[str, Spec] = {
     'fast_speed': Spec(
         default=4.0, meaning='speed of ~/fast_forward and ~/fast_rewind', low=0.0, high=64.0
     ),
-    'gravity': Spec(default=[0.0, -9.81], meaning='[m/s²]'),
+    'gravity': Spec(default=[0.0, -9.81], meaning='of a length up to 10000 [m/s²]'),
     'damping': Spec(
         default=0.0, meaning='share of velocity lost to the air each second', low=0.0, high=1.0
     ),
