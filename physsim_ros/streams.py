@@ -62,6 +62,8 @@ class Streams:
     """
 
     def __init__(self, node: Node, *, frame_id: str, publish_clock: bool) -> None:
+        # Whether the world has been beyond time 0.
+        self._began = False
         poses, states = cdr.PosesEncoder(frame_id), cdr.StatesEncoder(frame_id)
         markers, pairs = cdr.MarkersEncoder(frame_id), cdr.ContactsEncoder(frame_id)
 
@@ -86,7 +88,6 @@ class Streams:
         self._contacts = _Stream(publisher(MultiDOFJointState, '~/contacts', 5), contacts)
         self._clock = _Stream(publisher(Clock, 'clock', 10), clock)
         self._clock.open = publish_clock
-        self._began = False
         # Contacts are what happened, not what is so: who comes late has missed them.
         self._lasting = (
             self._clock,

@@ -45,6 +45,7 @@ class Layout:
     :param id_rows: (n,): the row of each of them
     :param order: for each row, its place in the engine's own listing
     :param listed: for each place in the engine's listing, its body; None for walls
+    :param depths: (n,): how far each body may move in a step without a sweep [m]
     :param safe: for each place, the speed up to which no sweep is needed [m/s]
     :param arm: for each place, what turns a spin into a speed that counts for that [m]
     :param unswept: while no velocity [m/s] and no spin [rad/s] is greater, all are that slow
@@ -64,6 +65,7 @@ class Layout:
     id_rows: Ints
     order: NDArray[np.intp]
     listed: tuple[RigidBody | None, ...]
+    depths: Floats
     safe: Floats
     arm: Floats
     unswept: float
@@ -81,6 +83,10 @@ class Layout:
         ids = np.empty_like(self.ids)
         ids[self.id_rows] = self.ids
         return ids
+
+    def depth(self, rigid: RigidBody) -> float:
+        """Return how far a body may move in a step without a sweep [m]."""
+        return float(self.depths[self.rows[rigid.body.name]])
 
     def flatten_flight(self) -> None:
         """Give every body its own note of whether it is in free flight."""
@@ -122,6 +128,7 @@ def lay_out(
         id_rows=ascending,
         order=order,
         listed=tuple(listed),
+        depths=rows.depths,
         safe=safe,
         arm=arm,
         # The length of a vector is at most 1.42 times its greater coordinate.
@@ -143,6 +150,7 @@ class _Rows(NamedTuple):
     """
 
     names: dict[str, int]
+    depths: Floats
     safe: Floats
     arm: Floats
     loose: NDArray[np.bool_]
@@ -161,13 +169,15 @@ def _rows(scene: Scene, dt: float) -> _Rows:
     lead = np.where(
         loose[:, None], (*(half * dt / 2 for half in scene.settings.gravity), 0.0), 0.0
     )
+    depths = sweep.safe_depths(bodies)
     expiries: dict[int, list[str]] = {}
     for body in bodies:
         if body.expires is not None:
             expiries.setdefault(body.expires, []).append(body.name)
     return _Rows(
         names={name: row for row, name in enumerate(scene.names)},
-        safe=np.where(swept, [sweep.safe_depth(body) / dt for body in bodies], np.inf),
+        depths=depths,
+        safe=np.where(swept, depths / dt, np.inf),
         arm=np.where(swept, [sweep.arm(body) for body in bodies], 0.0),
         loose=loose,
         offsets=np.where(anchored[:, None], 0.0, scene.centroids),

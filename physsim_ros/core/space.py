@@ -52,8 +52,6 @@ from physsim_ros.core.stillness import RATE, Stillness
 import pymunk
 from pymunk import batch
 
-# 5 mm: the engine's own 0.1 is 10 cm in a metre world.
-SLOP = 0.005
 # Thickness of the walls of `bounds` [m]: what is squeezed into one still finds its way back in.
 WALL = 10.0
 # A point so near counts as inside [m]: on the seam of two pieces it lies inside neither.
@@ -103,7 +101,7 @@ class Space:
         # One to read and one to write with: the engine must not grow memory that numpy owns.
         self._buffer, self._written = batch.Buffer(), batch.Buffer()
         self._space = pymunk.Space()
-        self._space.collision_slop = SLOP
+        self._space.collision_slop = sweep.SLOP
         # The engine lists contacts of the last step only, and forgets at once what parted.
         self._space.collision_persistence = 1
         self._shapes = ShapeIds(self._space)
@@ -468,7 +466,7 @@ class Space:
 
     def _begin(self, arbiter: pymunk.Arbiter, space: pymunk.Space, _: object) -> None:
         """Look at two shapes that touch for the first time."""
-        sweep.relieve(arbiter, space, SLOP)
+        sweep.relieve(arbiter, space)
         self._cascade.begin(arbiter)
         if self._watching:
             self._contacts.begin(arbiter)
@@ -489,8 +487,8 @@ class Space:
                 self._space,
                 [rigid for rigid in movers if rigid is not None],
                 self._dt,
-                slop=SLOP,
                 reach=float(speed.max()) * self._dt,
+                depth_of=layout.depth,
                 rigid_of=lambda engine: self.bodies.get(self._names.get(engine, '')),
             )
 

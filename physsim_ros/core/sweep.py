@@ -15,16 +15,17 @@
 """
 Fast bodies: the engine looks only at where a step ends, this looks at the way there.
 
-Law: a body that moves more than a quarter of its inner radius a step is swept along its way first;
-where it would enter something, the step ends there. The engine then finds the contact and
-resolves it with the full velocity. What a kinematic body would run over is carried along to where
-the step ends. What a slower body overshoots at a first touch is taken back in `relieve`. None of
-these changes a velocity.
+Law: a body that moves more than a quarter of its inner radius a step, or one of several pieces
+more than a quarter of that of the smallest body, is swept along its way first; where it would
+enter something, the step ends there. The engine then finds the contact and resolves it with the
+full velocity. What a kinematic body would run over is carried along to where the step ends. What
+a slower body overshoots at a first touch is taken back in `relieve`. None of these changes a
+velocity.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass
 import math
 from typing import cast
@@ -32,10 +33,13 @@ from typing import cast
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.core.rigid_body import RigidBody
-from physsim_ros.core.snapshot import Body
+from physsim_ros.core.shapes import Chain
+from physsim_ros.core.snapshot import Body, Floats
 import pymunk
 from pymunk import Vec2d
 
+# Overlap that the engine leaves standing [m]; its own 0.1 is 10 cm in a metre world.
+SLOP = 0.005
 # A body that moves less than this share of its inner radius a step is safe without a sweep: where
 # two such bodies meet, each keeps its centre well on the side it came from.
 SAFE_SHARE = 0.25
@@ -147,9 +151,17 @@ class _Stop:
     move: _Move
 
 
-def safe_depth(body: Body) -> float:
-    """Return how far a body may move in a step without a sweep [m]."""
-    return body.shape.form.inner * SAFE_SHARE
+def safe_depths(bodies: Sequence[Body]) -> Floats:
+    """
+    Return how far each body may move in a step without a sweep, (n,) [m].
+
+    One piece of a body would swallow what is smaller, and push it on into the next piece.
+    """
+    own = np.array([body.shape.form.inner * SAFE_SHARE for body in bodies])
+    thin = np.array([isinstance(body.shape, Chain) for body in bodies], dtype=np.bool_)
+    pieces = np.array([len(body.shape.form.pieces) for body in bodies])
+    least = max(SLOP, float(own[~thin].min(initial=np.inf)))
+    return np.where((pieces > 1) & ~thin, np.minimum(own, least), own)
 
 
 def arm(body: Body) -> float:
@@ -163,8 +175,8 @@ def arrest(
     fast: list[RigidBody],
     dt: float,
     *,
-    slop: float,
     reach: float,
+    depth_of: Callable[[RigidBody], float],
     rigid_of: Callable[[pymunk.Body], RigidBody | None],
 ) -> None:
     """
@@ -172,17 +184,21 @@ def arrest(
 
     :param fast: bodies that would move further than is safe
     :param dt: of the coming step [s]
-    :param slop: overlap that the engine leaves standing [m]
     :param reach: as far as any body moves in the step [m]
+    :param depth_of: how far a body may move without a sweep [m]
     :param rigid_of: finds the body that an engine body plays; None is the background
     """
-    pushers = {rigid.engine: _mover(rigid, dt, slop) for rigid in fast if rigid.body.fixed}
-    movers = {rigid.engine: _mover(rigid, dt, slop) for rigid in fast if not rigid.body.fixed}
+
+    def mover_of(rigid: RigidBody) -> _Mover:
+        return _mover(rigid, dt, depth_of(rigid))
+
+    pushers = {rigid.engine: mover_of(rigid) for rigid in fast if rigid.body.fixed}
+    movers = {rigid.engine: mover_of(rigid) for rigid in fast if not rigid.body.fixed}
     for pusher in pushers.values():
         for pair in _near(space, pusher, reach):
             rigid = rigid_of(_body(pair.other))
             if rigid is not None and not rigid.body.fixed and rigid.engine not in movers:
-                movers[rigid.engine] = _mover(rigid, dt, slop)
+                movers[rigid.engine] = mover_of(rigid)
     near = {engine: list(_near(space, mover, reach)) for engine, mover in movers.items()}
     moves = {engine: mover.move for engine, mover in (pushers | movers).items()}
     heeded = {engine: {engine, *(_body(it.other) for it in near[engine])} for engine in movers}
@@ -207,26 +223,22 @@ def arrest(
             engine.angle += move.turn - mover.move.turn
 
 
-def relieve(arbiter: pymunk.Arbiter, space: pymunk.Space, slop: float) -> None:
-    """
-    At a first touch, take back what the bodies overshot in this step, along the normal.
-
-    :param slop: overlap that the engine leaves standing [m]
-    """
+def relieve(arbiter: pymunk.Arbiter, space: pymunk.Space) -> None:
+    """At a first touch, take back what the bodies overshot in this step, along the normal."""
     one, other = arbiter.shapes
     if one.sensor or other.sensor:
         return
     contact = arbiter.contact_point_set
     point = min(contact.points, key=lambda point: point.distance)
     depth = -point.distance
-    if depth <= slop:
+    if depth <= SLOP:
         return
     a, b = _body(one), _body(other)
     normal = contact.normal
     dt = space.current_time_step
     ahead_a = a.velocity_at_world_point(point.point_a).dot(normal) * dt
     ahead_b = -b.velocity_at_world_point(point.point_b).dot(normal) * dt
-    excess = min(depth - slop, ahead_a + ahead_b)
+    excess = min(depth - SLOP, ahead_a + ahead_b)
     # Each gives back of what it went itself, or what stands would be pushed through what is
     # behind it; a kinematic body gives nothing.
     give_a = max(ahead_a, 0.0) if a.body_type == pymunk.Body.DYNAMIC else 0.0
@@ -251,13 +263,13 @@ def _body(shape: pymunk.Shape) -> pymunk.Body:
     return cast('pymunk.Body', shape.body)
 
 
-def _mover(rigid: RigidBody, dt: float, slop: float) -> _Mover:
-    engine, depth = rigid.engine, safe_depth(rigid.body)
+def _mover(rigid: RigidBody, dt: float, depth: float) -> _Mover:
+    engine = rigid.engine
     return _Mover(
         engine=engine,
         move=_Move(engine.velocity * dt, engine.angular_velocity * dt),
         depth=depth,
-        skin=min(slop, depth),
+        skin=min(SLOP, depth),
         reach=arm(rigid.body),
         outer=rigid.body.shape.form.outer,
     )

@@ -323,3 +323,20 @@ def test_the_same_fast_world_gives_the_same_bits():
         digests.add(sim.world.digest())
 
     assert len(digests) == 1
+
+
+@pytest.mark.parametrize('height', [-0.0128, 0.0, 0.0128])
+@pytest.mark.parametrize(
+    ('speed', 'radius'), [(5.0, 0.005), (10.0, 0.02), (20.0, 0.05), (29.0, 0.1)]
+)
+@pytest.mark.parametrize('anchored', [False, True])
+def test_what_is_small_does_not_pass_between_the_pieces_of_a_body(
+    speed: float, radius: float, height: float, *, anchored: bool
+) -> None:
+    sim = simulation(gravity=NOWHERE)
+    large = Compound(element=Box(width=1.0, height=1.0), centers=((0.0, -0.5), (0.0, 0.5)))
+    spawn(sim, 'large/0', large, (-1.0 - 0.75 * speed * DT, 0.0, 0.0), velocity=(speed, 0.0))
+    spawn(sim, 'small/0', Disc(radius=radius), (0.0, height, 0.0), anchored=anchored)
+    sim.world.step(math.ceil(2.2 / speed / DT))
+    (large_x, _, _), (small_x, _, _) = sim.world.snapshot().poses.tolist()
+    assert small_x > large_x + 0.5 - radius
