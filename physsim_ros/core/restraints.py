@@ -136,7 +136,8 @@ class Restraints:
         self._pushes = np.zeros((2 * len(self.owner), 3))
         self._pushes[: 2 * len(pivots), :2] = np.repeat(np.eye(2), len(pivots), axis=0)
         second = len(self.owner) + self.angles_from
-        self._pushes[self.angles_from : len(self.owner), 2] = self._with_a
+        first = slice(self.angles_from, len(self.owner))
+        self._pushes[first, 2] = self._with_a
         self._pushes[second:, 2] = self._with_b
         slid_from = 2 * len(pivots) + len(self._straight)
         self._along, self._aside = slice(2 * len(pivots), slid_from), slice(slid_from, None)
