@@ -86,6 +86,8 @@ def could_meet(fast: Ints, motions: Motions, boxes: Floats) -> Flags:
     mine, theirs = motions.at(one), motions.at(other)
     seen = np.hypot(*(mine.ways - theirs.ways).T)
     meets[one[_meet(mine, theirs, seen)]] = True
+    if not meets[fast].any():
+        return np.zeros(len(fast), np.bool_)
     # Whoever is stopped is met by who follows.
     follow = _meet(mine, theirs, np.maximum(seen, length[one]))
     one, other = one[follow], other[follow]
@@ -156,5 +158,7 @@ def _neighbours(fast: Ints, rows: Ints, motions: Motions) -> tuple[Ints, Ints] |
         within = np.arange(int(count.sum())) - np.repeat(np.cumsum(count) - count, count)
         others.append(order[np.repeat(first, count) + within])
     one, other = np.concatenate(ones), np.concatenate(others)
-    differ = one != other
-    return one[differ], other[differ]
+    x, y = motions.centers.T
+    apart = (x.take(one) - x.take(other)) ** 2 + (y.take(one) - y.take(other)) ** 2
+    near = (apart * _LESS <= cell**2) & (one != other)
+    return one[near], other[near]
