@@ -888,10 +888,10 @@ REFUSED: dict[str, tuple[Callable[[], Request], type[Refusal], str]] = {
     'to release too far': (lambda: Release(point=(FARTHEST, 0.0), frame='far/0'), BadProperty,
                            'pose'),
     'to command nobody': (lambda: Command(names=('nobody/0',), poses=((0.0, 0.0, 0.0),)),
-                          UnknownBody, 'name'),
+                          UnknownBody, 'joint_names'),
     'to command one body and nobody': (
         lambda: Command(names=('mix/0', 'nobody/0'), poses=((0.0, 0.0, 0.0),) * 2), UnknownBody,
-        'name'),
+        'joint_names'),
     'to pose a body in no frame': (
         lambda: Command(names=('mix/0',), poses=((0.0, 0.0, 0.0),), frame='nobody/0'),
         UnknownFrame, 'header.frame_id'),
