@@ -21,8 +21,9 @@ true forces would, again and again, and a machine begins to run by itself. Here 
 that moves is compared with what it was, and the excess is taken out of the motion of what gained.
 
 Laws: nothing is taken where energy is within what it is uncertain by, a step's worth of the
-forces' power; momentum is kept, since motion against the centre of mass is slowed first, save
-where the background holds; where a motor, a wrench or a commanded body drives, nothing is taken.
+forces' power; momentum is kept, since motion against the centre of mass is slowed first, and the
+drift of what hangs together only where something from outside has changed it, save where the
+background holds; where a motor, a wrench or a commanded body drives, nothing is taken.
 """
 
 from __future__ import annotations
