@@ -128,10 +128,14 @@ class Outside:
         """Start the world as people do, by its installed executable."""
         given = {'viewer': 'none'} | parameters
         words = [word for name, value in given.items() for word in ('-p', f'{name}:={value}')]
+        return self.start_installed('physsim', '--ros-args', *words, *arguments)
+
+    def start_installed(self, name: str, *words: object) -> Program:
+        """Start one of the package's own programs, as it is installed."""
         beside = Path(sys.executable).parent
-        executable = shutil.which('physsim', path=f'{beside}{os.pathsep}{os.environ["PATH"]}')
+        executable = shutil.which(name, path=f'{beside}{os.pathsep}{os.environ["PATH"]}')
         assert executable, 'the package is not installed: make test'
-        return self.start(executable, '--ros-args', *words, *arguments)
+        return self.start(executable, *words)
 
     def run_program(self, name: str, *arguments: object) -> dict[str, Any]:
         """Run one of the programs that know the world by its topics alone; return what it saw."""

@@ -18,8 +18,6 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-import shutil
-import sys
 from typing import Any
 
 import pytest
@@ -31,9 +29,7 @@ TWO = '<rect x="100" y="200" width="200" height="100"/><circle cx="200" cy="100"
 
 
 def draw(outside: Outside, *words: object) -> Program:
-    program = shutil.which('physsim_draw', path=str(Path(sys.executable).parent))
-    assert program, 'the package is not installed: make test'
-    return outside.start(program, *words)
+    return outside.start_installed('physsim_draw', *words)
 
 
 def drawing(directory: Path, inside: str) -> Path:

@@ -19,7 +19,6 @@ from __future__ import annotations
 import json
 from pathlib import Path
 import re
-import shutil
 import signal
 import sys
 from typing import Any
@@ -175,8 +174,6 @@ def test_it_can_be_started_in_a_namespace_under_another_name(outside: Outside) -
     ('words', 'code'), [(['--help'], 0), (['demo'], 2), (['--viewer', 'none'], 2)]
 )
 def test_it_says_how_it_is_told_things(outside: Outside, words: list[str], code: int) -> None:
-    program_ = shutil.which('physsim', path=str(Path(sys.executable).parent))
-    assert program_
-    with outside.start(program_, *words) as program:
+    with outside.start_installed('physsim', *words) as program:
         assert program.finish() == code
     assert 'usage: physsim' in ''.join(program.lines)

@@ -225,7 +225,7 @@ def test_the_manifest_names_every_ros_package_that_is_imported():
         if name in {'rclpy', 'std_srvs'} or name.endswith(('_msgs', '_interfaces'))
     }
 
-    others = {name for name in declared if name.startswith(('python3-', 'ros-'))}
+    others = {name for name in declared if name.startswith('python3-')}
     assert of_ros == declared - others
 
 

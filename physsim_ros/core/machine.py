@@ -58,8 +58,6 @@ class Machine:
         # Names of the joints of each body.
         self._on: dict[str, dict[str, None]] = {}
         self._linkage: Linkage | None = None
-        # Of its joints.
-        self._linked_names: tuple[str, ...] = ()
         self._balance: Balance | None = None
         self._listed: Sequence[RigidBody | None] = ()
         # What each joint gave [N] in a step that another space has made, until this one makes one.
@@ -94,9 +92,9 @@ class Machine:
         """Take all joints out of the engine, before its bodies serve another one."""
         for held in self.joints.values():
             self._space.remove(*held.constraints)
+        self._unlink()
         self.joints.clear()
         self._on.clear()
-        self._unlink()
 
     def detach(self, body: str) -> None:
         """Take the joints of a body out of the engine, before its engine objects go."""
@@ -190,8 +188,8 @@ class Machine:
         other = None if joint.b == WORLD else self._bodies[joint.b]
         held = joints.build(joint, self._bodies[joint.a], other, self._space.static_body, self._dt)
         self._space.add(*held.constraints)
-        self.joints[joint.name] = held
         self._forget(joint.name)
+        self.joints[joint.name] = held
 
     def _take(self, held: EngineJoint) -> None:
         self._space.remove(*held.constraints)
@@ -209,9 +207,10 @@ class Machine:
             self._given.pop(name, None)
 
     def _unlink(self) -> None:
+        """Give up what holds the joints, before one of them comes or goes."""
         if self._linkage is not None:
             given = self._linkage.impulses.tolist()
-            self._beside = dict(zip(self._linked_names, given, strict=True))
+            self._beside = dict(zip(self.joints, given, strict=True))
         self._linkage = None
 
     def _linked(self, listed: Sequence[RigidBody | None]) -> Linkage:
@@ -220,7 +219,6 @@ class Machine:
             self._unlink()
             self._soften()
             held = list(self.joints.values())
-            self._linked_names = tuple(self.joints)
             places = {
                 rigid.engine: place for place, rigid in enumerate(listed) if rigid is not None
             }

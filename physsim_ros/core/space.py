@@ -498,7 +498,7 @@ class Space:
         rows = np.cumsum(moving) - 1
         twists = before[moving]
         motions = Motions(
-            centers=self._read(_STATE, 6)[moving, :2],
+            centers=self._read(batch.BodyFields.POSITION, 2)[moving],
             ways=twists[:, :2] * self._dt,
             turns=np.where(layout.arm[moving] > 0.0, np.abs(twists[:, 2]) * self._dt, 0.0),
             outer=layout.ground.reach[moving],

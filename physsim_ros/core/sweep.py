@@ -27,6 +27,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 import math
 from typing import cast
 
@@ -111,12 +112,13 @@ class _Start:
     def __init__(self, space: pymunk.Space, own: pymunk.Shape) -> None:
         self._space = space
         self._own = own
-        self._contacts: dict[pymunk.Shape, pymunk.ContactPointSet] | None = None
+
+    @cached_property
+    def _contacts(self) -> dict[pymunk.Shape, pymunk.ContactPointSet]:
+        return _contacts(self._space, self._own)
 
     def overlap(self, other: pymunk.Shape) -> tuple[float, Vec2d]:
         """Return how deep another shape lies in it [m], and the normal that leads there."""
-        if self._contacts is None:
-            self._contacts = _contacts(self._space, self._own)
         contact = self._contacts.get(other)
         return (0.0, Vec2d.zero()) if contact is None else (_depth(contact), contact.normal)
 
