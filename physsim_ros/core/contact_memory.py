@@ -24,15 +24,27 @@ Law: two spaces built from one memory go on alike to the bit.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Sequence
-from typing import Any
+from collections.abc import Collection, Iterable, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
-from physsim_ros.core.snapshot import ContactMemory
+from numpy.typing import NDArray
+from physsim_ros.core.snapshot import ContactMemory, Ints
 import pymunk
-from pymunk._chipmunk_cffi import lib
+from pymunk._chipmunk_cffi import ffi, lib
 
 # ruff: noqa: SLF001
+
+# What is read and written of the engine's contact point: what it tells the points of a pair apart
+# by, and its impulses along and across the normal.
+_POINT = np.dtype(
+    {
+        'names': ['hash', 'jnAcc', 'jtAcc'],
+        'formats': [np.uint64, np.float64, np.float64],
+        'offsets': [ffi.offsetof('struct cpContact', each) for each in ('hash', 'jnAcc', 'jtAcc')],
+        'itemsize': ffi.sizeof('struct cpContact'),
+    }
+)
 
 
 class ShapeIds:
@@ -83,15 +95,38 @@ class ShapeIds:
             del self._numbers[shape._shape]
         self._space.remove(*shapes)
 
-    def contacts(self) -> Iterator[tuple[int, int, Any]]:
-        """Yield the contact points of the last step: numbers of the two shapes, lesser first."""
-        numbers = self._numbers
-        for arbiter in self._space._get_arbiters():
-            a, b = numbers[arbiter.a], numbers[arbiter.b]
-            if a > b:
-                a, b = b, a
-            for place in range(arbiter.count):
-                yield a, b, arbiter.contacts[place]
+    def contacts(self) -> _Points:
+        """Return the contact points of the last step."""
+        arbiters = self._space._get_arbiters()
+        numbers = [(self._numbers[each.a], self._numbers[each.b]) for each in arbiters]
+        # The lesser one first, whichever way round the engine has a pair.
+        pairs = np.sort(np.array(numbers, dtype=np.int64).reshape(-1, 2), axis=1)
+        blocks = [ffi.buffer(each.contacts, each.count * _POINT.itemsize) for each in arbiters]
+        counts = [each.count for each in arbiters]
+        points = np.frombuffer(bytearray().join(blocks), dtype=_POINT)
+        return _Points(blocks, np.repeat(pairs, counts, axis=0), points)
+
+
+class _Points(NamedTuple):
+    """
+    Contact points, as the engine lists them.
+
+    :param blocks: the engine's own memory of the points of each pair
+    :param pairs: (k, 2) int64: numbers of the two shapes, the lesser first
+    :param points: (k,): a copy of that memory
+    """
+
+    blocks: list[Any]
+    pairs: Ints
+    points: NDArray[Any]
+
+    def write(self) -> None:
+        """Hand the points back to the engine."""
+        data, begin = self.points.tobytes(), 0
+        for block in self.blocks:
+            end = begin + len(block)
+            block[:] = data[begin:end]
+            begin = end
 
 
 def recall(shapes: ShapeIds, ids: Sequence[int], walls: int) -> ContactMemory:
@@ -102,16 +137,17 @@ def recall(shapes: ShapeIds, ids: Sequence[int], walls: int) -> ContactMemory:
     :param ids: number of the first shape of each body, in spawn order
     :param walls: number of the first wall
     """
-    rows = [(a, b, each.hash, each.jnAcc, each.jtAcc) for a, b, each in shapes.contacts()]
+    _, pairs, points = shapes.contacts()
     # The engine lists by address, which is never the same twice.
-    rows.sort()
+    order = np.lexsort((points['hash'], pairs[:, 1], pairs[:, 0]))
+    points = points[order]
     return ContactMemory(
         ids=np.array(ids, dtype=np.int64),
         walls=walls,
         following=shapes.following,
-        pairs=np.array([row[:2] for row in rows], dtype=np.int64).reshape(-1, 2),
-        hashes=np.array([row[2] for row in rows], dtype=np.uint64),
-        impulses=np.array([row[3:] for row in rows], dtype=np.float64).reshape(-1, 2),
+        pairs=pairs[order],
+        hashes=points['hash'].copy(),
+        impulses=np.column_stack((points['jnAcc'], points['jtAcc'])),
     )
 
 
@@ -128,12 +164,21 @@ def remind(space: pymunk.Space, shapes: ShapeIds, memory: ContactMemory, dt: flo
     space.gravity, space.iterations, space.collision_bias = (0.0, 0.0), 1, 1.0
     space.step(dt)
     space.gravity, space.iterations, space.collision_bias = gravity, iterations, bias
-    known = {
-        (a, b, hash_): impulse
-        for (a, b), hash_, impulse in zip(
-            memory.pairs.tolist(), memory.hashes.tolist(), memory.impulses.tolist(), strict=True
-        )
-    }
-    for a, b, contact in shapes.contacts():
-        contact.jnAcc, contact.jtAcc = known.get((a, b, contact.hash), (0.0, 0.0))
+    found = shapes.contacts()
+    known, now = _same(memory, found)
+    impulses = np.zeros((len(found.points), 2))
+    impulses[now] = memory.impulses[known]
+    found.points['jnAcc'], found.points['jtAcc'] = impulses.T
+    found.write()
     shapes.following = memory.following
+
+
+def _same(memory: ContactMemory, found: _Points) -> tuple[Ints, Ints]:
+    """Return the rows of the points that are in both, in the one and in the other."""
+    pairs = np.concatenate((memory.pairs, found.pairs))
+    hashes = np.concatenate((memory.hashes, found.points['hash']))
+    # The same points come to lie side by side, the remembered one first.
+    order = np.lexsort((hashes, pairs[:, 1], pairs[:, 0]))
+    pairs, hashes = pairs[order], hashes[order]
+    twin = (pairs[1:] == pairs[:-1]).all(axis=1) & (hashes[1:] == hashes[:-1])
+    return order[:-1][twin], order[1:][twin] - len(memory.hashes)

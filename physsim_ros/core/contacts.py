@@ -22,7 +22,7 @@ keeps its place from the frame before, or from its first touch.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -36,9 +36,8 @@ Ids = NDArray[np.uint64]
 _F = batch.ArbiterFields
 _PAIRS_AND_IMPULSES = _F.BODY_A_ID | _F.BODY_B_ID | _F.TOTAL_IMPULSE
 _PLACES = _F.NORMAL | _F.CONTACT_COUNT | _F.POINT_A_1 | _F.POINT_B_1 | _F.POINT_A_2 | _F.POINT_B_2
-# More pairs than this that come and go in a step, and looking for what stayed is no longer cheaper
-# than sorting all of them.
-_MOST_EDITS = 32
+# Makes one key of two ids.
+_SPREAD = np.uint64(0x9E3779B97F4A7C15)
 # Normals whose mean is shorter than this have none.
 OPPOSED = 1e-6
 
@@ -93,13 +92,13 @@ class ContactLog:
         if np.array_equal(self._ids, ids):
             self._sums += sums
         else:
-            stays = np.zeros(len(self._ids), np.bool_)
-            for old, new in _common_runs(self._ids, ids):
-                sums[new] += self._sums[old]
-                stays[old] = True
+            old, new = _matches(self._ids, ids)
+            sums[new] += self._sums[old]
             # What parts in the first step of a frame has not touched in it.
-            if self._steps > 1 and not stays.all():
-                self._gone.append((self._ids[~stays], self._sums[~stays]))
+            if self._steps > 1 and len(old) < len(self._ids):
+                gone = np.ones(len(self._ids), np.bool_)
+                gone[old] = False
+                self._gone.append((self._ids[gone], self._sums[gone]))
             self._ids, self._sums = ids, sums
 
     def forget(self, body: int) -> None:
@@ -189,12 +188,14 @@ class ContactLog:
     def _last_places(self, pairs: Ids) -> Floats:
         """Return (5, m) float64: where pairs that have parted touched last, as far as known."""
         ids, known = self._places
-        rows = []
-        for a, b in pairs.tolist():
-            at = np.flatnonzero((ids[:, 0] == a) & (ids[:, 1] == b))
-            place = tuple(known[:, at[0]]) if len(at) else (1.0, 0.0, 0.0, 0.0, 0.0)
-            rows.append(self._begun.get((a, b), place))
-        return np.array(rows, dtype=np.float64).reshape(-1, 5).T
+        places = np.zeros((5, len(pairs)))
+        places[0] = 1.0
+        old, new = _matches(ids, pairs)
+        places[:, new] = known[:, old]
+        for row, (a, b) in enumerate(pairs.tolist()):
+            if (a, b) in self._begun:
+                places[:, row] = self._begun[a, b]
+        return places
 
     def _read_places(self) -> Floats:
         """Return (5, m) float64: normal, count of points, mean point, of the last step."""
@@ -227,37 +228,25 @@ NO_CONTACTS = Contacts(
 )
 
 
-def _common_runs(old: Ids, new: Ids) -> Iterator[tuple[slice, slice]]:
+def _matches(old: Ids, new: Ids) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """
-    Yield runs of rows that two listings share, in the old and in the new one.
+    Return the rows of pairs that are in two listings, in the old and in the new one.
 
-    The engine's listing keeps its order but for what comes and goes. A row that is not matched
-    counts as gone and come; whoever adds up both has lost nothing.
+    Each row is matched once: two bodies of several shapes may be listed several times.
     """
-    at = new_at = 0
-    for _ in range(_MOST_EDITS):
-        rest, new_rest = old[at:], new[new_at:]
-        length = min(len(rest), len(new_rest))
-        differ = (rest[:length] != new_rest[:length]).any(axis=1)
-        count = int(differ.argmax()) if differ.any() else length
-        end, new_end = at + count, new_at + count
-        yield slice(at, end), slice(new_at, new_end)
-        at, new_at = end, new_end
-        if at >= len(old) or new_at >= len(new):
-            return
-        # Whichever comes again sooner in the other listing, the rows before it came or went.
-        ahead = _ahead(old[at:], new[new_at])
-        behind = _ahead(new[new_at:], old[at])
-        if ahead <= behind:
-            at += ahead
-        else:
-            new_at += behind
-
-
-def _ahead(ids: Ids, wanted: Ids) -> int:
-    """Return how far ahead a pair is listed; past the end where it is not."""
-    found = np.flatnonzero((ids[:, 0] == wanted[0]) & (ids[:, 1] == wanted[1]))
-    return int(found[0]) if len(found) else len(ids)
+    if len(old) == 0:
+        return np.empty(0, np.intp), np.empty(0, np.intp)
+    old_keys, new_keys = (pairs[:, 0] * _SPREAD + pairs[:, 1] for pairs in (old, new))
+    old_order, new_order = np.argsort(old_keys), np.argsort(new_keys)
+    old_keys, new_keys = old_keys[old_order], new_keys[new_order]
+    repeated = np.arange(len(new)) - np.searchsorted(new_keys, new_keys)
+    place = np.searchsorted(old_keys, new_keys) + repeated
+    inside = place < len(old)
+    old_rows, new_rows = old_order[place[inside]], new_order[inside]
+    # Other pairs may have the same key. What is not matched counts as gone and come; whoever adds
+    # up both has lost nothing.
+    same = (old[old_rows] == new[new_rows]).all(axis=1)
+    return old_rows[same], new_rows[same]
 
 
 @dataclass(frozen=True, slots=True, eq=False)

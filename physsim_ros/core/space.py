@@ -131,6 +131,11 @@ class Space:
 
     # Reading
 
+    @property
+    def scene(self) -> Scene:
+        """Return everything about the bodies that stays while they move."""
+        return self._lay_out().scene
+
     def rows(self) -> tuple[Scene, Floats, Floats]:
         """Return the scene, and (n, 3) float64 poses and twists, in spawn order."""
         layout = self._lay_out()
