@@ -36,6 +36,8 @@ Ids = NDArray[np.uint64]
 _F = batch.ArbiterFields
 _PAIRS_AND_IMPULSES = _F.BODY_A_ID | _F.BODY_B_ID | _F.TOTAL_IMPULSE
 _PLACES = _F.NORMAL | _F.CONTACT_COUNT | _F.POINT_A_1 | _F.POINT_B_1 | _F.POINT_A_2 | _F.POINT_B_2
+# So many listings of earlier steps are kept until they are added up.
+_MOST_STEPS = 16
 # Makes one key of two ids.
 _SPREAD = np.uint64(0x9E3779B97F4A7C15)
 # Normals whose mean is shorter than this have none.
@@ -58,8 +60,8 @@ class ContactLog:
         self._sums: Floats = np.empty((0, 2))
         # Steps since the frame began.
         self._steps = 0
-        # The same of pairs that have parted since the frame began.
-        self._gone: list[tuple[Ids, Floats]] = []
+        # The same of earlier steps of the frame, at whose ends other pairs touched.
+        self._earlier: list[tuple[Ids, Floats]] = []
         # Where pairs touched at the end of the last frame, and first since then: normal, count of
         # points, mean point, a column each.
         self._places: tuple[Ids, Floats] = (self._ids, np.empty((5, 0)))
@@ -68,13 +70,13 @@ class ContactLog:
         # Whether no pair has begun to touch since the ids were read: then as many are the same.
         self.settled = False
 
-    def begin(self, arbiter: pymunk.Arbiter) -> None:
+    def begin(self, arbiter: pymunk.Arbiter, contact: pymunk.ContactPointSet) -> None:
         """Remember where two shapes touched first, should they part before the frame ends."""
         self.settled = False
         a, b = arbiter.bodies
-        points = [(each.point_a + each.point_b) / 2 for each in arbiter.contact_point_set.points]
+        points = [(each.point_a + each.point_b) / 2 for each in contact.points]
         x, y = sum(points, pymunk.Vec2d(0, 0)) / max(1, len(points))
-        self._begun[a.id, b.id] = (*arbiter.normal, len(points), x, y)
+        self._begun[a.id, b.id] = (*contact.normal, len(points), x, y)
 
     def add_step(self) -> None:
         """Add the contacts of the step that has just been made."""
@@ -91,15 +93,25 @@ class ContactLog:
     def _add_pairs(self, ids: Ids, sums: Floats) -> None:
         if np.array_equal(self._ids, ids):
             self._sums += sums
-        else:
-            old, new = _matches(self._ids, ids)
-            sums[new] += self._sums[old]
-            # What parts in the first step of a frame has not touched in it.
-            if self._steps > 1 and len(old) < len(self._ids):
-                gone = np.ones(len(self._ids), np.bool_)
-                gone[old] = False
-                self._gone.append((self._ids[gone], self._sums[gone]))
-            self._ids, self._sums = ids, sums
+            return
+        # What parts in the first step of a frame has not touched in it.
+        if self._steps > 1:
+            self._earlier.append((self._ids, self._sums))
+        self._ids, self._sums = ids, sums
+        if len(self._earlier) >= _MOST_STEPS:
+            self._earlier = [self._merge()]
+
+    def _merge(self) -> tuple[Ids, Floats]:
+        """Add what earlier steps gave to the pairs that touch still; return that of the others."""
+        if not self._earlier:
+            return NO_PAIRS
+        ids, sums = (np.concatenate(each) for each in zip(*self._earlier, strict=True))
+        self._earlier = []
+        rows, found = _find(ids, self._ids)
+        for column in (0, 1):
+            given = np.bincount(rows[found], sums[found, column], len(self._ids))
+            self._sums[:, column] += given
+        return ids[~found], sums[~found]
 
     def forget(self, body: int) -> None:
         """
@@ -113,13 +125,13 @@ class ContactLog:
             return
         stays = (self._ids != body).all(axis=1)
         self._ids, self._sums = self._ids[stays], self._sums[stays]
-        for number, (ids, sums) in enumerate(self._gone):
+        for number, (ids, sums) in enumerate(self._earlier):
             stays = (ids != body).all(axis=1)
-            self._gone[number] = ids[stays], sums[stays]
+            self._earlier[number] = ids[stays], sums[stays]
 
     def clear(self) -> None:
         """Forget what has been summed up since the last call of `take`."""
-        self._gone = []
+        self._earlier = []
         self._sums = np.zeros_like(self._sums)
         self._steps = 0
         self._begun.clear()
@@ -141,7 +153,7 @@ class ContactLog:
 
         self._steps = old._steps
         self._ids, self._sums = renamed(old._ids, old._sums)
-        self._gone = [renamed(pairs, sums) for pairs, sums in old._gone]
+        self._earlier = [renamed(pairs, sums) for pairs, sums in old._earlier]
         pairs, places = old._places
         pairs, rows = renamed(pairs, places.T)
         self._places = pairs, rows.T
@@ -164,12 +176,10 @@ class ContactLog:
         """
         if self._steps == 0:
             return NO_CONTACTS
-        gone, self._gone = self._gone, []
+        parted, given = self._merge()
         touching, sums, places = self._ids, self._sums, self._read_places()
-        if gone:
-            parted = np.concatenate([each[0] for each in gone])
-            touching = np.concatenate((touching, parted))
-            sums = np.concatenate((sums, *(each[1] for each in gone)))
+        if len(parted):
+            touching, sums = np.concatenate((touching, parted)), np.concatenate((sums, given))
             places = np.concatenate((places, self._last_places(parted)), axis=1)
         self._places = (self._ids, places[:, : len(self._ids)])
         self._sums = np.zeros_like(self._sums)
@@ -190,8 +200,8 @@ class ContactLog:
         ids, known = self._places
         places = np.zeros((5, len(pairs)))
         places[0] = 1.0
-        old, new = _matches(ids, pairs)
-        places[:, new] = known[:, old]
+        rows, found = _find(pairs, ids)
+        places[:, found] = known[:, rows[found]]
         for row, (a, b) in enumerate(pairs.tolist()):
             if (a, b) in self._begun:
                 places[:, row] = self._begun[a, b]
@@ -220,6 +230,7 @@ class ContactLog:
         return ints, np.frombuffer(self._buffer.float_buf(), dtype=np.float64)
 
 
+NO_PAIRS = np.empty((0, 2), np.uint64), np.empty((0, 2))
 NO_CONTACTS = Contacts(
     pairs=np.empty((0, 2), dtype=np.int64),
     points=np.empty((0, 2)),
@@ -228,25 +239,16 @@ NO_CONTACTS = Contacts(
 )
 
 
-def _matches(old: Ids, new: Ids) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """
-    Return the rows of pairs that are in two listings, in the old and in the new one.
-
-    Each row is matched once: two bodies of several shapes may be listed several times.
-    """
-    if len(old) == 0:
-        return np.empty(0, np.intp), np.empty(0, np.intp)
-    old_keys, new_keys = (pairs[:, 0] * _SPREAD + pairs[:, 1] for pairs in (old, new))
-    old_order, new_order = np.argsort(old_keys), np.argsort(new_keys)
-    old_keys, new_keys = old_keys[old_order], new_keys[new_order]
-    repeated = np.arange(len(new)) - np.searchsorted(new_keys, new_keys)
-    place = np.searchsorted(old_keys, new_keys) + repeated
-    inside = place < len(old)
-    old_rows, new_rows = old_order[place[inside]], new_order[inside]
-    # Other pairs may have the same key. What is not matched counts as gone and come; whoever adds
-    # up both has lost nothing.
-    same = (old[old_rows] == new[new_rows]).all(axis=1)
-    return old_rows[same], new_rows[same]
+def _find(pairs: Ids, listing: Ids) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
+    """Return a row of each pair in a listing, and whether it is the pair's."""
+    if len(listing) == 0:
+        return np.zeros(len(pairs), np.intp), np.zeros(len(pairs), np.bool_)
+    wanted, keys = (each[:, 0] * _SPREAD + each[:, 1] for each in (pairs, listing))
+    order = np.argsort(keys)
+    place = np.minimum(np.searchsorted(keys, wanted, sorter=order), len(keys) - 1)
+    rows = order[place]
+    # Another pair may have the same key: then this one is not found, and stays by itself.
+    return rows, (listing[rows] == pairs).all(axis=1)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -471,10 +471,11 @@ class Space:
 
     def _begin(self, arbiter: pymunk.Arbiter, space: pymunk.Space, _: object) -> None:
         """Look at two shapes that touch for the first time."""
-        sweep.relieve(arbiter, space)
+        contact = arbiter.contact_point_set
+        sweep.relieve(arbiter, contact, space)
         self._cascade.begin(arbiter)
         if self._watching:
-            self._contacts.begin(arbiter)
+            self._contacts.begin(arbiter, contact)
         else:
             self._contacts.settled = False
 

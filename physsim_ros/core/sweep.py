@@ -225,15 +225,14 @@ def arrest(
             engine.angle += move.turn - mover.move.turn
 
 
-def relieve(arbiter: pymunk.Arbiter, space: pymunk.Space) -> None:
+def relieve(arbiter: pymunk.Arbiter, contact: pymunk.ContactPointSet, space: pymunk.Space) -> None:
     """At a first touch, take back what the bodies overshot in this step, along the normal."""
+    point = min(contact.points, key=lambda point: point.distance, default=None)
+    if point is None or -point.distance <= SLOP:
+        return
+    depth = -point.distance
     one, other = arbiter.shapes
     if one.sensor or other.sensor:
-        return
-    contact = arbiter.contact_point_set
-    point = min(contact.points, key=lambda point: point.distance)
-    depth = -point.distance
-    if depth <= SLOP:
         return
     a, b = _body(one), _body(other)
     normal = contact.normal

@@ -15,14 +15,14 @@
 """
 What a frame costs, side by side in one run: the node, the bare engine, and the naive way.
 
-Every figure is a median over frames that take turns, so that a machine whose speed drifts does not
-favour one of them.
+Every figure is a mean over frames that take turns, so that a machine whose speed drifts does not
+favour one of them; over whole times between keyframes, after what is done once has been done.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import partial
+from itertools import count
 import math
 from pathlib import Path
 import random
@@ -31,6 +31,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from typing import NamedTuple
 
 from geometry_msgs.msg import Pose, PoseArray
 from physsim_ros.core.properties import Properties
@@ -42,13 +43,16 @@ from physsim_ros.testing import own_domain
 import rclpy
 from rclpy.parameter import Parameter
 
-FRAMES = 240
+FRAMES = 360
+# Before them: a keyframe is among these, the first of so many bodies.
+WARM = 200
 # Frames in a row of each: alone, a frame would leave what is to be sent to the others' time.
 TURN = 20
 PERIOD = 16_666_667  # ns
 SETTLE = 20.0  # simulated seconds until a pile has come to rest, but for its last tremors
-# Subscribes to everything from another process, as serialised bytes: what a viewer costs is its
-# own affair.
+TOPICS = ('clock', 'poses', 'states', 'contacts', 'markers', 'events')
+# Subscribes to topics from another process, as serialised bytes: what a viewer costs is its own
+# affair.
 LISTENER = """
 import sys, rclpy, rclpy.executors
 from rclpy.experimental import EventsExecutor
@@ -59,11 +63,11 @@ from sensor_msgs.msg import MultiDOFJointState
 from visualization_msgs.msg import MarkerArray
 rclpy.init(domain_id=int(sys.argv[1]))
 node = rclpy.create_node('listener')
-for kind, topic in ((PoseArray, 'poses'), (MultiDOFJointState, 'states'),
-                    (MultiDOFJointState, 'contacts'), (MarkerArray, 'markers'),
-                    (DiagnosticStatus, 'events')):
-    node.create_subscription(kind, f'/physsim/{topic}', lambda _: None, 5, raw=True)
-node.create_subscription(Clock, '/clock', lambda _: None, 5, raw=True)
+kinds = {'poses': PoseArray, 'states': MultiDOFJointState, 'contacts': MultiDOFJointState,
+         'markers': MarkerArray, 'events': DiagnosticStatus, 'clock': Clock}
+for topic in sys.argv[2:]:
+    name = '/clock' if topic == 'clock' else f'/physsim/{topic}'
+    node.create_subscription(kinds[topic], name, lambda _: None, 5, raw=True)
 executor = EventsExecutor()
 executor.add_node(node)
 try:
@@ -74,8 +78,26 @@ except rclpy.executors.ExternalShutdownException:
 """
 
 
-def fill(world: World, count: int) -> None:
-    """Let a pile of discs and boxes fall into a bin and come to rest."""
+class Pile(NamedTuple):
+    """
+    What is measured.
+
+    :ivar count: of bodies
+    :ivar settled: whether they lie; else they fall onto one another all the time
+    :ivar topics: that somebody subscribes to
+    """
+
+    count: int
+    settled: bool = True
+    topics: tuple[str, ...] = TOPICS
+
+    def __str__(self) -> str:
+        topics = 'all' if self.topics == TOPICS else ', '.join(self.topics)
+        return f'{self.count:6}  {"settled" if self.settled else "falling"}  {topics:13}'
+
+
+def fill(world: World, count: int, *, settle: float = SETTLE) -> None:
+    """Let a pile of discs and boxes fall into a bin, for seconds; by then it is at rest."""
     rng = random.Random(count)
     half = math.sqrt(count) * 0.6
     row = int(2 * half / 0.7)
@@ -93,15 +115,15 @@ def fill(world: World, count: int) -> None:
                 properties=Properties(elasticity=0.0),
             )
         )
-    world.step(round(SETTLE * world.physics_rate))
+    world.step(round(settle * world.physics_rate))
 
 
 class Bare:
     """The engine alone: four plain calls of `Space.step`."""
 
-    def __init__(self, count: int) -> None:
+    def __init__(self, pile: Pile) -> None:
         self.world = World()
-        fill(self.world, count)
+        fill(self.world, pile.count, settle=SETTLE * pile.settled)
 
     def frame(self) -> None:
         """Make four steps."""
@@ -112,8 +134,8 @@ class Bare:
 class Naive(Bare):
     """The engine, read attribute by attribute into message objects, one a body."""
 
-    def __init__(self, count: int, node: PhysSimNode) -> None:
-        super().__init__(count)
+    def __init__(self, pile: Pile, node: PhysSimNode) -> None:
+        super().__init__(pile)
         self._poses = node.create_publisher(PoseArray, 'naive', 5)
 
     def frame(self) -> None:
@@ -136,48 +158,56 @@ def timed(act: Callable[[], None]) -> float:
     return (time.perf_counter() - began) * 1e3
 
 
-def measure(count: int, directory: Path, domain: int) -> None:
-    """Print a row for a count of bodies."""
-    record = str(directory / f'{count}.rrd')
+def measure(pile: Pile, directory: Path, domain: int) -> None:
+    """Print a row."""
+    record = directory / 'frames.rrd'
     overrides = [
         Parameter('viewer', value='none'),
-        Parameter('record_file', value=record),
+        Parameter('record_file', value=str(record)),
         Parameter('speed', value=0.0),
     ]
     node = PhysSimNode(parameter_overrides=overrides)
     node.start()
-    fill(node.simulation.world, count)
-    listener = subprocess.Popen([sys.executable, '-c', LISTENER, str(domain)])
+    fill(node.simulation.world, pile.count, settle=SETTLE * pile.settled)
+    listener = subprocess.Popen([sys.executable, '-c', LISTENER, str(domain), *pile.topics])
     try:
-        while not node.count_subscribers('/physsim/markers'):
+        while not node.count_subscribers(f'/physsim/{pile.topics[-1]}'):
             time.sleep(0.01)
-        bare, naive = Bare(count), Naive(count, node)
-        times: dict[str, list[float]] = {'bare': [], 'node': [], 'naive': []}
         node.simulation.speed = 1.0
-        for turn in range(FRAMES // TURN):
-            ticks = range(turn * TURN, turn * TURN + TURN)
-            times['bare'] += [timed(bare.frame) for _ in ticks]
-            # One after the other, as when there is no time left: what a frame leaves to other
-            # threads, it pays for in the next.
-            times['node'] += [timed(partial(node.tick, tick * PERIOD)) for tick in ticks]
-            times['naive'] += [timed(naive.frame) for _ in ticks]
+        ticks = count()
+        ways = {
+            'bare': Bare(pile).frame,
+            'node': lambda: node.tick(next(ticks) * PERIOD),
+            'naive': Naive(pile, node).frame,
+        }
+        times: dict[str, list[float]] = {name: [] for name in ways}
+        for _ in range((WARM + FRAMES) // TURN):
+            for name, frame in ways.items():
+                # One after the other, as when there is no time left: what a frame leaves to other
+                # threads, it pays for in the next.
+                times[name] += [timed(frame) for _ in range(TURN)]
     finally:
         listener.terminate()
         listener.wait()
         node.destroy_node()
-    base, ours, plain = (statistics.mean(times[name]) for name in ('bare', 'node', 'naive'))
-    size = Path(record).stat().st_size / FRAMES / count
+    base, ours, plain = (statistics.mean(each[WARM:]) for each in times.values())
+    size = record.stat().st_size / (WARM + FRAMES) / pile.count
     ratios = f'{ours / base:10.2f} {plain / base:11.2f}'
-    print(f'{count:6} {base:10.2f} {ours:10.2f} {ratios} {size:17.0f}', flush=True)
+    print(f'{pile} {base:10.2f} {ours:10.2f} {ratios} {size:17.0f}', flush=True)
 
 
 def table(counts: list[int]) -> None:
-    """Print a row for each count of bodies."""
+    """Print a row for each count of bodies that lie, and two for a thousand that do otherwise."""
     clear_the_way()
-    print('A frame of 4 steps of a settled pile, all streams subscribed, recorded by Rerun')
-    print('bodies  bare [ms]  node [ms]  node/bare  naive/bare  bytes/body/frame')
+    print('A frame of 4 steps of a pile, recorded by Rerun')
+    print(
+        'bodies  pile     subscribed     bare [ms]  node [ms]  node/bare  naive/bare'
+        '  bytes/body/frame'
+    )
+    piles = [Pile(count) for count in counts]
+    piles += [Pile(1000, topics=('poses', 'states')), Pile(1000, settled=False)]
     with own_domain() as domain, tempfile.TemporaryDirectory() as directory:
         rclpy.init(domain_id=domain)
-        for count in counts:
-            measure(count, Path(directory), domain)
+        for pile in piles:
+            measure(pile, Path(directory), domain)
         rclpy.shutdown()
