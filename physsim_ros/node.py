@@ -149,7 +149,7 @@ class PhysSimNode(QuietNode):
         if not frames:
             if self.frame is not None and self.frame.preview != self._pen.preview:
                 # Nothing has happened but that what was half drawn has been dropped.
-                self.deliver(replace(self.frame, answers=(), moved=False))
+                self._show(replace(self.frame, answers=(), moved=False))
             self._streams.welcome()
             return
         last = frames[-1]
@@ -165,13 +165,17 @@ class PhysSimNode(QuietNode):
 
     def deliver(self, frame: Frame) -> None:
         """Send a frame to topics and viewer."""
-        if self._pen.preview != frame.preview:
-            frame = replace(frame, preview=self._pen.preview)
-        self.frame = frame
         self._follow()
         for answer in frame.answers:
             self._log(answer)
         self._streams.publish(frame)
+        self._show(frame)
+
+    def _show(self, frame: Frame) -> None:
+        """Send a frame, and what is half drawn now, to the viewer."""
+        if self._pen.preview != frame.preview:
+            frame = replace(frame, preview=self._pen.preview)
+        self.frame = frame
         self._viewer.show(frame, real_time_factor=self._meter.real_time_factor)
 
     def advance_frame(self) -> None:

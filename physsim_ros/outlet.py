@@ -268,4 +268,5 @@ class Outlet:
 
 def _size(frame: Frame) -> int:
     """Return what a waiting frame holds, about [bytes]."""
-    return frame.snapshot.poses.nbytes + frame.snapshot.twists.nbytes + 1000
+    contacts = 0 if frame.contacts is None else frame.contacts.nbytes
+    return frame.snapshot.nbytes + contacts + 1000

@@ -22,6 +22,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 import json
+import math
 
 from physsim_ros.core.joint_properties import JointKind
 from physsim_ros.core.names import split_name
@@ -43,6 +44,9 @@ from visualization_msgs.msg import Marker
 # What stands before the namespace of a joint, so that a body and a joint of one name do not hide
 # each other; `~/join` knows it. What stands before that of its lines.
 JOINT_PREFIX, LINES_PREFIX = 'joint:', 'lines:'
+_CROSS_PREFIX, _WALLS = 'anchor:', 'physsim:bounds'
+# Namespaces of all that is drawn and is no body.
+OWN_PREFIXES = (JOINT_PREFIX, LINES_PREFIX, _CROSS_PREFIX, _WALLS)
 
 Size = tuple[float, float, float]
 Key = tuple[str, int]
@@ -83,7 +87,7 @@ def symbols(body: Body) -> list[Symbol]:
     kind, scale, points = _geometry(body.shape)
     symbols = [Symbol(key, kind, scale, points, color=body.color, text=_material(body))]
     if body.anchored:
-        symbols.append(_cross(body, (f'anchor:{key[0]}', key[1])))
+        symbols.append(_cross(body, (f'{_CROSS_PREFIX}{key[0]}', key[1])))
     return symbols
 
 
@@ -151,13 +155,19 @@ def _geometry(shape: Shape) -> tuple[int, Size, tuple[Point, ...]]:
         case Polygon():
             return Marker.LINE_STRIP, (_THIN, 0.0, 0.0), (*shape.outline, shape.outline[0])
         case Chain():
-            return Marker.LINE_STRIP, (shape.thickness, 0.0, 0.0), shape.points
+            return Marker.LINE_STRIP, (shape.thickness, 0.0, 0.0), _open(shape.points)
         case Triangles():
             return Marker.TRIANGLE_LIST, (1.0, 1.0, 1.0), shape.vertices
         case Compound():
             kind, scale, _ = _geometry(shape.element)
             kind = Marker.CUBE_LIST if kind == Marker.CUBE else Marker.SPHERE_LIST
             return kind, scale, shape.centers
+
+
+def _open(points: tuple[Point, ...]) -> tuple[Point, ...]:
+    """Return the points of a chain; a marker whose ends are the same is a polygon."""
+    (x, y), last = points[0], points[-1]
+    return points if last != (x, y) else (*points[:-1], (math.nextafter(x, math.inf), y))
 
 
 def _material(body: Body) -> str:
@@ -199,5 +209,5 @@ def walls(bounds: Bounds) -> Symbol:
     """Return the marker of the walls around the world."""
     left, bottom, right, top = bounds
     corners = ((left, bottom), (right, bottom), (right, top), (left, top), (left, bottom))
-    key = ('physsim:bounds', 0)
+    key = (_WALLS, 0)
     return Symbol(key, Marker.LINE_STRIP, (_THIN, 0.0, 0.0), corners, color=_GREY)

@@ -63,6 +63,8 @@ _BODY_KEYS = ['name', *_SHAPES, 'at', 'color', 'lifetime', *PROPERTIES, 'motion'
 # Of a joint, what is not the node's own `text` of markers.
 _JOINT_KEYS = ('name', 'points', 'seat')
 _MOTION = ('at', 'velocity', 'spin')
+# Shapes that `bounds` is made of.
+_WALLS = 4
 # Saved numbers and the engine's own may differ by rounding; more, and somebody edited the file.
 _ROUNDING = 1e-9
 
@@ -105,7 +107,7 @@ def state_from(
     unjoined = replace(
         saved,
         bodies=tuple(_timed(state, entries[state.body.name]) for state in bodies),
-        memory=_memory(content['memory'], len(bodies)) if intact else None,
+        memory=_memory(content['memory'], saved) if intact else None,
     )
     joints = _entries(content.get('joints'), 'joints')
     if not joints:
@@ -312,8 +314,8 @@ def _resumed(state: BodyState, entry: Mapping[Any, Any]) -> BodyState | None:
     return replace(state, pose=pose, twist=twist, motion=saved)
 
 
-def _memory(value: object, bodies: int) -> ContactMemory | None:
-    """Return what the engine remembered; None where bodies have come or gone since."""
+def _memory(value: object, state: WorldState) -> ContactMemory | None:
+    """Return what the engine remembered; None where shapes have come or gone since."""
     memory = _mapping(value, 'memory', MEMORY)
     walls, following = (_count(memory.get(key), key) for key in ('walls', 'following'))
     ids = unpack(memory.get('ids'), 'ids', np.int64)
@@ -322,8 +324,18 @@ def _memory(value: object, bodies: int) -> ContactMemory | None:
     impulses = unpack(memory.get('impulses'), 'impulses', np.float64, 2)
     if not (len(pairs) == len(hashes) == len(impulses) and np.isfinite(impulses).all()):
         raise BadProperty('memory is not what was saved', field='memory')
-    if len(ids) != bodies or (bodies and not 0 <= ids.min() <= ids.max() < following):
+    if len(ids) != len(state.bodies):
         return None
+    # The shapes of a body, and the walls, have numbers in a row; no two shapes have the same.
+    counts = [len(each.body.shape.form.pieces) for each in state.bodies]
+    runs = [*zip(ids.tolist(), counts, strict=True), (following, 0)]
+    if state.settings.bounds is not None:
+        runs.append((walls, _WALLS))
+    end = 0
+    for first, count in sorted(runs):
+        if first < end:
+            return None
+        end = first + count
     return ContactMemory(
         ids=ids, walls=walls, following=following, pairs=pairs, hashes=hashes, impulses=impulses
     )

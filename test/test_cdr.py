@@ -327,6 +327,15 @@ def test_a_marker_spawns_the_body_that_it_draws(shape):
     assert np.exp(1j * spawn.pose[2]) == pytest.approx(np.exp(1j * yaw), abs=1e-13)
 
 
+def test_the_marker_of_a_chain_whose_ends_meet_is_no_polygon():
+    shape = Chain(points=((0.0, 0.0), (2.0, 0.0), (1.0, 1.0), (0.0, 0.0)), thickness=0.1)
+    body = replace(PLAIN, name='ring/0', shape=shape)
+    (marker,) = picture(cdr.MarkersEncoder('world'), snapshot_of([body]))
+    again = body_request(marker, frame_id='world').shape
+    assert isinstance(again, Chain)
+    assert np.array(again.points) == pytest.approx(np.array(shape.points), abs=1e-300)
+
+
 numbers = st.floats(1e-9, 1e12)
 
 

@@ -88,6 +88,13 @@ def test_the_world_frame_has_two_spellings(frame: str, meant: str) -> None:
     assert command_request(command('a/0', frame=frame), frame_id='map').frame == meant
 
 
+@pytest.mark.parametrize('namespace', ['physsim:bounds', 'anchor:a', 'joint:j', 'lines:j'])
+def test_what_the_picture_draws_itself_is_no_body(namespace: str) -> None:
+    message = box(f'{namespace}/0')
+    refusal = refusal_of(message)
+    assert (refusal.code, refusal.field) == ('malformed', 'ns')
+
+
 def test_stamps_and_z_are_ignored() -> None:
     plain, odd = box(at=(1, 2, 0.3)), box(at=(1, 2, 0.3))
     odd.header.stamp.sec = 1_700_000_000

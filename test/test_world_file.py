@@ -556,15 +556,29 @@ def test_a_body_that_is_gone_or_edited_leaves_no_memory(resting: Path) -> None:
     assert load(resting).memory is None
 
 
+def test_a_body_that_was_cut_into_pieces_leaves_no_memory(resting: Path) -> None:
+    content = yaml.safe_load(resting.read_text())
+    lowest = content['bodies'][0]
+    width, height = lowest.pop('box')['size']
+    # As wide, as high and as heavy at both ends, so that it goes on from where it was.
+    points = [[share * width, 0.0] for share in (-0.4, -0.2, 0.0, 0.2, 0.4)]
+    lowest['chain'] = {'points': points, 'thickness': height}
+    resting.write_text(yaml.safe_dump(content))
+    state = load(resting)
+    assert state.bodies[0].motion is not None
+    assert state.memory is None
+    restored(state).step(10)
+
+
 @given(
-    ids=st.lists(st.integers(0, 20), min_size=5, max_size=5),
+    ids=st.lists(st.integers(0, 20), min_size=5, max_size=5, unique=True),
     pairs=st.lists(
         st.tuples(st.integers(-(2**63), 2**63 - 1), st.integers(0, 30)), min_size=8, max_size=8
     ),
     impulses=st.lists(
         st.tuples(st.floats(-1e9, 1e9), st.floats(-1e9, 1e9)), min_size=8, max_size=8
     ),
-    walls=st.integers(0, 2**62 - 1),
+    walls=st.integers(21, 36),
 )
 def test_whatever_is_remembered_the_world_goes_on(
     ids: list[int],
@@ -589,6 +603,7 @@ def test_whatever_is_remembered_the_world_goes_on(
             'following': 40,
         },
     )
+    assert state.memory is not None
     going = restored(state)
     going.step(20)
     assert np.isfinite(going.snapshot().poses).all()

@@ -81,10 +81,12 @@ class Clock:
         quota = self._frame_steps * speed
         anchor_ns, anchor_step = self._anchor
         target = anchor_step + (now_ns - anchor_ns) * 1e-9 * self._physics_rate * speed
-        behind = (target - step) / quota
+        # At the slowest speeds a frame is less than a step: before that is due nothing is late.
+        frame = max(quota, 1.0)
+        behind = (target - step) / frame
         if behind > MOST_BEHIND:
             self.late_frames += math.floor(behind) - 1
-            target, behind = step + quota, 1.0
+            target, behind = step + frame, 1.0
             self._anchor = (now_ns, target)
         if not speed.is_integer():
             return max(0, min(math.floor(target), step + math.ceil(quota)) - step)

@@ -180,5 +180,7 @@ def _same(memory: ContactMemory, found: _Points) -> tuple[Ints, Ints]:
     # The same points come to lie side by side, the remembered one first.
     order = np.lexsort((hashes, pairs[:, 1], pairs[:, 0]))
     pairs, hashes = pairs[order], hashes[order]
+    one, other, known = order[:-1], order[1:], len(memory.hashes)
     twin = (pairs[1:] == pairs[:-1]).all(axis=1) & (hashes[1:] == hashes[:-1])
-    return order[:-1][twin], order[1:][twin] - len(memory.hashes)
+    twin &= (one < known) & (other >= known)
+    return one[twin], other[twin] - known

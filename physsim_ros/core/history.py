@@ -26,8 +26,8 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from physsim_ros.core.errors import OutOfHistory
-from physsim_ros.core.requests import Request
-from physsim_ros.core.snapshot import Keyframe
+from physsim_ros.core.requests import Request, Restore
+from physsim_ros.core.snapshot import Keyframe, WorldState
 
 
 @dataclass(slots=True, eq=False)
@@ -104,6 +104,8 @@ class History:
         self._entries: list[Entry] = []
         # Requests that are in the log no more.
         self._dropped = first.serial
+        # What was loaded last before those that are.
+        self._loaded: WorldState | None = None
         self._marks = [first]
         # The last step that was reached.
         self.head = first.step
@@ -159,7 +161,7 @@ class History:
         return mark if mark.moment == (step, serial) else None
 
     def segment(self, step: int) -> tuple[Mark, int]:
-        """Return the keyframe after which a step comes, and the last step before the next one."""
+        """Return the keyframe after which a step comes, and the step of the next, or the last."""
         place = bisect_left(self._marks, step, key=lambda each: each.step)
         first = self._marks[max(0, place - 1)]
         end = self._marks[place].step if place < len(self._marks) else self.head
@@ -184,6 +186,12 @@ class History:
         """Return the requests of the last gesture before a serial; none where none is kept."""
         done = self._entries[: serial - self._dropped]
         return [entry for entry in done if entry.gesture == done[-1].gesture]
+
+    @property
+    def loaded(self) -> WorldState | None:
+        """Return the state that was loaded last; None where none was."""
+        requests = (entry.request for entry in reversed(self._entries))
+        return next((each.state for each in requests if isinstance(each, Restore)), self._loaded)
 
     # Changing
 
@@ -253,5 +261,9 @@ class History:
         old = bisect_right(self._marks, self.head - self._length, key=lambda each: each.step) - 1
         if old > 0:
             del self._marks[:old]
-            del self._entries[: self._marks[0].serial - self._dropped]
+            old = self._marks[0].serial - self._dropped
+            for entry in self._entries[:old]:
+                if isinstance(entry.request, Restore):
+                    self._loaded = entry.request.state
+            del self._entries[:old]
             self._dropped = self._marks[0].serial

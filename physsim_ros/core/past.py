@@ -51,11 +51,8 @@ class Shot(NamedTuple):
     @property
     def size(self) -> int:
         """Return the memory it takes [bytes]."""
-        size = _OVERHEAD + self.snapshot.poses.nbytes + self.snapshot.twists.nbytes
-        if self.contacts is not None:
-            # Each pair has two rows, a point, a normal and an impulse of 16 bytes each.
-            size += 4 * self.contacts.pairs.nbytes
-        return size
+        contacts = 0 if self.contacts is None else self.contacts.nbytes
+        return _OVERHEAD + self.snapshot.nbytes + contacts
 
 
 class _Reel:
@@ -69,6 +66,16 @@ class _Reel:
         old = self.shots.get(shot.snapshot.step)
         self.size += shot.size - (0 if old is None else old.size)
         self.shots[shot.snapshot.step] = shot
+
+    def has(self, step: int, *, watching: bool) -> bool:
+        """Tell whether it has the shot of a step, with contacts if they are wanted."""
+        shot = self.shots.get(step)
+        return shot is not None and (shot.contacts is not None or not watching)
+
+    @property
+    def tells_contacts(self) -> bool:
+        """Whether all its shots do."""
+        return all(shot.contacts is not None for shot in self.shots.values())
 
     def distance(self, step: int) -> int:
         """Return how far a step is from the nearest shot."""
@@ -128,13 +135,13 @@ class Past:
         """
         Return the shot of a step.
 
-        :param watching: whether contacts are wanted, should it have to be made again
+        :param watching: whether contacts are wanted
         """
         mark, end = self._history.segment(step)
         reel = self._reels.get(mark)
-        if reel is None or step not in reel.shots:
+        if reel is None or not reel.has(step, watching=watching):
             making = self._making
-            if making is None or making.mark != mark or step not in making:
+            if making is None or not making.suits(mark, step, watching=watching):
                 making = self._begin(
                     mark, end, fine=step % self._frame_steps != 0, watching=watching
                 )
@@ -154,10 +161,11 @@ class Past:
         """
         mark, _ = self._history.segment(step)
         before, end = self._history.segment(mark.step)
-        if before == mark or before in self._reels:
+        reel = self._reels.get(before)
+        if before == mark or (reel is not None and reel.tells_contacts >= watching):
             return
         making = self._making
-        if making is None or making.mark != before:
+        if making is None or not making.suits(before, end, watching=watching):
             making = self._begin(before, end, fine=fine, watching=watching)
         frames_left = max(1, (step - mark.step) // max(1, steps))
         making.go_on(-(-making.left // frames_left))
@@ -199,12 +207,15 @@ class _Making:
         self._course = course
         self._end = end
         self._stride = stride
+        self._watching = course.world.watching
         course.resume(mark)
         course.show(mark.step)
         self._shoot()
 
-    def __contains__(self, step: int) -> bool:
-        return step % self._stride == 0 or step == self._end
+    def suits(self, mark: Mark, step: int, *, watching: bool) -> bool:
+        """Tell whether it will have the shot of a step after a keyframe."""
+        wanted = step % self._stride == 0 or step == self._end
+        return wanted and self.mark == mark and (self._watching or not watching)
 
     @property
     def left(self) -> int:

@@ -55,6 +55,20 @@ class _Asked(NamedTuple):
     gesture: int
 
 
+class _Left(NamedTuple):
+    """
+    A course of events that was left, by a reset or by undoing one.
+
+    :ivar timeline: it
+    :ivar moment: that was shown then
+    :ivar beginning: what it began with
+    """
+
+    timeline: Timeline
+    moment: tuple[int, int]
+    beginning: WorldState
+
+
 class Simulation:
     """
     A world and its time.
@@ -97,12 +111,11 @@ class Simulation:
         self._watching = False
         self._history = history
         self._keyframes = keyframes
+        # What this course of events began with.
         self._beginning = WorldState(settings=settings or WorldSettings())
-        self._undone: deque[Tail | None] = deque(maxlen=MOST_UNDONE)
-        # What was before each reset, and the moment that was shown.
-        self._left: deque[tuple[Timeline, tuple[int, int]]] = deque(maxlen=MOST_RESETS)
-        # What the last reset began with.
-        self._begun: WorldState | None = None
+        self._undone: deque[Tail | _Left] = deque(maxlen=MOST_UNDONE)
+        # What was before each reset.
+        self._left: deque[_Left] = deque(maxlen=MOST_RESETS)
         self.timeline, self.past = self._course_of(self._beginning)
         # The step that is shown where the world itself is at another; None where it is there.
         self._shown: Shot | None = None
@@ -211,9 +224,7 @@ class Simulation:
 
     def load(self, state: WorldState) -> str:
         """Replace the world by a state, to which `reset` will return; time goes on."""
-        message = self.perform(Restore(state=state))
-        self._beginning = state
-        return message
+        return self.perform(Restore(state=state))
 
     def save(self) -> WorldState:
         """
@@ -231,11 +242,11 @@ class Simulation:
         self._apply_all()
         self._catch_up()
         history = self.timeline.history
-        if self._begun is self._beginning and history.head == 0 and self.timeline.serial == 0:
-            # It has just been reset: there is nothing to come back to.
+        if history.head == 0 and self.timeline.serial == 0:
+            # It has just begun: there is nothing to come back to.
             return self._turn('~/reset', 'at the beginning, time 0')
-        self._left.append((self.timeline, self.timeline.moment))
-        self._begun = self._beginning
+        self._left.append(self._leave())
+        self._beginning = history.loaded or self._beginning
         self.timeline, self.past = self._course_of(self._beginning)
         self._undone.clear()
         return self._turn('~/reset', 'back at the beginning, time 0')
@@ -253,12 +264,8 @@ class Simulation:
         except OutOfHistory:
             if not self._left:
                 raise
-            self.timeline, moment = self._left.pop()
-            self._begun = None
-            self.timeline.history.length = self._steps(self._history)
-            self.past = self._past_of(self.timeline)
-            self.timeline.seek_moment(*moment)
-            self._undone.append(None)
+            self._undone.append(self._leave())
+            self._return(self._left.pop())
             message = 'undid reset'
         else:
             self.past.forget(undone[0].step)
@@ -275,16 +282,15 @@ class Simulation:
         self._apply_all()
         if not self._undone:
             raise OutOfHistory('there is nothing to redo', field='history')
-        tail = self._undone[-1]
-        if tail is None:
-            self._undone.pop()
-            undone = list(self._undone)
-            self.reset()
-            self._undone.extend(undone)
-            return 'redid reset, back at time 0'
-        self.timeline.redo(tail)
+        undone = self._undone[-1]
+        if isinstance(undone, Tail):
+            self.timeline.redo(undone)
+            self.past.forget(undone.entries[0].step)
+        else:
+            self._catch_up()
+            self._left.append(self._leave())
+            self._return(undone)
         self._undone.pop()
-        self.past.forget(tail.entries[0].step)
         self._shown = None
         return self._turn('~/redo', f'redid what was undone, at {self._time()}')
 
@@ -362,6 +368,17 @@ class Simulation:
             self.timeline.seek(step)
             # They have been shown.
             self.timeline.world.clear_contacts()
+
+    def _leave(self) -> _Left:
+        """Return this course of events, for another is to be followed."""
+        return _Left(self.timeline, self.timeline.moment, self._beginning)
+
+    def _return(self, left: _Left) -> None:
+        """Follow a course of events that was left, from the moment at which it was."""
+        self.timeline, moment, self._beginning = left
+        self.timeline.history.length = self._steps(self._history)
+        self.past = self._past_of(self.timeline)
+        self.timeline.seek_moment(*moment)
 
     def _moved(self) -> None:
         """Note that another moment is shown than before."""

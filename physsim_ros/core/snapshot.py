@@ -321,6 +321,12 @@ class Contacts:
     normals: Floats
     impulses: Floats
 
+    @property
+    def nbytes(self) -> int:
+        """Memory it takes [bytes]."""
+        # Each pair has two rows, a point, a normal and an impulse of 16 bytes each.
+        return 4 * self.pairs.nbytes
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Answer:
@@ -374,6 +380,11 @@ class Snapshot:
     poses: Floats
     twists: Floats
     forces: Floats = field(default_factory=lambda: np.empty(0))
+
+    @property
+    def nbytes(self) -> int:
+        """Memory it takes [bytes]; what is worked out from it not counted."""
+        return self.poses.nbytes + self.twists.nbytes
 
     @cached_property
     def centers(self) -> Floats:

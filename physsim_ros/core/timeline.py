@@ -175,7 +175,7 @@ class Timeline(Course):
 
     def seek(self, step: int) -> None:
         """
-        Go to a step that has been, after all the requests of it.
+        Go to a step that has been, as it was shown.
 
         :raises OutOfHistory: it is kept no more, or has not come yet
         """

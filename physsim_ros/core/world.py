@@ -394,7 +394,6 @@ class World:
 
     def _restore(self, state: WorldState) -> None:
         # A space of its own for every state: what was in the old one leaves no trace.
-        self._settings = state.settings
         space = Space(state.settings, self.dt)
         now = self.step_count
         for serial, saved in enumerate(state.bodies):
@@ -411,6 +410,7 @@ class World:
         if state.memory is not None:
             key = replace(space.keyframe(now), memory=state.memory)
             space = Space(state.settings, self.dt, key=key)
+        self._settings = state.settings
         self._take(space, Spares())
 
     def _points(self, points: tuple[Point, ...], frame: str) -> tuple[Point, ...]:

@@ -132,28 +132,29 @@ def read(samples: Floats, view: View, settings: DrawingSettings) -> Reading:
     """
     drawn = stroke(samples)
     weights: dict[Meaning, float] = {}
-    best: Sense | None = None
+    # The likeliest sense of each meaning.
+    best: dict[Meaning, Sense] = {}
     for candidate in recogniser.recognise(drawn):
         for sense in _senses(candidate, drawn, view, settings):
             if sense.weight < LEAST:
                 continue
             weights[sense.meaning] = weights.get(sense.meaning, 0.0) + sense.weight
-            if best is None or sense.weight > best.weight:
-                best = sense
+            if sense.meaning not in best or sense.weight > best[sense.meaning].weight:
+                best[sense.meaning] = sense
     total = sum(weights.values()) + DOUBT
     ranked = sorted(weights, key=lambda meaning: -weights[meaning])
     confidences = [(meaning, weights[meaning] / total) for meaning in ranked]
-    if best is None or confidences[0][1] < settings.sketch_confidence:
+    if not confidences or confidences[0][1] < settings.sketch_confidence:
         raise NotRecognised(_doubt(confidences[:2]), field='poses')
-    made = best.make(best.points, drawn, view, settings)
-    following = next(
-        ((other, share) for other, share in confidences if other != best.meaning), None
-    )
+    (what, confidence), *others = confidences
+    sense = best[what]
+    made = sense.make(sense.points, drawn, view, settings)
+    runner_up, runner_up_confidence = others[0] if others else (None, 0.0)
     return Reading(
-        what=best.meaning,
-        confidence=weights[best.meaning] / total,
-        runner_up=following[0] if following else None,
-        runner_up_confidence=following[1] if following else 0.0,
+        what=what,
+        confidence=confidence,
+        runner_up=runner_up,
+        runner_up_confidence=runner_up_confidence,
         requests=made.requests,
         subject=made.subject,
         message=made.message,

@@ -296,10 +296,78 @@ def test_reset_is_undone_too(driven: Driven) -> None:
     driven.simulation.reset()
     assert (driven.simulation.step, driven.names) == (0, ())
     driven.run(1.0, 0.5)
+    later = driven.simulation.step
     driven.simulation.undo()
     assert (driven.simulation.step, driven.simulation.world.digest()) == (step, digest)
     driven.simulation.redo()
-    assert (driven.simulation.step, driven.names) == (0, ())
+    assert later > 100
+    assert (driven.simulation.step, driven.names) == (later, ())
+
+
+def test_what_followed_a_reset_comes_back_with_it(driven: Driven) -> None:
+    driven.simulation.reset()
+    driven.record(4.0)
+    driven.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
+    driven.record(3.0)
+    step, digest = driven.simulation.step, driven.simulation.world.digest()
+    said = [driven.simulation.undo() for _ in range(2)] + [
+        driven.simulation.redo() for _ in range(2)
+    ]
+    assert [each.partition(',')[0] for each in said[:2]] == ['undid spawn b/0', 'undid reset']
+    assert (driven.simulation.step, driven.simulation.world.digest()) == (step, digest)
+    driven.simulation.seek(SECOND // 2)
+    frames = [driven.simulation.advance_frame() for _ in range(step // FRAME - 30)]
+    for frame in frames:
+        driven.assert_same(frame)
+    assert told(frames, 'divergence') == []
+    assert driven.simulation.world.digest() == digest
+
+
+def test_resets_are_undone_and_redone_one_by_one(driven: Driven) -> None:
+    moments = [driven.simulation.step]
+    for seconds in (1.0, 2.0):
+        driven.simulation.reset()
+        driven.run(1.0, seconds)
+        moments.append(driven.simulation.step)
+    backward = []
+    for _ in range(2):
+        driven.simulation.undo()
+        backward.append(driven.simulation.step)
+    forward = []
+    for _ in range(2):
+        driven.simulation.redo()
+        forward.append(driven.simulation.step)
+    assert backward == moments[1::-1]
+    assert forward == moments[1:]
+
+
+def test_an_undone_load_is_not_what_reset_returns_to(driven: Driven) -> None:
+    other = Driven()
+    other.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
+    driven.simulation.load(other.simulation.save())
+    driven.simulation.undo()
+    driven.simulation.reset()
+    assert driven.names == ()
+
+
+def test_reset_returns_to_what_was_loaded_longer_ago_than_is_kept() -> None:
+    driven = Driven(history=5.0)
+    other = Driven()
+    other.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
+    driven.simulation.load(other.simulation.save())
+    driven.run(4.0, 5.0)
+    driven.simulation.reset()
+    assert driven.names == ('b/0',)
+
+
+def test_contacts_come_again_that_nobody_asked_for_the_first_time() -> None:
+    driven = Driven()
+    driven.ask(spawning('a/0', BOX, (0.0, 0.5, 0.0)))
+    driven.run(1.0, 5.0)
+    driven.simulation.watch_contacts(True)
+    for frame in driven.run(-1.0, 4.0)[1:]:
+        assert frame.contacts is not None
+        assert frame.contacts.pairs.tolist() == [[0, -1]]
 
 
 def test_what_was_loaded_at_the_beginning_cannot_be_undone() -> None:

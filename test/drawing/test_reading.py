@@ -257,6 +257,26 @@ def test_stairs_are_a_wall(world: World) -> None:
     assert draw(world, steps).what is Meaning.WALL
 
 
+def test_what_is_drawn_is_the_likeliest_and_never_unlikely(world: World) -> None:
+    spawn(world, 'a/0', Box(width=2.0, height=2.0))
+    rng = np.random.default_rng(7)
+    view, settings = View(world.snapshot()), DrawingSettings(sketch_confidence=0.3)
+    readings = []
+    for _ in range(1500):
+        angle = np.linspace(0.0, 2 * math.pi, rng.integers(12, 60))
+        ring = np.column_stack((np.cos(angle), rng.uniform(0.6, 1.0) * np.sin(angle)))
+        ring += rng.normal(0.0, 0.04, ring.shape)
+        try:
+            readings.append(
+                read(rng.uniform(-0.8, 0.8, 2) + rng.uniform(0.1, 0.7) * ring, view, settings)
+            )
+        except Refusal:
+            continue
+    assert len(readings) > 500
+    for reading in readings:
+        assert reading.confidence >= max(0.3, reading.runner_up_confidence)
+
+
 # Joints
 
 
