@@ -39,6 +39,7 @@ import rclpy
 from rclpy.experimental import EventsExecutor
 from rclpy.qos import HistoryPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.signals import SignalHandlerOptions
+from rclpy.task import Future
 from rclpy.time import Time
 from rclpy.utilities import remove_ros_args
 from std_srvs.srv import Trigger
@@ -120,8 +121,16 @@ class Artist(QuietNode):
         """
         client = self._buttons[service]
         self._spin_until(client.service_is_ready, f'{service} is not there')
-        future = client.call_async(Trigger.Request())
-        self._spin_until(future.done, f'{service} is not answered')
+        futures: list[Future] = []
+
+        def answered() -> bool:
+            # Again each second: a world that has not discovered a client yet drops its answer.
+            if time.monotonic() >= began + len(futures):
+                futures.append(client.call_async(Trigger.Request()))
+            return any(future.done() for future in futures)
+
+        began = time.monotonic()
+        self._spin_until(answered, f'{service} is not answered')
 
     def close(self) -> None:
         """Leave the graph."""

@@ -27,7 +27,7 @@ from visualization_msgs.msg import Marker, MarkerArray
 
 def main() -> None:
     count = int(sys.argv[1])
-    visitor = Visitor()
+    visitor = Visitor('/physsim/pause', '/physsim/clear', '/physsim/play')
     events = visitor.listen(DiagnosticStatus, '/physsim/events')
     spawn = visitor.publisher(Marker, '/physsim/spawn')
     array = visitor.publisher(MarkerArray, '/physsim/spawn_array')

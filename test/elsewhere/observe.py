@@ -52,7 +52,7 @@ def spots(picture: MarkerArray) -> dict[str, list[float]]:
 
 
 def main() -> None:
-    visitor = Visitor()
+    visitor = Visitor(*(f'/physsim/{name}' for name in ('pause', 'step', 'play')))
     heard = {name: visitor.listen(kind, f'/physsim/{name}') for name, kind in STREAMS.items()}
     clocks = visitor.listen(Clock, '/clock')
     diagnostics = visitor.listen(DiagnosticArray, '/diagnostics')

@@ -34,13 +34,13 @@ from rcl_interfaces.srv import GetParameters, SetParameters
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import MultiDOFJointState
 from std_msgs.msg import Float64
-from std_srvs.srv import Trigger
 from visitor import disc, stamp_of, Visitor
 from visualization_msgs.msg import Marker, MarkerArray
 
 # A frame at speed 1 [ns], and so the first time [frames].
 PERIOD = 1e9 / 60.0
 FIRST = 320
+BUTTONS = ('play', 'pause', 'rewind', 'fast_rewind', 'step', 'undo', 'redo')
 # Bodies at most.
 MANY = 30
 
@@ -66,7 +66,9 @@ class Traveller(Visitor):
     """Someone who sends a world through its time."""
 
     def __init__(self) -> None:
-        super().__init__()
+        super().__init__(*(f'/physsim/{name}' for name in BUTTONS))
+        self.client(GetParameters, '/physsim/get_parameters')
+        self.client(SetParameters, '/physsim/set_parameters')
         self.states = self.listen(MultiDOFJointState, '/physsim/states')
         self.events = self.listen(DiagnosticStatus, '/physsim/events')
         self.clocks = self.listen(Clock, '/clock')
@@ -82,7 +84,6 @@ class Traveller(Visitor):
         }.items():
             self.topics[topic] = self.publisher(kind, f'/physsim/{topic}')
         self.asked = 0
-        self._clients: dict[str, Any] = {}
 
     def ask(self, topic: str, message: Any, answers: int = 1) -> None:
         self.topics[topic].publish(message)
@@ -94,7 +95,7 @@ class Traveller(Visitor):
 
     def parameter(self, name: str) -> Any:
         request = GetParameters.Request(names=[name])
-        (value,) = self._request(GetParameters, '/physsim/get_parameters', request).values
+        (value,) = self.request('/physsim/get_parameters', request).values
         if value.type == ParameterType.PARAMETER_INTEGER:
             return value.integer_value
         if value.type == ParameterType.PARAMETER_DOUBLE:
@@ -110,22 +111,8 @@ class Traveller(Visitor):
         kind, field = kinds[type(value)]
         given = Parameter(name=name, value=ParameterValue(type=kind, **{field: value}))
         request = SetParameters.Request(parameters=[given])
-        (result,) = self._request(SetParameters, '/physsim/set_parameters', request).results
+        (result,) = self.request('/physsim/set_parameters', request).results
         assert result.successful, result.reason
-
-    def _request(self, kind: Any, service: str, request: Any) -> Any:
-        # One client for all requests: of a new one, the world may not know yet whom to answer.
-        if service not in self._clients:
-            self._clients[service] = self.node.create_client(kind, service)
-        client = self._clients[service]
-        self.spin_until(client.service_is_ready, service)
-        future = client.call_async(request)
-        self.spin_until(future.done, f'an answer of {service}')
-        return future.result()
-
-    def call(self, service: str) -> tuple[bool, str]:
-        response = self._request(Trigger, service, Trigger.Request())
-        return response.success, response.message
 
     def call_well(self, service: str) -> str:
         success, message = self.call(f'/physsim/{service}')

@@ -42,11 +42,21 @@ KEPT = QoSProfile(
 
 
 class Visitor:
-    """A node in a process of its own."""
+    """
+    A node in a process of its own.
 
-    def __init__(self) -> None:
+    The world drops the answer to a client that it has not discovered yet, so that clients come
+    first: they are announced in order with the subscriptions, and who hears an event is known.
+
+    :param services: of type Trigger, that it will call
+    """
+
+    def __init__(self, *services: str) -> None:
         rclpy.init()
         self.node = Node('visitor')
+        self._clients: dict[str, Any] = {}
+        for service in services:
+            self.client(Trigger, service)
         self._executor = EventsExecutor()
         self._executor.add_node(self.node)
 
@@ -89,14 +99,21 @@ class Visitor:
         self.spin_until(lambda: time.monotonic() > sent, 'the last answers')
         events.clear()
 
+    def client(self, kind: Any, service: str) -> None:
+        """Become a client of a service, before anything else."""
+        self._clients[service] = self.node.create_client(kind, service)
+
+    def request(self, service: str, request: Any) -> Any:
+        """Return what a service answers."""
+        client = self._clients[service]
+        self.spin_until(client.service_is_ready, service)
+        future = client.call_async(request)
+        self.spin_until(future.done, f'an answer of {service}')
+        return future.result()
+
     def call(self, service: str) -> tuple[bool, str]:
         """Call a service of type Trigger, and return what it answers."""
-        client = self.node.create_client(Trigger, service)
-        self.spin_until(client.service_is_ready, service)
-        future = client.call_async(Trigger.Request())
-        self.spin_until(future.done, f'an answer of {service}')
-        response = future.result()
-        assert response is not None
+        response = self.request(service, Trigger.Request())
         return response.success, response.message
 
     def finish(self, **results: object) -> None:
