@@ -34,6 +34,7 @@ import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.core.joint_properties import JointKind
 from physsim_ros.core.names import WORLD
+from physsim_ros.core.rotation import turned
 from physsim_ros.core.snapshot import (
     Answer,
     Body,
@@ -361,11 +362,9 @@ class _JointPieces:
     def _lines(self, snapshot: Snapshot) -> Floats:
         """Return (s, 2) float64: unit vectors along the lines of sliders."""
         scene = snapshot.scene
-        x, y = scene.seats[self._sliders, 4:6].T
         # The background is the last row.
         yaw = np.append(snapshot.poses[:, 2], 0.0)[scene.joint_rows[self._sliders, 1]]
-        cos, sin = np.cos(yaw), np.sin(yaw)
-        return np.column_stack((cos * x - sin * y, sin * x + cos * y))
+        return turned(scene.seats[self._sliders, 4:6], yaw)
 
 
 # Templates: written slowly once, then filled fast.

@@ -34,6 +34,7 @@ from physsim_ros.core.errors import (
     Refusal,
     UnknownShape,
 )
+from physsim_ros.core.names import JOINT_PREFIX
 from physsim_ros.core.properties import check_finite, properties_from
 from physsim_ros.core.requests import (
     AtPoint,
@@ -57,7 +58,6 @@ from physsim_ros.core.shapes import (
     Shape,
     Triangles,
 )
-from physsim_ros.symbols import JOINT_PREFIX, OWN_PREFIXES
 from physsim_ros.yaml_text import load_mapping
 from sensor_msgs.msg import MultiDOFJointState
 from visualization_msgs.msg import Marker
@@ -117,8 +117,6 @@ def body_request(marker: Marker, *, frame_id: str) -> Spawn | Delete | DeleteAll
         return DeleteAll(namespace=marker.ns or None)
     if marker.action != Marker.ADD:
         raise BadProperty(f'there is no action {marker.action}', field='action')
-    if marker.ns.startswith(OWN_PREFIXES):
-        raise Malformed(f'{marker.ns!r} is what the picture draws itself, no body', field='ns')
     position = marker.pose.position
     return Spawn(
         name=name_of(marker),

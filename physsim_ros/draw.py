@@ -34,17 +34,14 @@ from nav_msgs.msg import Path
 from physsim_ros import drawing_file
 from physsim_ros.core.snapshot import Floats
 from physsim_ros.drawing_file import BadDrawing, Pace
-from physsim_ros.quiet_node import QuietNode
+from physsim_ros.quiet_node import LOSSLESS, QuietNode
 import rclpy
 from rclpy.experimental import EventsExecutor
-from rclpy.qos import HistoryPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.signals import SignalHandlerOptions
 from rclpy.task import Future
 from rclpy.time import Time
 from rclpy.utilities import remove_ros_args
 from std_srvs.srv import Trigger
-
-_ALL = QoSProfile(history=HistoryPolicy.KEEP_ALL, reliability=ReliabilityPolicy.RELIABLE)
 
 
 class Unanswered(Exception):
@@ -67,9 +64,9 @@ class Artist(QuietNode):
         super().__init__('physsim_draw')
         self._patience = patience
         self._answers: deque[DiagnosticStatus] = deque()
-        self._strokes = self.create_publisher(Path, f'{world}/stroke', _ALL)
+        self._strokes = self.create_publisher(Path, f'{world}/stroke', LOSSLESS)
         self._events = self.create_subscription(
-            DiagnosticStatus, f'{world}/events', self._hear, _ALL
+            DiagnosticStatus, f'{world}/events', self._hear, LOSSLESS
         )
         self._buttons = {
             name: self.create_client(Trigger, f'{world}/{name}') for name in ('pause', 'play')

@@ -30,6 +30,7 @@ import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.core.joint_properties import JointKind
 from physsim_ros.core.names import WORLD
+from physsim_ros.core.rotation import turned
 from physsim_ros.core.snapshot import Body, Floats, Joint, Scene
 
 # The smallest and the largest half size of a symbol [m].
@@ -119,7 +120,7 @@ class Linework:
         """
         background = np.zeros((*poses.shape[:-2], 1, 3))
         held = np.concatenate((poses, background), axis=-2)[..., self._scene.joint_rows, :]
-        return held[..., :2] + _turned(self._seats, held[..., 2])
+        return held[..., :2] + turned(self._seats, held[..., 2])
 
     def corners(self, poses: Floats) -> Floats:
         """
@@ -141,7 +142,7 @@ class Linework:
         yaw = np.concatenate((poses[..., 2], background), axis=-1)[..., self._rows]
         corners: Floats = first[..., holders, :] + self._along * way[..., holders, :]
         corners += self._across * side[..., holders, :] + self._sag * depth[..., holders, :]
-        return corners + _turned(self._arms, yaw)
+        return corners + turned(self._arms, yaw)
 
     def colors(self, forces: Floats) -> NDArray[np.float32]:
         """
@@ -277,13 +278,6 @@ def _much(joint: Joint, scene: Scene, bodies: dict[str, Body]) -> float:
     ]
     pull = math.hypot(*scene.settings.gravity) or _WEIGHT
     return max(_MUCH * pull * max(weights, default=0.0), _LEAST)
-
-
-def _turned(vectors: Floats, yaw: Floats) -> Floats:
-    cos, sin = np.cos(yaw), np.sin(yaw)
-    x, y = vectors[..., 0], vectors[..., 1]
-    turned: Floats = np.stack((cos * x - sin * y, sin * x + cos * y), axis=-1)
-    return turned
 
 
 def segments(lengths: Sequence[int]) -> NDArray[np.intp]:

@@ -53,7 +53,7 @@ from physsim_ros.core.snapshot import Answer, Frame, run_state, Snapshot, WorldS
 from physsim_ros.diagnostics import Meter
 from physsim_ros.drawing.pen import Pen, told
 from physsim_ros.drawing.tools import Tool
-from physsim_ros.quiet_node import QuietNode
+from physsim_ros.quiet_node import LOSSLESS, QuietNode
 from physsim_ros.streams import Streams
 from physsim_ros.viewer import Viewer, ViewerMode
 from rcl_interfaces.msg import SetParametersResult
@@ -63,7 +63,6 @@ from rclpy.clock import ClockType
 from rclpy.context import Context
 from rclpy.experimental import EventsExecutor
 from rclpy.parameter import Parameter
-from rclpy.qos import HistoryPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.signals import SignalHandlerOptions
 from rclpy.utilities import remove_ros_args
 from rosgraph_msgs.msg import Clock
@@ -71,9 +70,6 @@ from sensor_msgs.msg import MultiDOFJointState
 from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
 from visualization_msgs.msg import Marker, MarkerArray
-
-# A burst of thousands must lose nothing.
-_REQUESTS = QoSProfile(history=HistoryPolicy.KEEP_ALL, reliability=ReliabilityPolicy.RELIABLE)
 
 
 class PhysSimNode(QuietNode):
@@ -92,6 +88,20 @@ class PhysSimNode(QuietNode):
         parameter_overrides: list[Parameter] | None = None,
     ) -> None:
         super().__init__('physsim', context=context, parameter_overrides=parameter_overrides)
+        self._viewer = Viewer()
+        try:
+            self._set_up()
+        except BaseException:
+            # What is refused leaves nothing on the graph.
+            self.destroy_node()
+            raise
+
+    def _set_up(self) -> None:
+        """
+        Make the world, and let the graph reach it.
+
+        :raises PhysSimError: a parameter or the world file is refused
+        """
         self._values = parameters.declare(self)
         self.simulation = Simulation(
             physics_rate=self._values['physics_rate'],
@@ -108,7 +118,6 @@ class PhysSimNode(QuietNode):
         self._pen = Pen(parameters.drawing_settings(self._values), Tool(self._values['tool']))
         self._meter = Meter()
         self._diagnostics = self.create_publisher(DiagnosticArray, '/diagnostics', 10)
-        self._viewer = Viewer()
         # The last one that was delivered.
         self.frame: Frame | None = None
         self._started = False
@@ -210,10 +219,12 @@ class PhysSimNode(QuietNode):
 
     def _subscribe(self) -> None:
         def listen(kind: type, topic: str, convert: Callable[..., Request]) -> None:
-            def callback(message: Any) -> None:
-                self._submit(message, topic, convert)
+            field = 'point' if kind is PointStamped else ''
 
-            self.create_subscription(kind, topic, callback, _REQUESTS)
+            def callback(message: Any) -> None:
+                self._submit(message, topic, convert, field=field)
+
+            self.create_subscription(kind, topic, callback, LOSSLESS)
 
         listen(Marker, '~/spawn', conversions.body_request)
         listen(Marker, '~/join', conversions.joint_request)
@@ -222,14 +233,20 @@ class PhysSimNode(QuietNode):
         listen(PointStamped, '~/anchor', partial(conversions.point_request, Anchor))
         listen(PointStamped, '~/release', partial(conversions.point_request, Release))
         listen(MultiDOFJointState, '~/command', conversions.command_request)
-        self.create_subscription(MarkerArray, '~/spawn_array', self._spawn_array, _REQUESTS)
-        self.create_subscription(Float64, '~/speed', self._speed, _REQUESTS)
-        self.create_subscription(PointStamped, 'clicked_point', self._click, _REQUESTS)
-        self.create_subscription(PathMessage, '~/stroke', self._stroke, _REQUESTS, raw=True)
-        self.create_subscription(Clock, '~/seek', self._seek, _REQUESTS)
+        self.create_subscription(MarkerArray, '~/spawn_array', self._spawn_array, LOSSLESS)
+        self.create_subscription(Float64, '~/speed', self._speed, LOSSLESS)
+        self.create_subscription(PointStamped, 'clicked_point', self._click, LOSSLESS)
+        self.create_subscription(PathMessage, '~/stroke', self._stroke, LOSSLESS, raw=True)
+        self.create_subscription(Clock, '~/seek', self._seek, LOSSLESS)
 
     def _submit(
-        self, message: Any, topic: str, convert: Callable[..., Request], *, joined: bool = False
+        self,
+        message: Any,
+        topic: str,
+        convert: Callable[..., Request],
+        *,
+        joined: bool = False,
+        field: str = '',
     ) -> None:
         try:
             request = convert(message, frame_id=self._frame_id)
@@ -237,12 +254,12 @@ class PhysSimNode(QuietNode):
             subject = conversions.subject_of(message, joint=topic == '~/join')
             self.simulation.refuse(refusal, topic=topic, subject=subject, joined=joined)
             return
-        self.simulation.submit(request, topic=topic, joined=joined)
+        self.simulation.submit(request, topic=topic, joined=joined, field=field)
 
-    def _submit_all(self, requests: Iterable[Request], topic: str) -> None:
+    def _submit_all(self, requests: Iterable[Request], topic: str, field: str) -> None:
         """Submit what one gesture asks for: it is undone as one."""
         for number, request in enumerate(requests):
-            self.simulation.submit(request, topic=topic, joined=number > 0)
+            self.simulation.submit(request, topic=topic, joined=number > 0, field=field)
 
     def _spawn_array(self, message: MarkerArray) -> None:
         for number, marker in enumerate(message.markers):
@@ -271,28 +288,32 @@ class PhysSimNode(QuietNode):
         self.simulation.tell(Answer(topic='~/seek', message=done))
 
     def _click(self, message: PointStamped) -> None:
-        with self._drawing('clicked_point') as snapshot:
+        with self._drawing('clicked_point', 'point') as snapshot:
             point, frame = conversions.click(message, frame_id=self._frame_id)
             step = self._pen.click(point, frame, snapshot)
             if step.message:
                 self.simulation.tell(Answer(topic='clicked_point', message=step.message))
-            self._submit_all(step.requests, 'clicked_point')
+            self._submit_all(step.requests, 'clicked_point', 'point')
 
     def _stroke(self, message: bytes) -> None:
-        with self._drawing('~/stroke') as snapshot:
+        with self._drawing('~/stroke', 'poses') as snapshot:
             samples, frame = paths.stroke_from(message, frame_id=self._frame_id)
             reading = self._pen.stroke(samples, frame, snapshot)
             self.simulation.tell(told(reading, topic='~/stroke'))
-            self._submit_all(reading.requests, '~/stroke')
+            self._submit_all(reading.requests, '~/stroke', 'poses')
 
     @contextmanager
-    def _drawing(self, topic: str) -> Iterator[Snapshot]:
-        """Give what is seen, with all that was asked before; refuse what cannot be drawn."""
+    def _drawing(self, topic: str, field: str) -> Iterator[Snapshot]:
+        """
+        Give what is seen, with all that was asked before; refuse what cannot be drawn.
+
+        :param field: of the message, that drawings are made of
+        """
         self.apply()
         try:
             yield self.simulation.world.snapshot() if self.frame is None else self.frame.snapshot
         except Refusal as refusal:
-            self.simulation.refuse(refusal, topic=topic, subject='')
+            self.simulation.refuse(refusal, topic=topic, subject='', field=field)
         self._streams.show(self._pen.preview)
 
     def _refuse(self, refusal: Refusal, topic: str) -> None:

@@ -134,7 +134,9 @@ SPECS: dict[str, Spec] = {
         default=0.0, meaning='share of velocity lost to the air each second', low=0.0, high=1.0
     ),
     'bounds': Spec(
-        default=[], meaning='[xmin, ymin, xmax, ymax] of walls around the world [m]; [] is none'
+        default=[],
+        meaning='[xmin, ymin, xmax, ymax] of walls around the world, each -1e5 .. 1e5 [m]; '
+        '[] is none',
     ),
     'density': Spec(
         default=1.0, meaning='of what is made next without saying [kg/m²]', low=1e-9, high=1e12
@@ -232,7 +234,7 @@ def declare(node: Node) -> dict[str, Any]:
 
 
 def coerced(parameters: Iterable[Parameter]) -> list[Parameter]:
-    """Give whole numbers, as the command line writes them, the type of their parameter."""
+    """Give numbers, whole as the command line writes them or not, the type of their parameter."""
     return [_coerced(parameter) for parameter in parameters]
 
 
@@ -308,14 +310,16 @@ def world_parameters(settings: WorldSettings) -> list[Parameter]:
 
 def _coerced(parameter: Parameter) -> Parameter:
     spec = SPECS.get(parameter.name)
-    if spec is None or parameter.type_ == spec.kind:
+    if spec is None:
         return parameter
     value = parameter.value
     if spec.kind == Type.DOUBLE and parameter.type_ == Type.INTEGER:
         return Parameter(parameter.name, Type.DOUBLE, float(value))
     # An empty list has no type of its own; rclpy takes it for bytes, ros2cli for booleans.
     empty = parameter.type_.name.endswith('_ARRAY') and len(value) == 0
-    if spec.kind == Type.DOUBLE_ARRAY and (empty or parameter.type_ == Type.INTEGER_ARRAY):
+    numbers = parameter.type_ in (Type.DOUBLE_ARRAY, Type.INTEGER_ARRAY)
+    if spec.kind == Type.DOUBLE_ARRAY and (empty or numbers):
+        # A list, always: what comes by a message is an array of Python's.
         return Parameter(parameter.name, Type.DOUBLE_ARRAY, [float(each) for each in value])
     return parameter
 

@@ -42,8 +42,16 @@ def stroke_from(message: bytes, *, frame_id: str) -> tuple[Floats, str]:
     :param frame_id: name of the world's frame
     :return: (n, 3) float64: x, y [m] and time from the first sample [s]; '' for the world or a
         name
-    :raises Malformed: there are too many samples, or they are given in different frames
+    :raises Malformed: there are too many samples, or they are given in different frames, or the
+        message breaks off
     """
+    try:
+        return _read(message, frame_id)
+    except struct.error as error:
+        raise Malformed('the message of the stroke breaks off', field='poses') from error
+
+
+def _read(message: bytes, frame_id: str) -> tuple[Floats, str]:
     reader = _Reader(message)
     _, frame = reader.header()
     count = reader.number()
@@ -73,6 +81,8 @@ class _Reader:
     def __init__(self, message: bytes) -> None:
         self._data = memoryview(message)[_HEADER:]
         self._at = 0
+        if len(message) < _HEADER:
+            raise struct.error('there is no header')
         order = '<' if message[1] & 1 else '>'
         self._stamp = struct.Struct(order + 'iII')
         self._number = struct.Struct(order + 'I')
@@ -101,4 +111,6 @@ class _Reader:
         self._at += -self._at % 8
         x, y = self._position.unpack_from(self._data, self._at)
         self._at += _POSE
+        if self._at > len(self._data):
+            raise struct.error('a pose is not all there')
         return x, y

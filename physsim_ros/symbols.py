@@ -25,7 +25,13 @@ import json
 import math
 
 from physsim_ros.core.joint_properties import JointKind
-from physsim_ros.core.names import split_name
+from physsim_ros.core.names import (
+    CROSS_PREFIX,
+    JOINT_PREFIX,
+    LINES_PREFIX,
+    split_name,
+    WALLS,
+)
 from physsim_ros.core.settings import Bounds
 from physsim_ros.core.shapes import (
     Box,
@@ -40,13 +46,6 @@ from physsim_ros.core.shapes import (
 )
 from physsim_ros.core.snapshot import Body, Joint
 from visualization_msgs.msg import Marker
-
-# What stands before the namespace of a joint, so that a body and a joint of one name do not hide
-# each other; `~/join` knows it. What stands before that of its lines.
-JOINT_PREFIX, LINES_PREFIX = 'joint:', 'lines:'
-_CROSS_PREFIX, _WALLS = 'anchor:', 'physsim:bounds'
-# Namespaces of all that is drawn and is no body.
-OWN_PREFIXES = (JOINT_PREFIX, LINES_PREFIX, _CROSS_PREFIX, _WALLS)
 
 Size = tuple[float, float, float]
 Key = tuple[str, int]
@@ -87,7 +86,7 @@ def symbols(body: Body) -> list[Symbol]:
     kind, scale, points = _geometry(body.shape)
     symbols = [Symbol(key, kind, scale, points, color=body.color, text=_material(body))]
     if body.anchored:
-        symbols.append(_cross(body, (f'{_CROSS_PREFIX}{key[0]}', key[1])))
+        symbols.append(_cross(body, (f'{CROSS_PREFIX}{key[0]}', key[1])))
     return symbols
 
 
@@ -209,5 +208,5 @@ def walls(bounds: Bounds) -> Symbol:
     """Return the marker of the walls around the world."""
     left, bottom, right, top = bounds
     corners = ((left, bottom), (right, bottom), (right, top), (left, top), (left, bottom))
-    key = (_WALLS, 0)
+    key = (WALLS, 0)
     return Symbol(key, Marker.LINE_STRIP, (_THIN, 0.0, 0.0), corners, color=_GREY)

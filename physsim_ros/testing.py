@@ -25,6 +25,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 import fcntl
+import itertools
 import os
 from pathlib import Path
 import tempfile
@@ -45,6 +46,7 @@ if TYPE_CHECKING:
 # Domains whose ports lie below the ephemeral range of Linux:
 # https://docs.ros.org/en/jazzy/Concepts/Intermediate/About-Domain-ID.html
 _DOMAINS = range(1, 102)
+_BEGINNINGS = itertools.count(os.getpid())
 # Wall seconds for what happens in this process within milliseconds.
 _PATIENCE = 10.0
 # The same for each marker of an array, which takes half a millisecond.
@@ -91,6 +93,17 @@ class Refused(Exception):
         self.field = field
 
 
+@contextmanager
+def _refusing() -> Iterator[None]:
+    """Let a refusal of the world's be one to the test."""
+    from physsim_ros.core.errors import Refusal
+
+    try:
+        yield
+    except Refusal as refusal:
+        raise Refused(refusal.code, str(refusal), refusal.field) from refusal
+
+
 class PhysSim:
     """
     A world under a test's control, and a client that talks to it over topics.
@@ -121,7 +134,7 @@ class PhysSim:
         """
         Replace the world by a file's, by its name or path.
 
-        :raises PhysSimError: there is no such world, or it is refused
+        :raises Refused: there is no such world, or it is none
         """
         from rclpy.parameter import Parameter
 
@@ -129,7 +142,8 @@ class PhysSim:
         given = Path(world) if Path(world).suffix else Path(f'{world}.yaml')
         path = given.resolve() if given.is_file() else world
         self.node.set_parameters([Parameter('world_file', value=str(path))])
-        self.node.load_world(confined=False)
+        with _refusing():
+            self.node.load_world(confined=False)
         self.node.apply()
         self.settle()
 
@@ -174,13 +188,9 @@ class PhysSim:
 
         :raises Refused: it is kept no more, or has not come yet
         """
-        from physsim_ros.core.errors import OutOfHistory
-
         self.settle()
-        try:
+        with _refusing():
             self.node.simulation.seek(round(seconds * 1e9))
-        except OutOfHistory as refusal:
-            raise Refused(refusal.code, str(refusal), refusal.field) from refusal
         self.node.apply()
         self.settle()
 
@@ -402,8 +412,7 @@ class _Client:
     def __init__(self, context: Context) -> None:
         from diagnostic_msgs.msg import DiagnosticStatus
         from geometry_msgs.msg import PointStamped
-        from physsim_ros.quiet_node import QuietNode
-        from rclpy.qos import HistoryPolicy, QoSProfile, ReliabilityPolicy
+        from physsim_ros.quiet_node import LOSSLESS, QuietNode
         from sensor_msgs.msg import MultiDOFJointState
         from visualization_msgs.msg import Marker, MarkerArray
 
@@ -422,12 +431,8 @@ class _Client:
             topic: self.node.create_publisher(kind, f'/physsim/{topic}', 10)
             for topic, kind in kinds.items()
         }
-        # An array of thousands is answered in one go.
-        all_of_them = QoSProfile(
-            history=HistoryPolicy.KEEP_ALL, reliability=ReliabilityPolicy.RELIABLE
-        )
         self._events = self.node.create_subscription(
-            DiagnosticStatus, '/physsim/events', self._hear, all_of_them
+            DiagnosticStatus, '/physsim/events', self._hear, LOSSLESS
         )
         # Contacts are read only where somebody subscribes.
         self._contacts = self.node.create_subscription(
@@ -485,8 +490,9 @@ def own_domain() -> Iterator[int]:
     """Give a ROS domain id that nobody else on this machine is given meanwhile."""
     directory = Path(tempfile.gettempdir()) / f'physsim_ros_domains_{os.getuid()}'
     directory.mkdir(exist_ok=True)
-    # Beginning at a place of its own, a process seldom has to try twice.
-    begin = os.getpid() % len(_DOMAINS)
+    # Beginning at a place of its own, a process seldom has to try twice; and never twice at the
+    # same, where what a test has left behind could meet the next.
+    begin = next(_BEGINNINGS) % len(_DOMAINS)
     for domain in (*_DOMAINS[begin:], *_DOMAINS[:begin]):
         with (directory / str(domain)).open('w') as file:
             try:

@@ -39,7 +39,8 @@ from physsim_ros.core.properties import (
     within,
 )
 from physsim_ros.core.requests import Command, join_from, Restore, Spawn
-from physsim_ros.core.rigid_body import REST, rotated
+from physsim_ros.core.rigid_body import REST
+from physsim_ros.core.rotation import rotated
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.shapes import (
     Box,

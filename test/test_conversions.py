@@ -92,7 +92,7 @@ def test_the_world_frame_has_two_spellings(frame: str, meant: str) -> None:
 def test_what_the_picture_draws_itself_is_no_body(namespace: str) -> None:
     message = box(f'{namespace}/0')
     refusal = refusal_of(message)
-    assert (refusal.code, refusal.field) == ('malformed', 'ns')
+    assert (refusal.code, refusal.field) == ('malformed', 'name')
 
 
 def test_stamps_and_z_are_ignored() -> None:

@@ -26,9 +26,10 @@ from physsim_ros.node import PhysSimNode
 from physsim_ros.testing import own_context, PhysSim
 import pytest
 from rcl_interfaces.msg import Parameter as ParameterMessage
-from rcl_interfaces.msg import ParameterType, ParameterValue
+from rcl_interfaces.msg import ParameterType, ParameterValue, SetParametersResult
 from rcl_interfaces.srv import DescribeParameters, SetParameters, SetParametersAtomically
 from rclpy.context import Context
+from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rosgraph_msgs.msg import Clock
 
@@ -300,6 +301,33 @@ def test_a_whole_number_is_taken_for_a_double_over_ros(
     assert isinstance(value_of(physsim, name), float)
 
 
+@pytest.mark.parametrize(
+    ('name', 'numbers', 'beyond'),
+    [
+        ('gravity', [1.5, -2.0], [math.nan, 0.0]),
+        ('bounds', [-9.0, 0.0, 9.5, 9.0], [-9.0, 0.0, math.inf, 9.0]),
+        ('draw_velocity', [1.0, 2.5], [2e5, 0.0]),
+    ],
+)
+def test_lists_of_doubles_are_taken_and_checked_over_ros(
+    physsim: PhysSim, client: Client, name: str, numbers: list[float], beyond: list[float]
+) -> None:
+    def set_(numbers: list[float]) -> SetParametersResult:
+        kind = ParameterType.PARAMETER_DOUBLE_ARRAY
+        value = ParameterValue(type=kind, double_array_value=numbers)
+        request = SetParameters.Request(parameters=[ParameterMessage(name=name, value=value)])
+        (result,) = client.request(SetParameters, '~/set_parameters', request).results
+        return result
+
+    result = set_(numbers)
+    assert result.successful, result.reason
+    assert value_of(physsim, name) == numbers
+    result = set_(beyond)
+    assert not result.successful
+    assert result.reason.partition(':')[0] in ('malformed', 'bad_property')
+    assert value_of(physsim, name) == numbers
+
+
 def test_lists_of_whole_numbers_and_empty_ones_are_taken(physsim: PhysSim, client: Client) -> None:
     def set_(name: str, value: ParameterValue) -> None:
         request = SetParameters.Request(parameters=[ParameterMessage(name=name, value=value)])
@@ -368,6 +396,9 @@ def test_a_node_does_not_start_with_a_bad_value(
     with pytest.raises(error) as caught:
         started(context, **values)
     assert str(caught.value)
+    other = Node('other', context=context)
+    assert other.get_node_names() == ['other']
+    other.destroy_node()
 
 
 @pytest.mark.parametrize(('physics', 'publish'), [(240.0, 240.0), (1000.0, 50.0), (60.0, 1.0)])

@@ -21,6 +21,8 @@ import math
 import struct
 
 from geometry_msgs.msg import PoseStamped
+from hypothesis import given
+from hypothesis import strategies as st
 from nav_msgs.msg import Path
 import numpy as np
 from physsim_ros.core.errors import Malformed
@@ -114,3 +116,22 @@ def test_big_endian_paths_are_read_too() -> None:
     sample = struct.pack('>iII1s7x7d', 3, 0, 1, b'', 1.5, -2.5, 0.0, 0.0, 0.0, 0.0, 1.0)
     samples, _ = stroke_from(b'\0\0\0\0' + said + sample, frame_id='world')
     assert samples.tolist() == [[1.5, -2.5, 0.0]]
+
+
+def test_a_path_that_breaks_off_anywhere_is_refused() -> None:
+    message = path((0, 0), (1, 1), (2, 0), frame='world', frames=['a', 'a', 'a'])
+    for length in range(len(message)):
+        with pytest.raises(Malformed) as refused:
+            stroke_from(message[:length], frame_id='world')
+        assert refused.value.field == 'poses'
+
+
+@given(st.binary(max_size=300), st.integers(0, 255))
+def test_no_bytes_are_more_than_refused(noise: bytes, place: int) -> None:
+    message = path((0, 0), (1, 1), (2, 0))
+    message = message[:place] + noise + message[place + len(noise) :]
+    try:
+        samples, _ = stroke_from(message, frame_id='world')
+    except Malformed:
+        return
+    assert samples.shape[1] == 3

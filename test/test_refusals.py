@@ -99,6 +99,14 @@ REQUESTS: list[tuple[str, Any, str, str, str]] = [
     ('~/release', point(0, NAN), '', 'malformed', 'point'),
     ('~/release', point(0, 0, 'map'), '', 'unknown_frame', 'header.frame_id'),
     ('~/release', point(50, 50), '', 'nothing_there', 'point'),
+    ('~/pin', point(50, 50), '', 'nothing_there', 'point'),
+    ('~/axle', point(50, 50), '', 'nothing_there', 'point'),
+    ('~/pin', point(5, 0), '', 'anchored', 'point'),
+    ('~/axle', point(0, 0, 'map'), '', 'unknown_frame', 'header.frame_id'),
+    ('clicked_point', point(50, 50), '', 'nothing_there', 'point'),
+    ('clicked_point', point(5, 0), '', 'anchored', 'point'),
+    ('clicked_point', point(0, 0, 'map'), '', 'unknown_frame', 'header.frame_id'),
+    ('~/spawn', box('anchor:a/0'), 'anchor:a/0', 'malformed', 'name'),
     ('~/command', command(), '', 'malformed', 'joint_names'),
     ('~/command', command('a/0', 'a/0'), '', 'malformed', 'joint_names'),
     ('~/command', command('a/0', twists=[(0, 0, 0)] * 2), 'a/0', 'malformed', 'twist'),
@@ -108,6 +116,13 @@ REQUESTS: list[tuple[str, Any, str, str, str]] = [
     (
         '~/command',
         command('a/0', poses=[(0, 0, 0)], frame='map'),
+        'a/0',
+        'unknown_frame',
+        'header.frame_id',
+    ),
+    (
+        '~/command',
+        command('a/0', twists=[(0, 0, 0)], frame='map'),
         'a/0',
         'unknown_frame',
         'header.frame_id',
@@ -130,6 +145,7 @@ def inhabited(physsim: PhysSim) -> PhysSim:
     physsim.spawn(box('a/0', text='{velocity: [1, 2], spin: 3}', lifetime=9.0))
     physsim.spawn(box('held/0', at=(5.0, 0.0), text='{anchored: true}'))
     physsim.command(command('a/0', wrenches=[(1.0, 0.0, 0.0)]))
+    physsim.node.set_parameters([Parameter('tool', value='axle')])
     physsim.step(3)
     return physsim
 
@@ -203,6 +219,7 @@ def test_a_spawn_past_the_most_bodies_is_refused(physsim: PhysSim, client: Clien
     before = physsim.digest()
     (event,) = client.ask('~/spawn', box('a/2', at=(6.0, 0.0)))
     assert event == Event(2, '~/spawn', 'a/2', event.message, 'world_full', '')
+    assert event.message == 'the world holds 2 bodies; it may hold 2'
     assert physsim.digest() == before
     # A change in place is no spawn, and a deletion makes room.
     physsim.spawn(disc('a/1', at=(3.0, 0.0)))

@@ -149,6 +149,8 @@ def test_below_the_confidence_that_is_asked_for_nothing_is_built(
     (event,) = client.ask('~/stroke', stroke(circle(0, 0, 1)))
     assert event.code == 'not_recognised'
     assert 'disc' in event.message
+    assert event.values['reading'] == 'disc'
+    assert 0.5 < float(event.values['confidence']) < 1.0
     assert physsim.digest() == before
     assert pictures[-1].markers[-1].text == 'not recognised'
 

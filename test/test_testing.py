@@ -25,7 +25,6 @@ import subprocess
 import sys
 from typing import Any
 
-from physsim_ros.core.errors import BadWorldFile
 from physsim_ros.testing import own_context, own_domain, PhysSim, Refused
 import pytest
 from rclpy.node import Node
@@ -224,8 +223,9 @@ def test_a_world_is_loaded_by_name_or_path(
     monkeypatch.chdir(path.parent)
     physsim.load('one.yaml')
     assert physsim.names == ('a/0',)
-    with pytest.raises(BadWorldFile):
+    with pytest.raises(Refused) as refused:
         physsim.load('nowhere')
+    assert refused.value.code == 'bad_world_file'
     assert physsim.names == ('a/0',)
 
 

@@ -559,7 +559,7 @@ def test_a_body_that_is_gone_or_edited_leaves_no_memory(resting: Path) -> None:
 def test_a_body_that_was_cut_into_pieces_leaves_no_memory(resting: Path) -> None:
     content = yaml.safe_load(resting.read_text())
     lowest = content['bodies'][0]
-    width, height = lowest.pop('box')['size']
+    width, height = lowest.pop('box').values()
     # As wide, as high and as heavy at both ends, so that it goes on from where it was.
     points = [[share * width, 0.0] for share in (-0.4, -0.2, 0.0, 0.2, 0.4)]
     lowest['chain'] = {'points': points, 'thickness': height}

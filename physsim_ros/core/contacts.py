@@ -27,11 +27,10 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from physsim_ros.core.engine_arrays import EngineArrays, Ids
 from physsim_ros.core.snapshot import Contacts, Floats, Ints
 import pymunk
 from pymunk import batch
-
-Ids = NDArray[np.uint64]
 
 _F = batch.ArbiterFields
 _PAIRS_AND_IMPULSES = _F.BODY_A_ID | _F.BODY_B_ID | _F.TOTAL_IMPULSE
@@ -48,13 +47,12 @@ class ContactLog:
     """
     Sums up contacts from step to step until they are taken.
 
-    :param space: whose `collision_persistence` is 1, so that the engine lists only contacts of
-        the last step
+    :param arrays: of a space whose `collision_persistence` is 1, so that the engine lists only
+        contacts of the last step
     """
 
-    def __init__(self, space: pymunk.Space) -> None:
-        self._space = space
-        self._buffer = batch.Buffer()
+    def __init__(self, arrays: EngineArrays) -> None:
+        self._arrays = arrays
         # Of the last step, in the engine's order: ids of each pair, and the sums of its impulses.
         self._ids: Ids = np.empty((0, 2), np.uint64)
         self._sums: Floats = np.empty((0, 2))
@@ -82,11 +80,11 @@ class ContactLog:
         """Add the contacts of the step that has just been made."""
         self._steps += 1
         if self.settled:
-            impulses = self._read(_F.TOTAL_IMPULSE)[1].reshape(-1, 2)
+            impulses = self._arrays.contacts(_F.TOTAL_IMPULSE)[1].reshape(-1, 2)
             if len(impulses) == len(self._ids):
                 self._sums += impulses
                 return
-        ints, floats = self._read(_PAIRS_AND_IMPULSES)
+        ints, floats = self._arrays.contacts(_PAIRS_AND_IMPULSES)
         self._add_pairs(ints.reshape(-1, 2).copy(), floats.reshape(-1, 2).copy())
         self.settled = True
 
@@ -209,7 +207,7 @@ class ContactLog:
 
     def _read_places(self) -> Floats:
         """Return (5, m) float64: normal, count of points, mean point, of the last step."""
-        ints, floats = self._read(_PLACES)
+        ints, floats = self._arrays.contacts(_PLACES)
         # Columns, because numpy adds them up five times as fast as pairs.
         columns = np.ascontiguousarray(floats.reshape(-1, 10).T)
         places = np.empty((5, len(ints)))
@@ -220,14 +218,6 @@ class ContactLog:
         np.add(first, second, out=places[3:])
         places[3:] *= 0.5 / np.maximum(ints, 1)
         return places
-
-    def _read(self, fields: batch.ArbiterFields) -> tuple[Ids, Floats]:
-        """Return what the engine tells of contacts; to be used up before the next call."""
-        # The buffer is reused: a new one a call would leak.
-        self._buffer.clear()
-        batch.get_space_arbiters(self._space, fields, self._buffer)
-        ints = np.frombuffer(self._buffer.int_buf(), dtype=np.uint64)
-        return ints, np.frombuffer(self._buffer.float_buf(), dtype=np.float64)
 
 
 NO_PAIRS = np.empty((0, 2), np.uint64), np.empty((0, 2))

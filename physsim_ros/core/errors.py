@@ -31,13 +31,17 @@ class Refusal(PhysSimError):
 
     :param message: one sentence: what is refused and why
     :param field: the offending field of the request, '' where it is the whole
+    :param values: what else there is to tell, as pairs of key and value
     """
 
     code = 'refused'
 
-    def __init__(self, message: str, *, field: str = '') -> None:
+    def __init__(
+        self, message: str, *, field: str = '', values: tuple[tuple[str, str], ...] = ()
+    ) -> None:
         super().__init__(message)
         self.field = field
+        self.values = values
 
 
 class Malformed(Refusal):

@@ -29,7 +29,7 @@ from physsim_ros.core.errors import Anchored, BadProperty, NothingThere, Unknown
 from physsim_ros.core.joint_properties import JointKind, JointProperties
 from physsim_ros.core.names import split_name, WORLD
 from physsim_ros.core.requests import Join
-from physsim_ros.core.rigid_body import rotated
+from physsim_ros.core.rotation import rotated
 from physsim_ros.core.shapes import Point, Pose
 from physsim_ros.core.snapshot import Joint, Seat
 from physsim_ros.core.space import Space

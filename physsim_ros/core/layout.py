@@ -29,7 +29,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.core import stillness, sweep
-from physsim_ros.core.contacts import Ids
+from physsim_ros.core.engine_arrays import Ids
 from physsim_ros.core.rigid_body import REST, RigidBody
 from physsim_ros.core.snapshot import Floats, Ints, Scene
 

@@ -22,6 +22,10 @@ from physsim_ros.core.errors import Malformed
 WORLD = 'world'
 # What frame names and message strings can reasonably hold.
 LONGEST_NAME = 1000
+# What stands before the namespace of a joint in the picture, so that a body and a joint of one
+# name do not hide each other; `~/join` knows it. What stands before those of its lines and of the
+# x of an anchored body, and the namespace of the walls.
+JOINT_PREFIX, LINES_PREFIX, CROSS_PREFIX, WALLS = 'joint:', 'lines:', 'anchor:', 'physsim:bounds'
 
 
 def check_name(name: str) -> None:
@@ -39,6 +43,17 @@ def check_name(name: str) -> None:
         raise Malformed(f'{name!r} holds a character that cannot be printed', field='name')
     if not -(2**31) <= id_ < 2**31:
         raise Malformed(f'the id of {name!r} does not fit into 32 bits', field='name')
+
+
+def check_body_name(name: str) -> None:
+    """
+    Refuse a name that is none of a body.
+
+    :raises Malformed: it is no name at all, or is one of something else in the picture
+    """
+    check_name(name)
+    if name.startswith((JOINT_PREFIX, LINES_PREFIX, CROSS_PREFIX, WALLS)):
+        raise Malformed(f'{name!r} is no body in the picture', field='name')
 
 
 def split_name(name: str) -> tuple[str, int]:

@@ -207,11 +207,17 @@ def pair(value: object, name: str) -> tuple[float, float]:
     return number(value[0], name), number(value[1], name)
 
 
-def _velocity(value: object, name: str) -> tuple[float, float]:
-    velocity = pair(value, name)
-    if math.hypot(*velocity) > FASTEST:
+def velocity(value: object, name: str) -> tuple[float, float]:
+    """
+    Return a velocity [m/s].
+
+    :raises Malformed: it is no pair of finite numbers
+    :raises BadProperty: it is too fast
+    """
+    result = pair(value, name)
+    if math.hypot(*result) > FASTEST:
         raise BadProperty(f'{name} is faster than {FASTEST:g} m/s', field=name)
-    return velocity
+    return result
 
 
 def flag(value: object, name: str) -> bool:
@@ -239,7 +245,7 @@ _CHECKS: Checks = {
     'density': within(LIGHTEST, HEAVIEST, 'kg/m²'),
     'friction': within(0.0, 10.0),
     'elasticity': within(0.0, 1.0),
-    'velocity': _velocity,
+    'velocity': velocity,
     'spin': within(-FASTEST, FASTEST, 'rad/s'),
     'anchored': flag,
     'kinematic': flag,

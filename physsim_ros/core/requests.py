@@ -35,7 +35,7 @@ from physsim_ros.core.joint_properties import (
     JointProperties,
     kind_from,
 )
-from physsim_ros.core.names import check_name, WORLD
+from physsim_ros.core.names import check_body_name, check_name, WORLD
 from physsim_ros.core.properties import (
     check_finite,
     check_key,
@@ -82,7 +82,7 @@ class Spawn:
     properties: Properties = field(default_factory=Properties)
 
     def __post_init__(self) -> None:
-        check_name(self.name)
+        check_body_name(self.name)
         check_pose(self.pose, 'pose')
         if self.color is not None:
             check_finite(self.color, 4, 'color')

@@ -27,6 +27,7 @@ import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.core.joint_properties import JointKind
 from physsim_ros.core.joints import EngineJoint
+from physsim_ros.core.rotation import turned
 from physsim_ros.core.snapshot import Floats, Joint
 import pymunk
 
@@ -152,7 +153,7 @@ class Restraints:
         """
         ends = states[self._ends]
         yaw = ends[:, 2]
-        arms = _turned(self._at, yaw)
+        arms = turned(self._at, yaw)
         places = ends[:, :2] + arms
         joints, count, rows = len(places) // 2, self.angles_from, len(self.owner)
         apart = places[:joints] - places[joints:]
@@ -166,7 +167,7 @@ class Restraints:
                 length > 0, between / np.maximum(length, 1e-300), (1.0, 0.0)
             )
         if len(self._slid):
-            direction[self._aside] = _turned(self._axes, yaw[joints:][self._slid])
+            direction[self._aside] = turned(self._axes, yaw[joints:][self._slid])
             # The line turns with the second body, all the way out to where the first one is.
             arms[joints:][self._sliders] += apart[self._sliders]
         second = slice(rows, rows + count)
@@ -176,9 +177,9 @@ class Restraints:
 
         gaps = np.empty(rows)
         gaps[:count] = _dot(apart[self._points], direction) - self._offsets
-        turned = self._with_a * yaw[:joints][self._angles]
-        turned += self._with_b * yaw[joints:][self._angles]
-        gaps[count:] = turned - self._comes_to
+        angles = self._with_a * yaw[:joints][self._angles]
+        angles += self._with_b * yaw[joints:][self._angles]
+        gaps[count:] = angles - self._comes_to
         return gaps, pushes
 
 
@@ -186,16 +187,6 @@ def _said(value: float | None) -> float:
     """Return a number that is known to be said."""
     assert value is not None  # noqa: S101 - who has none was left out
     return value
-
-
-def _turned(vectors: Floats, yaw: Floats) -> Floats:
-    """Return vectors, (k, 2), each turned counter-clockwise [rad]."""
-    cos, sin = np.cos(yaw), np.sin(yaw)
-    x, y = vectors.T
-    turned = np.empty_like(vectors)
-    turned[:, 0] = cos * x - sin * y
-    turned[:, 1] = sin * x + cos * y
-    return turned
 
 
 def _cross(a: Floats, b: Floats) -> Floats:

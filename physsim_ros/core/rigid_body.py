@@ -26,6 +26,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 import math
 
+from physsim_ros.core.rotation import rotated
 from physsim_ros.core.shapes import Capsule, Circle, Convex, Piece, Point, Pose
 from physsim_ros.core.snapshot import Body, Motion
 import pymunk
@@ -148,14 +149,6 @@ def build(body: Body, serial: int) -> RigidBody:
         # Engine groups are unsigned; a negative group becomes a word of its own.
         shape.filter = pymunk.ShapeFilter(group=body.group % 2**32)
     return rigid
-
-
-def rotated(vector: Point, yaw: float) -> Point:
-    """Return a vector turned counter-clockwise by yaw [rad]."""
-    if vector == (0.0, 0.0):
-        return vector
-    cos, sin = math.cos(yaw), math.sin(yaw)
-    return cos * vector[0] - sin * vector[1], sin * vector[0] + cos * vector[1]
 
 
 def _shape(piece: Piece, engine: pymunk.Body, offset: Point) -> pymunk.Shape:

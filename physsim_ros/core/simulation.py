@@ -53,19 +53,18 @@ class _Asked(NamedTuple):
     topic: str
     subject: str
     gesture: int
+    field: str = ''
 
 
 class _Left(NamedTuple):
     """
     A course of events that was left, by a reset or by undoing one.
 
-    :ivar timeline: it
-    :ivar moment: that was shown then
+    :ivar timeline: it, at the moment that was shown then
     :ivar beginning: what it began with
     """
 
     timeline: Timeline
-    moment: tuple[int, int]
     beginning: WorldState
 
 
@@ -159,10 +158,11 @@ class Simulation:
 
     @history.setter
     def history(self, history: float) -> None:
-        # What is shown may be too old to be reached afterwards.
         self._catch_up()
         self._history = history
-        self.timeline.history.length = self._steps(history)
+        if not self.timeline.keep(self._steps(history)):
+            self._moved()
+            self._tell_oldest()
 
     @property
     def late_frames(self) -> int:
@@ -175,12 +175,15 @@ class Simulation:
 
     # Asking
 
-    def submit(self, request: Request, *, topic: str, joined: bool = False) -> None:
+    def submit(
+        self, request: Request, *, topic: str, joined: bool = False, field: str = ''
+    ) -> None:
         """
         Queue a request; nothing moves until the next frame, which carries the answer.
 
         :param topic: where it comes from
         :param joined: whether it belongs to the one before, and is undone together with it
+        :param field: the one field that it was made of, to be named by a refusal; '' is none
         """
         subject = ''
         match request:
@@ -192,15 +195,23 @@ class Simulation:
                 | Command(names=(subject,))
             ):
                 pass
-        self._queue(request, topic, subject, joined=joined)
+        self._queue(request, topic, subject, joined=joined, field=field)
 
     def tell(self, answer: Answer) -> None:
         """Queue an answer to what asked nothing of the world, so that answers keep the order."""
         self._queue(answer, answer.topic, answer.subject, joined=True)
 
-    def refuse(self, refusal: Refusal, *, topic: str, subject: str, joined: bool = False) -> None:
+    def refuse(
+        self,
+        refusal: Refusal,
+        *,
+        topic: str,
+        subject: str,
+        joined: bool = False,
+        field: str = '',
+    ) -> None:
         """Queue the answer to what could not even be a request, so that answers keep the order."""
-        self._queue(refusal, topic, subject, joined=joined)
+        self._queue(refusal, topic, subject, joined=joined, field=field)
 
     def perform(self, request: Request) -> str:
         """
@@ -357,8 +368,7 @@ class Simulation:
             self.past.prepare(step, steps, fine=fine, watching=self._watching)
         if step == oldest:
             self.speed = 0.0
-            message = f'{self._time()} is the oldest that is kept; paused'
-            self._answers.append(Answer(topic='history', message=message))
+            self._tell_oldest('; paused')
         return self._frame(moved=True)
 
     def _catch_up(self) -> None:
@@ -371,14 +381,16 @@ class Simulation:
 
     def _leave(self) -> _Left:
         """Return this course of events, for another is to be followed."""
-        return _Left(self.timeline, self.timeline.moment, self._beginning)
+        return _Left(self.timeline, self._beginning)
 
     def _return(self, left: _Left) -> None:
         """Follow a course of events that was left, from the moment at which it was."""
-        self.timeline, moment, self._beginning = left
-        self.timeline.history.length = self._steps(self._history)
+        self.timeline, self._beginning = left
         self.past = self._past_of(self.timeline)
-        self.timeline.seek_moment(*moment)
+        self.timeline.world.watching = self._watching
+        if self.timeline.keep(self._steps(self._history)):
+            # With the contacts of the frame that was shown.
+            self.timeline.seek_moment(*self.timeline.moment)
 
     def _moved(self) -> None:
         """Note that another moment is shown than before."""
@@ -396,14 +408,20 @@ class Simulation:
     # Inside
 
     def _queue(
-        self, request: Request | Refusal | Answer, topic: str, subject: str, *, joined: bool
+        self,
+        request: Request | Refusal | Answer,
+        topic: str,
+        subject: str,
+        *,
+        joined: bool,
+        field: str = '',
     ) -> None:
         self._gesture += not joined
-        self._requests.append(_Asked(request, topic, subject, self._gesture))
+        self._requests.append(_Asked(request, topic, subject, self._gesture, field))
 
     def _apply_all(self) -> None:
         while self._requests:
-            request, topic, subject, gesture = self._requests.popleft()
+            request, topic, subject, gesture, field = self._requests.popleft()
             self._changed = True
             if isinstance(request, Answer):
                 self._answers.append(request)
@@ -413,7 +431,7 @@ class Simulation:
                     raise request
                 subject, message = self._apply(request, gesture)
             except Refusal as refusal:
-                answer = Answer.refused(refusal, topic=topic, subject=subject)
+                answer = Answer.refused(refusal, topic=topic, subject=subject, field=field)
             else:
                 answer = Answer(topic=topic, subject=subject, message=message)
             self._answers.append(answer)
@@ -471,6 +489,10 @@ class Simulation:
             frame_steps=self.frame_steps,
             budget=MOST_KEPT,
         )
+
+    def _tell_oldest(self, more: str = '') -> None:
+        message = f'{self._time()} is the oldest that is kept{more}'
+        self._answers.append(Answer(topic='history', message=message))
 
     def _steps(self, seconds: float) -> int:
         return round(seconds * self.physics_rate)

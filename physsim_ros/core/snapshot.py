@@ -30,11 +30,15 @@ from physsim_ros.core.errors import Refusal
 from physsim_ros.core.joint_properties import DEFAULTS, JointKind, JointProperties
 from physsim_ros.core.names import WORLD
 from physsim_ros.core.preview import NOTHING, Preview
+from physsim_ros.core.rotation import turned
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.shapes import Color, Pose, Shape
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
+
+# What every message has, beside what it is made of.
+_FRAME = 'header.frame_id'
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -349,14 +353,21 @@ class Answer:
     values: tuple[tuple[str, str], ...] = ()
 
     @classmethod
-    def refused(cls, refusal: Refusal, *, topic: str, subject: str = '') -> Answer:
-        """Make the answer that tells of a refusal."""
+    def refused(
+        cls, refusal: Refusal, *, topic: str, subject: str = '', field: str = ''
+    ) -> Answer:
+        """
+        Make the answer that tells of a refusal.
+
+        :param field: that the request was all made of; '' where it had several
+        """
         return cls(
             topic=topic,
             subject=subject,
             message=str(refusal),
             code=refusal.code,
-            field=refusal.field,
+            field=refusal.field if refusal.field == _FRAME or not field else field,
+            values=refusal.values,
         )
 
 
@@ -389,10 +400,7 @@ class Snapshot:
     @cached_property
     def centers(self) -> Floats:
         """(n, 2) float64: centres of mass, world [m]."""
-        x, y = self.scene.centroids.T
-        cos, sin = np.cos(self.poses[:, 2]), np.sin(self.poses[:, 2])
-        turned: Floats = np.column_stack((cos * x - sin * y, sin * x + cos * y))
-        return self.poses[:, :2] + turned
+        return self.poses[:, :2] + turned(self.scene.centroids, self.poses[:, 2])
 
     @cached_property
     def kinetic_energy(self) -> float:
@@ -419,10 +427,7 @@ class Snapshot:
         seats, rows = self.scene.seats, self.scene.joint_rows
         # The background is the last row.
         poses = np.vstack((self.poses, np.zeros((1, 3))))[rows]
-        cos, sin = np.cos(poses[..., 2]), np.sin(poses[..., 2])
-        x, y = seats[:, (0, 2)], seats[:, (1, 3)]
-        turned: Floats = np.stack((cos * x - sin * y, sin * x + cos * y), axis=-1)
-        return poses[..., :2] + turned
+        return poses[..., :2] + turned(seats[:, :4].reshape(-1, 2, 2), poses[..., 2])
 
     @cached_property
     def momentum(self) -> tuple[float, float]:

@@ -15,34 +15,33 @@
 """
 The engine's side of the world: bodies and joints in a Pymunk space, stepped, read and changed.
 
-Laws: a Pymunk object never leaves the modules that import Pymunk; what is read is a fresh array in
-spawn order; true velocities do not jump when gravity or a wrench changes.
+Laws: a Pymunk object never leaves the core; what is read is a fresh array in spawn order; true
+velocities do not jump when gravity or a wrench changes.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
-import itertools
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 from physsim_ros.core import rigid_body, sweep
 from physsim_ros.core.cascade import Cascade
 from physsim_ros.core.contact_memory import recall, remind, ShapeIds
-from physsim_ros.core.contacts import ContactLog, Ids
-from physsim_ros.core.encounters import could_meet, Motions
+from physsim_ros.core.contacts import ContactLog
+from physsim_ros.core.engine_arrays import EngineArrays, Ids
+from physsim_ros.core.fast_bodies import FastBodies
 from physsim_ros.core.layout import lay_out, Layout
 from physsim_ros.core.machine import Machine
 from physsim_ros.core.rigid_body import REST, RigidBody
+from physsim_ros.core.rotation import turned
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.shapes import Point, Pose
 from physsim_ros.core.snapshot import (
     Body,
     Contacts,
     Floats,
-    Ints,
     Joint,
     Keyframe,
     Motion,
@@ -50,24 +49,13 @@ from physsim_ros.core.snapshot import (
 )
 from physsim_ros.core.stillness import RATE, Stillness
 import pymunk
-from pymunk import batch
 
 # Thickness of the walls of `bounds` [m]: what is squeezed into one still finds its way back in.
 WALL = 10.0
 # A point so near counts as inside [m]: on the seam of two pieces it lies inside neither.
 SEAM = 1e-9
-# So many fast bodies are worth finding out first which of them could meet anything.
-FEW = 8
 # What has come further than this has left every world [m]; float64 holds 0.1 mm there.
 LOST = 1e12
-
-_STATE = (
-    batch.BodyFields.POSITION
-    | batch.BodyFields.ANGLE
-    | batch.BodyFields.VELOCITY
-    | batch.BodyFields.ANGULAR_VELOCITY
-)
-_TWIST = batch.BodyFields.VELOCITY | batch.BodyFields.ANGULAR_VELOCITY
 
 
 class Space:
@@ -98,23 +86,21 @@ class Space:
         self._names: dict[pymunk.Body, str] = {}
         self._pushed: dict[str, RigidBody] = {}
         self._layout: Layout | None = None
-        # One to read and one to write with: the engine must not grow memory that numpy owns.
-        self._buffer, self._written = batch.Buffer(), batch.Buffer()
         self._space = pymunk.Space()
+        self._arrays = EngineArrays(self._space)
         self._space.collision_slop = sweep.SLOP
         # The engine lists contacts of the last step only, and forgets at once what parted.
         self._space.collision_persistence = 1
         self._shapes = ShapeIds(self._space)
         self._watching = False
         self._walls: list[pymunk.Shape] = []
-        # Around what never moves; None where that has changed.
-        self._boxes: Floats | None = None
         self._first_wall = 0
         self.machine = Machine(self._space, self.bodies, dt)
         # Joints that have broken, and what each gave then [N]; whoever reads it empties it.
         self.broken: list[tuple[str, float]] = []
-        self._contacts = ContactLog(self._space)
-        self._stillness = Stillness(self._space)
+        self._fast = FastBodies(self._space, self._arrays, self.bodies, self._names, dt)
+        self._contacts = ContactLog(self._arrays)
+        self._stillness = Stillness(self._arrays)
         self._cascade = Cascade(self._space)
         self._calm_steps = max(1, round(1.0 / (RATE * dt)))
         # Steps since the space was empty: what is done every so many steps counts from there, so
@@ -142,10 +128,7 @@ class Space:
         state = self._state(layout)
         poses, twists = state[:, :3].copy(), state[:, 3:].copy()
         if layout.offsets.any():
-            x, y = layout.offsets.T
-            cos, sin = np.cos(poses[:, 2]), np.sin(poses[:, 2])
-            poses[:, 0] -= cos * x - sin * y
-            poses[:, 1] -= sin * x + cos * y
+            poses[:, :2] -= turned(layout.offsets, poses[:, 2])
         twists -= np.where(layout.free[:, None], layout.lead, 0.0)
         return layout.scene, poses, twists
 
@@ -265,7 +248,7 @@ class Space:
         """Put a body somewhere else."""
         self.changes += 1
         rigid.pose = self._unwound(rigid, pose)
-        self._boxes = None
+        self._fast.forget_standing()
         self._forget_state()
 
     def join(self, joint: Joint) -> None:
@@ -308,6 +291,12 @@ class Space:
             self._layout.lead[row] = rigid.lead(self._settings.gravity, self._dt)
         if free:
             self.set_twist(rigid, twist)
+
+    def limit_wrenches(self, until: int | None) -> None:
+        """Let no wrench act longer than to a step; None is for ever."""
+        for rigid in list(self._pushed.values()):
+            if until is not None and (rigid.wrench_until is None or rigid.wrench_until > until):
+                self.push(rigid, rigid.wrench, until)
 
     def inherit(self, old: Space) -> None:
         """Take over what an older space of the same bodies has seen of the frame so far."""
@@ -393,7 +382,8 @@ class Space:
     def _raise_walls(self) -> None:
         self._shapes.remove(self._walls)
         self._contacts.forget(self._space.static_body.id)
-        self._walls, self._boxes = [], None
+        self._walls = []
+        self._fast.forget_standing()
         if self._settings.bounds is None:
             return
         left, bottom, right, top = self._settings.bounds
@@ -421,10 +411,10 @@ class Space:
         """
         self._push_all(number)
         layout = self._lay_out()
-        before = self._read(_TWIST, 3)
+        before = self._arrays.twists()
         if self._age % self._calm_steps == 0:
             self._stillness.calm(layout.ground, before)
-        self._arrest(layout, before)
+        self._fast.arrest(layout, before)
         self._watching = watching
         if self.machine.joints:
             self.machine.prepare(layout.listed, self._states)
@@ -479,56 +469,11 @@ class Space:
         else:
             self._contacts.settled = False
 
-    def _arrest(self, layout: Layout, before: Floats) -> None:
-        """Shorten the coming step of the bodies that are too fast for the engine."""
-        if np.abs(before).max(initial=0.0) <= layout.unswept:
-            return
-        speed = np.hypot(before[:, 0], before[:, 1]) + np.abs(before[:, 2]) * layout.arm
-        fast = np.flatnonzero(speed > layout.safe)
-        if len(fast) >= FEW and layout.ground.loose[fast].all():
-            fast = fast[self._could_meet(layout, before, fast)]
-        if len(fast):
-            movers = [layout.listed[place] for place in fast.tolist()]
-            sweep.arrest(
-                self._space,
-                [rigid for rigid in movers if rigid is not None],
-                self._dt,
-                reach=float(speed.max()) * self._dt,
-                depth_of=layout.depth,
-                rigid_of=lambda engine: self.bodies.get(self._names.get(engine, '')),
-            )
-
-    def _could_meet(self, layout: Layout, before: Floats, fast: Ints) -> NDArray[np.bool_]:
-        """Return (k,): which of so many fast bodies, by their places, could meet anything."""
-        moving = ~layout.ground.fixed[:-1]
-        rows = np.cumsum(moving) - 1
-        twists = before[moving]
-        motions = Motions(
-            centers=self._read(batch.BodyFields.POSITION, 2)[moving],
-            ways=twists[:, :2] * self._dt,
-            turns=np.where(layout.arm[moving] > 0.0, np.abs(twists[:, 2]) * self._dt, 0.0),
-            outer=layout.ground.reach[moving],
-            depth=layout.safe[moving] * self._dt,
-        )
-        return could_meet(rows[fast], motions, self._standing())
-
-    def _standing(self) -> Floats:
-        """Return (b, 4) float64: left, bottom, right, top of all shapes that never move [m]."""
-        if self._boxes is None:
-            anchored = (
-                rigid.engine.shapes for rigid in self.bodies.values() if rigid.body.anchored
-            )
-            shapes = itertools.chain(self._walls, *anchored)
-            boxes = [tuple(shape.bb) for shape in shapes]
-            self._boxes = np.array(boxes, dtype=np.float64).reshape(-1, 4)
-        return self._boxes
-
     def _hold(self, layout: Layout, *, driven: bool) -> None:
         """Hold what the engine has not held of the joints."""
         states = self._states()
         if self.machine.hold(layout.listed, states, driven=driven):
-            self._written.set_float_buf(states[:-1, 3:].copy())
-            batch.set_space_bodies(self._space, _TWIST, self._written)
+            self._arrays.write_twists(states[:-1, 3:])
         layout.state = states.take(layout.order, axis=0)
 
     def _judge_flight(self, layout: Layout, before: Floats) -> None:
@@ -543,17 +488,9 @@ class Space:
 
     # Rows
 
-    def _read(self, fields: batch.BodyFields, width: int) -> Floats:
-        """Return (m, width) float64 of every body in the engine's listing."""
-        # The buffer is reused (a new one a call would leak), so what leaves is a copy.
-        self._buffer.clear()
-        batch.get_space_bodies(self._space, fields, self._buffer)
-        numbers = np.frombuffer(self._buffer.float_buf(), dtype=np.float64)
-        return numbers.reshape(-1, width).copy()
-
     def _states(self) -> Floats:
         """Return (m + 1, 6) float64: poses and velocities in the listing, then the background."""
-        listed = self._read(_STATE, 6)
+        listed = self._arrays.states()
         states = np.zeros((len(listed) + 1, 6))
         states[:-1] = listed
         return states
@@ -561,15 +498,14 @@ class Space:
     def _state(self, layout: Layout) -> Floats:
         """Return (n, 6) float64: poses and velocities of the engine's origins, in spawn order."""
         if layout.state is None:
-            layout.state = self._read(_STATE, 6).take(layout.order, axis=0)
+            layout.state = self._arrays.states().take(layout.order, axis=0)
         return layout.state
 
     def _write_state(self, layout: Layout, state: Floats) -> None:
         """Set the (n, 6) float64 poses and velocities of the engine's origins."""
-        numbers = self._read(_STATE, 6)
+        numbers = self._arrays.states()
         numbers[layout.order] = state
-        self._written.set_float_buf(numbers)
-        batch.set_space_bodies(self._space, _STATE, self._written)
+        self._arrays.write_states(numbers)
         layout.state = None
 
     def _forget_state(self) -> None:
@@ -583,22 +519,20 @@ class Space:
         :param scene: what is so; None makes a new one
         """
         if self._layout is None:
-            self._buffer.clear()
-            batch.get_space_bodies(self._space, batch.BodyFields.BODY_ID, self._buffer)
-            listing = np.frombuffer(self._buffer.int_buf(), dtype=np.uintp).tolist()
             rigids = tuple(self.bodies.values())
             if scene is None:
                 bodies = tuple(rigid.body for rigid in rigids)
                 joints = tuple(held.joint for held in self.machine.joints.values())
                 scene = Scene(bodies=bodies, settings=self._settings, joints=joints)
-            self._layout = lay_out(scene, rigids, listing, self._dt)
+            self._layout = lay_out(scene, rigids, self._arrays.ids(), self._dt)
         return self._layout
 
     def _unlay(self) -> None:
         """Give up the layout, before a body comes, goes or changes."""
         if self._layout is not None:
             self._layout.flatten_flight()
-        self._layout = self._boxes = None
+        self._layout = None
+        self._fast.forget_standing()
 
 
 def _same_in_engine(a: Body, b: Body) -> bool:

@@ -32,9 +32,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from physsim_ros.core.engine_arrays import EngineArrays
 from physsim_ros.core.rigid_body import RigidBody
 from physsim_ros.core.snapshot import Floats
-import pymunk
 from pymunk import batch
 
 # Looked for so often [Hz]: the solver itself ends within a second what sways faster than half of
@@ -58,7 +58,6 @@ _CONTACT = (
     | _F.TOTAL_IMPULSE
     | _F.NORMAL
 )
-_TWIST = batch.BodyFields.VELOCITY | batch.BodyFields.ANGULAR_VELOCITY
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -114,14 +113,12 @@ class Stillness:
     """
     Calms what lies still, every now and then.
 
-    :param space: whose `collision_persistence` is 1, so that the engine lists only contacts of
-        the last step
+    :param arrays: of a space whose `collision_persistence` is 1, so that the engine lists only
+        contacts of the last step
     """
 
-    def __init__(self, space: pymunk.Space) -> None:
-        self._space = space
-        # One to read and one to write with: the engine must not grow memory that numpy owns.
-        self._buffer, self._twists = batch.Buffer(), batch.Buffer()
+    def __init__(self, arrays: EngineArrays) -> None:
+        self._arrays = arrays
 
     def calm(self, ground: Ground, twists: Floats) -> None:
         """
@@ -138,15 +135,12 @@ class Stillness:
         held = self._held(ground, np.append(slow, False) | ground.fixed)[:-1] & slow
         if held.any():
             twists[held] *= 1.0 - SHARE
-            self._twists.set_float_buf(twists)
-            batch.set_space_bodies(self._space, _TWIST, self._twists)
+            self._arrays.write_twists(twists)
 
     def _held(self, ground: Ground, slow: NDArray[np.bool_]) -> NDArray[np.bool_]:
         """Return (m + 1,) bool: which are fixed, or held by something that is, by friction."""
-        self._buffer.clear()
-        batch.get_space_arbiters(self._space, _CONTACT, self._buffer)
-        ints = np.frombuffer(self._buffer.int_buf(), dtype=np.uintp).reshape(-1, 4)
-        floats = np.frombuffer(self._buffer.float_buf(), dtype=np.float64).reshape(-1, 4)
+        ints, floats = self._arrays.contacts(_CONTACT)
+        ints, floats = ints.reshape(-1, 4), floats.reshape(-1, 4)
         # A face has two points. At a first touch the impulse is that of an impact.
         face = (ints[:, 3] == 2) & (ints[:, 2] == 0)
         impulse, normal = floats[face, :2], floats[face, 2:]

@@ -188,6 +188,19 @@ class Timeline(Course):
             )
         self.seek_moment(step, history.seen_at(step))
 
+    def keep(self, length: int) -> bool:
+        """
+        Keep so many steps from now on; a world that is before them goes to the oldest.
+
+        :return: whether it is where it was
+        """
+        history = self.history
+        history.length = length
+        if self.world.step_count >= history.oldest and self.moment >= history.keyframes[0].moment:
+            return True
+        self.seek(history.oldest)
+        return False
+
     def seek_moment(self, step: int, serial: int) -> None:
         """Go to a moment of the past, from the nearest keyframe or from here."""
         history, frame = self.history, self.world.frame_steps

@@ -56,7 +56,8 @@ from physsim_ros.core.requests import (
     Unjoin,
     UnjoinAll,
 )
-from physsim_ros.core.rigid_body import REST, RigidBody, rotated
+from physsim_ros.core.rigid_body import REST, RigidBody
+from physsim_ros.core.rotation import rotated
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.shapes import Point, Pose
 from physsim_ros.core.snapshot import (
@@ -76,7 +77,7 @@ class World:
     A world of bodies, stepped at a fixed rate.
 
     :param physics_rate: steps a second of simulation time [Hz]
-    :param frame_steps: each so many steps, what has left the range of numbers is looked for
+    :param frame_steps: of a frame; at its end, what has left the range of numbers is looked for
     :param settings: what holds at the start
     """
 
@@ -200,9 +201,9 @@ class World:
             case DeleteAll(namespace=namespace):
                 return '', self._delete_all(namespace)
             case Anchor(point=point, frame=frame):
-                return self._hold(point, frame, anchored=True)
+                return self._set_anchored(point, frame, anchored=True)
             case Release(point=point, frame=frame):
-                return self._hold(point, frame, anchored=False)
+                return self._set_anchored(point, frame, anchored=False)
             case Command():
                 return self._command(request)
             case Configure(changes=changes):
@@ -276,8 +277,9 @@ class World:
     def _spawn(self, request: Spawn) -> tuple[str, str]:
         name, said = request.name, request.properties
         old = self._space.bodies.get(name)
-        if old is None and len(self._space.bodies) >= self._settings.max_bodies:
-            raise WorldFull(f'the world holds {len(self._space.bodies)} bodies, the most it may')
+        count, most = len(self._space.bodies), self._settings.max_bodies
+        if old is None and count >= most:
+            raise WorldFull(f'the world holds {count} bodies; it may hold {most}')
         pose = self._in_world(request.pose, request.frame)
         body = self._described(request, old.body if old else None)
         _check_weight(body)
@@ -340,7 +342,7 @@ class World:
                 (point,) = self._points((point,), frame)
                 return joining.pin(self._space, kind, point)
 
-    def _hold(self, point: Point, frame: str, *, anchored: bool) -> tuple[str, str]:
+    def _set_anchored(self, point: Point, frame: str, *, anchored: bool) -> tuple[str, str]:
         ((x, y),) = self._points((point,), frame)
         name = self.body_at((x, y))
         if name is None:
@@ -375,22 +377,30 @@ class World:
                 raise BadProperty(
                     f'{rigid.body.name} is kinematic; forces do not move it', field='wrench'
                 )
+        # Twists and wrenches are of the world, but a frame that there is not is a mistake.
+        self._in_world(REST, request.frame)
         poses = [self._in_world(pose, request.frame) for pose in request.poses]
         for rigid, pose in zip(rigids, poses, strict=False):
             self._space.set_pose(rigid, pose)
         for rigid, twist in zip(rigids, request.twists, strict=False):
             self._space.set_twist(rigid, twist)
-        timeout = self._settings.command_timeout
-        until = self._step_after(timeout) if timeout > 0 else None
+        until = self._wrenches_until()
         for rigid, wrench in zip(rigids, request.wrenches, strict=False):
             self._space.push(rigid, wrench, until)
         if len(rigids) == 1:
             return request.names[0], f'commanded {request.names[0]}'
         return '', f'commanded {len(rigids)} bodies'
 
+    def _wrenches_until(self) -> int | None:
+        """Return the step until which a wrench acts that is asked for now; None is for ever."""
+        timeout = self._settings.command_timeout
+        return self._step_after(timeout) if timeout > 0 else None
+
     def _configure(self, settings: WorldSettings) -> None:
-        self._settings = settings
+        old, self._settings = self._settings, settings
         self._space.configure(settings)
+        if settings.command_timeout != old.command_timeout:
+            self._space.limit_wrenches(self._wrenches_until())
 
     def _restore(self, state: WorldState) -> None:
         # A space of its own for every state: what was in the old one leaves no trace.

@@ -121,14 +121,8 @@ class Pen:
 
 def told(reading: Reading, *, topic: str) -> Answer:
     """Return the answer that tells how a stroke was read; those to its requests follow."""
-    values = [('reading', str(reading.what)), ('confidence', f'{reading.confidence:.3f}')]
-    if reading.runner_up is not None:
-        values.append(('runner_up', str(reading.runner_up)))
-        values.append(('runner_up_confidence', f'{reading.runner_up_confidence:.3f}'))
-    values.append(('requests', str(len(reading.requests))))
-    return Answer(
-        topic=topic, subject=reading.subject, message=reading.message, values=tuple(values)
-    )
+    values = (*reading.values, ('requests', str(len(reading.requests))))
+    return Answer(topic=topic, subject=reading.subject, message=reading.message, values=values)
 
 
 def _placed(samples: Floats, frame: str, view: View) -> Floats:

@@ -23,7 +23,7 @@ may mean there. The confidence in a meaning is its share of all weights and of a
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 import math
@@ -98,6 +98,14 @@ class Reading:
     message: str
     outline: Floats
 
+    @property
+    def values(self) -> tuple[tuple[str, str], ...]:
+        """Return what was read, and what else it may have been, as pairs of key and value."""
+        ranked = [(self.what, self.confidence)]
+        if self.runner_up is not None:
+            ranked.append((self.runner_up, self.runner_up_confidence))
+        return _values(ranked)
+
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Sense:
@@ -145,7 +153,9 @@ def read(samples: Floats, view: View, settings: DrawingSettings) -> Reading:
     ranked = sorted(weights, key=lambda meaning: -weights[meaning])
     confidences = [(meaning, weights[meaning] / total) for meaning in ranked]
     if not confidences or confidences[0][1] < settings.sketch_confidence:
-        raise NotRecognised(_doubt(confidences[:2]), field='poses')
+        raise NotRecognised(
+            _doubt(confidences[:2]), field='poses', values=_values(confidences[:2])
+        )
     (what, confidence), *others = confidences
     sense = best[what]
     made = sense.make(sense.points, drawn, view, settings)
@@ -159,6 +169,16 @@ def read(samples: Floats, view: View, settings: DrawingSettings) -> Reading:
         subject=made.subject,
         message=made.message,
         outline=made.outline,
+    )
+
+
+def _values(ranked: Sequence[tuple[Meaning, float]]) -> tuple[tuple[str, str], ...]:
+    """Return meanings and confidences in them, the likeliest first, as pairs of key and value."""
+    keys = (('reading', 'confidence'), ('runner_up', 'runner_up_confidence'))
+    return tuple(
+        pair
+        for (name, share), (meaning, confidence) in zip(keys, ranked, strict=False)
+        for pair in ((name, str(meaning)), (share, f'{confidence:.3f}'))
     )
 
 

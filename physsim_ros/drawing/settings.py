@@ -17,10 +17,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-import math
 
-from physsim_ros.core.errors import BadProperty
-from physsim_ros.core.properties import FASTEST, pair, within
+from physsim_ros.core.properties import velocity, within
 from physsim_ros.core.shapes import Color, Point, SMALLEST
 
 
@@ -53,12 +51,6 @@ class DrawingSettings:
     def __post_init__(self) -> None:
         for name, check in _CHECKS.items():
             object.__setattr__(self, name, check(getattr(self, name), name))
-        velocity = pair(self.draw_velocity, 'draw_velocity')
-        if math.hypot(*velocity) > FASTEST:
-            raise BadProperty(
-                f'draw_velocity is faster than {FASTEST:g} m/s', field='draw_velocity'
-            )
-        object.__setattr__(self, 'draw_velocity', velocity)
 
 
 _CHECKS = {
@@ -66,4 +58,5 @@ _CHECKS = {
     'sketch_confidence': within(0.0, 1.0),
     'beautify': within(0.0, 0.5),
     'wall_thickness': within(SMALLEST, 10.0, 'm'),
+    'draw_velocity': velocity,
 }

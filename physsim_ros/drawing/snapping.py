@@ -27,7 +27,7 @@ import math
 from physsim_ros.core.names import WORLD
 from physsim_ros.core.shapes import Capsule, Chain, Circle, Convex, Disc, Piece, Point
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.view import View
+from physsim_ros.drawing.view import on_segment, View
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,10 +118,10 @@ def _nearest(piece: Piece, point: Point) -> Iterator[Point]:
         case Circle(center, radius):
             yield _towards(center, point, radius)
         case Capsule(start, end, radius):
-            yield _towards(_on_segment(start, end, point), point, radius)
+            yield _towards(on_segment(start, end, point), point, radius)
         case Convex(vertices):
             for start, end in zip(vertices, (*vertices[1:], vertices[0]), strict=True):
-                yield _on_segment(start, end, point)
+                yield on_segment(start, end, point)
 
 
 def _towards(start: Point, end: Point, length: float) -> Point:
@@ -129,11 +129,3 @@ def _towards(start: Point, end: Point, length: float) -> Point:
     distance = max(math.dist(start, end), 1e-12)
     share = length / distance
     return start[0] + share * (end[0] - start[0]), start[1] + share * (end[1] - start[1])
-
-
-def _on_segment(start: Point, end: Point, point: Point) -> Point:
-    """Return the point of a segment that is nearest to a point."""
-    along = end[0] - start[0], end[1] - start[1]
-    dot = (point[0] - start[0]) * along[0] + (point[1] - start[1]) * along[1]
-    share = min(max(dot / max(along[0] ** 2 + along[1] ** 2, 1e-24), 0.0), 1.0)
-    return start[0] + share * along[0], start[1] + share * along[1]

@@ -29,7 +29,7 @@ import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.core.errors import BadProperty, UnknownFrame
 from physsim_ros.core.names import split_name
-from physsim_ros.core.rigid_body import rotated
+from physsim_ros.core.rotation import rotated
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.shapes import Capsule, Circle, Convex, Piece, Point, Pose
 from physsim_ros.core.snapshot import Body, Floats, Snapshot
@@ -180,12 +180,15 @@ def _covers(piece: Piece, point: Point, slack: float) -> bool:
         case Circle(center, radius):
             return math.dist(center, point) <= radius + slack
         case Capsule(start, end, radius):
-            return _distance(start, end, point) <= radius + slack
+            return math.dist(point, on_segment(start, end, point)) <= radius + slack
         case Convex(vertices):
             sides = list(zip(vertices, (*vertices[1:], vertices[0]), strict=True))
             if all(_left_of(start, end, point) for start, end in sides):
                 return True
-            return slack > 0 and min(_distance(*side, point) for side in sides) <= slack
+            return (
+                slack > 0
+                and min(math.dist(point, on_segment(*side, point)) for side in sides) <= slack
+            )
 
 
 def _left_of(start: Point, end: Point, point: Point) -> bool:
@@ -195,12 +198,9 @@ def _left_of(start: Point, end: Point, point: Point) -> bool:
     return turn >= 0
 
 
-def _distance(start: Point, end: Point, point: Point) -> float:
-    """Return how far a point lies from a segment [m]."""
+def on_segment(start: Point, end: Point, point: Point) -> Point:
+    """Return the point of a segment that is nearest to a point."""
     along = end[0] - start[0], end[1] - start[1]
-    length2 = along[0] ** 2 + along[1] ** 2
-    share = (point[0] - start[0]) * along[0] + (point[1] - start[1]) * along[1]
-    share = min(max(share / length2, 0.0), 1.0) if length2 > 0 else 0.0
-    return math.hypot(
-        point[0] - start[0] - share * along[0], point[1] - start[1] - share * along[1]
-    )
+    dot = (point[0] - start[0]) * along[0] + (point[1] - start[1]) * along[1]
+    share = min(max(dot / max(along[0] ** 2 + along[1] ** 2, 1e-24), 0.0), 1.0)
+    return start[0] + share * along[0], start[1] + share * along[1]

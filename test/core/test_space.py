@@ -199,6 +199,22 @@ def test_a_wrench_acts_for_the_timeout_of_simulation_time(timeout: float, steps:
         assert twist(world, 'a/0')[0] == pytest.approx(min(step, steps), abs=1e-9)
 
 
+@pytest.mark.parametrize(
+    ('before', 'after', 'steps'), [(0.0, 0.1, 24), (2.0, 0.1, 24), (0.5, 2.0, 110)]
+)
+def test_another_timeout_holds_for_a_wrench_that_acts(
+    before: float, after: float, steps: int
+) -> None:
+    world = World(settings=WorldSettings(gravity=(0.0, 0.0), command_timeout=before))
+    spawn(world, 'a/0', DISC, mass=1.0)
+    command(world, 'a/0', wrench=(240.0, 0.0, 0.0))
+    world.step(10)
+    world.apply(Configure(changes={'command_timeout': after}))
+    world.step(600)
+    # Never longer than it was given when it was asked for.
+    assert twist(world, 'a/0')[0] == pytest.approx(10 + steps, abs=1e-9)
+
+
 def test_a_timeout_of_0_is_no_limit(world: World) -> None:
     unlimited(world)
     spawn(world, 'a/0', DISC, mass=1.0)

@@ -360,6 +360,36 @@ def test_reset_returns_to_what_was_loaded_longer_ago_than_is_kept() -> None:
     assert driven.names == ('b/0',)
 
 
+def test_a_moment_that_is_kept_no_more_is_left_for_the_oldest() -> None:
+    driven = Driven()
+    driven.ask(spawning('a/0', BOX, (0.0, 5.0, 0.0)))
+    driven.record(20.0)
+    driven.simulation.seek(2 * SECOND)
+    driven.simulation.history = 1.0
+    frame = driven.settle()
+    assert frame.snapshot.step == driven.simulation.timeline.history.oldest == 19 * 240 - FRAME
+    driven.assert_same(frame)
+    assert 'oldest' in told([frame], 'history')[0].message
+    driven.ask(spawning('b/0', BOX, (0.0, 8.0, 0.0)))
+    frame = driven.simulation.advance_frame()
+    assert [answer.code for answer in frame.answers if answer.topic == '~/test'] == ['']
+    assert driven.names == ('a/0', 'b/0')
+
+
+@pytest.mark.parametrize('history', [0.0, 1.0])
+def test_what_was_left_is_returned_to_as_far_as_it_is_kept(history: float) -> None:
+    driven = Driven()
+    driven.ask(spawning('a/0', BOX, (0.0, 5.0, 0.0)))
+    driven.record(15.0)
+    driven.simulation.seek(2 * SECOND)
+    driven.simulation.reset()
+    driven.simulation.history = history
+    driven.simulation.undo()
+    oldest = driven.simulation.timeline.history.oldest
+    assert driven.simulation.step == oldest == 15 * 240 - FRAME - round(history * 240)
+    driven.assert_same(driven.settle())
+
+
 def test_contacts_come_again_that_nobody_asked_for_the_first_time() -> None:
     driven = Driven()
     driven.ask(spawning('a/0', BOX, (0.0, 0.5, 0.0)))
