@@ -128,8 +128,8 @@ def test_a_path_that_breaks_off_anywhere_is_refused() -> None:
 
 @given(st.binary(max_size=300), st.integers(0, 255))
 def test_no_bytes_are_more_than_refused(noise: bytes, place: int) -> None:
-    message = path((0, 0), (1, 1), (2, 0))
-    message = message[:place] + noise + message[place + len(noise) :]
+    message, end = path((0, 0), (1, 1), (2, 0)), place + len(noise)
+    message = message[:place] + noise + message[end:]
     try:
         samples, _ = stroke_from(message, frame_id='world')
     except Malformed:
