@@ -63,26 +63,15 @@ class ViewerMode(Enum):
 
 
 class Viewer:
-    """
-    Shows frames, and records them.
+    """Shows frames, and records them: nowhere at first."""
 
-    :param mode: where they are shown; with NONE they are recorded only
-    :param url: of the Rerun server for CONNECT; '' is the usual one of this machine
-    :param record_file: `.rrd` file that is written beside any viewer; '' is none
-    """
-
-    def __init__(
-        self, *, mode: ViewerMode = ViewerMode.NONE, url: str = '', record_file: str = ''
-    ) -> None:
+    def __init__(self) -> None:
         self._events: deque[Answer] = deque(maxlen=ANSWERS)
         self._file: Outlet | None = None
         self._window: Outlet | None = None
         # The window before, which may still be closing.
         self._closing: Outlet | None = None
         self._shown: tuple[Frame, float] | None = None
-        if record_file:
-            self.record(record_file)
-        self.turn_to(mode, url)
 
     @property
     def state(self) -> str:

@@ -149,9 +149,13 @@ def viewers():
     """Make viewers that are closed afterwards."""
     made = []
 
-    def make(**wanted):
-        made.append(Viewer(**wanted))
-        return made[-1]
+    def make(*, mode=ViewerMode.NONE, url='', record_file=''):
+        viewer = Viewer()
+        made.append(viewer)
+        if record_file:
+            viewer.record(record_file)
+        viewer.turn_to(mode, url)
+        return viewer
 
     yield make
     for viewer in made:
@@ -386,7 +390,9 @@ FROZEN = """
     from physsim_ros.viewer import Viewer, ViewerMode
 
     url, path, server = sys.argv[1], sys.argv[2], int(sys.argv[3])
-    viewer = Viewer(mode=ViewerMode.CONNECT, url=url, record_file=path)
+    viewer = Viewer()
+    viewer.record(path)
+    viewer.turn_to(ViewerMode.CONNECT, url)
     events = Events(viewer)
     until(lambda: viewer.state.count('open') == 2)
     os.kill(server, signal.SIGSTOP)
