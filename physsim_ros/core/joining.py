@@ -37,9 +37,9 @@ from physsim_ros.core.space import Space
 # Points that lie so near to where a joint is drawn are where it is [m]: what is drawn comes back
 # in the digits of a double, and from a person's hand never.
 _SAME = 1e-9
-# A click within this share of a body's greatest half length, and never less than so far [m], of a
-# pin or an axle means it.
-_NEAR_SHARE, _NEAR = 0.25, 0.1
+# A click within this share of a body's inner radius, and never less than so far [m], of a pin or
+# an axle means it.
+_NEAR_SHARE, _NEAR = 0.35, 0.1
 
 # Where the background is, which never moves.
 BACKGROUND = (0.0, 0.0, 0.0)
@@ -118,7 +118,7 @@ def unjoin_all(space: Space, namespace: str | None) -> str:
 
 def loosen(space: Space, body: str, point: Point) -> list[str]:
     """Remove the pins and axles of a body that sit at a point of the world [m]; name them."""
-    reach = max(_NEAR, _NEAR_SHARE * space.bodies[body].body.shape.form.outer)
+    reach = max(_NEAR, _NEAR_SHARE * space.bodies[body].body.shape.form.inner)
     names = [
         name
         for name in space.machine.of(body)

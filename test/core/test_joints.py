@@ -307,6 +307,15 @@ def test_releasing_a_body_removes_the_pins_and_axles_there() -> None:
     assert [joint.name for joint in joints(world)] == ['joint/0']
 
 
+def test_releasing_a_long_body_leaves_the_axles_farther_along_it() -> None:
+    world = World()
+    spawn(world, 'plank/0', Box(width=20.0, height=1.0))
+    for x in (0.1, 2.4):
+        world.apply(Axle(point=(x, 0.0)))
+    world.apply(Release(point=(0.0, 0.0)))
+    assert [joint.name for joint in joints(world)] == ['axle/1']
+
+
 @pytest.mark.parametrize('kind', KINDS)
 def test_what_is_asked_for_again_where_it_is_changes_nothing(kind: JointKind) -> None:
     world = pair()
