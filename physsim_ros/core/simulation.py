@@ -27,13 +27,13 @@ from dataclasses import replace
 from typing import NamedTuple
 
 from physsim_ros.core.clock import Clock
-from physsim_ros.core.errors import BadProperty, OutOfHistory, Refusal
-from physsim_ros.core.history import Entry, Tail
+from physsim_ros.core.errors import BadProperty, Refusal
 from physsim_ros.core.past import Past, Shot
 from physsim_ros.core.requests import Command, Delete, Join, Request, Restore, Spawn, Unjoin
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.snapshot import Answer, Contacts, Frame, Snapshot, WorldState
 from physsim_ros.core.timeline import Timeline
+from physsim_ros.core.undo import Undo
 from physsim_ros.core.world import World
 
 # Frames in one call: the one that is due, and one to make up for a late one.
@@ -42,8 +42,6 @@ _FRAMES_A_CALL = 2
 KEYFRAMES = 3.0
 # What is kept of what was shown, at most [bytes]: three minutes of 100 bodies, 23 s of 1,000.
 MOST_KEPT = 64 * 2**20
-# So many steps back can be redone, and so many resets undone.
-MOST_UNDONE, MOST_RESETS = 100, 10
 
 
 class _Asked(NamedTuple):
@@ -56,18 +54,6 @@ class _Asked(NamedTuple):
     field: str = ''
 
 
-class _Left(NamedTuple):
-    """
-    A course of events that was left, by a reset or by undoing one.
-
-    :ivar timeline: it, at the moment that was shown then
-    :ivar beginning: what it began with
-    """
-
-    timeline: Timeline
-    beginning: WorldState
-
-
 class Simulation:
     """
     A world and its time.
@@ -78,7 +64,6 @@ class Simulation:
     :param speed: simulation seconds a second; 0 is paused, negative goes back
     :param history: how far back it can go [s of simulation time]
     :param keyframes: from one keyframe to the next [s]
-    :ivar timeline: the world and its history
     :ivar past: what was shown of it
     :raises BadProperty: publish_rate does not divide physics_rate
     """
@@ -110,16 +95,18 @@ class Simulation:
         self._watching = False
         self._history = history
         self._keyframes = keyframes
-        # What this course of events began with.
-        self._beginning = WorldState(settings=settings or WorldSettings())
-        self._undone: deque[Tail | _Left] = deque(maxlen=MOST_UNDONE)
-        # What was before each reset.
-        self._left: deque[_Left] = deque(maxlen=MOST_RESETS)
-        self.timeline, self.past = self._course_of(self._beginning)
+        empty = WorldState(settings=settings or WorldSettings())
+        self._undo = Undo(self._timeline_of, empty)
+        self.past = self._no_past()
         # The step that is shown where the world itself is at another; None where it is there.
         self._shown: Shot | None = None
 
     # Reading
+
+    @property
+    def timeline(self) -> Timeline:
+        """Return the world on its course, and its history."""
+        return self._undo.timeline
 
     @property
     def world(self) -> World:
@@ -227,10 +214,8 @@ class Simulation:
 
     def begin(self, state: WorldState) -> None:
         """Begin with a state, at time 0, without a past; `reset` will return to it."""
-        self._beginning = state
-        self.timeline, self.past = self._course_of(state)
-        self._left.clear()
-        self._undone.clear()
+        self._undo.begin(state)
+        self.past = self._no_past()
         self._moved()
 
     def load(self, state: WorldState) -> str:
@@ -252,14 +237,9 @@ class Simulation:
         """Return to the state that was loaded last, at time 0; `undo` comes back from there."""
         self._apply_all()
         self._catch_up()
-        history = self.timeline.history
-        if history.head == 0 and self.timeline.serial == 0:
-            # It has just begun: there is nothing to come back to.
+        if not self._undo.reset():
             return self._turn('~/reset', 'at the beginning, time 0')
-        self._left.append(self._leave())
-        self._beginning = history.loaded or self._beginning
-        self.timeline, self.past = self._course_of(self._beginning)
-        self._undone.clear()
+        self.past = self._no_past()
         return self._turn('~/reset', 'back at the beginning, time 0')
 
     def undo(self) -> str:
@@ -270,19 +250,9 @@ class Simulation:
         """
         self._apply_all()
         self._catch_up()
-        try:
-            undone, tail = self.timeline.undo()
-        except OutOfHistory:
-            if not self._left:
-                raise
-            self._undone.append(self._leave())
-            self._return(self._left.pop())
-            message = 'undid reset'
-        else:
-            self.past.forget(undone[0].step)
-            self._undone.append(tail)
-            message = f'undid {_named(undone)}'
-        return self._turn('~/undo', f'{message}, back at {self._time()}')
+        undone, step = self._undo.undo()
+        self._follow(step)
+        return self._turn('~/undo', f'undid {undone}, back at {self._time()}')
 
     def redo(self) -> str:
         """
@@ -291,18 +261,8 @@ class Simulation:
         :raises OutOfHistory: nothing was undone, or something else was done since
         """
         self._apply_all()
-        if not self._undone:
-            raise OutOfHistory('there is nothing to redo', field='history')
-        undone = self._undone[-1]
-        if isinstance(undone, Tail):
-            self.timeline.redo(undone)
-            self.past.forget(undone.entries[0].step)
-        else:
-            self._catch_up()
-            self._left.append(self._leave())
-            self._return(undone)
-        self._undone.pop()
-        self._shown = None
+        self._catch_up()
+        self._follow(self._undo.redo())
         return self._turn('~/redo', f'redid what was undone, at {self._time()}')
 
     def seek(self, stamp: int) -> str:
@@ -379,14 +339,16 @@ class Simulation:
             # They have been shown.
             self.timeline.world.clear_contacts()
 
-    def _leave(self) -> _Left:
-        """Return this course of events, for another is to be followed."""
-        return _Left(self.timeline, self._beginning)
+    def _follow(self, step: int | None) -> None:
+        """
+        Follow a course of events from now on.
 
-    def _return(self, left: _Left) -> None:
-        """Follow a course of events that was left, from the moment at which it was."""
-        self.timeline, self._beginning = left
-        self.past = self._past_of(self.timeline)
+        :param step: from which on it is another than before; None is another altogether
+        """
+        if step is not None:
+            self.past.forget(step)
+            return
+        self.past = self._no_past()
         self.timeline.world.watching = self._watching
         if self.timeline.keep(self._steps(self._history)):
             # With the contacts of the frame that was shown.
@@ -441,7 +403,7 @@ class Simulation:
         head = self.timeline.history.head
         done = self.timeline.apply(request, gesture)
         if self.timeline.world.changed:
-            self._undone.clear()
+            self._undo.do()
         if self.timeline.history.head < head:
             self.past.forget(self.step)
         return done
@@ -470,21 +432,21 @@ class Simulation:
         self.timeline.see()
         return snapshot, contacts
 
-    def _course_of(self, state: WorldState) -> tuple[Timeline, Past]:
-        """Return a timeline that begins with a state, and its empty past."""
+    def _timeline_of(self, state: WorldState) -> Timeline:
+        """Return a timeline that begins with a state."""
         world = World(
             physics_rate=self.physics_rate, frame_steps=self.frame_steps, settings=state.settings
         )
         world.apply(Restore(state=state))
         world.watching = self._watching
-        timeline = Timeline(
+        return Timeline(
             world, length=self._steps(self._history), spacing=self._steps(self._keyframes)
         )
-        return timeline, self._past_of(timeline)
 
-    def _past_of(self, timeline: Timeline) -> Past:
+    def _no_past(self) -> Past:
+        """Return the past of the timeline, as long as nothing was shown."""
         return Past(
-            timeline.history,
+            self.timeline.history,
             physics_rate=self.physics_rate,
             frame_steps=self.frame_steps,
             budget=MOST_KEPT,
@@ -499,21 +461,3 @@ class Simulation:
 
     def _time(self) -> str:
         return f'{self.step / self.physics_rate:.3f} s'
-
-
-# What requests are called whose classes' names are no words for it.
-_WORDS = {
-    'configure': 'settings',
-    'restore': 'load',
-    'deleteall': 'delete of many',
-    'unjoin': 'delete',
-    'unjoinall': 'delete of many',
-}
-
-
-def _named(entries: list[Entry]) -> str:
-    """Return what a gesture was, in words."""
-    kind = type(entries[0].request).__name__.lower()
-    name = getattr(entries[0].request, 'name', '')
-    more = f' and {len(entries) - 1} more' if len(entries) > 1 else ''
-    return f'{_WORDS.get(kind, kind)} {name}'.rstrip() + more

@@ -46,7 +46,7 @@ from rclpy.parameter import Parameter
 FRAMES = 360
 # Before them: a keyframe is among these, the first of so many bodies.
 WARM = 200
-# Frames in a row of each: alone, a frame would leave what is to be sent to the others' time.
+# Frames in a row of each: one alone would leave what is to be sent to the others' time.
 TURN = 20
 PERIOD = 16_666_667  # ns
 SETTLE = 20.0  # simulated seconds until a pile has come to rest, but for its last tremors
@@ -85,15 +85,19 @@ class Pile(NamedTuple):
     :ivar count: of bodies
     :ivar settled: whether they lie; else they fall onto one another all the time
     :ivar topics: that somebody subscribes to
+    :ivar paced: whether a frame begins each sixtieth of a second; else one follows the other, and
+        what it leaves to other threads, it pays for in the next
     """
 
     count: int
     settled: bool = True
     topics: tuple[str, ...] = TOPICS
+    paced: bool = False
 
     def __str__(self) -> str:
         topics = 'all' if self.topics == TOPICS else ', '.join(self.topics)
-        return f'{self.count:6}  {"settled" if self.settled else "falling"}  {topics:13}'
+        state, pace = 'settled' if self.settled else 'falling', '60 Hz' if self.paced else 'free'
+        return f'{self.count:6}  {state}  {topics:13}  {pace:5}'
 
 
 def fill(world: World, count: int, *, settle: float = SETTLE) -> None:
@@ -183,9 +187,12 @@ def measure(pile: Pile, directory: Path, domain: int) -> None:
         times: dict[str, list[float]] = {name: [] for name in ways}
         for _ in range((WARM + FRAMES) // TURN):
             for name, frame in ways.items():
-                # One after the other, as when there is no time left: what a frame leaves to other
-                # threads, it pays for in the next.
-                times[name] += [timed(frame) for _ in range(TURN)]
+                due = time.perf_counter()
+                for _ in range(TURN):
+                    times[name].append(timed(frame))
+                    due += PERIOD * 1e-9
+                    if pile.paced:
+                        time.sleep(max(0.0, due - time.perf_counter()))
     finally:
         listener.terminate()
         listener.wait()
@@ -197,15 +204,19 @@ def measure(pile: Pile, directory: Path, domain: int) -> None:
 
 
 def table(counts: list[int]) -> None:
-    """Print a row for each count of bodies that lie, and two for a thousand that do otherwise."""
+    """Print a row for each count of bodies that lie, and some for a thousand that differ."""
     clear_the_way()
     print('A frame of 4 steps of a pile, recorded by Rerun')
     print(
-        'bodies  pile     subscribed     bare [ms]  node [ms]  node/bare  naive/bare'
+        'bodies  pile     subscribed     pace   bare [ms]  node [ms]  node/bare  naive/bare'
         '  bytes/body/frame'
     )
     piles = [Pile(count) for count in counts]
-    piles += [Pile(1000, topics=('poses', 'states')), Pile(1000, settled=False)]
+    piles += [
+        Pile(1000, paced=True),
+        Pile(1000, topics=('poses', 'states')),
+        Pile(1000, settled=False),
+    ]
     with own_domain() as domain, tempfile.TemporaryDirectory() as directory:
         rclpy.init(domain_id=domain)
         for pile in piles:
