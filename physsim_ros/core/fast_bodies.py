@@ -30,7 +30,7 @@ from physsim_ros.core.snapshot import Floats, Ints
 import pymunk
 
 # So many fast bodies are worth finding out first which of them could meet anything.
-_FEW = 8
+FEW = 8
 
 
 class FastBodies:
@@ -74,7 +74,7 @@ class FastBodies:
             return
         speed = np.hypot(twists[:, 0], twists[:, 1]) + np.abs(twists[:, 2]) * layout.arm
         fast = np.flatnonzero(speed > layout.safe)
-        if len(fast) >= _FEW and layout.ground.loose[fast].all():
+        if len(fast) >= FEW and layout.ground.loose[fast].all():
             fast = fast[self._could_meet(layout, twists, fast)]
         if len(fast):
             movers = [layout.listed[place] for place in fast.tolist()]

@@ -19,7 +19,7 @@ from __future__ import annotations
 import random
 from typing import Any
 
-from physsim_ros.core import space, sweep
+from physsim_ros.core import fast_bodies, sweep
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.shapes import Box, Chain, Disc
 from physsim_ros.core.world import World
@@ -56,7 +56,7 @@ def test_who_is_left_out_of_a_crowd_would_not_have_been_stopped(
 ) -> None:
     chosen, all_ = crowd(seed, speed), crowd(seed, speed)
     chosen.step(90)
-    monkeypatch.setattr(space, 'FEW', 10**9)
+    monkeypatch.setattr(fast_bodies, 'FEW', 10**9)
     all_.step(90)
     assert chosen.digest() == all_.digest()
 
