@@ -87,7 +87,13 @@ class PhysSimNode(QuietNode):
         context: Context | None = None,
         parameter_overrides: list[Parameter] | None = None,
     ) -> None:
-        super().__init__('physsim', context=context, parameter_overrides=parameter_overrides)
+        super().__init__(
+            'physsim',
+            context=context,
+            parameter_overrides=parameter_overrides,
+            start_parameter_services=False,
+        )
+        self._parameter_service = parameters.ParameterServices(self)
         self._viewer = Viewer()
         try:
             self._set_up()

@@ -47,8 +47,10 @@ def unpack(text: object, name: str, dtype: DTypeLike, width: int = 1) -> NDArray
     :raises BadProperty: it holds none
     """
     kind = np.dtype(dtype)
+    if not isinstance(text, str):
+        raise BadProperty(f'{name} is not what was saved: it is no text', field=name)
     try:
-        packed = base64.b64decode(str(text).encode('ascii'), validate=True)
+        packed = base64.b64decode(text.encode('ascii'), validate=True)
         unfolding = zlib.decompressobj()
         numbers = unfolding.decompress(packed, MOST)
         array = np.frombuffer(numbers, dtype=kind.newbyteorder('<')).astype(kind)

@@ -32,10 +32,14 @@ from physsim_ros.core.shapes import Color
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.tools import Tool
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
+from rcl_interfaces.msg import Parameter as ParameterMessage
+from rcl_interfaces.srv import SetParameters, SetParametersAtomically
 from rclpy.node import Node
 from rclpy.parameter import Parameter
+from rclpy.parameter_service import ParameterService
 
 Type = Parameter.Type
+_TYPES = {each.value for each in Type}
 VIEWERS = ('none', 'spawn', 'web', 'connect', 'auto')
 _WORLD = {each.name for each in fields(WorldSettings)}
 _DRAWING = {each.name for each in fields(DrawingSettings)}
@@ -204,6 +208,35 @@ SPECS: dict[str, Spec] = {
     'record_file': Spec(default='', meaning='.rrd file written beside any viewer', read_only=True),
     'max_bodies': Spec(default=20000, meaning='a spawn past it is refused', low=0, high=1_000_000),
 }
+
+
+class ParameterServices(ParameterService):
+    """
+    The services that set a node's parameters; a value of no type is refused, as any other.
+
+    rclpy's own raise over a type that they do not know, which would end the node.
+    """
+
+    def _set_parameters_callback(
+        self, request: SetParameters.Request, response: SetParameters.Response
+    ) -> SetParameters.Response:
+        _know_types(request.parameters)
+        return super()._set_parameters_callback(request, response)
+
+    def _set_parameters_atomically_callback(
+        self,
+        request: SetParametersAtomically.Request,
+        response: SetParametersAtomically.Response,
+    ) -> SetParametersAtomically.Response:
+        _know_types(request.parameters)
+        return super()._set_parameters_atomically_callback(request, response)
+
+
+def _know_types(messages: Iterable[ParameterMessage]) -> None:
+    """Let values of unknown types be not set."""
+    for message in messages:
+        if message.value.type not in _TYPES:
+            message.value.type = Type.NOT_SET.value
 
 
 def declare(node: Node) -> dict[str, Any]:

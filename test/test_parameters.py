@@ -328,6 +328,22 @@ def test_lists_of_doubles_are_taken_and_checked_over_ros(
     assert value_of(physsim, name) == numbers
 
 
+@pytest.mark.parametrize('name', ['speed', 'gravity', 'use_sim_time', 'nobody'])
+@pytest.mark.parametrize('kind', [10, 255])
+def test_a_value_of_no_type_is_refused(
+    physsim: PhysSim, client: Client, name: str, kind: int
+) -> None:
+    values = {each: value_of(physsim, each) for each in CONTRACT}
+    message = ParameterMessage(name=name, value=ParameterValue(type=kind))
+    request = SetParameters.Request(parameters=[message])
+    (result,) = client.request(SetParameters, '~/set_parameters', request).results
+    assert not result.successful
+    together = SetParametersAtomically.Request(parameters=[message])
+    response = client.request(SetParametersAtomically, '~/set_parameters_atomically', together)
+    assert not response.result.successful
+    assert {each: value_of(physsim, each) for each in CONTRACT} == values
+
+
 def test_lists_of_whole_numbers_and_empty_ones_are_taken(physsim: PhysSim, client: Client) -> None:
     def set_(name: str, value: ParameterValue) -> None:
         request = SetParameters.Request(parameters=[ParameterMessage(name=name, value=value)])

@@ -508,6 +508,8 @@ def packed(*rows: object, kind: type = np.int64) -> str:
         ({'hashes': packed(1)}, 'memory'),
         ({'impulses': packed((1.0, 2.0), kind=np.float64)}, 'memory'),
         ({'impulses': packed(*[(math.nan, 0.0)] * 10, kind=np.float64)}, 'memory'),
+        ({'impulses': packed(*[(1e300, 0.0)] * 10, kind=np.float64)}, 'memory'),
+        ({'ids': [1, 2]}, 'ids'),
         ({'impulse': packed(1)}, 'impulse'),
     ],
 )
@@ -619,6 +621,7 @@ REFUSED = {
     'a format in words': ('format: one', 'format'),
     'a true format': ('format: true', 'format'),
     'no format at all': ('format:', 'format'),
+    'half a character': ('format: 1\n"\\ud800": 1', '?'),
     'an unknown key': ('format: 1\ngravitation: [0, 0]', 'gravitation'),
     'a setting that is not the files': ('format: 1\nmax_bodies: 7', 'max_bodies'),
     'a key of another kind': ('format: 1\n5: 3', '5'),

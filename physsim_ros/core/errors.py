@@ -39,9 +39,14 @@ class Refusal(PhysSimError):
     def __init__(
         self, message: str, *, field: str = '', values: tuple[tuple[str, str], ...] = ()
     ) -> None:
-        super().__init__(message)
-        self.field = field
+        super().__init__(_sayable(message))
+        self.field = _sayable(field)
         self.values = values
+
+
+def _sayable(text: str) -> str:
+    """Return a text without what no message and no log can hold: halves of characters."""
+    return text.encode(errors='replace').decode()
 
 
 class Malformed(Refusal):

@@ -401,17 +401,23 @@ class Space:
 
     # Stepping
 
-    def step(self, number: int, *, watching: bool, last: bool) -> None:
+    def step(self, number: int, *, watching: bool, last: bool) -> tuple[str, ...]:
         """
         Make a step.
 
         :param number: steps that the world has made
         :param watching: whether contacts are read
         :param last: whether the state after it will be looked at
+        :return: bodies that had left the range of numbers, and were removed before it
         """
         self._push_all(number)
-        layout = self._lay_out()
+        lost: tuple[str, ...] = ()
         before = self._arrays.twists()
+        # NaN compares false.
+        if not np.abs(before).max(initial=0.0) < LOST:
+            lost = self.drop_lost()
+            before = self._arrays.twists()
+        layout = self._lay_out()
         if self._age % self._calm_steps == 0:
             self._stillness.calm(layout.ground, before)
         self._fast.arrest(layout, before)
@@ -436,6 +442,7 @@ class Space:
         for name, force in self.machine.broken():
             self.unjoin(name)
             self.broken.append((name, force))
+        return lost
 
     def drop_lost(self) -> tuple[str, ...]:
         """Remove what has left the range of numbers, before it poisons what it touches."""

@@ -53,6 +53,9 @@ ALREADY = 0.99
 # is spun like a propeller may miss what is thinner than a share of its way.
 MOST_POSES = 24
 HALVINGS = 5
+# So often are shapes looked at in a step, at most: a hundred sticks that spin through each other
+# would take minutes. Whoever comes later is left to the engine.
+MOST_LOOKS = 3000
 # A tip that goes less far than this in a step [m] is no propeller: what it overlaps, the engine
 # still pushes back out.
 SLOW_TIP = 0.02
@@ -140,6 +143,34 @@ class _Pair:
     skin: float
 
 
+class _Looks:
+    """
+    Looks at shapes, as often as a step allows.
+
+    :param space: of the engine
+    """
+
+    def __init__(self, space: pymunk.Space) -> None:
+        self._space = space
+        self._left = MOST_LOOKS
+
+    def at(self, pairs: list[_Pair]) -> Iterator[_Pair]:
+        """Yield the pairs that can still be looked at."""
+        for pair in pairs:
+            if self._left <= 0:
+                return
+            yield pair
+
+    def count(self) -> None:
+        """Count one look."""
+        self._left -= 1
+
+    def contacts(self, shape: pymunk.Shape) -> dict[pymunk.Shape, pymunk.ContactPointSet]:
+        """Return what a shape overlaps where it is now."""
+        self.count()
+        return _contacts(self._space, shape)
+
+
 @dataclass(frozen=True, slots=True)
 class _Stop:
     """
@@ -205,13 +236,14 @@ def arrest(
     moves = {engine: mover.move for engine, mover in (pushers | movers).items()}
     heeded = {engine: {engine, *(_body(it.other) for it in near[engine])} for engine in movers}
     stopped: Collection[pymunk.Body] = ()
+    looks = _Looks(space)
     for number in range(ROUNDS):
         # All are measured before the first is stopped, or two would miss each other.
         stops = {
             engine: stop
             for engine, mover in movers.items()
             if (number == 0 or not heeded[engine].isdisjoint(stopped))
-            and (stop := _stop(space, mover, near[engine], moves, dt, carried=number == 0))
+            and (stop := _stop(looks, mover, near[engine], moves, dt, carried=number == 0))
         }
         if not stops:
             break
@@ -302,7 +334,7 @@ def _near(space: pymunk.Space, mover: _Mover, reach: float) -> Iterator[_Pair]:
 
 
 def _stop(
-    space: pymunk.Space,
+    looks: _Looks,
     mover: _Mover,
     near: list[_Pair],
     moves: dict[pymunk.Body, _Move],
@@ -318,7 +350,7 @@ def _stop(
     """
     engine, move = mover.engine, moves[mover.engine]
     first: _Stop | None = None
-    for pair in near:
+    for pair in looks.at(near):
         other = pair.other
         pusher = _body(other).body_type == pymunk.Body.KINEMATIC
         if pusher and not carried:
@@ -339,8 +371,9 @@ def _stop(
             length += abs(theirs.turn) * arm.length
         if _gap(engine.position, other.bb) > mover.outer + length:
             continue
+        looks.count()
         touch = (
-            _touch_turning(space, pair, mover, move, theirs) if turning else _touch(pair, relative)
+            _touch_turning(looks, pair, mover, move, theirs) if turning else _touch(pair, relative)
         )
         if touch is None:
             continue
@@ -414,7 +447,7 @@ def _skin(own: pymunk.Shape, other: pymunk.Shape, skin: float) -> float:
 
 
 def _touch_turning(
-    space: pymunk.Space, pair: _Pair, mover: _Mover, move: _Move, theirs: _Move
+    looks: _Looks, pair: _Pair, mover: _Mover, move: _Move, theirs: _Move
 ) -> tuple[float, float] | None:
     """
     Return when shapes come to overlap by the skin, if they do, one or both turning fast.
@@ -433,7 +466,7 @@ def _touch_turning(
     def touches(share: float) -> bool:
         body.position = pivot + (arm + way * share).rotated(-theirs.turn * share)
         body.angle = angle + turn * share
-        contact = _contacts(space, shape).get(pair.other)
+        contact = looks.contacts(shape).get(pair.other)
         return contact is not None and _depth(contact) > limit
 
     length = way.length + abs(turn) * mover.reach + abs(theirs.turn) * arm.length

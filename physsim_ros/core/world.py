@@ -227,7 +227,7 @@ class World:
         """
         lost: list[str] = []
         for remaining in range(count, 0, -1):
-            self._space.step(self.step_count, watching=self.watching, last=remaining == 1)
+            lost += self._space.step(self.step_count, watching=self.watching, last=remaining == 1)
             self.step_count += 1
             # Counted from the beginning, so that it does not depend on who makes how many steps.
             if self.step_count % self.frame_steps == 0:

@@ -35,6 +35,8 @@ from physsim_ros.core.shapes import Capsule, Circle, Convex, Piece, Point, Pose
 from physsim_ros.core.snapshot import Body, Floats, Snapshot
 
 # The namespace of all that is drawn.
+# Nobody has drawn so much: whoever takes such a number leaves those below to what is drawn.
+_FARTHEST = 10**9
 DRAWN = 'drawn'
 
 
@@ -171,7 +173,8 @@ class View:
 def _above(names: Iterable[str]) -> int:
     """Return the lowest number above all that drawn things among these have."""
     numbers = (split_name(name) for name in names)
-    return 1 + max((id_ for space, id_ in numbers if space == DRAWN), default=-1)
+    drawn = (id_ for space, id_ in numbers if space == DRAWN and id_ < _FARTHEST)
+    return 1 + max(drawn, default=-1)
 
 
 def _covers(piece: Piece, point: Point, slack: float) -> bool:

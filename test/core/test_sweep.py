@@ -340,3 +340,23 @@ def test_what_is_small_does_not_pass_between_the_pieces_of_a_body(
     sim.world.step(math.ceil(2.2 / speed / DT))
     (large_x, _, _), (small_x, _, _) = sim.world.snapshot().poses.tolist()
     assert small_x > large_x + 0.5 - radius
+
+
+def test_what_cannot_all_be_looked_at_costs_no_more_than_a_step_may(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    asked = []
+    contacts = sweep._contacts  # noqa: SLF001
+    monkeypatch.setattr(sweep, '_contacts', lambda *given: asked.append(given) or contacts(*given))
+    sim = simulation(gravity=NOWHERE)
+    for number in range(40):
+        place = (0.51 * (number % 10), 0.51 * (number // 10), 0.0)
+        spawn(sim, f'rod/{number}', Box(width=5.0, height=0.05), place, spin=100.0)
+    most = 0
+    for _ in range(8):
+        asked.clear()
+        sim.world.step(1)
+        most = max(most, len(asked))
+    # A look may find out first what is overlapped at the start, and one that has begun is ended.
+    assert sweep.MOST_LOOKS / 2 < most < 2 * sweep.MOST_LOOKS
+    assert np.isfinite(sim.world.snapshot().poses).all()
