@@ -532,9 +532,19 @@ def test_a_memory_without_one_of_its_keys_is_refused(resting: Path) -> None:
         assert refused.value.field == key
 
 
-@pytest.mark.parametrize('ids', [(), (1, 2), (-1, 0, 1, 2, 3), (0, 1, 2, 3, 10**9)])
+@pytest.mark.parametrize(
+    'ids', [(), (1, 2), (-1, 0, 1, 2, 3), (0, 1, 2, 3, 10**9), (20, 20, 21, 22, 23)]
+)
 def test_a_memory_of_other_bodies_is_none(ids: tuple[int, ...], resting: Path) -> None:
     state = remembering(resting, {'ids': packed(*ids)})
+    assert state.memory is None
+    restored(state).step(10)
+
+
+def test_a_memory_in_which_walls_and_bodies_share_numbers_is_none(resting: Path) -> None:
+    first = remembering(resting, {}).memory
+    assert first is not None
+    state = remembering(resting, {'walls': int(first.ids[0])})
     assert state.memory is None
     restored(state).step(10)
 

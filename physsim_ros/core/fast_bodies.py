@@ -64,13 +64,14 @@ class FastBodies:
         """Note that what never moves has come, gone or been put elsewhere."""
         self._boxes = None
 
-    def arrest(self, layout: Layout, twists: Floats) -> None:
+    def arrest(self, layout: Layout, twists: Floats, fastest: float) -> None:
         """
         Shorten the coming step of the bodies that are too fast for the engine.
 
         :param twists: (m, 3) float64: velocities and spins in the engine's listing
+        :param fastest: no number of these is greater
         """
-        if np.abs(twists).max(initial=0.0) <= layout.unswept:
+        if fastest <= layout.unswept:
             return
         speed = np.hypot(twists[:, 0], twists[:, 1]) + np.abs(twists[:, 2]) * layout.arm
         fast = np.flatnonzero(speed > layout.safe)

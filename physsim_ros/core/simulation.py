@@ -147,7 +147,7 @@ class Simulation:
     def history(self, history: float) -> None:
         self._catch_up()
         self._history = history
-        if not self.timeline.keep(self._steps(history)):
+        if not self.timeline.limit(self._steps(history)):
             self._moved()
             self._tell_oldest()
 
@@ -350,7 +350,7 @@ class Simulation:
             return
         self.past = self._no_past()
         self.timeline.world.watching = self._watching
-        if self.timeline.keep(self._steps(self._history)):
+        if self.timeline.limit(self._steps(self._history)):
             # With the contacts of the frame that was shown.
             self.timeline.seek_moment(*self.timeline.moment)
 

@@ -413,14 +413,16 @@ class Space:
         self._push_all(number)
         lost: tuple[str, ...] = ()
         before = self._arrays.twists()
+        fastest = np.abs(before).max(initial=0.0)
         # NaN compares false.
-        if not np.abs(before).max(initial=0.0) < LOST:
+        if not fastest < LOST:
             lost = self.drop_lost()
             before = self._arrays.twists()
+            fastest = np.abs(before).max(initial=0.0)
         layout = self._lay_out()
         if self._age % self._calm_steps == 0:
             self._stillness.calm(layout.ground, before)
-        self._fast.arrest(layout, before)
+        self._fast.arrest(layout, before, float(fastest))
         self._watching = watching
         if self.machine.joints:
             self.machine.prepare(layout.listed, self._states)

@@ -20,7 +20,8 @@ more than a quarter of that of the smallest body, is swept along its way first; 
 enter something, the step ends there. The engine then finds the contact and resolves it with the
 full velocity. What a kinematic body would run over is carried along to where the step ends. What
 a slower body overshoots at a first touch is taken back in `relieve`. None of these changes a
-velocity.
+velocity. A step looks at shapes `MOST_LOOKS` times at most: of a crowd that takes more, the rest
+may pass.
 """
 
 from __future__ import annotations

@@ -188,7 +188,7 @@ class Timeline(Course):
             )
         self.seek_moment(step, history.seen_at(step))
 
-    def keep(self, length: int) -> bool:
+    def limit(self, length: int) -> bool:
         """
         Keep so many steps from now on; a world that is before them goes to the oldest.
 

@@ -35,9 +35,9 @@ from physsim_ros.core.shapes import Capsule, Circle, Convex, Piece, Point, Pose
 from physsim_ros.core.snapshot import Body, Floats, Snapshot
 
 # The namespace of all that is drawn.
+DRAWN = 'drawn'
 # Nobody has drawn so much: whoever takes such a number leaves those below to what is drawn.
 _FARTHEST = 10**9
-DRAWN = 'drawn'
 
 
 class View:
