@@ -31,6 +31,8 @@ Flags = NDArray[np.bool_]
 
 # What is so many times larger, or faster, than the fast bodies mostly are, is not in the grid.
 _ODD = 2.0
+# So many pairs with such a body are looked at, at most.
+_MOST_PAIRS = 1_000_000
 # More cells than this, and their numbers would not fit.
 _MOST_CELLS = 1e15
 # So many boxes are compared with all bodies at once.
@@ -48,6 +50,7 @@ class Motions(NamedTuple):
     :ivar turns: (m,) float64: by how much they turn either way [rad]; 0 for discs
     :ivar outer: (m,) float64: greatest distance of a point from the centre [m]
     :ivar depth: (m,) float64: how far each may enter something unseen [m]
+    :ivar group: (m,) int64: of bodies that pass through each other; 0 is none
     """
 
     centers: Floats
@@ -55,34 +58,47 @@ class Motions(NamedTuple):
     turns: Floats
     outer: Floats
     depth: Floats
+    group: Ints
 
     def at(self, rows: Ints | Flags) -> Motions:
         """Return these rows alone."""
-        return Motions(*(each[rows] for each in self))
+        return Motions(
+            self.centers[rows],
+            self.ways[rows],
+            self.turns[rows],
+            self.outer[rows],
+            self.depth[rows],
+            self.group[rows],
+        )
 
 
-def could_meet(fast: Ints, motions: Motions, boxes: Floats) -> Flags:
+def could_meet(fast: Ints, motions: Motions, apart: Ints, boxes: Floats) -> Flags:
     """
     Tell which fast bodies could meet anything in the coming step.
 
     :param fast: (k,) rows of the fast bodies
-    :param motions: of all bodies that are not fixed to the background
+    :param motions: of all bodies that are not fixed to the background, and are no sensors
+    :param apart: (j, 2) rows of bodies that joints keep from colliding
     :param boxes: (b, 4) float64: left, bottom, right, top of all that is [m]
     :return: (k,)
     """
     length = np.hypot(*motions.ways.T)
     large, far = (_ODD * float(np.median(each[fast])) for each in (motions.outer, length))
     plain = (motions.outer <= large) & (length <= far)
-    odd = motions.at(~plain)
-    wide = (odd.outer + length[~plain])[:, None]
-    boxes = np.concatenate((boxes, np.hstack((odd.centers - wide, odd.centers + wide))))
-    meets = ~plain
-    some = fast[plain[fast]]
-    meets[some] = _near_boxes(motions.at(some), boxes)
-    pairs = _neighbours(some, np.flatnonzero(plain), motions)
-    if pairs is None:
+    some, odd = fast[plain[fast]], fast[~plain[fast]]
+    found = [
+        _neighbours(some, np.flatnonzero(plain), motions),
+        _all_pairs(fast, np.flatnonzero(~plain), motions),
+        _all_pairs(odd, np.flatnonzero(plain), motions),
+    ]
+    pairs = [each for each in found if each is not None]
+    if len(pairs) < len(found):
         return np.ones(len(fast), np.bool_)
-    one, other = pairs
+    one, other = (np.concatenate(each) for each in zip(*pairs, strict=True))
+    collide = _collide(one, other, motions, apart)
+    one, other = one[collide], other[collide]
+    meets = np.zeros(len(motions.outer), np.bool_)
+    meets[fast] = _near_boxes(motions.at(fast), boxes)
     mine, theirs = motions.at(one), motions.at(other)
     seen = np.hypot(*(mine.ways - theirs.ways).T)
     meets[one[_meet(mine, theirs, seen)]] = True
@@ -93,8 +109,17 @@ def could_meet(fast: Ints, motions: Motions, boxes: Floats) -> Flags:
     one, other = one[follow], other[follow]
     while (more := one[meets[other] & ~meets[one]]).size:
         meets[more] = True
-    found: Flags = meets[fast]
-    return found
+    return meets[fast]
+
+
+def _collide(one: Ints, other: Ints, motions: Motions, apart: Ints) -> Flags:
+    """Tell which pairs do not pass through each other."""
+    together: Flags = (motions.group[one] != 0) & (motions.group[one] == motions.group[other])
+    if len(apart):
+        count = len(motions.outer)
+        keys = np.concatenate((apart, apart[:, ::-1])) @ (count, 1)
+        together |= np.isin(one * count + other, keys)
+    return ~together
 
 
 def _near_boxes(mine: Motions, boxes: Floats) -> Flags:
@@ -125,6 +150,22 @@ def _meet(mine: Motions, theirs: Motions, seen: Floats) -> Flags:
     apart = np.hypot(*(mine.centers - theirs.centers).T)
     found: Flags = (apart * _LESS <= near) & (length >= mine.depth * _LESS)
     return found
+
+
+def _all_pairs(fast: Ints, rows: Ints, motions: Motions) -> tuple[Ints, Ints] | None:
+    """
+    Return pairs of rows, one of each, that may come near each other.
+
+    :return: (p,) and (p,); None where there are too many
+    """
+    if len(fast) * len(rows) > _MOST_PAIRS:
+        return None
+    mine, theirs = motions.at(fast), motions.at(rows)
+    reach, others = (each.outer + np.hypot(*each.ways.T) for each in (mine, theirs))
+    apart = np.hypot(*(mine.centers.T[..., None] - theirs.centers.T[:, None]))
+    one, other = np.nonzero(apart * _LESS <= reach[:, None] + others)
+    one, other = fast[one], rows[other]
+    return one[one != other], other[one != other]
 
 
 def _neighbours(fast: Ints, rows: Ints, motions: Motions) -> tuple[Ints, Ints] | None:

@@ -90,7 +90,8 @@ class FastBodies:
 
     def _could_meet(self, layout: Layout, twists: Floats, fast: Ints) -> NDArray[np.bool_]:
         """Return (k,): which of so many fast bodies, by their places, could meet anything."""
-        moving = ~layout.ground.fixed[:-1]
+        # What is anchored stands, and sensors meet nothing: of these none is swept.
+        moving = np.isfinite(layout.safe)
         rows = np.cumsum(moving) - 1
         ways, turns = twists[moving, :2] * self._dt, np.abs(twists[moving, 2]) * self._dt
         motions = Motions(
@@ -99,8 +100,10 @@ class FastBodies:
             turns=np.where(layout.arm[moving] > 0.0, turns, 0.0),
             outer=layout.ground.reach[moving],
             depth=layout.safe[moving] * self._dt,
+            group=layout.group[moving],
         )
-        return could_meet(rows[fast], motions, self._standing())
+        apart = rows[layout.apart[moving[layout.apart].all(axis=1)]]
+        return could_meet(rows[fast], motions, apart, self._standing())
 
     def _standing(self) -> Floats:
         """Return (b, 4) float64: left, bottom, right, top of all shapes that never move [m]."""

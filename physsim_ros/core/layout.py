@@ -48,6 +48,8 @@ class Layout:
     :param depths: (n,): how far each body may move in a step without a sweep [m]
     :param safe: for each place, the speed up to which no sweep is needed [m/s]
     :param arm: for each place, what turns a spin into a speed that counts for that [m]
+    :param group: for each place, the group of bodies that pass through each other; 0 is none
+    :param apart: (j, 2): places of bodies that a joint keeps from colliding
     :param unswept: while no velocity [m/s] and no spin [rad/s] is greater, all are that slow
     :param loose: (n,) bool: whether forces move the body
     :param offsets: (n, 2): the engine's origin in the body's frame [m]
@@ -68,6 +70,8 @@ class Layout:
     depths: Floats
     safe: Floats
     arm: Floats
+    group: Ints
+    apart: Ints
     unswept: float
     loose: NDArray[np.bool_]
     offsets: Floats
@@ -116,7 +120,8 @@ def lay_out(
     for rigid, place in zip(rigids, order.tolist(), strict=True):
         listed[place] = rigid
     safe, arm = np.full(len(listing), np.inf), np.zeros(len(listing))
-    safe[order], arm[order] = rows.safe, rows.arm
+    group = np.zeros(len(listing), np.int64)
+    safe[order], arm[order], group[order] = rows.safe, rows.arm, rows.group
     lead = rows.lead.copy()
     for row, rigid in enumerate(rigids):
         if rigid.wrench != REST:
@@ -131,6 +136,8 @@ def lay_out(
         depths=rows.depths,
         safe=safe,
         arm=arm,
+        group=group,
+        apart=order[rows.apart],
         # The length of a vector is at most 1.42 times its greater coordinate.
         unswept=float((safe / (1.42 + arm)).min(initial=np.inf)),
         loose=rows.loose,
@@ -153,6 +160,8 @@ class _Rows(NamedTuple):
     depths: Floats
     safe: Floats
     arm: Floats
+    group: Ints
+    apart: Ints
     loose: NDArray[np.bool_]
     offsets: Floats
     lead: Floats
@@ -174,11 +183,20 @@ def _rows(scene: Scene, dt: float) -> _Rows:
     for body in bodies:
         if body.expires is not None:
             expiries.setdefault(body.expires, []).append(body.name)
+    names = {name: row for row, name in enumerate(scene.names)}
+    # With the background, which has no row, a body always collides.
+    apart = [
+        (names[joint.a], names[joint.b])
+        for joint in scene.joints
+        if joint.b in names and not joint.collide
+    ]
     return _Rows(
-        names={name: row for row, name in enumerate(scene.names)},
+        names=names,
         depths=depths,
         safe=np.where(swept, depths / dt, np.inf),
         arm=np.where(swept, [sweep.arm(body) for body in bodies], 0.0),
+        group=np.array([body.group for body in bodies], np.int64),
+        apart=np.array(apart, np.int64).reshape(-1, 2),
         loose=loose,
         offsets=np.where(anchored[:, None], 0.0, scene.centroids),
         lead=lead,

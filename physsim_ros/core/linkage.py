@@ -132,7 +132,8 @@ def _stages(
         for stage, part in itertools.zip_longest(range(len(parts)), parts):
             if stage == len(stages):
                 stages.append([])
-            stages[stage].append(part)
+            # A part of what hangs together may not.
+            stages[stage] += islands(joints, part)
     return [([*itertools.chain(*groups)], groups) for groups in stages]
 
 

@@ -235,16 +235,15 @@ def arrest(
                 movers[rigid.engine] = mover_of(rigid)
     near = {engine: list(_near(space, mover, reach)) for engine, mover in movers.items()}
     moves = {engine: mover.move for engine, mover in (pushers | movers).items()}
-    heeded = {engine: {engine, *(_body(it.other) for it in near[engine])} for engine in movers}
-    stopped: Collection[pymunk.Body] = ()
+    stopped: Collection[pymunk.Body] = movers
     looks = _Looks(space)
     for number in range(ROUNDS):
         # All are measured before the first is stopped, or two would miss each other.
         stops = {
             engine: stop
             for engine, mover in movers.items()
-            if (number == 0 or not heeded[engine].isdisjoint(stopped))
-            and (stop := _stop(looks, mover, near[engine], moves, dt, carried=number == 0))
+            if (pairs := _changed(engine, near[engine], stopped))
+            and (stop := _stop(looks, mover, pairs, moves, dt, carried=number == 0))
         }
         if not stops:
             break
@@ -332,6 +331,13 @@ def _near(space: pymunk.Space, mover: _Mover, reach: float) -> Iterator[_Pair]:
         for other in space.bb_query(around, own.filter):
             if not (other.sensor or _body(other) is engine or _body(other) in apart):
                 yield _Pair(own, other, at_start, _skin(own, other, mover.skin))
+
+
+def _changed(
+    engine: pymunk.Body, pairs: list[_Pair], stopped: Collection[pymunk.Body]
+) -> list[_Pair]:
+    """Return the pairs of a body that meet otherwise than before some were stopped."""
+    return pairs if engine in stopped else [it for it in pairs if _body(it.other) in stopped]
 
 
 def _stop(

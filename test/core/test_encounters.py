@@ -16,10 +16,14 @@
 
 from __future__ import annotations
 
+import itertools
+import math
 import random
 from typing import Any
 
 from physsim_ros.core import fast_bodies, sweep
+from physsim_ros.core.joint_properties import JointKind, JointProperties
+from physsim_ros.core.requests import Join
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.shapes import Box, Chain, Disc
 from physsim_ros.core.world import World
@@ -55,23 +59,29 @@ def test_who_is_left_out_of_a_crowd_would_not_have_been_stopped(
     monkeypatch: pytest.MonkeyPatch, seed: int, speed: float
 ) -> None:
     chosen, all_ = crowd(seed, speed), crowd(seed, speed)
+    # Or the one would come to its end later than the other.
+    monkeypatch.setattr(sweep, 'MOST_LOOKS', 10**9)
     chosen.step(90)
     monkeypatch.setattr(fast_bodies, 'FEW', 10**9)
     all_.step(90)
     assert chosen.digest() == all_.digest()
 
 
-def test_of_a_crowd_that_falls_nobody_is_swept_before_the_ground(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    swept: list[int] = []
+@pytest.fixture
+def swept(monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """Return how many bodies were swept, step by step."""
+    counts: list[int] = []
     arrest = sweep.arrest
 
     def spy(engine: Any, fast: list[Any], *rest: Any, **more: Any) -> None:
-        swept.append(len(fast))
+        counts.append(len(fast))
         arrest(engine, fast, *rest, **more)
 
     monkeypatch.setattr(sweep, 'arrest', spy)
+    return counts
+
+
+def test_of_a_crowd_that_falls_nobody_is_swept_before_the_ground(swept: list[int]) -> None:
     world = World(settings=WorldSettings(bounds=(-10.0, 0.0, 10.0, 30.0)))
     for number in range(100):
         row, column = divmod(number, 20)
@@ -83,3 +93,48 @@ def test_of_a_crowd_that_falls_nobody_is_swept_before_the_ground(
     world.step(60)
     assert swept
     assert world.snapshot().poses[:, 1].min() > 0.04
+
+
+def heap(**properties: Any) -> World:
+    """Return bodies that fly through each other, one of them larger and one faster than most."""
+    world = World(settings=WorldSettings(gravity=(0.0, 0.0)))
+    for number in range(20):
+        radius, speed = 0.5 if number == 7 else 0.05, 100.0 if number == 8 else 30.0
+        velocity = (speed * math.cos(number), speed * math.sin(number))
+        pose = (0.01 * number, 0.0, 0.0)
+        given = {'velocity': velocity, **properties}
+        spawn(world, f'body/{number}', Disc(radius=radius), pose, **given)
+    return world
+
+
+@pytest.mark.parametrize(('group', 'meets'), [(0, True), (1, False), (-1, False)])
+def test_a_group_whose_bodies_pass_through_each_other_is_not_swept(
+    swept: list[int], group: int, *, meets: bool
+) -> None:
+    heap(group=group).step(1)
+    assert bool(swept) is meets
+
+
+@pytest.mark.parametrize('collide', [True, False])
+def test_what_a_joint_keeps_from_colliding_is_not_swept(
+    swept: list[int], *, collide: bool
+) -> None:
+    world = heap()
+    for number, (a, b) in enumerate(itertools.combinations(range(20), 2)):
+        world.apply(
+            Join(
+                name=f'joint/{number}',
+                kind=JointKind.SPRING,
+                points=((0.01 * a, 0.0), (0.01 * b, 0.0)),
+                a=f'body/{a}',
+                b=f'body/{b}',
+                properties=JointProperties(collide=collide),
+            )
+        )
+    world.step(1)
+    assert bool(swept) is collide
+
+
+def test_who_passes_through_sensors_alone_is_not_swept(swept: list[int]) -> None:
+    heap(sensor=True).step(1)
+    assert swept == []

@@ -196,7 +196,8 @@ def test_many_fast_bodies_stay_in_closed_walls():
 
     for _ in range(240):
         snapshot = sim.advance_frame().snapshot
-        assert np.abs(snapshot.centers).max() < 3.0
+        # A speck is as small as the overlap that is left standing; a box presses it in.
+        assert np.abs(snapshot.centers).max() < 3.0 + sweep.SLOP
 
 
 @each_shape
