@@ -25,6 +25,7 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from physsim_ros.core.graph import ranges
 from physsim_ros.core.snapshot import Floats, Ints
 
 Flags = NDArray[np.bool_]
@@ -196,8 +197,7 @@ def _neighbours(fast: Ints, rows: Ints, motions: Motions) -> tuple[Ints, Ints] |
         first = np.searchsorted(ranked, middle - 1, 'left')
         count = np.searchsorted(ranked, middle + 1, 'right') - first
         ones.append(np.repeat(fast, count))
-        within = np.arange(int(count.sum())) - np.repeat(np.cumsum(count) - count, count)
-        others.append(order[np.repeat(first, count) + within])
+        others.append(order[ranges(first, count)])
     one, other = np.concatenate(ones), np.concatenate(others)
     x, y = motions.centers.T
     apart = (x.take(one) - x.take(other)) ** 2 + (y.take(one) - y.take(other)) ** 2

@@ -21,13 +21,13 @@ cut into rungs that are climbed one by one; its cost grows with its length, not 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 import itertools
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from physsim_ros.core.graph import Graph, ranges, Rows
 from physsim_ros.core.snapshot import Floats
 
 # Up to so many rows are solved as one matrix. For larger ones numpy's algebra uses threads, whose
@@ -39,166 +39,116 @@ _GIVE = 1e-9
 # What is left of a row beside those before it, as a share of its own, when it follows from them.
 _DEPENDENT = 1e-5
 
-Meeting = tuple[int, int]
-
-
-class _Spot(NamedTuple):
-    """Where a row is: its rung, its place there, and where matrices with that and the next are."""
-
-    rung: int
-    slot: int
-    own: int
-    size: int
-    across: int
-    following: int
-
 
 class Equations:
     """
     Groups of equations; rows of different groups do not meet.
 
-    :param groups: the rows of each
-    :param sides: pairs of sides that push the same body; side s is of row s modulo `count`
+    :param groups: the rows of each, which hang together
+    :param left: (k,) of each pair of sides that push the same body the one; every pair comes both
+        ways round, and side s is of row s modulo `count`
+    :param right: (k,) the other one
     :param count: of rows
 
-    :ivar left: (k,) one side of each number of the matrices
-    :ivar right: (k,) the other one
+    :ivar left: (l,) of each number of the matrices the one side
+    :ivar right: (l,) the other one
     """
 
-    def __init__(
-        self, groups: Iterable[Sequence[int]], sides: Sequence[Meeting], count: int
-    ) -> None:
-        met: dict[int, list[int]] = {}
-        for one, other in sides:
-            met.setdefault(one % count, []).append(other % count)
-        self._blocks: list[_Block] = []
-        self._ladders: list[_Ladder] = []
-        spots: dict[int, _Spot] = {}
-        self._groups = list(groups)
-        small: list[Sequence[int]] = []
-        start = 0
-        for group in self._groups:
-            if len(group) <= DENSE:
-                small.append(group)
-            else:
-                start = self._add_ladder(_rungs(group, met), spots, start)
-        for size, same in itertools.groupby(sorted(small, key=len), key=len):
-            start = self._add_block(list(same), size, spots, start)
+    def __init__(self, groups: Sequence[Rows], left: Rows, right: Rows, count: int) -> None:
+        one, other = left % count, right % count
+        groups = sorted(groups, key=len)
+        rungs = [group for group in groups if len(group) <= DENSE]
+        following = [0] * len(rungs)
+        self._parts: list[_Block | _Ladder] = []
+        first = start = 0
+        for size, alike in itertools.groupby(rungs, key=len):
+            block = _Block(len(list(alike)), size, first, start)
+            self._parts.append(block)
+            first, start = block.last, block.end
+        graph = Graph(one, other, count)
+        short = len(rungs)
+        for group in groups[short:]:
+            cut = _rungs(graph.from_end(int(group[0])))
+            ladder = _Ladder(tuple(map(len, cut)), first, start)
+            self._parts.append(ladder)
+            rungs += cut
+            following += [*ladder.sizes[1:], 0]
+            first, start = ladder.last, ladder.end
         self._numbers = start
-        self._order = np.array([*spots], np.intp)
-        self._diagonal = np.array(
-            [spot.own + spot.slot * (spot.size + 1) for spot in spots.values()], np.intp
-        )
-        self._meet(sides, spots, count)
+        # The rows in the order in which they are solved.
+        self._order: Rows = np.concatenate([np.empty(0, np.intp), *rungs])
+        sizes, after = np.array([*map(len, rungs)], np.intp), np.array(following, np.intp)
+        starts = np.cumsum(sizes * (sizes + after)) - sizes * (sizes + after)
 
-    def _add_ladder(self, rungs: list[list[int]], spots: dict[int, _Spot], start: int) -> int:
-        """Lay out the matrices of a long group; return where the next ones begin."""
-        sizes = [len(each) for each in rungs]
-        self._ladders.append(_Ladder(tuple(sizes), len(spots), start))
-        # A number between two groups is left out, so that their rungs are no neighbours.
-        rung = 2 * len(spots)
-        for rows, following in itertools.zip_longest(rungs, sizes[1:], fillvalue=0):
-            assert isinstance(rows, list)  # noqa: S101 - the longer of the two
-            size = len(rows)
-            across = start + size * size
-            for slot, row in enumerate(rows):
-                spots[row] = _Spot(rung, slot, start, size, across, following)
-            start = across + size * following
-            rung += 1
-        return start
+        def of_rows(values: Rows) -> Rows:
+            result = np.empty(count, np.intp)
+            result[self._order] = values
+            return result
 
-    def _add_block(
-        self, groups: list[Sequence[int]], size: int, spots: dict[int, _Spot], start: int
-    ) -> int:
-        """Lay out the matrices of short groups of one size; return where the next ones begin."""
-        self._blocks.append(_Block(len(groups), size, len(spots), start))
-        for rows in groups:
-            rung = 2 * len(spots)
-            for slot, row in enumerate(rows):
-                spots[row] = _Spot(rung, slot, start, size, 0, 0)
-            start += size * size
-        return start
-
-    def _meet(self, sides: Sequence[Meeting], spots: dict[int, _Spot], count: int) -> None:
-        """Find where in the matrices each pair of sides counts."""
-        found: list[tuple[int, int, int]] = []
-        for one, other in sides:
-            spot, to = spots[one % count], spots[other % count]
-            if to.rung == spot.rung:
-                found.append((one, other, spot.own + spot.slot * spot.size + to.slot))
-            elif to.rung > spot.rung:
-                at = spot.across + spot.slot * spot.following + to.slot
-                found.append((one, other, at))
-            # What leads back a rung is the mirror image of what leads on to this one.
-        self.left, self.right, self._spots = np.array(found, np.intp).reshape(-1, 3).T.copy()
+        # Of each row: its rung and its place there, and where in the matrices its line begins,
+        # that of the rung with itself and that with the next one.
+        rung = of_rows(np.repeat(np.arange(len(rungs)), sizes))
+        slot = of_rows(ranges(np.zeros_like(sizes), sizes))
+        line = starts[rung] + slot * sizes[rung]
+        line_on = starts[rung] + sizes[rung] ** 2 + slot * after[rung]
+        self._diagonal = (line + slot)[self._order]
+        # What leads back a rung is the mirror image of what leads on to this one.
+        forth = rung[other] >= rung[one]
+        self.left, self.right, one, other = (each[forth] for each in (left, right, one, other))
+        self._at = np.where(rung[other] == rung[one], line[one], line_on[one]) + slot[other]
 
     def solve(self, shared: Floats, wanted: Floats, active: NDArray[np.bool_]) -> Floats:
         """
         Return the unknown of each row.
 
-        :param shared: (k,) what each pair of sides adds to the matrices
+        :param shared: (l,) what each pair of sides adds to the matrices
         :param wanted: (r,) the right hand side
         :param active: (r,) whether a row counts; the unknown of one that does not is 0
         """
-        if not active.all():
-            count = len(active)
-            shared = shared * (active[self.left % count] & active[self.right % count])
-            wanted = np.where(active, wanted, 0.0)
-        matrices = np.bincount(self._spots, shared, self._numbers).astype(np.float64, copy=False)
+        matrices = self._matrices(shared, active)
         matrices[self._diagonal] *= 1.0 + _GIVE
-        matrices[self._diagonal] += ~active[self._order]
-        ordered = wanted[self._order]
-        for block in self._blocks:
-            block.solve(matrices, ordered)
-        for ladder in self._ladders:
-            ladder.solve(matrices, ordered)
+        ordered = np.where(active, wanted, 0.0)[self._order]
+        for part in self._parts:
+            part.solve(matrices, ordered)
         unknown = np.empty_like(wanted)
         unknown[self._order] = ordered
         return unknown
 
     def dependent(self, shared: Floats, active: NDArray[np.bool_]) -> list[int]:
         """
-        Return the rows that follow from those before them.
+        Return the rows that follow from those that come before them in the order of solving.
 
-        :param shared: (k,) what each pair of sides adds to the matrices
+        :param shared: (l,) what each pair of sides adds to the matrices
         :param active: (r,) whether a row counts
         """
-        count = len(active)
-        counting = ([row for row in sorted(group) if active[row]] for group in self._groups)
-        groups = sorted(filter(None, counting), key=len)
-        sizes = np.array([len(group) for group in groups], np.intp)
-        starts = np.concatenate(((0,), np.cumsum(sizes**2)))
-        # For each row: where the matrix of its group begins, how wide that is, its place there.
-        spots = np.zeros((3, count), np.intp)
-        for group, start, size in zip(groups, starts.tolist(), sizes.tolist(), strict=False):
-            spots[:, group] = np.full(size, start), np.full(size, size), np.arange(size)
-        rows, columns = self.left % count, self.right % count
-        both = active[rows] & active[columns]
-        start, width, slot = spots[:, rows[both]]
-        at = start + width * slot + spots[2, columns[both]]
-        numbers = np.bincount(at, shared[both], starts[-1]).astype(np.float64, copy=False)
-        found: list[int] = []
-        first = 0
-        for size, alike in itertools.groupby(groups, key=len):
-            chosen = np.array(list(alike))
-            end = first + chosen.size * size
-            found += chosen[_follow(numbers[first:end].reshape(-1, size, size))].tolist()
-            first = end
+        matrices = self._matrices(shared, active)
+        least = _DEPENDENT * matrices[self._diagonal]
+        follows = np.zeros(len(active), np.bool_)
+        for part in self._parts:
+            part.find_dependent(matrices, least, follows)
+        found: list[int] = self._order[follows].tolist()
         return found
 
+    def _matrices(self, shared: Floats, active: NDArray[np.bool_]) -> Floats:
+        """Return all matrices one after the other; a row that does not count says nothing."""
+        if not active.all():
+            count = len(active)
+            shared = shared * (active[self.left % count] & active[self.right % count])
+        numbers = np.bincount(self._at, shared, self._numbers).astype(np.float64, copy=False)
+        numbers[self._diagonal] += ~active[self._order]
+        return numbers
 
-def _follow(halves: Floats) -> NDArray[np.bool_]:
-    """
-    Tell which rows of matrices follow from those before them.
 
-    :param halves: (k, n, n) symmetric matrices, of which one half may be left out
-    :return: (k, n)
+def _follow(matrices: Floats, least: Floats) -> NDArray[np.bool_]:
     """
-    matrices = np.where(halves != 0.0, halves, halves.transpose(0, 2, 1))
-    count, size, _ = matrices.shape
-    least = _DEPENDENT * np.diagonal(matrices, axis1=1, axis2=2)
-    follows = np.zeros((count, size), np.bool_)
-    for place in range(size):
+    Eliminate the first rows of matrices one by one, but for those that follow from others.
+
+    :param matrices: (k, n, n) symmetric; in the end, what is left of the other rows
+    :param least: (k, m) of what each of the first rows has at least, where it says something new
+    :return: (k, m) bool: which follow
+    """
+    follows = np.zeros(least.shape, np.bool_)
+    for place in range(least.shape[1]):
         pivot = matrices[:, place, place]
         follows[:, place] = pivot <= least[:, place]
         pivot = np.where(follows[:, place], np.inf, pivot)
@@ -227,13 +177,31 @@ class _Block:
     first: int
     start: int
 
+    @property
+    def last(self) -> int:
+        """Where their rows end."""
+        return self.first + self.count * self.size
+
+    @property
+    def end(self) -> int:
+        """Where their matrices end."""
+        return self.start + self.count * self.size**2
+
     def solve(self, matrices: Floats, ordered: Floats) -> None:
         """Put the unknowns in the place of the right hand side."""
-        count, size, first, start = self.count, self.size, self.first, self.start
-        last, end = first + count * size, start + count * size * size
-        own = matrices[start:end].reshape(count, size, size)
-        solved = np.linalg.solve(own, ordered[first:last].reshape(count, size, 1))
-        ordered[first:last] = solved.ravel()
+        rows = slice(self.first, self.last)
+        right = ordered[rows].reshape(self.count, self.size, 1)
+        ordered[rows] = np.linalg.solve(self._own(matrices), right).ravel()
+
+    def find_dependent(self, matrices: Floats, least: Floats, follows: NDArray[np.bool_]) -> None:
+        """Note which rows follow from those before them; see `_follow`."""
+        rows = slice(self.first, self.last)
+        bounds = least[rows].reshape(self.count, self.size)
+        follows[rows] = _follow(self._own(matrices), bounds).ravel()
+
+    def _own(self, matrices: Floats) -> Floats:
+        numbers = slice(self.start, self.end)
+        return matrices[numbers].reshape(self.count, self.size, self.size)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -250,51 +218,69 @@ class _Ladder:
     first: int
     start: int
 
+    @property
+    def last(self) -> int:
+        """Where their rows end."""
+        return self.first + sum(self.sizes)
+
+    @property
+    def end(self) -> int:
+        """Where their matrices end."""
+        across = sum(size * following for size, following in itertools.pairwise(self.sizes))
+        return self.start + sum(size**2 for size in self.sizes) + across
+
     def solve(self, matrices: Floats, ordered: Floats) -> None:
         """Eliminate from rung to rung up, and put in what is known then from rung to rung down."""
-        first, start = self.first, self.start
         climbed: list[tuple[slice, NDArray[np.floating]]] = []
         taken: NDArray[np.floating] | None = None
-        for size, following in itertools.zip_longest(self.sizes, self.sizes[1:], fillvalue=0):
-            across, end = start + size * size, start + size * (size + following)
-            own = matrices[start:across].reshape(size, size)
-            rows = slice(first, first + size)
+        for rows, own, across in self._climb(matrices):
+            size, following = across.shape
             right = np.empty((size, following + 1))
-            right[:, :following] = matrices[across:end].reshape(size, following)
+            right[:, :following] = across
             right[:, following] = ordered[rows]
+            left = own
             if taken is not None:
-                own = own - taken[:, :-1]
+                left = own - taken[:, :-1]
                 right[:, following] -= taken[:, -1]
-            solved = np.linalg.solve(own, right)
+            solved = np.linalg.solve(left, right)
             taken = right[:, :following].T @ solved
             climbed.append((rows, solved))
-            first, start = first + size, end
         known = np.empty(0)
         for rows, solved in reversed(climbed):
             known = ordered[rows] = solved[:, -1] - solved[:, :-1] @ known
 
+    def find_dependent(self, matrices: Floats, least: Floats, follows: NDArray[np.bool_]) -> None:
+        """Note which rows follow from those before them; see `_follow`."""
+        left: Floats = np.zeros((1, 1, 1))
+        for rows, own, across in self._climb(matrices):
+            size, following = across.shape
+            both = np.zeros((1, size + following, size + following))
+            both[0, :size, :size] = own
+            both[0, :size, size:] = across
+            both[0, size:, :size] = across.T
+            both[:, :size, :size] += left
+            follows[rows] = _follow(both, least[None, rows])
+            left = both[:, size:, size:]
 
-def _rungs(rows: Sequence[int], met: dict[int, list[int]]) -> list[list[int]]:
-    """
-    Cut a group into rungs: by how many joints lead there from its one end.
+    def _climb(self, matrices: Floats) -> Iterator[tuple[slice, Floats, Floats]]:
+        """Yield of each rung its rows, its matrix with itself, and that with the next one."""
+        first, start = self.first, self.start
+        for size, following in itertools.zip_longest(self.sizes, self.sizes[1:], fillvalue=0):
+            last, across = first + size, start + size * size
+            end = across + size * following
+            own = matrices[start:across].reshape(size, size)
+            yield slice(first, last), own, matrices[across:end].reshape(size, following)
+            first, start = last, end
 
-    :param rows: of the group
-    :param met: for each row those that it meets, itself too
-    """
-    start = _levels(rows[0], met)[-1][0]
-    rungs: list[list[int]] = [[]]
-    for level in _levels(start, met):
-        if rungs[-1] and len(rungs[-1]) + len(level) > DENSE // 2:
+
+def _rungs(levels: Sequence[Rows]) -> list[Rows]:
+    """Put levels together, since a few larger matrices are solved faster than many small ones."""
+    rungs: list[list[Rows]] = [[]]
+    rows = 0
+    for level in levels:
+        if rungs[-1] and rows + len(level) > DENSE // 2:
             rungs.append([])
-        rungs[-1] += level
-    return rungs
-
-
-def _levels(start: int, met: dict[int, list[int]]) -> list[list[int]]:
-    """Return rows by the number of joints that lead there."""
-    levels, known = [[start]], {start}
-    while levels[-1]:
-        near = dict.fromkeys(other for row in levels[-1] for other in met[row])
-        levels.append([row for row in near if row not in known])
-        known |= near.keys()
-    return levels[:-1]
+            rows = 0
+        rungs[-1].append(level)
+        rows += len(level)
+    return [np.concatenate(each) for each in rungs]

@@ -238,25 +238,21 @@ def islands(joints: Sequence[EngineJoint], held: Sequence[int] | None = None) ->
 
     :param held: numbers of the joints that count; None is all
     """
-    owner: dict[pymunk.Body, list[int]] = {}
+    # Of each body another one of its island, and in the end one that is its own.
+    above: dict[pymunk.Body, pymunk.Body] = {}
+
+    def top(body: pymunk.Body) -> pymunk.Body:
+        while (over := above.setdefault(body, body)) is not body:
+            above[body] = body = above[over]
+        return body
+
+    moving: dict[int, pymunk.Body] = {}
     for number in range(len(joints)) if held is None else held:
         ends = joints[number].ends
-        island = [number]
-        for body in (ends.a, ends.b):
-            if body.body_type != pymunk.Body.DYNAMIC:
-                continue
-            other = owner.get(body)
-            if other is not None and other is not island:
-                # The longer list takes in the shorter one.
-                island, other = (other, island) if len(other) > len(island) else (island, other)
-                island += other
-                for each in other:
-                    for end in (joints[each].ends.a, joints[each].ends.b):
-                        if owner.get(end) is other:
-                            owner[end] = island
-            owner[body] = island
         for body in (ends.a, ends.b):
             if body.body_type == pymunk.Body.DYNAMIC:
-                owner[body] = island
-    unique = {id(island): island for island in owner.values()}
-    return sorted((sorted(island) for island in unique.values()), key=lambda island: island[0])
+                above[top(body)] = top(moving.setdefault(number, body))
+    groups: dict[pymunk.Body, list[int]] = {}
+    for number, body in moving.items():
+        groups.setdefault(top(body), []).append(number)
+    return list(groups.values())

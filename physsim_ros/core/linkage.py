@@ -27,19 +27,23 @@ is solved depends on the state alone, nothing is remembered from step to step.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 import itertools
 
 import numpy as np
 from physsim_ros.core.equations import Equations
+from physsim_ros.core.graph import Graph, meetings
 from physsim_ros.core.joint_properties import JointKind
 from physsim_ros.core.joints import EngineJoint, FASTEST_CORRECTION, islands
 from physsim_ros.core.restraints import Restraints
 from physsim_ros.core.snapshot import Floats
 import pymunk
 
-# What hangs together over more rows is solved part by part: these take three milliseconds.
+# What hangs together and is as much work as so many rows of which each meets each, three
+# milliseconds, is solved at once; what is more, part by part: hundreds of pins on one body.
 MOST_ROWS = 600
+# Nor is it looked at how much work there is with more pairs of joints on the same body.
+_MOST_PAIRS = 1_000_000
 # So often it is looked at which ropes are taut and which limits are reached.
 _ROUNDS = 6
 # Below it [m/s, rad/s] nothing moves on into a limit.
@@ -61,39 +65,37 @@ class Linkage:
     The joints that are held exactly.
 
     :param joints: of the space, in their order; springs, and what gives way, are left out
-    :param places: of the engine's bodies in the listing that states come in
-    :param listed: how many that listing has
+    :param places: of the engine's bodies in the rows that states come in
+    :param background: the row of all others
     :param dt: of a step [s]
     """
 
     def __init__(
         self,
         joints: Sequence[EngineJoint],
-        places: dict[pymunk.Body, int],
-        listed: int,
+        places: Mapping[pymunk.Body, int],
+        background: int,
         dt: float,
     ) -> None:
         held = [number for number, each in enumerate(joints) if each.exact]
         self._dt = dt
-        # What each joint of the space has given beside the engine in the last step [N s].
-        self.impulses: Floats = np.zeros(len(joints))
-        self._systems = [
-            _System(
-                Restraints([joints[number] for number in stage], places, listed), stage, groups
-            )
-            for stage, groups in _stages(held, joints)
-        ]
+        self._systems: list[_System] = []
+        for groups in _stages(held, joints):
+            each = [joints[number] for number in itertools.chain(*groups)]
+            self._systems.append(_System(each, groups, places, background))
 
-    def hold(self, states: Floats) -> bool:
+    def hold(self, states: Floats, impulses: Floats) -> bool:
         """
         Move velocities to where the joints will be closed at the end of the coming step.
 
-        :param states: (m + 1, 6) float64: poses and velocities in the engine's listing, then the
+        :param states: (m + 1, 6) float64: poses and velocities of the bodies, then the
             background; kept up to date
+        :param impulses: (j,) float64: what each joint of the space gives for that [N s]; kept up
+            to date
         :return: whether there was anything to hold
         """
         for system in self._systems:
-            system.hold(states, self._dt, self.impulses)
+            system.hold(states, self._dt, impulses)
         return bool(self._systems)
 
     def redundant(self, states: Floats) -> set[tuple[int, int]]:
@@ -103,66 +105,89 @@ class Linkage:
         The engine hands impulses round and round among joints that say the same, more of them at
         each step.
 
-        :param states: (m + 1, 6) float64: poses and velocities in the engine's listing, then the
-            background
+        :param states: (m + 1, 6) float64: poses and velocities of the bodies, then the background
         """
         return {each for system in self._systems for each in system.redundant(states)}
 
 
-def _stages(
-    held: Sequence[int], joints: Sequence[EngineJoint]
-) -> list[tuple[list[int], list[list[int]]]]:
+def _stages(held: Sequence[int], joints: Sequence[EngineJoint]) -> list[list[list[int]]]:
     """
     Part the joints into what is solved one after the other.
 
     :param held: numbers of the joints
-    :return: for each stage its joints, and these again in groups that hang together
+    :return: for each stage its joints, in groups that hang together
     """
     stages: list[list[list[int]]] = []
     for island in islands(joints, held):
-        parts: list[list[int]] = [[]]
-        room = MOST_ROWS
-        for number in island:
-            rows = _ROWS[joints[number].joint.kind]
-            if rows > room:
-                parts.append([])
-                room = MOST_ROWS
-            parts[-1].append(number)
-            room -= rows
-        for stage, part in itertools.zip_longest(range(len(parts)), parts):
+        for stage, part in enumerate(_parts(island, joints)):
             if stage == len(stages):
                 stages.append([])
             # A part of what hangs together may not.
-            stages[stage] += islands(joints, part)
-    return [([*itertools.chain(*groups)], groups) for groups in stages]
+            stages[stage] += [part] if len(part) == len(island) else islands(joints, part)
+    return stages
+
+
+def _parts(island: list[int], joints: Sequence[EngineJoint]) -> list[list[int]]:
+    """Part joints that hang together, where to solve all at once would be too much work."""
+    rows = [_ROWS[joints[number].joint.kind] for number in island]
+    if sum(rows) <= MOST_ROWS or _work(island, rows, joints) <= MOST_ROWS**3:
+        return [island]
+    parts: list[list[int]] = [[]]
+    room = MOST_ROWS
+    for number, count in zip(island, rows, strict=True):
+        if count > room:
+            parts.append([])
+            room = MOST_ROWS
+        parts[-1].append(number)
+        room -= count
+    return parts
+
+
+def _work(island: Sequence[int], rows: Sequence[int], joints: Sequence[EngineJoint]) -> float:
+    """Return what it takes to solve joints at once: cubes of the rows that come side by side."""
+    ends = [
+        (body, place)
+        for place, number in enumerate(island)
+        for body in (joints[number].ends.a, joints[number].ends.b)
+        if body.body_type == pymunk.Body.DYNAMIC
+    ]
+    names = {body: name for name, body in enumerate(dict(ends))}
+    bodies, places = np.array([(names[body], place) for body, place in ends], np.intp).T
+    if (np.bincount(bodies) ** 2).sum() > _MOST_PAIRS:
+        return np.inf
+    levels = Graph(*meetings(bodies, places), len(island)).from_end(0)
+    count = np.array(rows)
+    return float(sum(int(count[level].sum()) ** 3 for level in levels))
 
 
 class _System:
     """
     Joints that are solved at once.
 
-    :param restraints: what they keep
-    :param numbers: of the joints in the space
-    :param groups: of these that hang together
+    :param joints: these, group by group
+    :param groups: their numbers in the space, those together that hang together
+    :param places: as in `Linkage`
+    :param background: as in `Linkage`
     """
 
     def __init__(
-        self, restraints: Restraints, numbers: Sequence[int], groups: Sequence[Sequence[int]]
+        self,
+        joints: Sequence[EngineJoint],
+        groups: Sequence[Sequence[int]],
+        places: Mapping[pymunk.Body, int],
+        background: int,
     ) -> None:
-        self._restraints = restraints
-        self._numbers = np.array(numbers, np.intp)
+        self._restraints = restraints = Restraints(joints, places, background)
+        self._numbers = np.array([*itertools.chain(*groups)], np.intp)
         self._limited = bool(restraints.limits.any())
-        members: dict[int, list[int]] = {}
-        for row, joint in enumerate(restraints.owner.tolist()):
-            members.setdefault(numbers[joint], []).append(row)
+        sizes = [len(group) for group in groups]
+        group_of = np.repeat(np.arange(len(groups)), sizes)[restraints.owner]
+        ends = np.cumsum(np.bincount(group_of))[:-1]
         # Rows meet that push the same body.
-        on: dict[int, list[int]] = {}
-        for side, body in enumerate(restraints.sides.tolist()):
-            if restraints.inverse[side].any():
-                on.setdefault(body, []).append(side)
+        moving = np.flatnonzero(restraints.inverse.any(axis=1))
         self._equations = Equations(
-            [[row for number in group for row in members[number]] for group in groups],
-            [pair for sides in on.values() for pair in itertools.product(sides, sides)],
+            np.split(np.argsort(group_of, kind='stable'), ends),
+            *meetings(restraints.sides[moving], moving),
             len(restraints.owner),
         )
 

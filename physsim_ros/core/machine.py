@@ -25,20 +25,34 @@ from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 import math
 import operator
+from typing import NamedTuple
 
 import numpy as np
 from physsim_ros.core import joints
 from physsim_ros.core.balance import Balance
+from physsim_ros.core.graph import Rows
 from physsim_ros.core.joint_properties import JointKind
 from physsim_ros.core.joints import EngineJoint
 from physsim_ros.core.linkage import Linkage
 from physsim_ros.core.names import WORLD
 from physsim_ros.core.rigid_body import RigidBody
-from physsim_ros.core.snapshot import Floats, Joint
+from physsim_ros.core.snapshot import Body, Floats, Joint
 import pymunk
 
 # The roughest that the engine's own attempt may be with all bodies together [m/s²].
 _ROUGHEST = 60.0
+
+
+class _Known(NamedTuple):
+    """
+    What holds joints, and what it was made of.
+
+    :ivar parts: the joints, each followed by its bodies
+    :ivar linkage: knows these by their numbers alone, so that it serves any space
+    """
+
+    parts: tuple[Joint | Body | None, ...]
+    linkage: Linkage
 
 
 class Machine:
@@ -48,9 +62,17 @@ class Machine:
     :param space: of the engine
     :param bodies: by name; kept by the space
     :param dt: of a step [s]
+    :param before: of another space, whose joints may be the same; None is none
     """
 
-    def __init__(self, space: pymunk.Space, bodies: Mapping[str, RigidBody], dt: float) -> None:
+    def __init__(
+        self,
+        space: pymunk.Space,
+        bodies: Mapping[str, RigidBody],
+        dt: float,
+        *,
+        before: Machine | None = None,
+    ) -> None:
         self.joints: dict[str, EngineJoint] = {}
         self._space = space
         self._bodies = bodies
@@ -58,6 +80,13 @@ class Machine:
         # Names of the joints of each body.
         self._on: dict[str, dict[str, None]] = {}
         self._linkage: Linkage | None = None
+        # What holds the joints, or held those of the space before.
+        self.known: _Known | None = None if before is None else before.known
+        # The bodies that are joined, and their places in the listing, the background's last.
+        self._members: dict[pymunk.Body, int] = {}
+        self._places: Rows = np.empty(0, np.intp)
+        # What each joint gave beside the engine in the last step [N s].
+        self._impulses: Floats = np.empty(0)
         self._balance: Balance | None = None
         self._listed: Sequence[RigidBody | None] = ()
         # What each joint gave [N] in a step that another space has made, until this one makes one.
@@ -119,7 +148,11 @@ class Machine:
         :param driven: whether anything has given them energy since the last step, or in it
         :return: whether velocities have been moved
         """
-        moved = self._linked(listed).hold(states)
+        linkage = self._linked(listed)
+        rows = states[self._places]
+        self._impulses[:] = 0.0
+        moved = linkage.hold(rows, self._impulses)
+        states[self._places, 3:] = rows[:, 3:]
         assert self._balance is not None  # noqa: S101 - made with the linkage
         if driven:
             self._balance.drive()
@@ -136,7 +169,7 @@ class Machine:
         linkage = self._linked(listed)
         self._first_step = self._fresh
         if self._fresh:
-            self._spare(linkage.redundant(read()))
+            self._spare(linkage.redundant(read()[self._places]))
             self._fresh = False
 
     def _spare(self, redundant: set[tuple[int, int]]) -> None:
@@ -161,7 +194,8 @@ class Machine:
             return np.array([self._given.get(name, 0.0) for name in self.joints])
         if not self.joints:
             return np.empty(0)
-        return (self._impulses() + self._linked(listed).impulses) / self._dt
+        self._linked(listed)
+        return (self._given_by_engine() + self._impulses) / self._dt
 
     def go_on_from(self, forces: Floats) -> None:
         """Take over what each joint gave in a step that another space has made, (j,) [N]."""
@@ -173,14 +207,14 @@ class Machine:
         # is no load.
         if not self._breakable or self._linkage is None or self._first_step:
             return []
-        held, beside = list(self.joints.values()), self._linkage.impulses
+        held, beside = list(self.joints.values()), self._impulses
         return [
             (held[number].joint.name, given / self._dt)
             for number, most in self._breakable
             if (given := held[number].impulse + float(beside[number])) > most
         ]
 
-    def _impulses(self) -> Floats:
+    def _given_by_engine(self) -> Floats:
         """Return (j,) float64: what the engine's constraints gave in the last step [N s]."""
         return np.array([held.impulse for held in self.joints.values()])
 
@@ -209,34 +243,62 @@ class Machine:
     def _unlink(self) -> None:
         """Give up what holds the joints, before one of them comes or goes."""
         if self._linkage is not None:
-            given = self._linkage.impulses.tolist()
-            self._beside = dict(zip(self.joints, given, strict=True))
+            self._beside = dict(zip(self.joints, self._impulses.tolist(), strict=True))
         self._linkage = None
 
     def _linked(self, listed: Sequence[RigidBody | None]) -> Linkage:
         """Return what holds the joints, made anew where a body or a joint has come or gone."""
-        if self._linkage is None or self._listed is not listed:
-            self._unlink()
-            self._soften()
-            held = list(self.joints.values())
-            places = {
-                rigid.engine: place for place, rigid in enumerate(listed) if rigid is not None
-            }
-            count = len(listed)
-            self._linkage = Linkage(held, places, count, self._dt)
-            self._linkage.impulses[:] = [self._beside.get(name, 0.0) for name in self.joints]
-            before = self._balance
-            self._balance = Balance(held, places, count, gravity=self._space.gravity, dt=self._dt)
-            same = len(self._listed) == count
-            if before and same and all(map(operator.is_, self._listed, listed)):
-                self._balance.follow(before)
-            self._listed, self._fresh = listed, True
-            self._breakable = [
-                (number, most * self._dt)
-                for number, each in enumerate(held)
-                if (most := each.joint.properties.break_force) is not None
-            ]
+        if self._linkage is None:
+            self._linkage = self._link()
+            self._place(listed)
+        elif self._listed is not listed:
+            self._place(listed)
         return self._linkage
+
+    def _link(self) -> Linkage:
+        """Return what holds the joints as they are now: what is known already, where they are."""
+        self._soften()
+        held = list(self.joints.values())
+        parts = tuple(
+            part
+            for each in held
+            for part in (each.joint, self._body(each.joint.a), self._body(each.joint.b))
+        )
+        ends = (body for each in held for body in (each.ends.a, each.ends.b))
+        members = dict.fromkeys(body for body in ends if body is not self._space.static_body)
+        self._members = {body: place for place, body in enumerate(members)}
+        known = self.known
+        if (
+            known is None
+            or len(known.parts) != len(parts)
+            or not all(map(operator.is_, known.parts, parts))
+        ):
+            linkage = Linkage(held, self._members, len(members), self._dt)
+            self.known = known = _Known(parts, linkage)
+        self._impulses = np.array([self._beside.get(name, 0.0) for name in self.joints])
+        self._fresh = True
+        self._breakable = [
+            (number, most * self._dt)
+            for number, each in enumerate(held)
+            if (most := each.joint.properties.break_force) is not None
+        ]
+        return known.linkage
+
+    def _body(self, name: str) -> Body | None:
+        """Return a body; None is the background."""
+        return None if name == WORLD else self._bodies[name].body
+
+    def _place(self, listed: Sequence[RigidBody | None]) -> None:
+        """Find where in the engine's listing the bodies are."""
+        places = {rigid.engine: place for place, rigid in enumerate(listed) if rigid is not None}
+        count = len(listed)
+        self._places = np.array([*(places[body] for body in self._members), count], np.intp)
+        before, held = self._balance, list(self.joints.values())
+        self._balance = Balance(held, places, count, gravity=self._space.gravity, dt=self._dt)
+        same = len(self._listed) == count
+        if before and same and all(map(operator.is_, self._listed, listed)):
+            self._balance.follow(before)
+        self._listed = listed
 
     def _soften(self) -> None:
         """Let no spring be stiffer than steps can follow."""

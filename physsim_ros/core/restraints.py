@@ -21,17 +21,15 @@ turning; this knows how much it is now and how it changes, for all joints by arr
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
+from physsim_ros.core.graph import Rows
 from physsim_ros.core.joint_properties import JointKind
 from physsim_ros.core.joints import EngineJoint
 from physsim_ros.core.rotation import turned
 from physsim_ros.core.snapshot import Floats, Joint
 import pymunk
-
-Rows = NDArray[np.intp]
 
 _PIVOTS = (JointKind.PIN, JointKind.AXLE, JointKind.MOTOR)
 _TURNS = (JointKind.PIN, JointKind.SLIDER, JointKind.GEAR)
@@ -42,8 +40,8 @@ class Restraints:
     The numbers that joints keep, one a row.
 
     :param joints: whose they are
-    :param places: of the engine's bodies in the listing that states come in
-    :param listed: how many that listing has
+    :param places: of the engine's bodies in the rows that states come in
+    :param background: the row of all others
 
     :ivar owner: (r,) the joint of each row
     :ivar sides: (2 r,) the place of the first body of each row, then of the second
@@ -54,7 +52,10 @@ class Restraints:
     """
 
     def __init__(
-        self, joints: Sequence[EngineJoint], places: dict[pymunk.Body, int], listed: int
+        self,
+        joints: Sequence[EngineJoint],
+        places: Mapping[pymunk.Body, int],
+        background: int,
     ) -> None:
         whats = [each.joint for each in joints]
 
@@ -64,9 +65,8 @@ class Restraints:
         def of(*kinds: JointKind) -> Rows:
             return rows(lambda joint: joint.kind in kinds)
 
-        # The background, which does not move, comes behind the bodies of the listing.
         a, b = (
-            np.array([places.get(body, listed) for body in bodies], np.intp)
+            np.array([places.get(body, background) for body in bodies], np.intp)
             for bodies in ([each.ends.a for each in joints], [each.ends.b for each in joints])
         )
         self._ends = np.concatenate((a, b))
@@ -127,7 +127,7 @@ class Restraints:
         self.limits[ropes_from:ropes_to] = True
         self.limits[limits_from:limits_to] = True
         self.limits[turns_to:] = True
-        inverse = np.zeros((listed + 1, 3))
+        inverse = np.zeros((background + 1, 3))
         for each in joints:
             for body in (each.ends.a, each.ends.b):
                 if body.body_type == pymunk.Body.DYNAMIC:
@@ -147,7 +147,7 @@ class Restraints:
         """
         Return how far each number is from zero, and how it changes.
 
-        :param states: (m + 1, 6) float64: poses and velocities in the listing, then the background
+        :param states: (m + 1, 6) float64: poses and velocities of the bodies, then the background
         :return: (r,) float64 [m, rad], and (2 r, 3) float64: direction and moment on the first
             body of each row, then on the second
         """

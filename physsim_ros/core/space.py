@@ -66,6 +66,8 @@ class Space:
     :param dt: of a step [s]
     :param key: what it goes on from; None is an empty space
     :param spares: bodies that have been built beforehand, by name
+    :param before: the space that this one follows, from which it takes what has been found out of
+        the joints; None is none
     """
 
     def __init__(
@@ -75,6 +77,7 @@ class Space:
         *,
         key: Keyframe | None = None,
         spares: Mapping[str, RigidBody] | None = None,
+        before: Space | None = None,
     ) -> None:
         self.bodies: dict[str, RigidBody] = {}
         # Counts what has been done to it from outside.
@@ -95,7 +98,8 @@ class Space:
         self._watching = False
         self._walls: list[pymunk.Shape] = []
         self._first_wall = 0
-        self.machine = Machine(self._space, self.bodies, dt)
+        known = None if before is None else before.machine
+        self.machine: Machine = Machine(self._space, self.bodies, dt, before=known)
         # Joints that have broken, and what each gave then [N]; whoever reads it empties it.
         self.broken: list[tuple[str, float]] = []
         self._fast = FastBodies(self._space, self._arrays, self.bodies, self._names, dt)

@@ -245,7 +245,9 @@ class World:
         none.
         """
         key = self._space.keyframe(self.step_count)
-        space = Space(self._settings, self.dt, key=key, spares=self._spares.bodies)
+        space = Space(
+            self._settings, self.dt, key=key, spares=self._spares.bodies, before=self._space
+        )
         space.inherit(self._space)
         self._take(space, Spares(self._space))
         return key
@@ -259,7 +261,7 @@ class World:
         """
         self.step_count = key.step
         self._settings = key.scene.settings
-        space = Space(self._settings, self.dt, key=key)
+        space = Space(self._settings, self.dt, key=key, before=self._space)
         if going_over:
             space.inherit(self._space)
         self._take(space, Spares())
