@@ -116,10 +116,11 @@ def could_meet(fast: Ints, motions: Motions, apart: Ints, boxes: Floats) -> Flag
 def _collide(one: Ints, other: Ints, motions: Motions, apart: Ints) -> Flags:
     """Tell which pairs do not pass through each other."""
     together: Flags = (motions.group[one] != 0) & (motions.group[one] == motions.group[other])
-    if len(apart):
+    left = np.flatnonzero(~together)
+    if len(apart) and len(left):
         count = len(motions.outer)
         keys = np.concatenate((apart, apart[:, ::-1])) @ (count, 1)
-        together |= np.isin(one * count + other, keys)
+        together[left] = np.isin(one[left] * count + other[left], keys)
     return ~together
 
 

@@ -151,13 +151,14 @@ def _follow(matrices: Floats, least: Floats) -> NDArray[np.bool_]:
     for place in range(least.shape[1]):
         pivot = matrices[:, place, place]
         follows[:, place] = pivot <= least[:, place]
-        pivot = np.where(follows[:, place], np.inf, pivot)
         # A row meets few of the others.
-        after = slice(place + 1, None)
-        met = np.flatnonzero(matrices[:, after, place].any(axis=0)) + place + 1
-        rest = matrices[:, met, place]
-        share = rest / pivot[:, None]
-        matrices[:, met[:, None], met] -= rest[:, :, None] * share[:, None, :]
+        met = np.flatnonzero(matrices[~follows[:, place], place].any(axis=0))
+        if not len(met) or met[-1] <= place:
+            continue
+        after = slice(place + 1, met[-1] + 1)
+        rest = matrices[:, after, place]
+        share = rest / np.where(follows[:, place], np.inf, pivot)[:, None]
+        matrices[:, after, after] -= rest[:, :, None] * share[:, None, :]
     return follows
 
 
