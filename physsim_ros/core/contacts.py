@@ -60,10 +60,10 @@ class ContactLog:
         self._steps = 0
         # The same of earlier steps of the frame, at whose ends other pairs touched.
         self._earlier: list[tuple[Ids, Floats]] = []
-        # Where pairs touched at the end of the last frame, and first since then: normal, count of
-        # points, mean point, a column each.
+        # Where pairs touched at the end of the last frame: normal, count of points, mean point, a
+        # column each; and where they touched first since then.
         self._places: tuple[Ids, Floats] = (self._ids, np.empty((5, 0)))
-        self._begun: dict[tuple[int, int], tuple[float, ...]] = {}
+        self._begun: dict[tuple[int, int], pymunk.ContactPointSet] = {}
         self._listing: _Listing | None = None
         # Whether no pair has begun to touch since the ids were read: then as many are the same.
         self.settled = False
@@ -72,9 +72,7 @@ class ContactLog:
         """Remember where two shapes touched first, should they part before the frame ends."""
         self.settled = False
         a, b = arbiter.bodies
-        points = [(each.point_a + each.point_b) / 2 for each in contact.points]
-        x, y = sum(points, pymunk.Vec2d(0, 0)) / max(1, len(points))
-        self._begun[a.id, b.id] = (*contact.normal, len(points), x, y)
+        self._begun[a.id, b.id] = contact
 
     def add_step(self) -> None:
         """Add the contacts of the step that has just been made."""
@@ -201,8 +199,11 @@ class ContactLog:
         rows, found = _find(pairs, ids)
         places[:, found] = known[:, rows[found]]
         for row, (a, b) in enumerate(pairs.tolist()):
-            if (a, b) in self._begun:
-                places[:, row] = self._begun[a, b]
+            contact = self._begun.get((a, b))
+            if contact is not None:
+                points = [(each.point_a + each.point_b) / 2 for each in contact.points]
+                mean = sum(points, pymunk.Vec2d(0, 0)) / max(1, len(points))
+                places[:, row] = *contact.normal, len(points), *mean
         return places
 
     def _read_places(self) -> Floats:
