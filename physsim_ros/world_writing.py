@@ -64,8 +64,14 @@ def text_of(state: WorldState, physics_rate: float) -> str:
 
 
 def _flow(value: object) -> str:
-    text: str = yaml.safe_dump(
-        value, default_flow_style=True, sort_keys=False, width=float('inf'), allow_unicode=True
+    text: str = yaml.dump(
+        value,
+        Dumper=yaml.CSafeDumper,
+        default_flow_style=True,
+        sort_keys=False,
+        # However long a line is.
+        width=-1,
+        allow_unicode=True,
     )
     return text.removesuffix('\n').removesuffix('\n...')
 

@@ -64,7 +64,7 @@ SPAWNS: list[tuple[Marker, str, str]] = [
     (box('new/0', text='{spin: .nan}'), 'malformed', 'spin'),
     (box('new/0', text='friction 0.1'), 'malformed', 'text'),
     (box('new/0', text=r'{"\ud800": 1, "\ud800": 2}'), 'malformed', 'text'),
-    (box('new/0', text=r'{"\ud800": 1}'), 'unknown_property', '?'),
+    (box('new/0', text=r'{"\ud800": 1}'), 'malformed', 'text'),
     (of_type(Marker.ARROW), 'unknown_shape', 'type'),
     (of_type(Marker.LINE_LIST), 'unknown_shape', 'type'),
     (of_type(Marker.POINTS), 'unknown_shape', 'type'),

@@ -631,7 +631,7 @@ REFUSED = {
     'a format in words': ('format: one', 'format'),
     'a true format': ('format: true', 'format'),
     'no format at all': ('format:', 'format'),
-    'half a character': ('format: 1\n"\\ud800": 1', '?'),
+    'half a character': ('format: 1\n"\\ud800": 1', 'world_file'),
     'an unknown key': ('format: 1\ngravitation: [0, 0]', 'gravitation'),
     'a setting that is not the files': ('format: 1\nmax_bodies: 7', 'max_bodies'),
     'a key of another kind': ('format: 1\n5: 3', '5'),
