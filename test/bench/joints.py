@@ -21,9 +21,13 @@ from physsim_ros.core.joint_properties import JointKind
 from physsim_ros.core.properties import Properties
 from physsim_ros.core.requests import Join, Spawn
 from physsim_ros.core.shapes import Box
+from physsim_ros.core.simulation import Simulation
 from physsim_ros.core.world import World
 
+from ..core.worlds import net
+
 STEPS = 480
+FRAMES = 180
 
 
 def chain(count: int, *, links: int, joined: bool) -> World:
@@ -54,6 +58,19 @@ def median_step(world: World) -> float:
     return statistics.median(costs)
 
 
+def frames(world: World) -> tuple[float, float]:
+    """Return what a frame costs on the whole, and the longest one, with a keyframe in it [ms]."""
+    simulation = Simulation(keyframes=1.0)
+    simulation.load(world.save())
+    costs = []
+    for _ in range(FRAMES):
+        began = time.perf_counter_ns()
+        simulation.advance_frame()
+        costs.append((time.perf_counter_ns() - began) * 1e-6)
+    # The first finds out what hangs together.
+    return statistics.median(costs), max(costs[1:])
+
+
 def table() -> None:
     """Print it."""
     print('\na step with joints, and of the same bodies without [ms]')
@@ -62,3 +79,9 @@ def table() -> None:
             median_step(chain(count, links=links, joined=joined)) for joined in (True, False)
         )
         print(f'{count // links:>5} x {links:<3} links  {with_:7.3f} : {without:7.3f}')
+    print('\na frame of 4 steps of a net of discs that hang together by rods [ms]')
+    print('   discs   rods  median  longest')
+    for side in (5, 10, 20):
+        median, longest = frames(net(side))
+        rods = 2 * side * (side - 1)
+        print(f'{side * side:>8} {rods:>6} {median:>7.1f} {longest:>8.1f}')

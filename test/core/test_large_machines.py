@@ -27,30 +27,7 @@ from physsim_ros.core.shapes import Box, Disc
 from physsim_ros.core.world import World
 import pytest
 
-from .worlds import spawn
-
-# Between knots of a net [m].
-MESH = 0.3
-
-
-def net(side: int) -> World:
-    """Return a square net of rods that hangs from two corners."""
-    world = World()
-    knots = np.arange(side * side).reshape(side, side)
-    for knot, (row, column) in enumerate(np.ndindex(side, side)):
-        pose = (MESH * column, -MESH * row, 0.0)
-        spawn(world, f'knot/{knot}', Disc(radius=0.1), pose, group=1)
-    down, along = (knots[:-1], knots[1:]), (knots[:, :-1], knots[:, 1:])
-    pairs = [pair for ends in (down, along) for pair in zip(*map(np.ravel, ends), strict=True)]
-    for number, (a, b) in enumerate(pairs):
-        points = tuple((MESH * (knot % side), -MESH * (knot // side)) for knot in (a, b))
-        rod, knotted = JointKind.ROD, {'a': f'knot/{a}', 'b': f'knot/{b}'}
-        world.apply(Join(name=f'rod/{number}', kind=rod, points=points, **knotted))
-    for knot in (0, side - 1):
-        at = ((MESH * knot, 0.0),)
-        axle = JointKind.AXLE
-        world.apply(Join(name=f'nail/{knot}', kind=axle, points=at, a=f'knot/{knot}', b='world'))
-    return world
+from .worlds import MESH, net, spawn
 
 
 def stretched(world: World) -> float:

@@ -18,8 +18,9 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from physsim_ros.core.joint_properties import JointKind
 from physsim_ros.core.properties import Properties
-from physsim_ros.core.requests import Spawn
+from physsim_ros.core.requests import Join, Spawn
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.shapes import (
     Box,
@@ -37,6 +38,8 @@ from physsim_ros.core.world import World
 
 G = 9.81
 DT = 1.0 / 240.0
+# Between knots of a net [m].
+MESH = 0.3
 NOWHERE = WorldSettings(gravity=(0.0, 0.0), friction=0.0, elasticity=1.0)
 
 DISC = Disc(radius=0.5)
@@ -121,3 +124,23 @@ def stack(world: World, count: int) -> None:
     """Stack boxes of 1 m on the floor of the world's bounds."""
     for number in range(count):
         spawn(world, f'stack/{number}', BOX, (0.0, 0.5 + number, 0.0))
+
+
+def net(side: int) -> World:
+    """Return a square net of rods that hangs from two corners."""
+    world = World()
+    knots = np.arange(side * side).reshape(side, side)
+    for knot, (row, column) in enumerate(np.ndindex(side, side)):
+        pose = (MESH * column, -MESH * row, 0.0)
+        spawn(world, f'knot/{knot}', Disc(radius=0.1), pose, group=1)
+    down, along = (knots[:-1], knots[1:]), (knots[:, :-1], knots[:, 1:])
+    pairs = [pair for ends in (down, along) for pair in zip(*map(np.ravel, ends), strict=True)]
+    for number, (a, b) in enumerate(pairs):
+        points = tuple((MESH * (knot % side), -MESH * (knot // side)) for knot in (a, b))
+        rod, knotted = JointKind.ROD, {'a': f'knot/{a}', 'b': f'knot/{b}'}
+        world.apply(Join(name=f'rod/{number}', kind=rod, points=points, **knotted))
+    for knot in (0, side - 1):
+        at = ((MESH * knot, 0.0),)
+        axle = JointKind.AXLE
+        world.apply(Join(name=f'nail/{knot}', kind=axle, points=at, a=f'knot/{knot}', b='world'))
+    return world
