@@ -30,10 +30,9 @@ from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 import math
-from typing import cast
+from typing import cast, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from physsim_ros.core.rigid_body import RigidBody
 from physsim_ros.core.shapes import Chain
 from physsim_ros.core.snapshot import Body, Floats
@@ -144,6 +143,18 @@ class _Pair:
     skin: float
 
 
+class _Outline(NamedTuple):
+    """
+    A convex polygon in the world.
+
+    :ivar corners: (n, 2) float64 [m]
+    :ivar normals: (n, 2) float64: of length 1, on each side
+    """
+
+    corners: Floats
+    normals: Floats
+
+
 class _Looks:
     """
     Looks at shapes, as often as a step allows.
@@ -154,6 +165,7 @@ class _Looks:
     def __init__(self, space: pymunk.Space) -> None:
         self._space = space
         self._left = MOST_LOOKS
+        self._outlines: dict[pymunk.Poly, _Outline] = {}
 
     def at(self, pairs: list[_Pair]) -> Iterator[_Pair]:
         """Yield the pairs that can still be looked at."""
@@ -165,6 +177,13 @@ class _Looks:
     def count(self) -> None:
         """Count one look."""
         self._left -= 1
+
+    def outline(self, shape: pymunk.Poly) -> _Outline:
+        """Return the outline of a polygon where the step begins."""
+        outline = self._outlines.get(shape)
+        if outline is None:
+            outline = self._outlines[shape] = _outline(shape)
+        return outline
 
     def contacts(self, shape: pymunk.Shape) -> dict[pymunk.Shape, pymunk.ContactPointSet]:
         """Return what a shape overlaps where it is now."""
@@ -352,23 +371,19 @@ def _stop(
     """
     Return where a body's move ends early; None where it does not.
 
-    :param moves: what bodies do as far as it is known; others go on as they are
+    :param moves: what bodies do as far as it is known; others go on as they are, and are added
     :param carried: whether kinematic bodies carry it along
     """
     engine, move = mover.engine, moves[mover.engine]
     first: _Stop | None = None
     for pair in looks.at(near):
-        other = pair.other
-        pusher = _body(other).body_type == pymunk.Body.KINEMATIC
+        other, body = pair.other, _body(pair.other)
+        pusher = body.body_type == pymunk.Body.KINEMATIC
         if pusher and not carried:
             continue
-        theirs = moves.get(_body(other)) or _Move(
-            _body(other).velocity * dt, _body(other).angular_velocity * dt
-        )
-        if isinstance(other, pymunk.Circle) and other.offset == (0.0, 0.0):
-            theirs = _Move(theirs.way, 0.0)
+        theirs = _move_of(other, moves, dt)
         relative = move.way - theirs.way
-        arm = engine.position - _body(other).position
+        arm = engine.position - body.position if theirs.turn or pusher else Vec2d.zero()
         turning = mover.turns or abs(theirs.turn) * arm.length > max(mover.depth, SLOW_TIP)
         # What the engine sees in time is left to it.
         length = relative.length
@@ -380,7 +395,9 @@ def _stop(
             continue
         looks.count()
         touch = (
-            _touch_turning(looks, pair, mover, move, theirs) if turning else _touch(pair, relative)
+            _touch_turning(looks, pair, mover, move, theirs)
+            if turning
+            else _touch(looks, pair, relative)
         )
         if touch is None:
             continue
@@ -395,6 +412,17 @@ def _stop(
     return first
 
 
+def _move_of(shape: pymunk.Shape, moves: dict[pymunk.Body, _Move], dt: float) -> _Move:
+    """Return what a shape does in the coming step; a disc does not turn."""
+    body = _body(shape)
+    move = moves.get(body)
+    if move is None:
+        move = moves[body] = _Move(body.velocity * dt, body.angular_velocity * dt)
+    if move.turn and isinstance(shape, pymunk.Circle) and shape.offset == (0.0, 0.0):
+        return _Move(move.way, 0.0)
+    return move
+
+
 def _gap(point: Vec2d, box: pymunk.BB) -> float:
     """Return how far a point is from a box [m]."""
     x, y = point
@@ -402,7 +430,7 @@ def _gap(point: Vec2d, box: pymunk.BB) -> float:
     return math.hypot(max(left - x, 0.0, x - right), max(bottom - y, 0.0, y - top))
 
 
-def _touch(pair: _Pair, way: Vec2d) -> tuple[float, float] | None:
+def _touch(looks: _Looks, pair: _Pair, way: Vec2d) -> tuple[float, float] | None:
     """
     Return when shapes come to overlap by the skin, if they do, neither turning.
 
@@ -415,7 +443,7 @@ def _touch(pair: _Pair, way: Vec2d) -> tuple[float, float] | None:
         approach = way.dot(normal)
         return (0.0, approach) if approach > 0.0 else None
     if isinstance(own, pymunk.Poly) and isinstance(other, pymunk.Poly):
-        return _touch_convex(_corners(own), _corners(other), np.array(way), skin)
+        return _touch_convex(looks.outline(own), looks.outline(other), np.array(way), skin)
     # What is round meets with a corner, an end or a centre, on one of the two sides.
     touches = [*_cast(own, other, way, skin), *_cast(other, own, -way, skin)]
     return min(touches, default=None)
@@ -504,13 +532,18 @@ def _depth(contact: pymunk.ContactPointSet) -> float:
     return max(abs(point.distance) for point in contact.points)
 
 
-def _corners(shape: pymunk.Poly) -> NDArray[np.float64]:
-    """Return the corners of a polygon in the world, (n, 2) float64."""
-    return np.array([_body(shape).local_to_world(corner) for corner in shape.get_vertices()])
+def _outline(shape: pymunk.Poly) -> _Outline:
+    """Return the outline of a polygon where it is now."""
+    place = _body(shape).local_to_world
+    corners = np.array([place(corner) for corner in shape.get_vertices()])
+    edges = np.roll(corners, -1, axis=0) - corners
+    normals = np.column_stack((edges[:, 1], -edges[:, 0]))
+    normals /= np.hypot(edges[:, 0], edges[:, 1])[:, None]
+    return _Outline(corners, normals)
 
 
 def _touch_convex(
-    a: NDArray[np.float64], b: NDArray[np.float64], way: NDArray[np.float64], skin: float
+    a: _Outline, b: _Outline, way: Floats, skin: float
 ) -> tuple[float, float] | None:
     """
     Return when convex outlines come to overlap by the skin, by separating axes.
@@ -518,10 +551,8 @@ def _touch_convex(
     Two convex outlines overlap when their shadows on every side's normal do, so they meet when
     the last pair of shadows does.
     """
-    edges = np.concatenate((np.roll(a, -1, axis=0) - a, np.roll(b, -1, axis=0) - b))
-    normals = np.column_stack((edges[:, 1], -edges[:, 0]))
-    normals /= np.hypot(edges[:, 0], edges[:, 1])[:, None]
-    shadow_a, shadow_b = a @ normals.T, b @ normals.T
+    normals = np.concatenate((a.normals, b.normals))
+    shadow_a, shadow_b = a.corners @ normals.T, b.corners @ normals.T
     speed = normals @ way
     ahead = shadow_b.min(axis=0) - shadow_a.max(axis=0) + skin
     behind = shadow_b.max(axis=0) - shadow_a.min(axis=0) - skin
