@@ -21,7 +21,7 @@ import math
 import random
 from typing import Any
 
-from physsim_ros.core import fast_bodies, sweep
+from physsim_ros.core import fast_bodies, sweep, touch
 from physsim_ros.core.joint_properties import JointKind, JointProperties
 from physsim_ros.core.requests import Join
 from physsim_ros.core.settings import WorldSettings
@@ -60,7 +60,7 @@ def test_who_is_left_out_of_a_crowd_would_not_have_been_stopped(
 ) -> None:
     chosen, all_ = crowd(seed, speed), crowd(seed, speed)
     # Or the one would come to its end later than the other.
-    monkeypatch.setattr(sweep, 'MOST_LOOKS', 10**9)
+    monkeypatch.setattr(touch, 'MOST_LOOKS', 10**9)
     chosen.step(90)
     monkeypatch.setattr(fast_bodies, 'FEW', 10**9)
     all_.step(90)

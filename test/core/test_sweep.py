@@ -17,7 +17,7 @@
 import math
 
 import numpy as np
-from physsim_ros.core import rigid_body, sweep
+from physsim_ros.core import rigid_body, sweep, touch
 from physsim_ros.core.shapes import Box, Chain, Compound, Disc, Polygon
 import pymunk
 import pytest
@@ -347,8 +347,8 @@ def test_what_cannot_all_be_looked_at_costs_no_more_than_a_step_may(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     asked = []
-    contacts = sweep._contacts  # noqa: SLF001
-    monkeypatch.setattr(sweep, '_contacts', lambda *given: asked.append(given) or contacts(*given))
+    contacts = touch._contacts  # noqa: SLF001
+    monkeypatch.setattr(touch, '_contacts', lambda *given: asked.append(given) or contacts(*given))
     sim = simulation(gravity=NOWHERE)
     for number in range(40):
         place = (0.51 * (number % 10), 0.51 * (number // 10), 0.0)
@@ -359,5 +359,5 @@ def test_what_cannot_all_be_looked_at_costs_no_more_than_a_step_may(
         sim.world.step(1)
         most = max(most, len(asked))
     # A look may find out first what is overlapped at the start, and one that has begun is ended.
-    assert sweep.MOST_LOOKS / 2 < most < 2 * sweep.MOST_LOOKS
+    assert touch.MOST_LOOKS / 2 < most < 2 * touch.MOST_LOOKS
     assert np.isfinite(sim.world.snapshot().poses).all()
