@@ -148,6 +148,8 @@ def _follow(matrices: Floats, least: Floats) -> NDArray[np.bool_]:
     :return: (k, m) bool: which follow
     """
     follows = np.zeros(least.shape, np.bool_)
+    if _all_new(matrices, least):
+        return follows
     for place in range(least.shape[1]):
         pivot = matrices[:, place, place]
         follows[:, place] = pivot <= least[:, place]
@@ -160,6 +162,21 @@ def _follow(matrices: Floats, least: Floats) -> NDArray[np.bool_]:
         share = rest / np.where(follows[:, place], np.inf, pivot)[:, None]
         matrices[:, after, after] -= rest[:, :, None] * share[:, None, :]
     return follows
+
+
+def _all_new(matrices: Floats, least: Floats) -> bool:
+    """Eliminate all the first rows at once, if none of them follows; tell whether so."""
+    size = least.shape[1]
+    own, across = matrices[:, :size, :size], matrices[:, :size, size:]
+    try:
+        factors = np.linalg.cholesky(own)
+    except np.linalg.LinAlgError:
+        return False
+    # The squares are what row by row elimination finds on the diagonal.
+    if not (np.diagonal(factors, axis1=1, axis2=2) ** 2 > least).all():
+        return False
+    matrices[:, size:, size:] -= across.transpose(0, 2, 1) @ np.linalg.solve(own, across)
+    return True
 
 
 @dataclass(frozen=True, slots=True, eq=False)
