@@ -81,8 +81,8 @@ class Linkage:
         self._dt = dt
         self._systems: list[_System] = []
         for groups in _stages(held, joints):
-            each = [joints[number] for number in itertools.chain(*groups)]
-            self._systems.append(_System(each, groups, places, background))
+            stage = [joints[number] for number in itertools.chain(*groups)]
+            self._systems.append(_System(stage, groups, places, background))
 
     def hold(self, states: Floats, impulses: Floats) -> bool:
         """

@@ -54,6 +54,10 @@ class _Known(NamedTuple):
     parts: tuple[Joint | Body | None, ...]
     linkage: Linkage
 
+    def is_of(self, parts: tuple[Joint | Body | None, ...]) -> bool:
+        """Tell whether it was made of the same, not only of what is alike."""
+        return len(self.parts) == len(parts) and all(map(operator.is_, self.parts, parts))
+
 
 class Machine:
     """
@@ -256,7 +260,7 @@ class Machine:
         return self._linkage
 
     def _link(self) -> Linkage:
-        """Return what holds the joints as they are now: what is known already, where they are."""
+        """Return what holds the joints: what is known already, where they are as they were."""
         self._soften()
         held = list(self.joints.values())
         parts = tuple(
@@ -268,11 +272,7 @@ class Machine:
         members = dict.fromkeys(body for body in ends if body is not self._space.static_body)
         self._members = {body: place for place, body in enumerate(members)}
         known = self.known
-        if (
-            known is None
-            or len(known.parts) != len(parts)
-            or not all(map(operator.is_, known.parts, parts))
-        ):
+        if known is None or not known.is_of(parts):
             linkage = Linkage(held, self._members, len(members), self._dt)
             self.known = known = _Known(parts, linkage)
         self._impulses = np.array([self._beside.get(name, 0.0) for name in self.joints])
