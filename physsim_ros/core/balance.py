@@ -307,7 +307,7 @@ class _Yielding:
         held = [joints[number] for number in numbers]
         self._islands, self._count = island_of[numbers], int(island_of.max(initial=0)) + 1
         self._most = np.array([each.joint.properties.max_force for each in held], np.float64)
-        self._restraints = Restraints(held, dict(places), listed) if held else None
+        self._restraints = Restraints(held, places, listed) if held else None
 
     def energy(self, states: Floats) -> tuple[Floats, float]:
         """Return what the joints of each island may give back [J], and the power of all [W]."""

@@ -39,8 +39,8 @@ from physsim_ros.core.restraints import Restraints
 from physsim_ros.core.snapshot import Floats
 import pymunk
 
-# What hangs together and is as much work as so many rows of which each meets each, three
-# milliseconds, is solved at once; what is more, part by part: hundreds of pins on one body.
+# What hangs together and is no more work than so many rows of which each meets each, which take
+# twenty milliseconds, is solved at once; what is more, part by part: hundreds of pins on one body.
 MOST_ROWS = 600
 # Nor is it looked at how much work there is with more pairs of joints on the same body.
 _MOST_PAIRS = 1_000_000

@@ -15,7 +15,7 @@
 """
 Touches: when two shapes that move come to overlap, by the engine's queries and by algebra.
 
-Law: nothing is moved for good, and no more than `MOST_LOOKS` shapes are looked at in a step.
+Law: nothing is moved for good; after `MOST_LOOKS` looks at shapes in a step no other begins.
 """
 
 from __future__ import annotations

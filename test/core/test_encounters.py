@@ -21,7 +21,7 @@ import math
 import random
 from typing import Any
 
-from physsim_ros.core import fast_bodies, sweep, touch
+from physsim_ros.core import encounters, fast_bodies, sweep, touch
 from physsim_ros.core.joint_properties import JointKind, JointProperties
 from physsim_ros.core.requests import Join
 from physsim_ros.core.settings import WorldSettings
@@ -64,6 +64,15 @@ def test_who_is_left_out_of_a_crowd_would_not_have_been_stopped(
     chosen.step(90)
     monkeypatch.setattr(fast_bodies, 'FEW', 10**9)
     all_.step(90)
+    assert chosen.digest() == all_.digest()
+
+
+def test_where_there_are_too_many_pairs_all_are_swept(monkeypatch: pytest.MonkeyPatch) -> None:
+    # Some are larger or faster than most, and there is room for no pair with these.
+    chosen, all_ = crowd(1, 10.0), crowd(1, 10.0)
+    chosen.step(60)
+    monkeypatch.setattr(encounters, '_MOST_PAIRS', 0)
+    all_.step(60)
     assert chosen.digest() == all_.digest()
 
 

@@ -19,6 +19,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from physsim_ros.core import linkage as linkage_module
 from physsim_ros.core.joint_properties import JointKind
 from physsim_ros.core.linkage import Linkage
 from physsim_ros.core.requests import Join
@@ -44,6 +45,16 @@ def test_a_net_is_as_long_as_its_rods(side: int) -> None:
     for _ in range(10):
         world.step(12)
         assert stretched(world) < 2e-4
+
+
+def test_a_net_is_held_part_by_part_where_even_its_work_is_not_looked_at(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    # The last of its rods lie side by side, and hang together only by those of the part before.
+    monkeypatch.setattr(linkage_module, '_MOST_PAIRS', 0)
+    world = net(20)
+    world.step(120)
+    assert 2e-4 < stretched(world) < MESH / 4
 
 
 def wheel(spokes: int) -> World:
