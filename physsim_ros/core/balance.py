@@ -114,6 +114,10 @@ class Balance:
             return False
         driven = self._fresh or bool(states[self._commanded, 3:].any())
         own, unsure = self._look(states)
+        if not np.isfinite(own).all():
+            # Something has left the range of numbers, and will be removed.
+            self._fresh = True
+            return False
         gained = np.maximum(own - self._own, 0.0)[1:]
         # What bodies without joints have gained is none of this.
         given = max(0.0, float(own.sum() - self._own.sum() - gained.sum()))

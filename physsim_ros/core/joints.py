@@ -28,7 +28,7 @@ import math
 
 from physsim_ros.core.joint_properties import JointKind
 from physsim_ros.core.rigid_body import RigidBody
-from physsim_ros.core.shapes import Point
+from physsim_ros.core.shapes import Point, SMALLEST
 from physsim_ros.core.snapshot import Joint
 import pymunk
 
@@ -182,9 +182,15 @@ def _rope(joint: Joint, ends: Ends) -> list[pymunk.Constraint]:
 
 def _slider(joint: Joint, ends: Ends) -> list[pymunk.Constraint]:
     (x, y), (ux, uy) = ends.at_b, (joint.seat.ux, joint.seat.uy)
-    lower, upper = joint.properties.lower, joint.properties.upper
-    least = -_ENDLESS if lower is None else lower
-    most = _ENDLESS if upper is None else upper
+    least, most = joint.properties.lower, joint.properties.upper
+    if least is None:
+        least = -_ENDLESS if most is None else min(-_ENDLESS, most - _ENDLESS)
+    if most is None:
+        most = max(_ENDLESS, least + _ENDLESS)
+    if most - least < SMALLEST:
+        # The engine divides by the length of a groove.
+        middle = (least + most) / 2
+        least, most = middle - SMALLEST / 2, middle + SMALLEST / 2
     groove = pymunk.GrooveJoint(
         ends.b,
         ends.a,

@@ -22,17 +22,23 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 import numpy as np
 from physsim_ros.core.errors import Refusal
+from physsim_ros.core.joint_properties import JointKind, JointProperties, KNOWN
 from physsim_ros.core.properties import Properties
 from physsim_ros.core.requests import (
     Anchor,
+    Axle,
     Command,
     Configure,
     Delete,
     DeleteAll,
+    Join,
+    Pin,
     Release,
     Request,
     Restore,
     Spawn,
+    Unjoin,
+    UnjoinAll,
 )
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.shapes import Box, Chain, Compound, Disc, Polygon, Shape, Triangles
@@ -43,6 +49,7 @@ MOST_BODIES = 8
 
 # Few names, so that requests meet.
 NAMES = ('a/0', 'a/1', 'b/0', 'b/1', 'b/-5')
+JOINTS = st.sampled_from(('j/0', 'j/1', 'k/0'))
 STRANGE = [0.0, -0.0, 1e-9, -1.0, 1e3, 1e5, -1e5, 1e7, 1e12, 1e300, 5e-324, math.inf, math.nan]
 
 Ask = Callable[[World], Request]
@@ -175,6 +182,30 @@ def commands(draw: st.DrawFn, words: Words) -> Ask:
 
 
 @st.composite
+def joins(draw: st.DrawFn, words: Words) -> Ask:
+    kind = draw(st.sampled_from(list(JointKind)))
+    points = tuple(draw(words.points) for _ in range(kind.points))
+    number = st.one_of(words.numbers, words.lengths)
+    said: dict[str, Any] = draw(st.dictionaries(st.sampled_from(KNOWN[kind]), number, max_size=3))
+    said.pop('collide', None)
+    if draw(st.booleans()):
+        said['collide'] = draw(st.booleans())
+    if 'lower' in said and draw(st.booleans()):
+        said['upper'] = said['lower']
+    name, a, frame = draw(JOINTS), draw(words.names), draw(words.frames)
+    b = draw(st.one_of(words.names, st.sampled_from(['world', ''])))
+    return lambda _: Join(
+        name=name,
+        kind=kind,
+        points=points,
+        frame=frame,
+        a=a,
+        b=b,
+        properties=JointProperties(**said),
+    )
+
+
+@st.composite
 def configures(draw: st.DrawFn, words: Words) -> Ask:
     width = draw(words.lengths)
     changes = draw(
@@ -210,12 +241,30 @@ def asking(words: Words) -> st.SearchStrategy[Ask]:
         st.sampled_from(['a', 'b', 'c']).map(lambda ns: lambda _: DeleteAll(namespace=ns)),
         pointing.map(lambda at: lambda _: Anchor(point=at[0], frame=at[1])),
         pointing.map(lambda at: lambda _: Release(point=at[0], frame=at[1])),
+        joins(words),
+        joins(words),
+        pointing.map(lambda at: lambda _: Pin(point=at[0], frame=at[1])),
+        pointing.map(lambda at: lambda _: Axle(point=at[0], frame=at[1])),
+        JOINTS.map(lambda name: lambda _: Unjoin(name=name)),
+        st.sampled_from(['j', 'joint']).map(lambda ns: lambda _: UnjoinAll(namespace=ns)),
         configures(words),
         st.just(lambda world: Restore(state=world.save())),
     )
 
 
 requests = st.one_of(asking(SENSIBLE), asking(SENSIBLE), asking(SENSIBLE), asking(JUNK))
+# Few numbers, so that they coincide, and allowed ones that are as great and as small as can be.
+EDGES = st.sampled_from([0.0, 0.0, 1.0, -1.0, 0.5, 2.0, 1e-3, 1e5, 1e12])
+EXTREME = Words(
+    names=st.sampled_from(NAMES[:3]),
+    frames=st.just(''),
+    numbers=EDGES,
+    shares=st.floats(0.0, 1.0),
+    lengths=EDGES,
+    outline=stars(),
+)
+extremes = st.one_of(joins(EXTREME), joins(EXTREME), commands(EXTREME), spawns(EXTREME))
+ASKED = (requests, extremes)
 
 
 class Model:
@@ -263,6 +312,7 @@ def assert_sound(world: World, model: Model) -> None:
     assert np.isfinite(snapshot.poses).all()
     assert np.isfinite(snapshot.twists).all()
     assert np.isfinite(snapshot.kinetic_energy)
+    assert np.isfinite(snapshot.forces).all()
     for row, body in enumerate(snapshot.scene.bodies):
         if body.anchored:
             assert snapshot.twists[row].tolist() == [0.0, 0.0, 0.0]
@@ -285,7 +335,7 @@ def carry_out(world: World, make: Callable[[World], Request]) -> Request | None:
 
 
 @settings(deadline=None, max_examples=300)
-@given(sequence=st.lists(requests, min_size=4, max_size=12))
+@given(sequence=st.one_of(*(st.lists(each, min_size=4, max_size=12) for each in ASKED)))
 def test_any_sequence_of_requests_leaves_a_sound_world(sequence: list[Ask]) -> None:
     world, model = begun()
 

@@ -185,6 +185,22 @@ def test_a_joint_to_the_background_does_not_open_the_walls() -> None:
     assert pose(world, 'a/0')[1] > 0.48
 
 
+@pytest.mark.parametrize(
+    ('said', 'least', 'most'),
+    [({'lower': 0.0, 'upper': 0.0}, -1e-3, 1e-3), ({'lower': 1e4}, 1.0, 1e4)],
+)
+def test_a_slider_may_have_limits_that_leave_no_way(
+    said: dict[str, float], least: float, most: float
+) -> None:
+    world = pair()
+    points = points_of(JointKind.SLIDER)
+    world.apply(joining(JointKind.SLIDER, points, a='a/0', b='world', **said))
+    before = pose(world, 'a/0')
+    world.step(240)
+    x, *_ = np.subtract(pose(world, 'a/0'), before)
+    assert least < x < most
+
+
 def test_a_joint_gives_no_more_than_its_greatest_force() -> None:
     world = World()
     spawn(world, 'a/0', BOX, mass=1.0)
