@@ -21,6 +21,8 @@ long.
 
 from __future__ import annotations
 
+from typing import Any, NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.core.snapshot import Floats
@@ -32,6 +34,24 @@ Ids = NDArray[np.uint64]
 _PLACE = batch.BodyFields.POSITION
 _TWIST = batch.BodyFields.VELOCITY | batch.BodyFields.ANGULAR_VELOCITY
 _STATE = _PLACE | batch.BodyFields.ANGLE | _TWIST
+
+_F = batch.ArbiterFields
+_POINTS = _F.BODY_A_ID | _F.BODY_B_ID | _F.NORMAL | _F.CONTACT_COUNT
+_POINTS |= _F.POINT_A_1 | _F.POINT_B_1 | _F.POINT_A_2 | _F.POINT_B_2
+
+
+class Touching(NamedTuple):
+    """
+    Points at which bodies touch.
+
+    :ivar bodies: (c, 2): ids of both, or whatever else tells them
+    :ivar points: (c, 2) float64 [m]
+    :ivar normals: (c, 2) float64: from the first to the second
+    """
+
+    bodies: NDArray[Any]
+    points: Floats
+    normals: Floats
 
 
 class EngineArrays:
@@ -82,6 +102,20 @@ class EngineArrays:
         batch.get_space_arbiters(self._space, fields, self._buffer)
         ints = np.frombuffer(self._buffer.int_buf(), dtype=np.uint64)
         return ints, np.frombuffer(self._buffer.float_buf(), dtype=np.float64)
+
+    def touching(self) -> Touching:
+        """Return all points at which bodies touched in the last step, in no order."""
+        ints, floats = self.contacts(_POINTS)
+        ids, floats = ints.reshape(-1, 3), floats.reshape(-1, 10)
+        first, second = ids[:, 2] > 0, ids[:, 2] > 1
+        # On either body; the second point comes behind all first ones.
+        ones = (floats[first, 2:4] + floats[first, 4:6]) / 2
+        others = (floats[second, 6:8] + floats[second, 8:10]) / 2
+        return Touching(
+            bodies=np.concatenate((ids[first, :2], ids[second, :2])),
+            points=np.concatenate((ones, others)),
+            normals=np.concatenate((floats[first, :2], floats[second, :2])),
+        )
 
     def _bodies(self, fields: batch.BodyFields, width: int) -> Floats:
         self._buffer.clear()

@@ -102,17 +102,19 @@ class Equations:
         Return the unknown of each row.
 
         :param shared: (l,) what each pair of sides adds to the matrices
-        :param wanted: (r,) the right hand side
+        :param wanted: (r,) the right hand side; or (r, k), several of them
         :param active: (r,) whether a row counts; the unknown of one that does not is 0
+        :return: of the shape of `wanted`
         """
         matrices = self._matrices(shared, active)
         matrices[self._diagonal] *= 1.0 + _GIVE
-        ordered = np.where(active, wanted, 0.0)[self._order]
+        several = wanted.reshape(len(wanted), -1)
+        ordered = np.where(active[:, None], several, 0.0)[self._order]
         for part in self._parts:
             part.solve(matrices, ordered)
-        unknown = np.empty_like(wanted)
+        unknown = np.empty_like(several)
         unknown[self._order] = ordered
-        return unknown
+        return unknown.reshape(wanted.shape)
 
     def dependent(self, shared: Floats, active: NDArray[np.bool_]) -> list[int]:
         """
@@ -208,8 +210,9 @@ class _Block:
     def solve(self, matrices: Floats, ordered: Floats) -> None:
         """Put the unknowns in the place of the right hand side."""
         rows = slice(self.first, self.last)
-        right = ordered[rows].reshape(self.count, self.size, 1)
-        ordered[rows] = np.linalg.solve(self._own(matrices), right).ravel()
+        right = ordered[rows].reshape(self.count, self.size, -1)
+        solved = np.linalg.solve(self._own(matrices), right)
+        ordered[rows] = solved.reshape(self.last - self.first, -1)
 
     def find_dependent(self, matrices: Floats, least: Floats, follows: NDArray[np.bool_]) -> None:
         """Note which rows follow from those before them; see `_follow`."""
@@ -251,21 +254,23 @@ class _Ladder:
         """Eliminate from rung to rung up, and put in what is known then from rung to rung down."""
         climbed: list[tuple[slice, NDArray[np.floating]]] = []
         taken: NDArray[np.floating] | None = None
+        several = ordered.shape[1]
         for rows, own, across in self._climb(matrices):
             size, following = across.shape
-            right = np.empty((size, following + 1))
+            right = np.empty((size, following + several))
             right[:, :following] = across
-            right[:, following] = ordered[rows]
+            right[:, following:] = ordered[rows]
             left = own
             if taken is not None:
-                left = own - taken[:, :-1]
-                right[:, following] -= taken[:, -1]
+                left = own - taken[:, :size]
+                right[:, following:] -= taken[:, size:]
             solved = np.linalg.solve(left, right)
             taken = right[:, :following].T @ solved
             climbed.append((rows, solved))
-        known = np.empty(0)
+        known = np.empty((0, several))
         for rows, solved in reversed(climbed):
-            known = ordered[rows] = solved[:, -1] - solved[:, :-1] @ known
+            following = len(known)
+            known = ordered[rows] = solved[:, following:] - solved[:, :following] @ known
 
     def find_dependent(self, matrices: Floats, least: Floats, follows: NDArray[np.bool_]) -> None:
         """Note which rows follow from those before them; see `_follow`."""

@@ -28,9 +28,11 @@ is solved depends on the state alone, nothing is remembered from step to step.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 import itertools
 
 import numpy as np
+from numpy.typing import NDArray
 from physsim_ros.core.equations import Equations
 from physsim_ros.core.graph import Graph, meetings
 from physsim_ros.core.joint_properties import JointKind
@@ -84,19 +86,37 @@ class Linkage:
             stage = [joints[number] for number in itertools.chain(*groups)]
             self._systems.append(_System(stage, groups, places, background))
 
-    def hold(self, states: Floats, impulses: Floats) -> bool:
+    def hold(self, states: Floats) -> bool:
         """
         Move velocities to where the joints will be closed at the end of the coming step.
 
         :param states: (m + 1, 6) float64: poses and velocities of the bodies, then the
             background; kept up to date
-        :param impulses: (j,) float64: what each joint of the space gives for that [N s]; kept up
-            to date
         :return: whether there was anything to hold
         """
         for system in self._systems:
-            system.hold(states, self._dt, impulses)
+            system.hold(states, self._dt)
         return bool(self._systems)
+
+    def respond(self, changes: Floats) -> None:
+        """
+        Add to changes of velocities what the joints make of them, as they are held now.
+
+        :param changes: (m + 1, 3, c) float64: c of each body, then of the background; kept up to
+            date
+        """
+        for system in self._systems:
+            system.respond(changes)
+
+    def take(self, shares: Floats) -> None:
+        """Count what `respond` was told of as given, so much of each change, (c,) float64."""
+        for system in self._systems:
+            system.take(shares)
+
+    def tell(self, impulses: Floats) -> None:
+        """Write what each joint of the space has given since it was held, (j,) float64 [N s]."""
+        for system in self._systems:
+            system.tell(impulses)
 
     def redundant(self, states: Floats) -> set[tuple[int, int]]:
         """
@@ -160,6 +180,27 @@ def _work(island: Sequence[int], rows: Sequence[int], joints: Sequence[EngineJoi
     return float(sum(int(count[level].sum()) ** 3 for level in levels))
 
 
+@dataclass(slots=True, eq=False)
+class _Held:
+    """
+    How the rows of joints are held in a step.
+
+    :ivar pushes: (2 r, 3) float64: how each row pushes its first body, then its second
+    :ivar moves: (2 r, 3) float64: how that moves them
+    :ivar shared: (l,) float64: of the equations
+    :ivar active: (r,) bool: whether a row holds
+    :ivar given: (r,) float64 [N s, N m s]
+    :ivar answers: (r, c) float64: the same, to each change that was asked of last
+    """
+
+    pushes: Floats
+    moves: Floats
+    shared: Floats
+    active: NDArray[np.bool_]
+    given: Floats
+    answers: Floats = field(default_factory=lambda: np.empty((0, 0)))
+
+
 class _System:
     """
     Joints that are solved at once.
@@ -179,6 +220,7 @@ class _System:
     ) -> None:
         self._restraints = restraints = Restraints(joints, places, background)
         self._numbers = np.array([*itertools.chain(*groups)], np.intp)
+        self._held: _Held | None = None
         self._limited = bool(restraints.limits.any())
         sizes = [len(group) for group in groups]
         group_of = np.repeat(np.arange(len(groups)), sizes)[restraints.owner]
@@ -191,7 +233,7 @@ class _System:
             len(restraints.owner),
         )
 
-    def hold(self, states: Floats, dt: float, impulses: Floats) -> None:
+    def hold(self, states: Floats, dt: float) -> None:
         """Move velocities; see `Linkage.hold`."""
         restraints, equations = self._restraints, self._equations
         gaps, pushes = restraints.read(states)
@@ -214,9 +256,31 @@ class _System:
             given = equations.solve(shared, short, active)
         given[restraints.limits] = np.minimum(given[restraints.limits], 0.0)
         self._push(states, moves, given)
-        # Joint by joint, what its rows give together.
-        total = np.bincount(restraints.owner, given * given, len(self._numbers))
+        self._held = _Held(pushes, moves, shared, active, given)
+
+    def respond(self, changes: Floats) -> None:
+        """Add what the joints make of changes; see `Linkage.respond`."""
+        held, sides = self._known(), self._restraints.sides
+        each = np.einsum('ij,ijc->ic', held.pushes, changes[sides])
+        first, second = np.split(each, 2)
+        held.answers = self._equations.solve(held.shared, -first - second, held.active)
+        both = np.concatenate((held.answers, held.answers))
+        np.add.at(changes, sides, held.moves[:, :, None] * both[:, None, :])
+
+    def take(self, shares: Floats) -> None:
+        """Count answers as given; see `Linkage.take`."""
+        held = self._known()
+        held.given += held.answers @ shares
+
+    def tell(self, impulses: Floats) -> None:
+        """Write what each joint has given: what its rows give together."""
+        given = self._known().given
+        total = np.bincount(self._restraints.owner, given * given, len(self._numbers))
         impulses[self._numbers] = np.sqrt(total)
+
+    def _known(self) -> _Held:
+        assert self._held is not None  # noqa: S101 - what has been held
+        return self._held
 
     def redundant(self, states: Floats) -> Iterator[tuple[int, int]]:
         """Yield what says nothing new; see `Linkage.redundant`."""

@@ -30,10 +30,12 @@ from typing import NamedTuple
 import numpy as np
 from physsim_ros.core import joints
 from physsim_ros.core.balance import Balance
+from physsim_ros.core.engine_arrays import EngineArrays
 from physsim_ros.core.graph import Rows
 from physsim_ros.core.joint_properties import JointKind
 from physsim_ros.core.joints import EngineJoint
 from physsim_ros.core.linkage import Linkage
+from physsim_ros.core.loads import Loads
 from physsim_ros.core.names import WORLD
 from physsim_ros.core.rigid_body import RigidBody
 from physsim_ros.core.snapshot import Body, Floats, Joint
@@ -64,6 +66,7 @@ class Machine:
     Joints in the engine.
 
     :param space: of the engine
+    :param arrays: of it
     :param bodies: by name; kept by the space
     :param dt: of a step [s]
     :param before: of another space, whose joints may be the same; None is none
@@ -72,6 +75,7 @@ class Machine:
     def __init__(
         self,
         space: pymunk.Space,
+        arrays: EngineArrays,
         bodies: Mapping[str, RigidBody],
         dt: float,
         *,
@@ -79,6 +83,7 @@ class Machine:
     ) -> None:
         self.joints: dict[str, EngineJoint] = {}
         self._space = space
+        self._arrays = arrays
         self._bodies = bodies
         self._dt = dt
         # Names of the joints of each body.
@@ -91,6 +96,7 @@ class Machine:
         self._places: Rows = np.empty(0, np.intp)
         # What each joint gave beside the engine in the last step [N s].
         self._impulses: Floats = np.empty(0)
+        self._loads: Loads | None = None
         self._balance: Balance | None = None
         self._listed: Sequence[RigidBody | None] = ()
         # What each joint gave [N] in a step that another space has made, until this one makes one.
@@ -142,25 +148,38 @@ class Machine:
         for name in self.of(body):
             self._build(self.joints[name].joint)
 
-    def hold(self, listed: Sequence[RigidBody | None], states: Floats, *, driven: bool) -> bool:
+    def hold(
+        self,
+        listed: Sequence[RigidBody | None],
+        states: Floats,
+        before: Floats,
+        *,
+        driven: bool,
+    ) -> bool:
         """
         Hold after a step what the engine has not held in it.
 
         :param listed: the bodies in the engine's listing
         :param states: (m + 1, 6) float64: their poses and velocities, then the background; kept
             up to date
+        :param before: (m + 1, 3) float64: their velocities before the step
         :param driven: whether anything has given them energy since the last step, or in it
         :return: whether velocities have been moved
         """
         linkage = self._linked(listed)
+        engine = states[:, 3:].copy()
         rows = states[self._places]
-        self._impulses[:] = 0.0
-        moved = linkage.hold(rows, self._impulses)
+        moved = linkage.hold(rows)
         states[self._places, 3:] = rows[:, 3:]
-        assert self._balance is not None  # noqa: S101 - made with the linkage
+        # Both made with the linkage.
+        assert self._balance is not None and self._loads is not None  # noqa: S101, PT018
         if driven:
             self._balance.drive()
-        return self._balance.keep(states) or moved
+        moved |= self._balance.keep(states)
+        moved |= self._loads.carry(linkage, states, before, engine, self._space.static_body)
+        self._impulses[:] = 0.0
+        linkage.tell(self._impulses)
+        return moved
 
     def prepare(self, listed: Sequence[RigidBody | None], read: Callable[[], Floats]) -> None:
         """
@@ -293,6 +312,7 @@ class Machine:
         places = {rigid.engine: place for place, rigid in enumerate(listed) if rigid is not None}
         count = len(listed)
         self._places = np.array([*(places[body] for body in self._members), count], np.intp)
+        self._loads = Loads(self._arrays, listed, self._places)
         before, held = self._balance, list(self.joints.values())
         self._balance = Balance(held, places, count, gravity=self._space.gravity, dt=self._dt)
         same = len(self._listed) == count

@@ -99,7 +99,7 @@ class Space:
         self._walls: list[pymunk.Shape] = []
         self._first_wall = 0
         known = None if before is None else before.machine
-        self.machine: Machine = Machine(self._space, self.bodies, dt, before=known)
+        self.machine: Machine = Machine(self._space, self._arrays, self.bodies, dt, before=known)
         # Joints that have broken, and what each gave then [N]; whoever reads it empties it.
         self.broken: list[tuple[str, float]] = []
         self._fast = FastBodies(self._space, self._arrays, self.bodies, self._names, dt)
@@ -434,7 +434,8 @@ class Space:
         self._age += 1
         layout.state = None
         if self.machine.joints:
-            self._hold(layout, driven=bool(self._pushed) or self.changes != self._powerless)
+            driven = bool(self._pushed) or self.changes != self._powerless
+            self._hold(layout, before, driven=driven)
             self._powerless = self.changes
         if watching:
             self._contacts.add_step()
@@ -482,10 +483,11 @@ class Space:
         else:
             self._contacts.settled = False
 
-    def _hold(self, layout: Layout, *, driven: bool) -> None:
+    def _hold(self, layout: Layout, before: Floats, *, driven: bool) -> None:
         """Hold what the engine has not held of the joints."""
-        states = self._states()
-        if self.machine.hold(layout.listed, states, driven=driven):
+        states, rest = self._states(), np.zeros((1, 3))
+        before = np.concatenate((before, rest))
+        if self.machine.hold(layout.listed, states, before, driven=driven):
             self._arrays.write_twists(states[:-1, 3:])
         layout.state = states.take(layout.order, axis=0)
 
