@@ -129,6 +129,7 @@ class World:
             poses=poses,
             twists=twists,
             forces=self._space.forces(),
+            springs=self._space.machine.springs(),
         )
 
     def contacts(self, snapshot: Snapshot) -> Contacts:
