@@ -41,7 +41,7 @@ from physsim_ros.core.properties import (
     shown,
     within,
 )
-from physsim_ros.core.requests import Command, join_from, joined_from, Restore, Spawn
+from physsim_ros.core.requests import Command, join_from, joined_from, LONGEST, Restore, Spawn
 from physsim_ros.core.rigid_body import REST
 from physsim_ros.core.rotation import rotated
 from physsim_ros.core.settings import WorldSettings
@@ -59,7 +59,7 @@ from physsim_ros.core.shapes import (
 )
 from physsim_ros.core.snapshot import BodyState, ContactMemory, Joint, Motion, Seat, WorldState
 from physsim_ros.core.space import LOST
-from physsim_ros.core.world import World
+from physsim_ros.core.world import steps_in, World
 from physsim_ros.packed import unpack
 from physsim_ros.world_keys import FORMAT, MEMORY, PROPERTIES, SETTINGS
 
@@ -114,7 +114,7 @@ def state_from(
     intact = len(resumed) == len(bodies) and 'memory' in content
     unjoined = replace(
         saved,
-        bodies=tuple(_timed(state, entries[state.body.name]) for state in bodies),
+        bodies=tuple(_timed(each, entries[each.body.name], physics_rate) for each in bodies),
         memory=_memory(content['memory'], saved) if intact else None,
     )
     joints = _entries(content.get('joints'), 'joints')
@@ -257,11 +257,8 @@ def _pose(entry: Mapping[Any, Any]) -> Pose:
 
 
 def _wrench(name: str, value: object) -> Command:
-    wrench = _mapping(value, 'wrench', ['force', 'torque', 'steps'])
+    wrench = _mapping(value, 'wrench', ['force', 'torque', 'seconds', 'steps'])
     force, torque = pair(wrench.get('force'), 'force'), number(wrench.get('torque'), 'torque')
-    steps = wrench.get('steps')
-    if steps is not None:
-        _count(steps, 'steps')
     return Command(names=(name,), wrenches=((*force, torque),))
 
 
@@ -409,8 +406,20 @@ def _count(value: object, name: str) -> int:
     return value
 
 
-def _timed(state: BodyState, entry: Mapping[Any, Any]) -> BodyState:
+def _timed(state: BodyState, entry: Mapping[Any, Any], physics_rate: float) -> BodyState:
     """Let a wrench act for as long as the file says."""
     if 'wrench' not in entry:
         return state
-    return replace(state, wrench_steps=entry['wrench'].get('steps'))
+    with _naming(state.body.name):
+        return replace(state, wrench_steps=_wrench_steps(entry['wrench'], physics_rate))
+
+
+def _wrench_steps(wrench: Mapping[Any, Any], physics_rate: float) -> int | None:
+    """Return for how many steps a wrench still acts; None is for ever."""
+    seconds, steps = wrench.get('seconds'), wrench.get('steps')
+    if seconds is not None:
+        return steps_in(within(0.0, LONGEST, 's')(seconds, 'seconds'), physics_rate)
+    # Files of before had steps, of whatever rate.
+    if steps is None or _count(steps, 'steps') <= LONGEST * physics_rate:
+        return steps
+    raise BadProperty(f'steps are more than {LONGEST:g} s', field='steps')

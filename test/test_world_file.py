@@ -193,6 +193,23 @@ def test_a_wrench_round_trips_for_as_long_as_it_has_left(folder: Path) -> None:
     assert_round_trip(world, folder)
 
 
+@pytest.mark.parametrize('rate', [60.0, 240.0, 480.0, 10_000.0])
+def test_a_wrench_acts_for_as_many_seconds_at_any_rate(rate: float, folder: Path) -> None:
+    world = World()
+    spawn(world, 'a/0', ELL)
+    world.apply(Command(names=('a/0',), wrenches=((0.1, 2.0, 3.0),)))
+    world.step(24)
+    path = save(world, folder)
+
+    (state,) = load(path, rate=rate).bodies
+    assert state.wrench_steps == round(0.4 * rate)
+
+    # As files of before have it.
+    path.write_text(path.read_text().replace('seconds: 0.4', 'steps: 96'))
+    (state,) = load(path, rate=rate).bodies
+    assert state.wrench_steps == 96
+
+
 def test_a_world_round_trips_in_the_middle_of_contacts(folder: Path) -> None:
     world = World(settings=WorldSettings(bounds=(-8.0, 0.0, 8.0, 30.0)))
     stack(world, 5)
@@ -729,6 +746,15 @@ REFUSED = {
     'a wrench until long ago': (
         HEAD + '  - {name: a/0, circle: {radius: 1}, '
         'wrench: {force: [1, 0], torque: 0, steps: -1}}', 'steps'),
+    'a wrench of seconds in words': (
+        HEAD + '  - {name: a/0, circle: {radius: 1}, '
+        'wrench: {force: [1, 0], torque: 0, seconds: some}}', 'seconds'),
+    'a wrench of less than no time': (
+        HEAD + '  - {name: a/0, circle: {radius: 1}, '
+        'wrench: {force: [1, 0], torque: 0, seconds: -1}}', 'seconds'),
+    'a wrench for more than 300 years': (
+        HEAD + '  - {name: a/0, circle: {radius: 1}, '
+        'wrench: {force: [1, 0], torque: 0, steps: 10000000000000000}}', 'steps'),
     'a wrench in words': (HEAD + '  - {name: a/0, circle: {radius: 1}, wrench: hard}', 'wrench'),
     'six numbers of motion': (
         HEAD + '  - {name: a/0, circle: {radius: 1}, motion: [0, 0, 0, 0, 0, true]}', 'motion'),
