@@ -28,7 +28,7 @@ import math
 from typing import Any
 
 import numpy as np
-from physsim_ros.core.errors import BadProperty, BadWorldFile, Refusal
+from physsim_ros.core.errors import BadProperty, BadWorldFile, Refusal, UnknownProperty
 from physsim_ros.core.joining import drawn_points
 from physsim_ros.core.joint_properties import JointKind
 from physsim_ros.core.names import check_name, WORLD
@@ -61,7 +61,7 @@ from physsim_ros.core.snapshot import BodyState, ContactMemory, Joint, Motion, S
 from physsim_ros.core.space import LOST
 from physsim_ros.core.world import steps_in, World
 from physsim_ros.packed import unpack
-from physsim_ros.world_keys import FORMAT, MEMORY, PROPERTIES, SETTINGS
+from physsim_ros.world_keys import FORMAT, MEMORY, PARAMETERS, PROPERTIES, SETTINGS
 
 _SHAPES = ('circle', 'box', 'polygon', 'chain', 'triangles', 'compound')
 _BODY_KEYS = ['name', *_SHAPES, 'at', 'color', 'lifetime', *PROPERTIES, 'motion', 'wrench']
@@ -86,6 +86,10 @@ def state_from(
     :raises Refusal: a key or a value in it; of a body or a joint, `bad_world_file` with its name
     """
     for key in content:
+        if key in PARAMETERS:
+            raise UnknownProperty(
+                f'{key} is a parameter of the node, which no world file holds', field=key
+            )
         check_key(key, ['format', 'bodies', 'joints', 'memory', *SETTINGS])
     if content.get('format') != FORMAT or isinstance(content['format'], bool):
         raise BadProperty(f'format must be {FORMAT}', field='format')
@@ -126,8 +130,8 @@ def state_from(
 def _spawned(world: World, entries: list[dict[Any, Any]]) -> dict[str, dict[Any, Any]]:
     """Spawn the bodies of a file, those with saved numbers at rest; return them by name."""
     named: dict[str, dict[Any, Any]] = {}
-    for entry in entries:
-        with _naming(entry.get('name')):
+    for count, entry in enumerate(entries, 1):
+        with _naming(entry.get('name'), 'body', count):
             # What goes on from saved numbers may have come further and faster than anyone may ask.
             at_rest = {key: entry[key] for key in entry if key not in _MOTION}
             spawn = _spawn(at_rest if 'motion' in entry else entry)
@@ -161,8 +165,8 @@ def _joined(
     poses = {saved.body.name: saved.pose for saved in state.bodies}
     # Of each, what was saved; None where it is to be made.
     joints: dict[str, Joint | None] = {}
-    for entry in entries:
-        with _naming(entry.get('name'), 'joint'):
+    for count, entry in enumerate(entries, 1):
+        with _naming(entry.get('name'), 'joint', count):
             name = entry.get('name')
             if not isinstance(name, str):
                 raise BadProperty('a joint needs a name', field='name')
@@ -217,12 +221,17 @@ def _seat(value: object) -> Seat:
 
 
 @contextmanager
-def _naming(name: object, what: str = 'body') -> Iterator[None]:
-    """Say of which body or joint a refusal is."""
+def _naming(name: object, what: str = 'body', count: int = 0) -> Iterator[None]:
+    """
+    Say of which body or joint a refusal is.
+
+    :param count: of it in the file, from 1, which tells what has no name
+    """
     try:
         yield
     except Refusal as refusal:
-        raise BadWorldFile(f'{what} {shown(name)}: {refusal}', field=refusal.field) from refusal
+        which = f'number {count}' if name is None else shown(name)
+        raise BadWorldFile(f'{what} {which}: {refusal}', field=refusal.field) from refusal
 
 
 def _entries(value: object, what: str) -> list[dict[Any, Any]]:

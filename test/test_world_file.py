@@ -34,6 +34,8 @@ from physsim_ros.core.shapes import Disc
 from physsim_ros.core.snapshot import WorldState
 from physsim_ros.core.world import World
 from physsim_ros.packed import pack
+from physsim_ros.parameters import SPECS
+from physsim_ros.world_keys import PARAMETERS, SETTINGS
 from physsim_ros.yaml_text import load_mapping
 import pytest
 import yaml
@@ -818,6 +820,49 @@ def test_an_unknown_key_names_the_nearest(folder: Path) -> None:
     assert "'a/0'" in str(refusal)
 
 
+@pytest.mark.parametrize(
+    ('text', 'line'),
+    [
+        ('format: 1\nbodies:\n\t- {}', 3),
+        ('format: 1\nformat: 1', 2),
+        ('format: 1\n# é\x07', 2),
+        ('format: 1\ngravity: !!int ""\n\n', 2),
+        ('format: 1\ngravity: [0,\n\n', 2),
+        ('format: 1\n---\nformat: 1', 2),
+    ],
+)
+def test_what_is_no_yaml_says_in_which_line(text: str, line: int, folder: Path) -> None:
+    assert str(refusal_of(text, folder)).endswith(f', line {line}')
+
+
+def test_a_text_of_one_line_says_no_line() -> None:
+    with pytest.raises(Malformed) as refused:
+        load_mapping('a: b: c', field='text')
+    assert 'line' not in str(refused.value)
+
+
+def test_a_parameter_of_the_node_is_told_from_a_word_that_means_nothing(folder: Path) -> None:
+    assert 'parameter of the node' in str(refusal_of('format: 1\nspeed: 2', folder))
+    refusal = refusal_of('format: 1\nflavour: 2', folder)
+    assert str(refusal) == "w.yaml: there is no property 'flavour'"
+
+
+def test_the_parameters_that_no_file_holds_are_all_the_others_of_the_node() -> None:
+    assert set(SPECS) - set(SETTINGS) == PARAMETERS
+
+
+@pytest.mark.parametrize(
+    ('text', 'which'),
+    [
+        ('bodies: [{name: a/0, circle: {radius: 1}}, {circle: {radius: 1}}]', 'body number 2: '),
+        ('bodies: []\njoints: [{kind: axle}]', 'joint number 1: '),
+        ('bodies: []\njoints: [{name: 7, kind: axle}]', 'joint 7: '),
+    ],
+)
+def test_what_has_no_name_is_told_by_its_number(text: str, which: str, folder: Path) -> None:
+    assert which in str(refusal_of(f'format: 1\n{text}', folder))
+
+
 def test_a_refusal_says_which_body_it_is(folder: Path) -> None:
     bodies = ''.join(f'  - {{name: a/{k}, circle: {{radius: {3 - k}}}}}\n' for k in range(5))
 
@@ -852,6 +897,17 @@ def test_a_file_that_is_not_there_is_refused(folder: Path) -> None:
     for name in ('nothing', 'nothing.yaml', 'sub/nothing', '/nothing.yaml', '.', '..', '../..'):
         with pytest.raises(BadWorldFile):
             world_file.find(name, world_dir=folder, confined=False)
+
+
+def test_where_a_world_is_not_there_those_that_are_are_named(folder: Path) -> None:
+    write(folder, 'format: 1', 'mine.yaml')
+    write(folder, 'format: 1', '.hidden.yaml')
+    with pytest.raises(BadWorldFile) as refused:
+        world_file.find('nothere', world_dir=folder, confined=True)
+    for path in world_file.shipped_worlds().glob('*.yaml'):
+        assert path.stem in str(refused.value)
+    assert 'mine' in str(refused.value)
+    assert 'hidden' not in str(refused.value)
 
 
 def test_a_directory_is_no_world(folder: Path) -> None:
