@@ -106,6 +106,13 @@ def test_the_only_body_under_the_point_is_joined_to_the_background() -> None:
     assert members(world) == ('a/0', 'world')
 
 
+def test_what_was_joined_and_what_was_changed_is_said() -> None:
+    world = pair()
+    axle = joining('axle', [(0.4, 0.0)], a='a/0', b='world')
+    assert world.apply(axle)[1] == 'joined a/0 to the background by axle joint/0'
+    assert world.apply(axle)[1] == 'changed axle joint/0 of a/0 and the background'
+
+
 def test_a_line_joins_the_bodies_at_its_ends() -> None:
     world = pair()
     world.apply(joining('spring', [(1.2, 0.0), (-0.3, 0.0)]))
