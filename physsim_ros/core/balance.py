@@ -265,7 +265,7 @@ class _Springs:
         apart_x, apart_y = _between(ends[..., 0] + arm_x), _between(ends[..., 1] + arm_y)
         speed_x = _between(ends[..., 3] - ends[..., 5] * arm_y)
         speed_y = _between(ends[..., 4] + ends[..., 5] * arm_x)
-        within, pull = self._springs.energy(np.column_stack((apart_x, apart_y)))
+        within, pull = self._springs.energy(np.hypot(apart_x, apart_y))
         inside = _sums(self._islands, within, self._count)
         return inside, float(pull @ np.hypot(speed_x, speed_y))
 

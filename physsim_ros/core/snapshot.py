@@ -293,13 +293,13 @@ class Springs(NamedTuple):
     rest: Floats
     reach: Floats
 
-    def energy(self, apart: Floats) -> tuple[Floats, Floats]:
+    def energy(self, length: Floats) -> tuple[Floats, Floats]:
         """
         Return (k,) float64: what is in each [J], and what it pulls or pushes with [N].
 
-        :param apart: (k, 2) float64: from one end of each to the other [m]
+        :param length: (k,) float64: of each [m]
         """
-        size = np.abs(np.hypot(apart[:, 0], apart[:, 1]) - self.rest)
+        size = np.abs(length - self.rest)
         bent = np.minimum(size, self.reach)
         pull = self.stiffness * bent
         return pull * (bent / 2 + (size - bent)), pull
@@ -444,7 +444,8 @@ class Snapshot:
     def elastic_energy(self) -> float:
         """In the springs [J]."""
         ends = self.ends[self.springs.numbers]
-        within, _ = self.springs.energy(ends[:, 0] - ends[:, 1])
+        apart = ends[:, 0] - ends[:, 1]
+        within, _ = self.springs.energy(np.hypot(apart[:, 0], apart[:, 1]))
         return float(within.sum())
 
     @cached_property
