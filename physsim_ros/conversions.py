@@ -271,5 +271,6 @@ def _disc(marker: Marker) -> Disc:
 
 
 def _points(points: Sequence[Point]) -> tuple[tuple[float, float], ...]:
-    # One more than the most is enough for the shape to refuse them all.
+    # A closed line says its first point twice, so that one more than the most may be right; one
+    # more than that is enough for the shape to refuse them all.
     return tuple((point.x, point.y) for point in points[: MOST_POINTS + 2])

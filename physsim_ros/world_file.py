@@ -24,6 +24,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 import tempfile
+import textwrap
 
 from physsim_ros.core.errors import BadWorldFile, Malformed, Refusal
 from physsim_ros.core.settings import WorldSettings
@@ -32,6 +33,9 @@ from physsim_ros.shipped import shipped
 from physsim_ros.world_reading import state_from
 from physsim_ros.world_writing import text_of
 from physsim_ros.yaml_text import load_mapping
+
+# Of names, in characters: more than anyone reads.
+_LONGEST_LIST = 500
 
 
 def shipped_worlds() -> Path:
@@ -63,7 +67,13 @@ def find(name: str, *, world_dir: Path, confined: bool) -> Path:
             if confined and not _below(path, world_dir) and not _below(path, shipped_worlds()):
                 raise BadWorldFile(f'{name} lies outside world_dir', field='world_file')
             return path
-    raise BadWorldFile(f'there is no world {name!r}', field='world_file')
+    known = sorted({each.stem for each in _worlds(world_dir) + _worlds(shipped_worlds())})
+    there = textwrap.shorten(', '.join(known), _LONGEST_LIST, placeholder=' …')
+    raise BadWorldFile(f'there is no world {name!r}; there are {there}', field='world_file')
+
+
+def _worlds(directory: Path) -> list[Path]:
+    return [path for path in directory.glob('*.yaml') if not path.name.startswith('.')]
 
 
 def load(path: Path, *, settings: WorldSettings, physics_rate: float) -> WorldState:

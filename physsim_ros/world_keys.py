@@ -27,3 +27,28 @@ FORMAT = 1
 SETTINGS = [each.name for each in fields(WorldSettings) if each.name != 'max_bodies']
 PROPERTIES = [each.name for each in fields(Properties)]
 MEMORY = [each.name for each in fields(ContactMemory)]
+# Parameters of the node, and so of no world.
+PARAMETERS = frozenset(
+    {
+        'beautify',
+        'draw_color',
+        'draw_velocity',
+        'fast_speed',
+        'frame_id',
+        'history',
+        'max_bodies',
+        'physics_rate',
+        'publish_clock',
+        'publish_rate',
+        'record_file',
+        'sketch_confidence',
+        'snap',
+        'speed',
+        'tool',
+        'viewer',
+        'viewer_url',
+        'wall_thickness',
+        'world_dir',
+        'world_file',
+    }
+)

@@ -21,14 +21,17 @@ is; the numbers that only the node writes are taken where nobody has edited what
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
+import math
 from typing import Any
 
 import numpy as np
-from physsim_ros.core.errors import BadProperty, BadWorldFile, Refusal
+from physsim_ros.core.errors import BadProperty, BadWorldFile, Refusal, UnknownProperty
 from physsim_ros.core.joining import drawn_points
+from physsim_ros.core.joint_properties import JointKind
+from physsim_ros.core.names import check_name, WORLD
 from physsim_ros.core.palette import color_from
 from physsim_ros.core.properties import (
     check_key,
@@ -38,7 +41,7 @@ from physsim_ros.core.properties import (
     shown,
     within,
 )
-from physsim_ros.core.requests import Command, join_from, Restore, Spawn
+from physsim_ros.core.requests import Command, join_from, joined_from, LONGEST, Restore, Spawn
 from physsim_ros.core.rigid_body import REST
 from physsim_ros.core.rotation import rotated
 from physsim_ros.core.settings import WorldSettings
@@ -48,6 +51,7 @@ from physsim_ros.core.shapes import (
     Color,
     Compound,
     Disc,
+    Point,
     Polygon,
     Pose,
     Shape,
@@ -55,9 +59,9 @@ from physsim_ros.core.shapes import (
 )
 from physsim_ros.core.snapshot import BodyState, ContactMemory, Joint, Motion, Seat, WorldState
 from physsim_ros.core.space import LOST
-from physsim_ros.core.world import World
+from physsim_ros.core.world import steps_in, World
 from physsim_ros.packed import unpack
-from physsim_ros.world_keys import FORMAT, MEMORY, PROPERTIES, SETTINGS
+from physsim_ros.world_keys import FORMAT, MEMORY, PARAMETERS, PROPERTIES, SETTINGS
 
 _SHAPES = ('circle', 'box', 'polygon', 'chain', 'triangles', 'compound')
 _BODY_KEYS = ['name', *_SHAPES, 'at', 'color', 'lifetime', *PROPERTIES, 'motion', 'wrench']
@@ -82,6 +86,10 @@ def state_from(
     :raises Refusal: a key or a value in it; of a body or a joint, `bad_world_file` with its name
     """
     for key in content:
+        if key in PARAMETERS:
+            raise UnknownProperty(
+                f'{key} is a parameter of the node, which no world file holds', field=key
+            )
         check_key(key, ['format', 'bodies', 'joints', 'memory', *SETTINGS])
     if content.get('format') != FORMAT or isinstance(content['format'], bool):
         raise BadProperty(f'format must be {FORMAT}', field='format')
@@ -92,35 +100,38 @@ def state_from(
     world = World(physics_rate=physics_rate, settings=replace(settings, **changes))
     entries = _spawned(world, _entries(content.get('bodies'), 'bodies'))
     resumed: dict[str, BodyState] = {}
+    unmoved: set[str] = set()
     for state in world.save().bodies:
         entry = entries[state.body.name]
         if 'motion' in entry:
             with _naming(state.body.name):
                 going_on = _resumed(state, entry)
-                if going_on is None:
-                    world.apply(_spawn(entry))
-                else:
+                if going_on is not None:
                     resumed[state.body.name] = going_on
+                else:
+                    world.apply(_spawn(entry))
+                if going_on is not None or _is_unmoved(state, entry):
+                    unmoved.add(state.body.name)
     saved = world.save()
     bodies = [resumed.get(state.body.name, state) for state in saved.bodies]
     # Where somebody has edited a body, nothing is what was remembered.
     intact = len(resumed) == len(bodies) and 'memory' in content
     unjoined = replace(
         saved,
-        bodies=tuple(_timed(state, entries[state.body.name]) for state in bodies),
+        bodies=tuple(_timed(each, entries[each.body.name], physics_rate) for each in bodies),
         memory=_memory(content['memory'], saved) if intact else None,
     )
     joints = _entries(content.get('joints'), 'joints')
     if not joints:
         return unjoined
-    return replace(unjoined, joints=_joined(unjoined, joints, physics_rate))
+    return replace(unjoined, joints=_joined(unjoined, joints, unmoved, physics_rate))
 
 
 def _spawned(world: World, entries: list[dict[Any, Any]]) -> dict[str, dict[Any, Any]]:
     """Spawn the bodies of a file, those with saved numbers at rest; return them by name."""
     named: dict[str, dict[Any, Any]] = {}
-    for entry in entries:
-        with _naming(entry.get('name')):
+    for count, entry in enumerate(entries, 1):
+        with _naming(entry.get('name'), 'body', count):
             # What goes on from saved numbers may have come further and faster than anyone may ask.
             at_rest = {key: entry[key] for key in entry if key not in _MOTION}
             spawn = _spawn(at_rest if 'motion' in entry else entry)
@@ -134,9 +145,13 @@ def _spawned(world: World, entries: list[dict[Any, Any]]) -> dict[str, dict[Any,
 
 
 def _joined(
-    state: WorldState, entries: list[dict[Any, Any]], physics_rate: float
+    state: WorldState, entries: list[dict[Any, Any]], unmoved: set[str], physics_rate: float
 ) -> tuple[Joint, ...]:
-    """Join the bodies of a file, in a world of their own where they are by now."""
+    """
+    Join the bodies of a file, in a world of their own where they are by now.
+
+    :param unmoved: bodies that are where they were saved
+    """
     world, loose = (World(physics_rate=physics_rate, settings=state.settings) for _ in range(2))
     world.apply(Restore(state=state))
     # A joint may have been made before both its bodies were anchored.
@@ -147,35 +162,55 @@ def _joined(
         for each in state.bodies
     )
     loose.apply(Restore(state=replace(state, bodies=bodies, memory=None)))
-    names: set[str] = set()
-    seats: dict[str, Seat] = {}
-    for entry in entries:
-        with _naming(entry.get('name'), 'joint'):
+    poses = {saved.body.name: saved.pose for saved in state.bodies}
+    # Of each, what was saved; None where it is to be made.
+    joints: dict[str, Joint | None] = {}
+    for count, entry in enumerate(entries, 1):
+        with _naming(entry.get('name'), 'joint', count):
             name = entry.get('name')
             if not isinstance(name, str):
                 raise BadProperty('a joint needs a name', field='name')
-            if name in names:
+            if name in joints:
                 raise BadProperty('the name comes twice', field='name')
             said = {key: entry[key] for key in entry if key not in _JOINT_KEYS}
             points = _points(entry.get('points'), 'points')
-            join = join_from(said, name=name, points=points)
+            joints[name] = None
             if 'seat' in entry:
-                seats[name] = _seat(entry['seat'])
-            else:
+                joint = _saved_joint(name, said, _seat(entry['seat']))
+                if _is_whole(joint, points, poses, unmoved):
+                    joints[name] = joint
+                    continue
+            join = join_from(said, name=name, points=points)
+            if 'seat' not in entry:
                 world.apply(join)
             loose.apply(join)
-            names.add(name)
-    poses = {saved.body.name: saved.pose for saved in state.bodies}
-    return tuple(_seated(joint, seats.get(joint.name), poses) for joint in loose.save().joints)
+    made = {joint.name: joint for joint in loose.save().joints}
+    return tuple(joint or made[name] for name, joint in joints.items())
 
 
-def _seated(joint: Joint, seat: Seat | None, poses: Mapping[str, Pose]) -> Joint:
-    """Return a joint with the numbers that only the node writes, unless somebody edited it."""
-    if seat is None:
-        return joint
-    saved = replace(joint, seat=seat)
-    drawn, written = drawn_points(joint, poses), drawn_points(saved, poses)
-    return saved if np.allclose(drawn, written, rtol=_ROUNDING, atol=_ROUNDING) else joint
+def _saved_joint(name: str, said: Mapping[Any, Any], seat: Seat) -> Joint:
+    """Return a joint as it was saved: where it may have come, nobody could draw it."""
+    check_name(name)
+    kind, a, b, properties = joined_from(said)
+    properties.check_kind(kind)
+    return Joint(name=name, kind=kind, a=a, b=b, seat=seat, properties=properties)
+
+
+def _is_whole(
+    joint: Joint, points: tuple[Point, ...], poses: Mapping[str, Pose], unmoved: set[str]
+) -> bool:
+    """Tell whether nobody has edited where a saved joint sits, nor moved a body of it."""
+    seat, phase = joint.seat, joint.properties.phase
+    # The background is the only one that `unmoved` does not name.
+    if joint.a not in unmoved or joint.b not in unmoved | {WORLD} or joint.a == joint.b:
+        return False
+    if joint.kind is JointKind.SLIDER and abs(math.hypot(seat.ux, seat.uy) - 1.0) > _ROUNDING:
+        return False
+    if phase is not None:
+        off = abs(math.remainder(seat.phase - phase, math.tau))
+        if off > _ROUNDING + 4.0 * math.ulp(seat.phase):
+            return False
+    return joint.kind.points == len(points) and _is_same(drawn_points(joint, poses), points)
 
 
 def _seat(value: object) -> Seat:
@@ -186,12 +221,17 @@ def _seat(value: object) -> Seat:
 
 
 @contextmanager
-def _naming(name: object, what: str = 'body') -> Iterator[None]:
-    """Say of which body or joint a refusal is."""
+def _naming(name: object, what: str = 'body', count: int = 0) -> Iterator[None]:
+    """
+    Say of which body or joint a refusal is.
+
+    :param count: of it in the file, from 1, which tells what has no name
+    """
     try:
         yield
     except Refusal as refusal:
-        raise BadWorldFile(f'{what} {shown(name)}: {refusal}', field=refusal.field) from refusal
+        which = f'number {count}' if name is None else shown(name)
+        raise BadWorldFile(f'{what} {which}: {refusal}', field=refusal.field) from refusal
 
 
 def _entries(value: object, what: str) -> list[dict[Any, Any]]:
@@ -226,11 +266,8 @@ def _pose(entry: Mapping[Any, Any]) -> Pose:
 
 
 def _wrench(name: str, value: object) -> Command:
-    wrench = _mapping(value, 'wrench', ['force', 'torque', 'steps'])
+    wrench = _mapping(value, 'wrench', ['force', 'torque', 'seconds', 'steps'])
     force, torque = pair(wrench.get('force'), 'force'), number(wrench.get('torque'), 'torque')
-    steps = wrench.get('steps')
-    if steps is not None:
-        _count(steps, 'steps')
     return Command(names=(name,), wrenches=((*force, torque),))
 
 
@@ -294,25 +331,53 @@ def _resumed(state: BodyState, entry: Mapping[Any, Any]) -> BodyState | None:
     :param entry: the body in the file
     :return: None where somebody has edited the pose or the velocity since
     """
-    values = entry['motion']
-    if not isinstance(values, list) or len(values) != 7 or not isinstance(values[6], bool):
-        raise BadProperty('motion must be six numbers and true or false', field='motion')
-    x, y, yaw, vx, vy, spin = (number(each, 'motion') for each in values[:6])
-    saved = Motion(x, y, yaw, vx, vy, spin, values[6])
-    pose = _pose(entry)
+    saved, pose = _motion(entry), _pose(entry)
     velocity = pair(entry.get('velocity', [0.0, 0.0]), 'velocity')
     twist = (*velocity, number(entry.get('spin', 0.0), 'spin'))
     assert state.motion is not None  # noqa: S101 - a world's own state
-    offset = rotated((state.motion.x, state.motion.y), pose[2])
     lead = state.motion[3:6] if saved.free else (0.0, 0.0, 0.0)
-    written = (pose[0] + offset[0], pose[1] + offset[1], pose[2], *np.add(twist, lead))
     if state.body.anchored and any(twist):
         return None
-    if not np.allclose(saved[:6], written, rtol=_ROUNDING, atol=_ROUNDING):
+    if not _is_same(saved[:6], (*_engine_pose(state, pose), *np.add(twist, lead))):
         return None
     if np.abs(saved[:6]).max() > LOST:
         raise BadProperty('motion is out of range', field='motion')
     return replace(state, pose=pose, twist=twist, motion=saved)
+
+
+def _motion(entry: Mapping[Any, Any]) -> Motion:
+    values = entry['motion']
+    if not isinstance(values, list) or len(values) != 7 or not isinstance(values[6], bool):
+        raise BadProperty('motion must be six numbers and true or false', field='motion')
+    x, y, yaw, vx, vy, spin = (number(each, 'motion') for each in values[:6])
+    return Motion(x, y, yaw, vx, vy, spin, values[6])
+
+
+def _is_unmoved(state: BodyState, entry: Mapping[Any, Any]) -> bool:
+    """
+    Tell whether a body is where it was saved, whatever else somebody has edited.
+
+    :param state: the body at the origin
+    """
+    return _is_same(_motion(entry)[:3], _engine_pose(state, _pose(entry)))
+
+
+def _engine_pose(state: BodyState, pose: Pose) -> Pose:
+    """
+    Return where the engine has a body with that pose.
+
+    :param state: the body at the origin
+    """
+    assert state.motion is not None  # noqa: S101 - a world's own state
+    x, y = rotated((state.motion.x, state.motion.y), pose[2])
+    return pose[0] + x, pose[1] + y, pose[2]
+
+
+def _is_same(
+    saved: Sequence[float] | Sequence[Point], written: Sequence[float] | Sequence[Point]
+) -> bool:
+    """Tell whether numbers differ by no more than rounding."""
+    return bool(np.allclose(saved, written, rtol=_ROUNDING, atol=_ROUNDING))
 
 
 def _memory(value: object, state: WorldState) -> ContactMemory | None:
@@ -323,8 +388,8 @@ def _memory(value: object, state: WorldState) -> ContactMemory | None:
     pairs = unpack(memory.get('pairs'), 'pairs', np.int64, 2)
     hashes = unpack(memory.get('hashes'), 'hashes', np.uint64)
     impulses = unpack(memory.get('impulses'), 'impulses', np.float64, 2)
-    # NaN compares false.
-    sound = np.abs(impulses).max(initial=0.0) < LOST
+    # As large as the heaviest and fastest bodies make them.
+    sound = bool(np.isfinite(impulses).all())
     if not (len(pairs) == len(hashes) == len(impulses) and sound):
         raise BadProperty('memory is not what was saved', field='memory')
     if len(ids) != len(state.bodies):
@@ -350,8 +415,20 @@ def _count(value: object, name: str) -> int:
     return value
 
 
-def _timed(state: BodyState, entry: Mapping[Any, Any]) -> BodyState:
+def _timed(state: BodyState, entry: Mapping[Any, Any], physics_rate: float) -> BodyState:
     """Let a wrench act for as long as the file says."""
     if 'wrench' not in entry:
         return state
-    return replace(state, wrench_steps=entry['wrench'].get('steps'))
+    with _naming(state.body.name):
+        return replace(state, wrench_steps=_wrench_steps(entry['wrench'], physics_rate))
+
+
+def _wrench_steps(wrench: Mapping[Any, Any], physics_rate: float) -> int | None:
+    """Return for how many steps a wrench still acts; None is for ever."""
+    seconds, steps = wrench.get('seconds'), wrench.get('steps')
+    if seconds is not None:
+        return steps_in(within(0.0, LONGEST, 's')(seconds, 'seconds'), physics_rate)
+    # Files of before had steps, of whatever rate.
+    if steps is None or _count(steps, 'steps') <= LONGEST * physics_rate:
+        return steps
+    raise BadProperty(f'steps are more than {LONGEST:g} s', field='steps')

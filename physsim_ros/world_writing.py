@@ -100,8 +100,12 @@ def _entry(state: BodyState, physics_rate: float) -> dict[str, object]:
     if body.expires is not None:
         entry['lifetime'] = body.expires / physics_rate
     if state.wrench != (0.0, 0.0, 0.0):
-        force, torque = list(state.wrench[:2]), state.wrench[2]
-        entry['wrench'] = {'force': force, 'torque': torque, 'steps': state.wrench_steps}
+        steps = state.wrench_steps
+        entry['wrench'] = {
+            'force': list(state.wrench[:2]),
+            'torque': state.wrench[2],
+            'seconds': None if steps is None else steps / physics_rate,
+        }
     if state.motion is not None:
         entry['motion'] = [*state.motion[:6], state.motion.free]
     return entry

@@ -35,7 +35,7 @@ class _Loader(Composer, yaml.CSafeLoader):
     overflows the stack where brackets are nested by tens of thousands.
 
     PyYAML's own constructors raise whatever Python raises at a tag that does not fit, as in
-    `!!bool maybe`; these raise its own errors or ValueError, and there are no others.
+    `!!bool maybe`; these raise its own errors, and there are no others.
     """
 
     yaml_implicit_resolvers: dict[str, list[tuple[str, re.Pattern[str]]]] = {}  # noqa: RUF012
@@ -60,10 +60,12 @@ class _Loader(Composer, yaml.CSafeLoader):
         """Return the mapping, unless a key comes twice."""
         entries = node.value if isinstance(node, yaml.MappingNode) else ()
         keys = set()
-        for key in (key.value for key, _ in entries if isinstance(key, yaml.ScalarNode)):
-            if key in keys:
-                raise yaml.constructor.ConstructorError(None, None, f'{key} comes twice')
-            keys.add(key)
+        for key in (key for key, _ in entries if isinstance(key, yaml.ScalarNode)):
+            if key.value in keys:
+                raise yaml.constructor.ConstructorError(
+                    None, None, f'{key.value} comes twice', key.start_mark
+                )
+            keys.add(key.value)
         return super().construct_mapping(node, deep)
 
 
@@ -78,7 +80,15 @@ def _float(text: str) -> float:
 
 
 def _scalar(make: Callable[[str], object]) -> Callable[[_Loader, yaml.ScalarNode], object]:
-    return lambda loader, node: make(str(loader.construct_scalar(node)))
+    def construct(loader: _Loader, node: yaml.ScalarNode) -> object:
+        try:
+            return make(str(loader.construct_scalar(node)))
+        except ValueError as error:
+            raise yaml.constructor.ConstructorError(
+                None, None, str(error), node.start_mark
+            ) from error
+
+    return construct
 
 
 for _name, _make in (
@@ -114,11 +124,26 @@ def load_mapping(text: str, *, field: str) -> dict[Any, Any]:
     except (yaml.YAMLError, ValueError, RecursionError) as error:
         # What PyYAML says may span lines and repeat the text; its problem, where it has one, does
         # not.
-        text = getattr(error, 'problem', None) or str(error) or type(error).__name__
-        reason = text.partition('\n')[0]
-        raise Malformed(f'{field} is not YAML: {reason[:200]}', field=field) from error
+        said = getattr(error, 'problem', None) or str(error) or type(error).__name__
+        reason = said.partition('\n')[0][:200] + _place(error, text)
+        raise Malformed(f'{field} is not YAML: {reason}', field=field) from error
     if value is None:
         return {}
     if not isinstance(value, dict):
         raise Malformed(f'{field} must be a YAML mapping as {{friction: 0.3}}', field=field)
     return value
+
+
+def _place(error: Exception, text: str) -> str:
+    """Return where in a text an error is; '' where it does not tell, or there is one line."""
+    lines = text.rstrip('\n').count('\n') + 1
+    mark = getattr(error, 'problem_mark', None)
+    if mark is not None:
+        # Where the text ends too early, libyaml counts a line more.
+        line = min(mark.line + 1, lines)
+    elif isinstance(error, yaml.reader.ReaderError):
+        # It counts bytes.
+        line = text.encode()[: error.position].count(b'\n') + 1
+    else:
+        return ''
+    return f', line {line}' if lines > 1 else ''

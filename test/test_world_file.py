@@ -26,13 +26,16 @@ from hypothesis import strategies as st
 import numpy as np
 from physsim_ros import world_file
 from physsim_ros.core.errors import BadWorldFile, Malformed
+from physsim_ros.core.joint_properties import JointKind, JointProperties
 from physsim_ros.core.palette import color_of
-from physsim_ros.core.requests import Anchor, Command, Configure, Release, Restore
+from physsim_ros.core.requests import Anchor, Command, Configure, Join, Release, Restore
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.shapes import Disc
 from physsim_ros.core.snapshot import WorldState
 from physsim_ros.core.world import World
 from physsim_ros.packed import pack
+from physsim_ros.parameters import SPECS
+from physsim_ros.world_keys import PARAMETERS, SETTINGS
 from physsim_ros.yaml_text import load_mapping
 import pytest
 import yaml
@@ -192,6 +195,23 @@ def test_a_wrench_round_trips_for_as_long_as_it_has_left(folder: Path) -> None:
     assert_round_trip(world, folder)
 
 
+@pytest.mark.parametrize('rate', [60.0, 240.0, 480.0, 10_000.0])
+def test_a_wrench_acts_for_as_many_seconds_at_any_rate(rate: float, folder: Path) -> None:
+    world = World()
+    spawn(world, 'a/0', ELL)
+    world.apply(Command(names=('a/0',), wrenches=((0.1, 2.0, 3.0),)))
+    world.step(24)
+    path = save(world, folder)
+
+    (state,) = load(path, rate=rate).bodies
+    assert state.wrench_steps == round(0.4 * rate)
+
+    # As files of before have it.
+    path.write_text(path.read_text().replace('seconds: 0.4', 'steps: 96'))
+    (state,) = load(path, rate=rate).bodies
+    assert state.wrench_steps == 96
+
+
 def test_a_world_round_trips_in_the_middle_of_contacts(folder: Path) -> None:
     world = World(settings=WorldSettings(bounds=(-8.0, 0.0, 8.0, 30.0)))
     stack(world, 5)
@@ -203,6 +223,17 @@ def test_a_world_round_trips_in_the_middle_of_contacts(folder: Path) -> None:
     for _ in range(6):
         world.step(40)
         assert_round_trip(world, folder)
+
+
+def test_the_heaviest_body_round_trips_where_it_rests(folder: Path) -> None:
+    world = World(settings=WorldSettings(gravity=(0.0, -1e3), bounds=(-8.0, 0.0, 8.0, 30.0)))
+    spawn(world, 'a/0', BOX, (0.0, 0.5, 0.0), mass=1e12)
+    world.step(100)
+
+    memory = world.save().memory
+    assert memory is not None
+    assert np.abs(memory.impulses).max() > 1e12
+    assert_round_trip(world, folder)
 
 
 def test_a_kinematic_body_that_is_held_round_trips_and_is_kinematic_when_let_go(
@@ -508,7 +539,7 @@ def packed(*rows: object, kind: type = np.int64) -> str:
         ({'hashes': packed(1)}, 'memory'),
         ({'impulses': packed((1.0, 2.0), kind=np.float64)}, 'memory'),
         ({'impulses': packed(*[(math.nan, 0.0)] * 10, kind=np.float64)}, 'memory'),
-        ({'impulses': packed(*[(1e300, 0.0)] * 10, kind=np.float64)}, 'memory'),
+        ({'impulses': packed(*[(math.inf, 0.0)] * 10, kind=np.float64)}, 'memory'),
         ({'ids': [1, 2]}, 'ids'),
         ({'impulse': packed(1)}, 'impulse'),
     ],
@@ -717,6 +748,15 @@ REFUSED = {
     'a wrench until long ago': (
         HEAD + '  - {name: a/0, circle: {radius: 1}, '
         'wrench: {force: [1, 0], torque: 0, steps: -1}}', 'steps'),
+    'a wrench of seconds in words': (
+        HEAD + '  - {name: a/0, circle: {radius: 1}, '
+        'wrench: {force: [1, 0], torque: 0, seconds: some}}', 'seconds'),
+    'a wrench of less than no time': (
+        HEAD + '  - {name: a/0, circle: {radius: 1}, '
+        'wrench: {force: [1, 0], torque: 0, seconds: -1}}', 'seconds'),
+    'a wrench for more than 300 years': (
+        HEAD + '  - {name: a/0, circle: {radius: 1}, '
+        'wrench: {force: [1, 0], torque: 0, steps: 10000000000000000}}', 'steps'),
     'a wrench in words': (HEAD + '  - {name: a/0, circle: {radius: 1}, wrench: hard}', 'wrench'),
     'six numbers of motion': (
         HEAD + '  - {name: a/0, circle: {radius: 1}, motion: [0, 0, 0, 0, 0, true]}', 'motion'),
@@ -780,6 +820,49 @@ def test_an_unknown_key_names_the_nearest(folder: Path) -> None:
     assert "'a/0'" in str(refusal)
 
 
+@pytest.mark.parametrize(
+    ('text', 'line'),
+    [
+        ('format: 1\nbodies:\n\t- {}', 3),
+        ('format: 1\nformat: 1', 2),
+        ('format: 1\n# é\x07', 2),
+        ('format: 1\ngravity: !!int ""\n\n', 2),
+        ('format: 1\ngravity: [0,\n\n', 2),
+        ('format: 1\n---\nformat: 1', 2),
+    ],
+)
+def test_what_is_no_yaml_says_in_which_line(text: str, line: int, folder: Path) -> None:
+    assert str(refusal_of(text, folder)).endswith(f', line {line}')
+
+
+def test_a_text_of_one_line_says_no_line() -> None:
+    with pytest.raises(Malformed) as refused:
+        load_mapping('a: b: c', field='text')
+    assert 'line' not in str(refused.value)
+
+
+def test_a_parameter_of_the_node_is_told_from_a_word_that_means_nothing(folder: Path) -> None:
+    assert 'parameter of the node' in str(refusal_of('format: 1\nspeed: 2', folder))
+    refusal = refusal_of('format: 1\nflavour: 2', folder)
+    assert str(refusal) == "w.yaml: there is no property 'flavour'"
+
+
+def test_the_parameters_that_no_file_holds_are_all_the_others_of_the_node() -> None:
+    assert set(SPECS) - set(SETTINGS) == PARAMETERS
+
+
+@pytest.mark.parametrize(
+    ('text', 'which'),
+    [
+        ('bodies: [{name: a/0, circle: {radius: 1}}, {circle: {radius: 1}}]', 'body number 2: '),
+        ('bodies: []\njoints: [{kind: axle}]', 'joint number 1: '),
+        ('bodies: []\njoints: [{name: 7, kind: axle}]', 'joint 7: '),
+    ],
+)
+def test_what_has_no_name_is_told_by_its_number(text: str, which: str, folder: Path) -> None:
+    assert which in str(refusal_of(f'format: 1\n{text}', folder))
+
+
 def test_a_refusal_says_which_body_it_is(folder: Path) -> None:
     bodies = ''.join(f'  - {{name: a/{k}, circle: {{radius: {3 - k}}}}}\n' for k in range(5))
 
@@ -814,6 +897,17 @@ def test_a_file_that_is_not_there_is_refused(folder: Path) -> None:
     for name in ('nothing', 'nothing.yaml', 'sub/nothing', '/nothing.yaml', '.', '..', '../..'):
         with pytest.raises(BadWorldFile):
             world_file.find(name, world_dir=folder, confined=False)
+
+
+def test_where_a_world_is_not_there_those_that_are_are_named(folder: Path) -> None:
+    write(folder, 'format: 1', 'mine.yaml')
+    write(folder, 'format: 1', '.hidden.yaml')
+    with pytest.raises(BadWorldFile) as refused:
+        world_file.find('nothere', world_dir=folder, confined=True)
+    for path in world_file.shipped_worlds().glob('*.yaml'):
+        assert path.stem in str(refused.value)
+    assert 'mine' in str(refused.value)
+    assert 'hidden' not in str(refused.value)
 
 
 def test_a_directory_is_no_world(folder: Path) -> None:
@@ -1151,6 +1245,125 @@ def test_a_joint_whose_points_somebody_edited_sits_at_the_new_ones(tmp_path: Pat
     joints = read_in(saved).joints
     assert joints[0].seat.ax == pytest.approx(-0.25)
     assert joints[1:] == world.save().joints[1:]
+
+
+@pytest.mark.parametrize('kind', [JointKind.ROD, JointKind.SLIDER])
+@pytest.mark.parametrize('x', [2.0, 2.0 + 1e-5])
+def test_a_joint_whose_ends_have_come_together_round_trips(
+    kind: JointKind, x: float, folder: Path
+) -> None:
+    world = World(settings=WorldSettings(gravity=(0.0, 0.0)))
+    spawn(world, 'b/0', DISC)
+    line = ((0.0, 0.0), (2.0, 0.0))
+    world.apply(Join(name='j/0', kind=kind, points=line, a='b/0', b='world'))
+    world.apply(Command(names=('b/0',), poses=((x, 0.0, 0.0),)))
+
+    assert_round_trip(world, folder)
+
+
+def test_jointed_bodies_that_have_flown_further_than_anyone_may_ask_round_trip(
+    folder: Path,
+) -> None:
+    world = World(settings=WorldSettings(gravity=(0.0, 0.0)))
+    for number in range(2):
+        spawn(world, f'b/{number}', DISC, (9.999e6 + number, 0.0, 0.0), velocity=(1e5, 0.0))
+    world.apply(Join(name='j/0', kind=JointKind.AXLE, points=((9.999e6, 0.0),), a='b/0', b='b/1'))
+    world.step(6)
+    assert pose(world, 'b/0')[0] > 1e7
+
+    assert len(world.save().joints) == 1
+    assert_round_trip(world, folder)
+
+
+def test_a_body_that_was_turned_in_the_file_about_a_pin_stays_turned(folder: Path) -> None:
+    world = World(settings=WorldSettings(gravity=(0.0, 0.0)))
+    spawn(world, 'a/0', BOX)
+    pin = Join(name='j/0', kind=JointKind.PIN, points=((0.0, 0.0),), a='a/0', b='world')
+    world.apply(pin)
+
+    again = edited(save(world, folder), {'at': [0.0, 0.0, 0.5]})
+
+    again.step(120)
+    assert pose(again, 'a/0') == pytest.approx((0.0, 0.0, 0.5), abs=1e-9)
+
+
+def test_a_body_that_was_moved_in_the_file_below_another_ones_pin_stays_there(
+    folder: Path,
+) -> None:
+    world = World(settings=WorldSettings(gravity=(0.0, 0.0)))
+    spawn(world, 'a/0', DISC, group=1)
+    spawn(world, 'a/1', BOX, group=1)
+    world.apply(Join(name='j/0', kind=JointKind.PIN, points=((0.0, 0.0),), a='a/0', b='a/1'))
+
+    again = edited(save(world, folder), {'at': [0.25, 0.0, 0.0]}, 'a/1')
+
+    again.step(120)
+    assert pose(again, 'a/0') == pytest.approx((0.0, 0.0, 0.0), abs=1e-9)
+    assert pose(again, 'a/1') == pytest.approx((0.25, 0.0, 0.0), abs=1e-9)
+
+
+def geared(folder: Path, phase: float, ratio: float = 2.0) -> Path:
+    world = World(settings=WorldSettings(gravity=(0.0, 0.0)))
+    for number in range(2):
+        spawn(world, f'a/{number}', DISC, (3.0 * number, 0.0, 40.0 * number))
+        held = Join(
+            name=f'axle/{number}',
+            kind=JointKind.AXLE,
+            points=((3.0 * number, 0.0),),
+            a=f'a/{number}',
+            b='world',
+        )
+        world.apply(held)
+    said = JointProperties(phase=phase, ratio=ratio)
+    points = ((0.0, 0.0),)
+    gear = Join(name='j/0', kind=JointKind.GEAR, points=points, a='a/0', b='a/1', properties=said)
+    world.apply(gear)
+    world.step(240)
+    assert_round_trip(world, folder)
+    return save(world, folder)
+
+
+def test_a_phase_that_was_changed_in_the_file_holds(folder: Path) -> None:
+    path = geared(folder, 0.0)
+    text = path.read_text()
+    assert 'phase: 0.0' in text
+    path.write_text(text.replace('phase: 0.0', 'phase: 1.0'))
+
+    world = restored(load(path))
+
+    world.step(240)
+    phase = 2.0 * pose(world, 'a/1')[2] - pose(world, 'a/0')[2]
+    assert math.remainder(phase - 1.0, math.tau) == pytest.approx(0.0, abs=1e-6)
+
+
+@pytest.mark.parametrize('change', ['velocity', 'rate', 'gravity'])
+def test_what_does_not_move_a_body_leaves_its_joints_where_they_were(
+    change: str, folder: Path
+) -> None:
+    world = World()
+    spawn(world, 'a/0', BOX)
+    limits = JointProperties(lower=-2.0, upper=0.5)
+    axle = Join(
+        name='j/0',
+        kind=JointKind.AXLE,
+        points=((0.5, 0.0),),
+        a='a/0',
+        b='world',
+        properties=limits,
+    )
+    world.apply(axle)
+    world.step(60)
+    path = save(world, folder)
+    content = yaml.safe_load(path.read_text())
+    if change == 'velocity':
+        content['bodies'][0]['velocity'] = [0.0, 0.0]
+    elif change == 'gravity':
+        content['gravity'] = [0.0, -5.0]
+    path.write_text(yaml.safe_dump(content))
+
+    again = load(path, rate=480.0 if change == 'rate' else RATE)
+
+    assert again.joints == world.save().joints
 
 
 @pytest.mark.parametrize(

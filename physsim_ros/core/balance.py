@@ -33,7 +33,7 @@ import math
 
 import numpy as np
 from physsim_ros.core.joint_properties import JointKind
-from physsim_ros.core.joints import EngineJoint, islands
+from physsim_ros.core.joints import EngineJoint, islands, springs_of
 from physsim_ros.core.restraints import Restraints
 from physsim_ros.core.snapshot import Floats, Ints
 import pymunk
@@ -244,29 +244,19 @@ class _Springs:
         places: Mapping[pymunk.Body, int],
         listed: int,
     ) -> None:
-        numbers = [
-            number
-            for number, each in enumerate(joints)
-            if each.joint.kind is JointKind.SPRING and each.constraints
-        ]
-        held = [joints[number] for number in numbers]
+        self._springs = springs_of(joints)
+        numbers = self._springs.numbers
+        held = [joints[number] for number in numbers.tolist()]
         self._islands, self._count = island_of[numbers], int(island_of.max(initial=0)) + 1
         self._sides = np.array(
             [[places.get(body, listed) for body in (each.ends.a, each.ends.b)] for each in held],
             np.intp,
         ).reshape(-1, 2)
         self._at = np.array([(each.ends.at_a, each.ends.at_b) for each in held]).reshape(-1, 2, 2)
-        springs = [each.constraints[0] for each in held]
-        self._stiffness = np.array([spring.stiffness for spring in springs])
-        self._rest = np.array([spring.rest_length for spring in springs])
-        limits = (each.joint.properties.max_force for each in held)
-        most = np.array([math.inf if limit is None else limit for limit in limits])
-        # From where on it pulls no harder.
-        self._reach = most / np.maximum(self._stiffness, 1e-300)
 
     def energy(self, states: Floats) -> tuple[Floats, float]:
         """Return what is in the springs of each island [J], and the power of all [W], at most."""
-        if not len(self._rest):
+        if not len(self._sides):
             return np.zeros(self._count), 0.0
         ends = states[self._sides]
         cos, sin = np.cos(ends[..., 2]), np.sin(ends[..., 2])
@@ -275,10 +265,7 @@ class _Springs:
         apart_x, apart_y = _between(ends[..., 0] + arm_x), _between(ends[..., 1] + arm_y)
         speed_x = _between(ends[..., 3] - ends[..., 5] * arm_y)
         speed_y = _between(ends[..., 4] + ends[..., 5] * arm_x)
-        size = np.abs(np.hypot(apart_x, apart_y) - self._rest)
-        bent = np.minimum(size, self._reach)
-        pull = self._stiffness * bent
-        within = pull * (bent / 2 + (size - bent))
+        within, pull = self._springs.energy(np.hypot(apart_x, apart_y))
         inside = _sums(self._islands, within, self._count)
         return inside, float(pull @ np.hypot(speed_x, speed_y))
 

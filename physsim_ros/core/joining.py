@@ -73,8 +73,10 @@ def join(space: Space, request: Join, points: tuple[Point, ...]) -> tuple[str, s
         # Only then: what hangs on it would stir.
         space.join(joint)
     other = 'the background' if b == WORLD else b
-    verb = 'joined' if old is None else 'changed'
-    return request.name, f'{verb} {a} to {other} by {request.kind} {request.name}'
+    which = f'{request.kind} {request.name}'
+    if old is not None:
+        return request.name, f'changed {which} of {a} and {other}'
+    return request.name, f'joined {a} to {other} by {which}'
 
 
 def pin(space: Space, kind: JointKind, point: Point) -> tuple[str, str]:

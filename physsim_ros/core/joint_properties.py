@@ -132,7 +132,7 @@ def joint_properties_from(mapping: Mapping[Any, Any]) -> JointProperties:
     """
     Return the properties that a YAML mapping names.
 
-    :raises UnknownProperty: a key is not a property; the nearest one is named
+    :raises UnknownProperty: a key is not a property; one that is near is named
     :raises Malformed: a number is not finite
     :raises BadProperty: a value is null, of the wrong kind, or out of range
     """

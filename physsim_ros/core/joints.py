@@ -26,10 +26,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 import math
 
+import numpy as np
 from physsim_ros.core.joint_properties import JointKind
 from physsim_ros.core.rigid_body import RigidBody
 from physsim_ros.core.shapes import Point, SMALLEST
-from physsim_ros.core.snapshot import Joint
+from physsim_ros.core.snapshot import Joint, Springs
 import pymunk
 
 # How far a slider without limits goes to each side [m].
@@ -236,6 +237,24 @@ def stiffest(ends: Ends, springs: dict[pymunk.Body, int], dt: float) -> float:
         if body.body_type == pymunk.Body.DYNAMIC:
             softness += springs[body] * (1.0 / body.mass + (x * x + y * y) / body.moment)
     return 1.0 / (softness * dt * dt)
+
+
+def springs_of(joints: Sequence[EngineJoint]) -> Springs:
+    """Return the springs among joints, as the engine has them."""
+    numbers = [
+        number
+        for number, each in enumerate(joints)
+        if each.joint.kind is JointKind.SPRING and each.constraints
+    ]
+    springs = [joints[number].constraints[0] for number in numbers]
+    stiffness = np.array([spring.stiffness for spring in springs], np.float64)
+    limits = (joints[number].joint.properties.max_force for number in numbers)
+    most = np.array([math.inf if limit is None else limit for limit in limits])
+    with np.errstate(over='ignore'):
+        # What is too far to be a number is as good as endless.
+        reach = most / np.maximum(stiffness, 1e-300)
+    rest = np.array([spring.rest_length for spring in springs], np.float64)
+    return Springs(np.array(numbers, np.int64), stiffness, rest, reach)
 
 
 def islands(joints: Sequence[EngineJoint], held: Sequence[int] | None = None) -> list[list[int]]:

@@ -38,7 +38,7 @@ from physsim_ros.core.linkage import Linkage
 from physsim_ros.core.loads import Loads
 from physsim_ros.core.names import WORLD
 from physsim_ros.core.rigid_body import RigidBody
-from physsim_ros.core.snapshot import Body, Floats, Joint
+from physsim_ros.core.snapshot import Body, Floats, Joint, Springs
 import pymunk
 
 # The roughest that the engine's own attempt may be with all bodies together [m/s²].
@@ -89,6 +89,8 @@ class Machine:
         # Names of the joints of each body.
         self._on: dict[str, dict[str, None]] = {}
         self._linkage: Linkage | None = None
+        # Those of the joints, where they are known.
+        self._springs: Springs | None = None
         # What holds the joints, or held those of the space before.
         self.known: _Known | None = None if before is None else before.known
         # The bodies that are joined, and their places in the listing, the background's last.
@@ -220,6 +222,13 @@ class Machine:
         self._linked(listed)
         return (self._given_by_engine() + self._impulses) / self._dt
 
+    def springs(self) -> Springs:
+        """Return the springs, as the engine has them."""
+        if self._springs is None:
+            self._soften()
+            self._springs = joints.springs_of(list(self.joints.values()))
+        return self._springs
+
     def go_on_from(self, forces: Floats) -> None:
         """Take over what each joint gave in a step that another space has made, (j,) [N]."""
         self._given = dict(zip(self.joints, forces.tolist(), strict=True))
@@ -267,7 +276,7 @@ class Machine:
         """Give up what holds the joints, before one of them comes or goes."""
         if self._linkage is not None:
             self._beside = dict(zip(self.joints, self._impulses.tolist(), strict=True))
-        self._linkage = None
+        self._linkage = self._springs = None
 
     def _linked(self, listed: Sequence[RigidBody | None]) -> Linkage:
         """Return what holds the joints, made anew where a body or a joint has come or gone."""

@@ -46,6 +46,12 @@ def signed_area(outline: Corners) -> float:
     return float(cross(vertices, np.roll(vertices, -1, axis=0)).sum()) / 2
 
 
+def swept_area(outline: Corners) -> float:
+    """Return what a line from the first corner to one that goes round sweeps, to and fro [m²]."""
+    vertices = outline - outline[0]
+    return float(np.abs(cross(vertices, np.roll(vertices, -1, axis=0))).sum()) / 2
+
+
 def is_convex(outline: Corners) -> bool:
     """Tell whether a simple outline that runs counter-clockwise bends inwards nowhere."""
     edges = np.roll(outline, -1, axis=0) - outline

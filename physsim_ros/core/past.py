@@ -162,7 +162,8 @@ class Past:
         mark, _ = self._history.segment(step)
         before, end = self._history.segment(mark.step)
         reel = self._reels.get(before)
-        if before == mark or (reel is not None and reel.tells_contacts >= watching):
+        made = reel is not None and (reel.tells_contacts or not watching)
+        if before == mark or made:
             return
         making = self._making
         if making is None or not making.suits(before, end, watching=watching):

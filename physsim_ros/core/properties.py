@@ -89,7 +89,7 @@ def properties_from(mapping: Mapping[Any, Any]) -> Properties:
     """
     Return the properties that a YAML mapping names.
 
-    :raises UnknownProperty: a key is not a property; the nearest one is named
+    :raises UnknownProperty: a key is not a property; one that is near is named
     :raises Malformed: a number is not finite or an array has the wrong length
     :raises BadProperty: a value is null, of the wrong kind, or out of range
     """
@@ -118,7 +118,7 @@ def check_keys(mapping: Mapping[Any, Any], checks: Checks) -> None:
     """
     Refuse keys that no check knows, and those without a value.
 
-    :raises UnknownProperty: a key is not a property; the nearest one is named
+    :raises UnknownProperty: a key is not a property; one that is near is named
     :raises BadProperty: a value is null
     """
     known = list(checks)
@@ -130,16 +130,17 @@ def check_keys(mapping: Mapping[Any, Any], checks: Checks) -> None:
 
 def check_key(key: object, known: list[str]) -> None:
     """
-    Refuse a key that is not known, and name the nearest that is.
+    Refuse a key that is not known, and name the nearest that is, where one is near.
 
     :raises UnknownProperty: the key is not one of the known
     """
     if key in known:
         return
-    near = difflib.get_close_matches(str(key), known, n=1, cutoff=0.0)
+    # What is less alike than difflib's own measure of a good match is another word.
+    near = difflib.get_close_matches(str(key).lower(), known, n=1)
+    nearest = f'; nearest is {near[0]!r}' if near else ''
     raise UnknownProperty(
-        f'there is no property {shown(str(key))}; nearest is {near[0]!r}',
-        field=str(key)[:_LONGEST_SHOWN],
+        f'there is no property {shown(str(key))}{nearest}', field=str(key)[:_LONGEST_SHOWN]
     )
 
 

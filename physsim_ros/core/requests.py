@@ -299,19 +299,22 @@ def join_from(
     :param frame: '' for the world, or a body's name
     :raises Refusal: a key is not known, or a value not possible
     """
+    kind, a, b, properties = joined_from(mapping)
+    return Join(name=name, kind=kind, points=points, frame=frame, a=a, b=b, properties=properties)
+
+
+def joined_from(mapping: Mapping[Any, Any]) -> tuple[JointKind, str, str, JointProperties]:
+    """
+    Return what a YAML mapping says of a joint: its kind, the two bodies, its properties.
+
+    :raises Refusal: a key is not known, or a value not possible
+    """
     for key in mapping:
         check_key(key, JOINT_KEYS)
     properties = {key: mapping[key] for key in mapping if key not in {'kind', 'a', 'b'}}
     a, b = _body_name(mapping, 'a'), _body_name(mapping, 'b')
-    return Join(
-        name=name,
-        kind=kind_from(mapping.get('kind')),
-        points=points,
-        frame=frame,
-        a=a,
-        b=WORLD if a and not b else b,
-        properties=joint_properties_from(properties),
-    )
+    kind = kind_from(mapping.get('kind'))
+    return kind, a, WORLD if a and not b else b, joint_properties_from(properties)
 
 
 def _body_name(mapping: Mapping[Any, Any], key: str) -> str:

@@ -174,8 +174,12 @@ class Polygon:
         area = outlines.signed_area(outline)
         if area < 0:
             outline = outline[::-1]
-        if abs(area) <= float(np.ptp(outline, axis=0).max()) ** 2 * FLAT:
-            raise BadOutline('the outline encloses no area', field='points')
+        least = float(np.ptp(outline, axis=0).max()) ** 2 * FLAT
+        if abs(area) <= least:
+            # Loops that run opposite ways enclose as much as nothing, and cross.
+            looped = outlines.swept_area(outline) > least and outlines.crosses_itself(outline)
+            reason = 'crosses or touches itself' if looped else 'encloses no area'
+            raise BadOutline(f'the outline {reason}', field='points')
         pieces = _split(outline)
         # What is weighed is the outline itself, slivers and all.
         whole = Convex(tuple(map(tuple, outline.tolist())))

@@ -226,7 +226,9 @@ class Simulation:
         """
         Return the world as it is; whoever goes on from that goes on as it does itself.
 
-        In the past how it goes on is settled: there it is the same but for the last bits.
+        In the past the state is the same to the bit, but what went on from there may go on
+        otherwise from what is saved, and after a collision very much so: the order in which the
+        engine has found contacts cannot be read, and how the past goes on is settled.
         """
         self._apply_all()
         self._catch_up()

@@ -277,11 +277,35 @@ class Scene:
         """(j, 8) float64: the seat of each joint."""
         return np.array([joint.seat for joint in self.joints], dtype=np.float64).reshape(-1, 8)
 
-    @cached_property
-    def springs(self) -> Floats:
-        """(j, 2) float64: stiffness [N/m] and rest length [m] of each joint."""
-        rows = [(joint.stiffness, joint.rest_length) for joint in self.joints]
-        return np.array(rows, dtype=np.float64).reshape(-1, 2)
+
+class Springs(NamedTuple):
+    """
+    The springs of a world, as the engine has them.
+
+    :ivar numbers: (k,) int64: of the joints that are springs and move a body
+    :ivar stiffness: (k,) float64: as steps can follow it [N/m]
+    :ivar rest: (k,) float64: length at which they are slack [m]
+    :ivar reach: (k,) float64: from where on they pull no harder [m]
+    """
+
+    numbers: Ints
+    stiffness: Floats
+    rest: Floats
+    reach: Floats
+
+    def energy(self, length: Floats) -> tuple[Floats, Floats]:
+        """
+        Return (k,) float64: what is in each [J], and what it pulls or pushes with [N].
+
+        :param length: (k,) float64: of each [m]
+        """
+        size = np.abs(length - self.rest)
+        bent = np.minimum(size, self.reach)
+        pull = self.stiffness * bent
+        return pull * (bent / 2 + (size - bent)), pull
+
+
+NO_SPRINGS = Springs(np.empty(0, np.int64), np.empty(0), np.empty(0), np.empty(0))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -383,6 +407,7 @@ class Snapshot:
     :param twists: (n, 3) float64: vx, vy [m/s] of each centre of mass, spin [rad/s]; world axes
     :param forces: (j,) float64: what each joint gave in the last step [N]; where it turns, at an
         arm of 1 m; empty where it is not known
+    :param springs: among the joints
     """
 
     step: int
@@ -391,6 +416,7 @@ class Snapshot:
     poses: Floats
     twists: Floats
     forces: Floats = field(default_factory=lambda: np.empty(0))
+    springs: Springs = NO_SPRINGS
 
     @property
     def nbytes(self) -> int:
@@ -417,9 +443,10 @@ class Snapshot:
     @cached_property
     def elastic_energy(self) -> float:
         """In the springs [J]."""
-        stiffness, rest = self.scene.springs.T
-        apart = self.ends[:, 0] - self.ends[:, 1]
-        return float((stiffness * (np.hypot(apart[:, 0], apart[:, 1]) - rest) ** 2).sum() / 2)
+        ends = self.ends[self.springs.numbers]
+        apart = ends[:, 0] - ends[:, 1]
+        within, _ = self.springs.energy(np.hypot(apart[:, 0], apart[:, 1]))
+        return float(within.sum())
 
     @cached_property
     def ends(self) -> Floats:

@@ -129,6 +129,7 @@ class World:
             poses=poses,
             twists=twists,
             forces=self._space.forces(),
+            springs=self._space.machine.springs(),
         )
 
     def contacts(self, snapshot: Snapshot) -> Contacts:
@@ -448,9 +449,17 @@ class World:
         return result
 
     def _step_after(self, seconds: float) -> int:
-        # Less a billionth, and a few last bits: 0.1 s at 240 Hz is 24 steps, not 25.
-        steps = seconds * self.physics_rate * (1.0 - 1e-15) - 1e-9
-        return self.step_count + max(1, math.ceil(steps))
+        return self.step_count + steps_in(seconds, self.physics_rate)
+
+
+def steps_in(seconds: float, physics_rate: float) -> int:
+    """
+    Return how many steps something takes that goes on for so long, at least one.
+
+    :param physics_rate: of the world [Hz]
+    """
+    # Less a billionth, and a few last bits: 0.1 s at 240 Hz is 24 steps, not 25.
+    return max(1, math.ceil(seconds * physics_rate * (1.0 - 1e-15) - 1e-9))
 
 
 def _check_weight(body: Body) -> None:

@@ -562,6 +562,24 @@ def test_an_outline_that_is_none_is_refused(
         Polygon(outline=moved)
 
 
+@pytest.mark.parametrize(
+    ('name', 'reason'),
+    [
+        ('on a slanted line', 'the outline encloses no area'),
+        ('there and back', 'the outline encloses no area'),
+        ('bow tie', 'the outline crosses or touches itself'),
+        ('lopsided bow tie', 'the outline crosses or touches itself'),
+        ('pentagram', 'the outline crosses or touches itself'),
+    ],
+)
+def test_an_outline_that_crosses_itself_is_told_from_one_without_area(
+    name: str, reason: str
+) -> None:
+    with pytest.raises(BadOutline) as refused:
+        Polygon(outline=OUTLINES[name])
+    assert str(refused.value) == reason
+
+
 @pytest.mark.parametrize('height', [1e-4, 5e-4, 9.9e-4])
 def test_a_solid_that_is_too_thin_is_a_bad_size(height: float) -> None:
     for outline in (
