@@ -527,15 +527,18 @@ def main() -> None:
         rclpy.shutdown()
         sys.exit(f'physsim: {error}')
     executor = EventsExecutor()
-    executor.add_node(node)
-    node.start()
-    # What exists now stays; the collector need not look at it in every frame.
-    gc.collect()
-    gc.freeze()
-    # `spin` of this executor never returns; spin_once ends, and raises what callbacks raise.
-    while not stopped:
-        executor.spin_once(timeout_sec=0.1)
-    executor.remove_node(node)
-    executor.shutdown()
-    node.destroy_node()
-    rclpy.shutdown()
+    try:
+        executor.add_node(node)
+        node.start()
+        # What exists now stays; the collector need not look at it in every frame.
+        gc.collect()
+        gc.freeze()
+        # `spin` of this executor never returns; spin_once ends, and raises what callbacks raise.
+        while not stopped:
+            executor.spin_once(timeout_sec=0.1)
+    finally:
+        # A crash too leaves no viewer behind.
+        executor.remove_node(node)
+        executor.shutdown()
+        node.destroy_node()
+        rclpy.shutdown()
