@@ -334,8 +334,10 @@ class PhysSimNode(QuietNode):
 
     def _log(self, answer: Answer) -> None:
         if answer.code:
+            # What happens without a request is called as its code is.
+            what = dict.fromkeys((answer.topic, answer.code))
             self.get_logger().warning(
-                f'{answer.topic}: {answer.code}: {answer.message}', throttle_duration_sec=1.0
+                f'{": ".join(what)}: {answer.message}', throttle_duration_sec=1.0
             )
         elif answer.topic == 'viewer':
             # Where to look is what somebody at the terminal waits for.
