@@ -35,7 +35,7 @@ from physsim_ros.core.errors import PhysSimError
 from physsim_ros.core.requests import FARTHEST
 from physsim_ros.core.snapshot import Floats
 from physsim_ros.paths import MOST_SAMPLES
-from physsim_ros.shipped import shipped
+from physsim_ros.shipped import is_plain, shipped
 from svgelements import Curve, Matrix, Shape, SVG
 from svgelements import Path as SvgPath
 
@@ -77,7 +77,7 @@ def find(name: str) -> Path:
     :raises BadDrawing: there is none
     """
     paths = [Path(name)]
-    if Path(name).name == name and not Path(name).suffix:
+    if is_plain(name):
         paths += [shipped('drawings') / f'{name}{suffix}' for suffix in ('.svg', '.json')]
     for path in paths:
         if path.is_file():

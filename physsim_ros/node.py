@@ -418,7 +418,7 @@ class PhysSimNode(QuietNode):
             physics_rate=self.simulation.physics_rate,
         )
         message = f'saved {len(state.bodies)} bodies to {path.name}'
-        if (world_file.shipped_worlds() / path.name).exists():
+        if world_file.hides_shipped(path, world_dir=self._world_dir):
             message += '; from now on it comes before the shipped world of that name'
         return message
 
