@@ -18,17 +18,19 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from physsim_ros.core.snapshot import Frame, run_state
+from physsim_ros.core.snapshot import Frame
 import rerun as rr
 import rerun.blueprint as rrb
 
 # What plays is green, what goes back is orange; the faster, the darker.
 _COLORS = {
+    'playing slowly': (160, 205, 150),
     'playing': (84, 162, 75),
-    'playing at 4': (40, 110, 40),
+    'playing fast': (40, 110, 40),
     'paused': (150, 150, 150),
+    'rewinding slowly': (250, 190, 125),
     'rewinding': (245, 133, 24),
-    'rewinding at 4': (190, 80, 10),
+    'rewinding fast': (190, 80, 10),
 }
 # Events after which things go on differently from before.
 _TURNS = {'branch', '~/undo', '~/redo', '~/reset'}
@@ -55,7 +57,7 @@ class Band:
         :param numbers: of the frames, on the time line that never goes back
         """
         for frame, number in zip(frames, numbers, strict=True):
-            state = run_state(frame.speed)
+            state = _state(frame.speed)
             if state != self._state:
                 self._state = state
                 self._send('time/run', state, number)
@@ -68,6 +70,14 @@ class Band:
     def _send(self, path: str, state: str, number: int) -> None:
         time = [rr.TimeColumn('frame', sequence=[number])]
         self._recording.send_columns(path, time, rr.StateChange.columns(state=[state]))
+
+
+def _state(speed: float) -> str:
+    """Return which state of the band a speed is; Rerun has one colour for each."""
+    if speed == 0.0:
+        return 'paused'
+    way, pace = 'playing' if speed > 0.0 else 'rewinding', abs(speed)
+    return way if pace == 1.0 else f'{way} fast' if pace > 1.0 else f'{way} slowly'
 
 
 def view() -> rrb.StateTimelineView:

@@ -36,6 +36,7 @@ from physsim_ros.core.snapshot import Floats
 from physsim_ros.drawing_file import BadDrawing, Pace
 from physsim_ros.quiet_node import LOSSLESS, QuietNode
 import rclpy
+from rclpy.exceptions import InvalidTopicNameException
 from rclpy.experimental import EventsExecutor
 from rclpy.signals import SignalHandlerOptions
 from rclpy.task import Future
@@ -168,28 +169,39 @@ class Artist(QuietNode):
 
 def main() -> None:
     """Draw a drawing, say what each stroke was read as, and end."""
-    options = _options(remove_ros_args(sys.argv)[1:])
     try:
-        strokes = drawing_file.load(
-            drawing_file.find(options.drawing),
-            scale=options.scale,
-            pace=Pace(speed=options.speed, rate=options.rate),
-        )
-    except BadDrawing as error:
+        options = _options(remove_ros_args(sys.argv)[1:])
+        rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
+    except RuntimeError as error:
+        # rcl's own: arguments that it cannot read.
         sys.exit(f'physsim_draw: {error}')
-    for stroke in strokes:
-        stroke[:, :2] += options.at
-    rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
-    artist = Artist(options.world, patience=options.patience)
     try:
-        refused = _draw_all(artist, strokes, options)
-    except Unanswered as error:
+        _draw_drawing(options)
+    except (BadDrawing, Unanswered) as error:
         sys.exit(f'physsim_draw: {error}')
+    except InvalidTopicNameException as error:
+        # The lines below point at what is wrong with it.
+        first, *_ = str(error).splitlines()
+        sys.exit(f'physsim_draw: --world: {first.rstrip(":")}')
     except Interrupted:
         sys.exit(130)
     finally:
-        artist.close()
         rclpy.shutdown()
+
+
+def _draw_drawing(options: argparse.Namespace) -> None:
+    strokes = drawing_file.load(
+        drawing_file.find(options.drawing),
+        scale=options.scale,
+        pace=Pace(speed=options.speed, rate=options.rate),
+    )
+    for stroke in strokes:
+        stroke[:, :2] += options.at
+    artist = Artist(options.world, patience=options.patience)
+    try:
+        refused = _draw_all(artist, strokes, options)
+    finally:
+        artist.close()
     if refused:
         sys.exit(f'physsim_draw: {refused} of {len(strokes)} strokes were refused')
 

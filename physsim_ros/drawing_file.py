@@ -32,9 +32,10 @@ from xml.etree.ElementTree import ParseError
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.core.errors import PhysSimError
+from physsim_ros.core.requests import FARTHEST
 from physsim_ros.core.snapshot import Floats
 from physsim_ros.paths import MOST_SAMPLES
-from physsim_ros.shipped import shipped
+from physsim_ros.shipped import is_plain, shipped
 from svgelements import Curve, Matrix, Shape, SVG
 from svgelements import Path as SvgPath
 
@@ -46,6 +47,10 @@ _PIECES = 64
 _CORNER = 0.2
 # Small things are drawn more slowly: no stroke has fewer samples.
 _FEWEST = 30
+# No pen takes longer for a stroke [s]: four months.
+_LONGEST = 1e7
+# What svgelements 1.9 raises where an element or an attribute is not as it should be.
+_STUMBLES = (ArithmeticError, AttributeError, LookupError, TypeError)
 
 
 class BadDrawing(PhysSimError):
@@ -72,7 +77,7 @@ def find(name: str) -> Path:
     :raises BadDrawing: there is none
     """
     paths = [Path(name)]
-    if Path(name).name == name and not Path(name).suffix:
+    if is_plain(name):
         paths += [shipped('drawings') / f'{name}{suffix}' for suffix in ('.svg', '.json')]
     for path in paths:
         if path.is_file():
@@ -100,11 +105,17 @@ def load(path: Path, *, scale: float | None = None, pace: Pace | None = None) ->
             unit = SVG_SCALE
     except (OSError, ValueError, ParseError) as error:
         raise BadDrawing(f'cannot read {path}: {error}') from error
+    except RecursionError as error:
+        raise BadDrawing(f'cannot read {path}: it is nested too deeply, or in itself') from error
     factor = unit if scale is None else scale
-    drawn = [_drawn(line, factor, pace or Pace()) for line in lines if len(line)]
+    # What overflows is refused.
+    with np.errstate(over='ignore'):
+        drawn = [_drawn(line, factor, pace or Pace()) for line in lines if len(line)]
     strokes = [stroke for stroke in drawn if len(stroke)]
     if not strokes:
         raise BadDrawing(f'{path} holds no stroke')
+    if not all((np.abs(stroke[:, 2]) <= _LONGEST).all() for stroke in strokes):
+        raise BadDrawing(f'a stroke takes longer than {_LONGEST:g} s')
     return strokes
 
 
@@ -118,10 +129,12 @@ def _from_json(content: Any) -> list[Floats]:
     for number, entry in enumerate(content):
         try:
             line = np.array(entry, dtype=np.float64)
-        except (TypeError, ValueError) as error:
+        except (OverflowError, TypeError, ValueError) as error:
             raise BadDrawing(f'stroke {number} is no list of points') from error
         if line.ndim != 2 or line.shape[1] not in (2, 3) or not np.isfinite(line).all():
             raise BadDrawing(f'stroke {number} must be a list of [x, y] or of [x, y, t]')
+        if (line[:, :2] == line[0, :2]).all():
+            raise BadDrawing(f'stroke {number} is a single point')
         lines.append(line)
     return lines
 
@@ -130,11 +143,14 @@ def _from_svg(path: Path) -> list[Floats]:
     """Return (n, 2) float64 of every subpath: x, y in user units of the page, y up."""
     try:
         page = SVG.parse(str(path))
-    except TypeError as error:
-        # svgelements 1.9 stumbles over a path without data.
-        raise BadDrawing(f'cannot read {path}: an element lacks what it needs') from error
-    if not isinstance(page, SVG):
-        raise BadDrawing(f'{path} is no SVG')
+        if not isinstance(page, SVG):
+            raise BadDrawing(f'{path} is no SVG')
+        return _runs(page)
+    except _STUMBLES as error:
+        raise BadDrawing(f'cannot read {path}: an element is not as it should be') from error
+
+
+def _runs(page: SVG) -> list[Floats]:
     # To pixels, where a page says how large a user unit is; the scale here is one of those.
     to_units = ~Matrix(page.viewbox_transform)
     left, bottom = 0.0, 0.0
@@ -167,6 +183,8 @@ def _corners(run: Iterable[Any]) -> Iterable[tuple[float, float]]:
 def _drawn(line: Floats, scale: float, pace: Pace) -> Floats:
     """Return a line as the pen draws it: (n, 3) float64, x, y [m], time [s]."""
     points = line[:, :2] * scale
+    if not (np.abs(points) <= FARTHEST).all():
+        raise BadDrawing(f'a stroke reaches further than {FARTHEST:g} m')
     if line.shape[1] == 3:
         return np.column_stack((points, line[:, 2] - line[0, 2]))
     steps = np.hypot(*np.diff(points, axis=0).T)
@@ -176,9 +194,9 @@ def _drawn(line: Floats, scale: float, pace: Pace) -> Floats:
         return np.empty((0, 3))
     reached = np.concatenate(((0.0,), np.cumsum(steps)))
     length = float(reached[-1])
-    count = math.ceil(length / pace.speed * pace.rate)
     # With the corners they are not more than a stroke may have.
-    count = min(max(count, _FEWEST), MOST_SAMPLES // 2)
+    count = math.ceil(min(length / pace.speed * pace.rate, MOST_SAMPLES // 2))
+    count = max(count, _FEWEST)
     corners = reached[_turns(points)][: MOST_SAMPLES // 3]
     along = np.union1d(np.linspace(0.0, length, count + 1), corners)
     x = np.interp(along, reached, points[:, 0])

@@ -334,8 +334,10 @@ class PhysSimNode(QuietNode):
 
     def _log(self, answer: Answer) -> None:
         if answer.code:
+            # What happens without a request is called as its code is.
+            what = dict.fromkeys((answer.topic, answer.code))
             self.get_logger().warning(
-                f'{answer.topic}: {answer.code}: {answer.message}', throttle_duration_sec=1.0
+                f'{": ".join(what)}: {answer.message}', throttle_duration_sec=1.0
             )
         elif answer.topic == 'viewer':
             # Where to look is what somebody at the terminal waits for.
@@ -416,7 +418,7 @@ class PhysSimNode(QuietNode):
             physics_rate=self.simulation.physics_rate,
         )
         message = f'saved {len(state.bodies)} bodies to {path.name}'
-        if (world_file.shipped_worlds() / path.name).exists():
+        if world_file.hides_shipped(path, world_dir=self._world_dir):
             message += '; from now on it comes before the shipped world of that name'
         return message
 
@@ -527,15 +529,18 @@ def main() -> None:
         rclpy.shutdown()
         sys.exit(f'physsim: {error}')
     executor = EventsExecutor()
-    executor.add_node(node)
-    node.start()
-    # What exists now stays; the collector need not look at it in every frame.
-    gc.collect()
-    gc.freeze()
-    # `spin` of this executor never returns; spin_once ends, and raises what callbacks raise.
-    while not stopped:
-        executor.spin_once(timeout_sec=0.1)
-    executor.remove_node(node)
-    executor.shutdown()
-    node.destroy_node()
-    rclpy.shutdown()
+    try:
+        executor.add_node(node)
+        node.start()
+        # What exists now stays; the collector need not look at it in every frame.
+        gc.collect()
+        gc.freeze()
+        # `spin` of this executor never returns; spin_once ends, and raises what callbacks raise.
+        while not stopped:
+            executor.spin_once(timeout_sec=0.1)
+    finally:
+        # A crash too leaves no viewer behind.
+        executor.remove_node(node)
+        executor.shutdown()
+        node.destroy_node()
+        rclpy.shutdown()

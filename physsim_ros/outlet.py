@@ -137,10 +137,15 @@ class Outlet:
         counts = f'{self._drawn} frames, {self._dropped} dropped'
         return f'{self._way.kind}: {self._way.where}, {self._status}, {counts}'
 
+    @property
+    def is_open(self) -> bool:
+        """Whether it draws, or will when somebody is there."""
+        return self._thread.is_alive()
+
     def put(self, frame: Frame, *, real_time_factor: float) -> None:
         """Take a frame; where too many wait, the oldest goes, but for its answers."""
         most = self._way.waiting
-        if not self._thread.is_alive():
+        if not self.is_open:
             self._dropped += 1
             return
         with self._lock:
@@ -181,11 +186,13 @@ class Outlet:
                     self._tell(self._way.found())
                     self._draw_on(canvas)
             self._status = 'ended'
-        except ConnectionError as error:
+        except (ConnectionError, ImportError) as error:
+            # Rerun may not be there, or not as it should be.
             self._status = 'failed'
             self._tell(self._way.lost(str(error)))
-        except BaseException:
+        except BaseException as error:
             self._status = 'broken'
+            self._tell(self._way.lost(f'{type(error).__name__}: {error}'))
             raise
         finally:
             self._way.close()

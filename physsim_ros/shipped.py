@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Where the files that come with the package are: in its source tree, or installed."""
+"""Where the files that come with the package are, in its source tree or installed; their names."""
 
 from __future__ import annotations
 
@@ -35,3 +35,8 @@ def shipped(folder: str) -> Path:
         if prefix and installed.is_dir():
             return installed
     return source
+
+
+def is_plain(name: str) -> bool:
+    """Tell whether a name is a plain one, which shipped files have, and no path of a file."""
+    return Path(name).name == name and not Path(name).suffix

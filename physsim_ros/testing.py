@@ -26,6 +26,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 import fcntl
 import itertools
+import math
 import os
 from pathlib import Path
 import tempfile
@@ -157,7 +158,13 @@ class PhysSim:
         self.settle()
 
     def step(self, frames: int = 1) -> None:
-        """Go on by frames of one publish period each."""
+        """
+        Go on by frames of one publish period each.
+
+        :raises ValueError: it is a count below 0
+        """
+        if frames < 0:
+            raise ValueError(f'time goes on by 0 frames or more, not by {frames}; seek goes back')
         # What the test's own publishers have sent comes first.
         self.settle()
         for _ in range(frames):
@@ -165,8 +172,16 @@ class PhysSim:
             self.settle()
 
     def run(self, seconds: float) -> None:
-        """Go on by simulated seconds, to the nearest frame."""
-        self.step(round(seconds / self.node.frame_period))
+        """
+        Go on by simulated seconds, to the nearest frame.
+
+        :raises ValueError: they are below 0, not finite, or so few that they are no frame
+        """
+        frames = self._frames(seconds)
+        if seconds and not frames:
+            period = self.node.frame_period
+            raise ValueError(f'{seconds:g} s are not half a frame, which lasts {period:g} s')
+        self.step(frames)
 
     def until(self, predicate: Callable[[], object], *, timeout: float = 10.0) -> None:
         """
@@ -174,13 +189,20 @@ class PhysSim:
 
         :param timeout: simulated seconds after which it should have been
         :raises TimeoutError: it was not
+        :raises ValueError: the timeout is below 0, or not finite
         """
-        for _ in range(round(timeout / self.node.frame_period)):
+        for _ in range(self._frames(timeout)):
             if predicate():
                 return
             self.step()
         if not predicate():
             raise TimeoutError(f'not so within {timeout:g} simulated seconds')
+
+    def _frames(self, seconds: float) -> int:
+        frames = seconds / self.node.frame_period
+        if not 0.0 <= frames < math.inf:
+            raise ValueError(f'time goes on by 0 s or more, not for ever; so not by {seconds:g} s')
+        return round(frames)
 
     def seek(self, seconds: float) -> None:
         """
@@ -354,7 +376,12 @@ class PhysSim:
         return tuple(joint.name for joint in self._snapshot.scene.joints)
 
     def digest(self) -> str:
-        """Return a hash of everything that decides how the world goes on."""
+        """
+        Return a hash of time, poses, velocities, wrenches, and all that describes what there is.
+
+        What the engine remembers of contacts is not in it: two worlds of one digest may go on with
+        other bits where bodies touch.
+        """
         return self.node.simulation.world.digest()
 
     @property

@@ -48,7 +48,7 @@ SERVED = '256MiB'
 # A batch is sent on after so long [s]: with Rerun's own 8 ms a software-rendered web viewer falls
 # 18 s behind in 30.
 TICK = 0.1
-# A window that ends with an error before that was never one [s].
+# A window that ends with an error before that was never one; nor was a page server that ends [s].
 SETTLING = 10.0
 
 
@@ -81,7 +81,7 @@ class Viewer:
     @property
     def is_open(self) -> bool:
         """Whether frames go anywhere."""
-        return bool(self._outlets)
+        return any(outlet.is_open for outlet in self._outlets)
 
     @property
     def _outlets(self) -> list[Outlet]:
@@ -244,10 +244,14 @@ class _Server(Way):
         if self._program is None or (code := self._program.poll()) is None:
             return
         self._program = None
-        if self.kind == 'web':
+        settling = time.monotonic() - self._started < SETTLING
+        if self.kind == 'web' and settling:
+            self.where = f'any Rerun viewer at {self._uri}'
+            self._tell(self.lost(f'no page could be served ({code})'))
+        elif self.kind == 'web':
             self._tell(self.lost(f'the page server ended ({code}); it is started again'))
             self._start()
-        elif code and time.monotonic() - self._started < SETTLING:
+        elif code and settling:
             self._fall_back(f'no window could be opened ({code})')
         else:
             self._tell(self.lost(f'the window was closed; another one: rerun {self._uri}'))

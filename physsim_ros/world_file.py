@@ -29,7 +29,7 @@ import textwrap
 from physsim_ros.core.errors import BadWorldFile, Malformed, Refusal
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.snapshot import WorldState
-from physsim_ros.shipped import shipped
+from physsim_ros.shipped import is_plain, shipped
 from physsim_ros.world_reading import state_from
 from physsim_ros.world_writing import text_of
 from physsim_ros.yaml_text import load_mapping
@@ -55,7 +55,7 @@ def find(name: str, *, world_dir: Path, confined: bool) -> Path:
     if not name:
         raise BadWorldFile('parameter world_file names no file', field='world_file')
     paths = [world_dir / name]
-    if Path(name).name == name and not Path(name).suffix:
+    if is_plain(name):
         paths = [world_dir / f'{name}.yaml', shipped_worlds() / f'{name}.yaml']
     for path in paths:
         try:
@@ -110,9 +110,8 @@ def save(state: WorldState, name: str, *, world_dir: Path, physics_rate: float) 
     """
     if not name:
         raise BadWorldFile('parameter world_file names no file', field='world_file')
-    plain = Path(name).name == name and not Path(name).suffix
     try:
-        path = (world_dir / (f'{name}.yaml' if plain else name)).resolve()
+        path = (world_dir / (f'{name}.yaml' if is_plain(name) else name)).resolve()
     except (OSError, RuntimeError, ValueError) as error:
         # Links in a circle, or a NUL.
         raise BadWorldFile(f'{name!r} is no path: {error}', field='world_file') from error
@@ -136,6 +135,18 @@ def save(state: WorldState, name: str, *, world_dir: Path, physics_rate: float) 
             temporary.unlink(missing_ok=True)
         raise BadWorldFile(f'cannot write {name}: {error}', field='world_file') from error
     return path
+
+
+def hides_shipped(path: Path, *, world_dir: Path) -> bool:
+    """
+    Tell whether a file is what the plain name of a shipped world means.
+
+    :param path: where a world was saved
+    :param world_dir: where worlds are kept
+    """
+    worlds = shipped_worlds().resolve()
+    # Plain names are looked for in the directory itself alone.
+    return path.parent == world_dir.resolve() != worlds and (worlds / path.name).is_file()
 
 
 def _below(path: Path, directory: Path) -> bool:

@@ -71,8 +71,41 @@ def test_each_change_of_the_run_state_stands_once(tmp_path: Path) -> None:
     assert states[0] == states[-1] == 'playing'
     assert states[1] == 'paused'
     assert states[2] == 'rewinding'
-    assert states[3] == 'rewinding at 4'
-    assert states[4] == 'playing at 4'
+    assert states[3] == 'rewinding fast'
+    assert states[4] == 'playing fast'
+
+
+def styles(path: Path) -> dict[str, int]:
+    """Draw nothing, and return the colours of states that stand in the recording."""
+    recording = rr.RecordingStream('test', recording_id='band')
+    recording.save(path)
+    Band(recording)
+    recording.flush()
+    recording.disconnect()
+    (batch,) = (
+        each.to_record_batch()
+        for each in chunk.RrdReader(path).stream()
+        if each.entity_path == '/time/run'
+    )
+    columns = {name.rpartition(':')[2]: batch[name].to_pylist()[0] for name in batch.schema.names}
+    return dict(zip(columns['values'], columns['colors'], strict=True))
+
+
+def test_every_speed_is_a_state_that_has_a_colour_and_the_faster_is_darker(
+    tmp_path: Path,
+) -> None:
+    speeds = [-64.0, -4.0, -1.001, -1.0, -0.1, 0.0, 0.1, 0.999, 1.0, 3.0, 64.0]
+    rows = drawn(tmp_path / 'band.rrd', [frame(speed) for speed in speeds])
+    states = [state for _, state in rows['/time/run']]
+    assert states == [
+        'rewinding fast', 'rewinding', 'rewinding slowly', 'paused',
+        'playing slowly', 'playing', 'playing fast',
+    ]  # fmt: skip
+    colors = styles(tmp_path / 'styles.rrd')
+    # Of red, green and blue, a byte each, before alpha.
+    light = [sum((colors[state] >> 8 * byte) & 255 for byte in (1, 2, 3)) for state in states]
+    assert light[0] < light[1] < light[2]
+    assert light[4] > light[5] > light[6]
 
 
 def test_a_state_goes_on_from_one_batch_to_the_next(tmp_path: Path) -> None:

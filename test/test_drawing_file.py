@@ -253,11 +253,60 @@ def test_an_svg_without_strokes_is_refused(tmp_path: Path, text: str) -> None:
         [[['a', 'b'], ['c', 'd']]],
         [[[math.nan, 1], [2, 3]]],
         [[[1, 1], [1, 1]]],
+        # Not beside another one either.
+        [[[0, 0], [1, 1]], [[5, 5]]],
+        [[[5, 5, 0]]],
+        [[[0, 0], [1e308, 1e308]]],
+        [[[0, 0], [1.1e7, 0]]],
+        [[[0, 0], [10**400, 0]]],
+        [[[0, 0, 0], [1, 1, 1e300]]],
     ],
 )
 def test_json_that_is_no_list_of_strokes_is_refused(tmp_path: Path, content: Any) -> None:
     with pytest.raises(BadDrawing):
         load(written(tmp_path, content))
+
+
+@pytest.mark.parametrize('root', ['0 0 0 10', '0 0 10', 'a b', ''])
+def test_a_page_that_cannot_be_measured_is_refused(tmp_path: Path, root: str) -> None:
+    with pytest.raises(BadDrawing, match=r'drawing\.svg'):
+        load(svg(tmp_path, '<path d="M 0 0 H 5"/>', f'viewBox="{root}"'))
+
+
+@pytest.mark.parametrize(
+    'inside',
+    [
+        '<path transform="rotate(a)" d="M 0 0 H 5"/>',
+        '<path transform="matrix(1)" d="M 0 0 H 5"/>',
+        '<path d="M 0 0 H"/>',
+        '<g id="g"><path d="M 0 0 H 5"/><use href="#g"/></g>',
+    ],
+)
+def test_an_element_that_is_not_as_it_should_be_is_refused(tmp_path: Path, inside: str) -> None:
+    with pytest.raises(BadDrawing, match=r'drawing\.svg'):
+        load(svg(tmp_path, inside))
+
+
+def test_brackets_in_brackets_without_end_are_refused(tmp_path: Path) -> None:
+    path = tmp_path / 'drawing.json'
+    path.write_text('[' * 100_000)
+    with pytest.raises(BadDrawing, match='nested'):
+        load(path)
+
+
+@pytest.mark.parametrize(
+    ('scale', 'pace'), [(1e308, Pace()), (1.0, Pace(speed=1e-320)), (-1e308, Pace(rate=1e308))]
+)
+def test_no_stroke_reaches_or_takes_for_ever(tmp_path: Path, scale: float, pace: Pace) -> None:
+    with pytest.raises(BadDrawing, match='a stroke'):
+        load(svg(tmp_path, '<path d="M 0 0 H 50"/>'), scale=scale, pace=pace)
+
+
+def test_however_often_a_pen_is_sampled_a_stroke_is_no_longer_than_it_may_be(
+    tmp_path: Path,
+) -> None:
+    (stroke,) = load(svg(tmp_path, '<path d="M 0 0 H 50"/>'), pace=Pace(rate=1e308))
+    assert len(stroke) <= MOST_SAMPLES
 
 
 def test_a_file_that_is_not_there_or_cannot_be_read_is_refused(tmp_path: Path) -> None:

@@ -34,6 +34,21 @@ THOUSAND = 'format: 1\nbodies:\n' + ''.join(
     for each in range(1000)
 )
 
+# The program with a bug, which shows when there is a viewer.
+BUG = """
+import psutil
+from physsim_ros.node import main, PhysSimNode
+
+
+def fail(*_):
+    print('CHILDREN', *(each.pid for each in psutil.Process().children()), flush=True)
+    raise ZeroDivisionError
+
+
+PhysSimNode._report = fail
+main()
+"""
+
 
 def start_with_world(outside: Outside, content: str) -> Any:
     path = outside.directory / 'given.yaml'
@@ -61,6 +76,19 @@ def test_it_ends_with_0_when_told_to_again_and_again(outside: Outside) -> None:
             world.process.send_signal(signal.SIGTERM)
         assert world.finish() == 0
         assert 'Traceback' not in ''.join(world.lines)
+
+
+def test_a_bug_ends_it_loudly_and_leaves_no_viewer_running(outside: Outside) -> None:
+    psutil = pytest.importorskip('psutil')
+    words = ('--ros-args', '-p', 'viewer:=web')
+    with outside.start(sys.executable, '-c', BUG, *words) as world:
+        _, page = world.wait_for('CHILDREN').split()
+        assert world.finish() == 1
+    left = psutil.pid_exists(int(page))
+    if left:
+        psutil.Process(int(page)).kill()
+    assert 'ZeroDivisionError' in ''.join(world.lines)
+    assert not left
 
 
 def test_its_first_pose_is_seen_by_another_process(outside: Outside) -> None:

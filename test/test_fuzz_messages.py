@@ -36,7 +36,7 @@ from hypothesis import strategies as st
 import numpy as np
 from physsim_ros import cdr, conversions
 from physsim_ros.core.errors import Refusal
-from physsim_ros.core.requests import Anchor, Release
+from physsim_ros.core.requests import Anchor, Axle, Pin, Release
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.simulation import Simulation
 from sensor_msgs.msg import MultiDOFJointState
@@ -63,6 +63,10 @@ KEYS = ['mass', 'density', 'friction', 'elasticity', 'velocity', 'spin', 'anchor
 VALUES = ['0', '1', '-1', '0.5', '1e5', '1e-9', '1e12', '.nan', '.inf', 'true', 'false', '[1, 2]',
           '[-1e5, 0]', '[1]', '[]', '~', 'x', '{}', '12345678901234567890']  # fmt: skip
 NAMES = ['a/0', 'a/1', 'b/0', 'body/0']
+KINDS = ['pin', 'axle', 'motor', 'spring', 'rod', 'rope', 'slider', 'gear']
+JOINT_KEYS = ['kind', 'a', 'b', 'lower', 'upper', 'rate', 'max_torque', 'stiffness', 'damping',
+              'rest_length', 'length', 'ratio', 'phase', 'max_force', 'break_force',
+              'collide']  # fmt: skip
 
 numbers = st.one_of(
     st.floats(-3.0, 3.0), st.integers(-3, 3).map(float), st.sampled_from(NASTY_FLOATS), st.floats()
@@ -132,6 +136,33 @@ def markers(draw: Any) -> Marker:
     return message
 
 
+# What may be odd about the marker of a joint.
+ODD_JOINT = {key: ODD[key] for key in ('header', 'ns', 'id', 'action')} | {
+    'points': st.lists(st.one_of(spots, places), max_size=4),
+    'text': st.one_of(st.sampled_from(NASTY_TEXTS), st.text(max_size=20)),
+}
+
+
+@st.composite
+def joints(draw: Any) -> Marker:
+    """Return a marker that means a joint, but for a few of its fields and properties."""
+    said = {'kind': draw(st.sampled_from(KINDS))}
+    if draw(st.booleans()):
+        said |= {'a': 'a/0', 'b': draw(st.sampled_from(['b/0', 'a/1', 'a/0', 'world']))}
+    said |= draw(st.dictionaries(st.sampled_from(JOINT_KEYS), st.sampled_from(VALUES), max_size=2))
+    near = st.builds(Point, x=st.floats(-0.5, 0.5), y=st.floats(-0.5, 2.5))
+    count = 1 if said['kind'] in ('pin', 'axle', 'motor', 'gear') else 2
+    message = Marker(
+        ns=draw(st.sampled_from(['', 'a', 'joint:a'])),
+        id=draw(st.integers(0, 2)),
+        points=draw(st.lists(near, min_size=count, max_size=count)),
+        text='{' + ', '.join(f'{key}: {value}' for key, value in said.items()) + '}',
+    )
+    for field in draw(st.lists(st.sampled_from(sorted(ODD_JOINT)), max_size=2)):
+        setattr(message, field, draw(ODD_JOINT[field]))
+    return message
+
+
 @st.composite
 def commands(draw: Any) -> MultiDOFJointState:
     """Return a command whose numbers, and sometimes names and lengths, are odd."""
@@ -172,11 +203,15 @@ requests = st.one_of(
     st.tuples(st.just('~/spawn'), markers()),
     st.tuples(st.just('~/spawn'), markers()),
     st.tuples(st.just('~/command'), commands()),
-    st.tuples(st.sampled_from(['~/anchor', '~/release']), points),
+    st.tuples(st.just('~/join'), joints()),
+    st.tuples(st.sampled_from(['~/anchor', '~/release', '~/pin', '~/axle']), points),
 )
 CONVERT = {
     '~/spawn': conversions.body_request,
+    '~/join': conversions.joint_request,
     '~/command': conversions.command_request,
+    '~/pin': partial(conversions.point_request, Pin),
+    '~/axle': partial(conversions.point_request, Axle),
     '~/anchor': partial(conversions.point_request, Anchor),
     '~/release': partial(conversions.point_request, Release),
 }
@@ -204,7 +239,7 @@ class Fuzzed:
         try:
             request = CONVERT[topic](message, frame_id='world')
         except Refusal as refusal:
-            subject = conversions.subject_of(message)
+            subject = conversions.subject_of(message, joint=topic == '~/join')
             self.simulation.refuse(refusal, topic=topic, subject=subject)
         else:
             self.simulation.submit(request, topic=topic)
@@ -221,7 +256,7 @@ class Fuzzed:
 
     def go(self) -> None:
         frame = self.simulation.advance_frame()
-        assert {answer.topic for answer in frame.answers} <= {'divergence'}
+        assert {answer.topic for answer in frame.answers} <= {'divergence', 'joint_broken'}
         self.look(frame)
 
     def look(self, frame: Any) -> None:
@@ -229,6 +264,8 @@ class Fuzzed:
         snapshot = frame.snapshot
         assert np.isfinite(snapshot.poses).all()
         assert np.isfinite(snapshot.twists).all()
+        assert np.isfinite(snapshot.forces).all()
+        assert len(snapshot.forces) == len(snapshot.scene.joints)
         assert len(set(snapshot.scene.names)) == len(snapshot.poses) == len(snapshot.twists)
         for encoder in self._encoders:
             encoder.encode(snapshot)
@@ -240,6 +277,7 @@ class Fuzzed:
 
 def test_thousands_of_arbitrary_messages_leave_a_world_that_goes_on() -> None:
     codes: dict[str, int] = {}
+    done: set[str] = set()
 
     @given(st.lists(requests, min_size=7, max_size=12))
     @settings(
@@ -254,6 +292,8 @@ def test_thousands_of_arbitrary_messages_leave_a_world_that_goes_on() -> None:
         for topic, message in asked:
             code = fuzzed.ask(topic, message)
             codes[code] = codes.get(code, 0) + 1
+            if code == 'ok':
+                done.add(topic)
             fuzzed.go()
         for _ in range(3):
             fuzzed.go()
@@ -263,6 +303,7 @@ def test_thousands_of_arbitrary_messages_leave_a_world_that_goes_on() -> None:
     assert sum(codes.values()) >= 2000
     # Not all are refused at the door, and none of the reasons is unknown.
     assert codes['ok'] >= 500
+    assert done == set(CONVERT)
     assert set(codes) <= {
         'ok',
         'malformed',
@@ -274,6 +315,7 @@ def test_thousands_of_arbitrary_messages_leave_a_world_that_goes_on() -> None:
         'unknown_property',
         'bad_property',
         'unknown_body',
+        'unknown_joint',
         'anchored',
         'nothing_there',
     }

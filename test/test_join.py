@@ -111,7 +111,9 @@ def test_a_joint_is_deleted_by_marker_and_leaves_the_picture(
     assert event.code == 'unknown_joint'
 
 
-def test_a_joint_that_breaks_is_told(physsim: PhysSim, client: Client) -> None:
+def test_a_joint_that_breaks_is_told(
+    physsim: PhysSim, client: Client, capfd: pytest.CaptureFixture[str]
+) -> None:
     physsim.spawn(box('a/0', text='{mass: 1}'))
     physsim.join(joint('{kind: axle, break_force: 5}', [(0.0, 0.0)]))
     before = len(client.events)
@@ -119,6 +121,7 @@ def test_a_joint_that_breaks_is_told(physsim: PhysSim, client: Client) -> None:
     (event,) = client.events[before:]
     assert (event.level, event.name, event.hardware_id) == (2, 'joint_broken', 'joint/0')
     assert event.code == 'joint_broken'
+    assert ']: joint_broken: joint/0 broke at' in capfd.readouterr().err
 
 
 def test_clear_deletes_joints_too(physsim: PhysSim, client: Client) -> None:

@@ -62,14 +62,24 @@ KEPT = ('/physsim/markers', '/physsim/preview')
 REQUESTS = {
     '/physsim/spawn': 'visualization_msgs/msg/Marker',
     '/physsim/spawn_array': 'visualization_msgs/msg/MarkerArray',
+    '/physsim/join': 'visualization_msgs/msg/Marker',
+    '/physsim/pin': 'geometry_msgs/msg/PointStamped',
+    '/physsim/axle': 'geometry_msgs/msg/PointStamped',
     '/physsim/anchor': 'geometry_msgs/msg/PointStamped',
     '/physsim/release': 'geometry_msgs/msg/PointStamped',
     '/physsim/command': 'sensor_msgs/msg/MultiDOFJointState',
     '/clicked_point': 'geometry_msgs/msg/PointStamped',
     '/physsim/stroke': 'nav_msgs/msg/Path',
     '/physsim/speed': 'std_msgs/msg/Float64',
+    '/physsim/seek': 'rosgraph_msgs/msg/Clock',
 }
-SERVICES = ('play', 'pause', 'step', 'reset', 'clear', 'save_world', 'load_world')
+SERVICES = {
+    f'/physsim/{name}'
+    for name in (
+        'play', 'pause', 'rewind', 'fast_forward', 'fast_rewind', 'step', 'reset', 'clear',
+        'undo', 'redo', 'save_world', 'load_world',
+    )
+}  # fmt: skip
 # In the order in which the program outside spawns them.
 NAMES = ['floor/0', 'ball/7', 'ball/6', 'ball/5']
 
@@ -79,7 +89,7 @@ def seen(outside: Outside) -> dict[str, Any]:
     """Return all that a program outside saw of a running world."""
     with outside.start_world() as world:
         world.wait_for('ready')
-        seen = outside.run_program('observe')
+        seen = outside.run_program('observe', *REQUESTS)
         assert world.interrupt() == 0
         return seen
 
@@ -119,13 +129,16 @@ def test_topics_have_the_depths_of_the_contract(physsim: PhysSim) -> None:
     for topic, depth in DEPTHS.items():
         assert (profiles[topic].history, profiles[topic].depth) == (HistoryPolicy.KEEP_LAST, depth)
     profiles = {each.topic_name: each.qos_profile for each in physsim.node.subscriptions}
+    # It hears nothing else.
+    assert set(profiles) == set(REQUESTS)
     for topic in REQUESTS:
         assert profiles[topic].history == HistoryPolicy.KEEP_ALL
 
 
 def test_services_are_triggers(seen: dict[str, Any]) -> None:
-    for name in SERVICES:
-        assert seen['services'][f'/physsim/{name}'] == ['std_srvs/srv/Trigger']
+    triggers = {name for name, (type_, *_) in seen['services'].items() if 'Trigger' in type_}
+    assert triggers == SERVICES
+    assert all(seen['services'][name] == ['std_srvs/srv/Trigger'] for name in SERVICES)
 
 
 def test_services_answer_another_process(seen: dict[str, Any]) -> None:

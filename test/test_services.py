@@ -421,6 +421,16 @@ def test_a_world_that_cannot_be_written_is_refused(
     assert sorted(path.name for path in tmp_path.iterdir()) == ['circle.yaml', 'directory.yaml']
 
 
+def test_saving_tells_whether_a_shipped_world_is_hidden_by_it(
+    physsim: PhysSim, client: Client, tmp_path: Path
+) -> None:
+    (tmp_path / 'sub').mkdir()
+    for name, hides in (('demo', True), ('sub/demo.yaml', False)):
+        set_parameter(physsim, 'world_file', name)
+        message = succeeded(client.call('~/save_world'))
+        assert ('before the shipped world' in message) is hides
+
+
 def test_saving_over_a_file_replaces_it_whole(
     physsim: PhysSim, client: Client, tmp_path: Path
 ) -> None:

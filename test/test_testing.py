@@ -177,6 +177,23 @@ def test_time_stands_still_but_for_the_test(physsim: PhysSim) -> None:
     assert physsim.pose('body/0').y == pytest.approx(5.0 - fallen, abs=1e-9)
 
 
+@pytest.mark.parametrize('seconds', [-1.0, 0.001, math.nan, math.inf, -math.inf, 1e308])
+def test_time_that_cannot_pass_is_no_time(physsim: PhysSim, seconds: float) -> None:
+    with pytest.raises(ValueError, match=r' s\b'):
+        physsim.run(seconds)
+    assert physsim.time == 0.0
+
+
+def test_time_does_not_go_on_by_less_than_nothing(physsim: PhysSim) -> None:
+    with pytest.raises(ValueError, match='seek'):
+        physsim.step(-1)
+    with pytest.raises(ValueError, match='for ever'):
+        physsim.until(lambda: False, timeout=math.inf)
+    physsim.step(0)
+    physsim.run(0.0)
+    assert physsim.time == 0.0
+
+
 def test_until_stops_at_the_first_frame_in_which_it_is_so(physsim: PhysSim) -> None:
     physsim.spawn(disc(at=(0.0, 5.0)))
     physsim.until(lambda: physsim.pose('body/0').y < 2.5)

@@ -19,6 +19,7 @@ from __future__ import annotations
 from collections import Counter
 import os
 from pathlib import Path
+import shutil
 import signal
 import subprocess
 import sys
@@ -217,6 +218,15 @@ def test_a_disk_that_fills_up_is_told(viewers):
     assert 'No space left' in Events(viewer).wait_for('record_failed').message
 
 
+def test_where_there_is_no_rerun_that_is_told_and_nothing_is_open(viewers, tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, 'rerun', None)
+    viewer = viewers(record_file=str(tmp_path / 'it.rrd'))
+
+    assert 'rerun' in Events(viewer).wait_for('record_failed').message
+    until(lambda: not viewer.is_open)
+    assert 'failed' in viewer.state
+
+
 # Serving
 
 
@@ -291,7 +301,9 @@ def test_nothing_is_left_running_after_closing(viewers):
     assert not program.is_running()
 
 
-def test_a_page_server_that_dies_is_started_again(viewers):
+def test_a_page_server_that_dies_is_started_again(viewers, monkeypatch):
+    # It has settled at once.
+    monkeypatch.setattr('physsim_ros.viewer.SETTLING', 0.0)
     viewer = viewers(mode=ViewerMode.WEB)
     events = Events(viewer)
     events.wait_for('')
@@ -302,6 +314,21 @@ def test_a_page_server_that_dies_is_started_again(viewers):
 
     port = until(lambda: urlsplit(viewer.state.removeprefix('web: ').split(', ')[0]).port)
     until(lambda: is_open(port))
+
+
+@pytest.mark.parametrize('program', ['true', 'false'])
+def test_a_page_server_that_ends_at_once_is_not_started_again(viewers, monkeypatch, program):
+    started = []
+    monkeypatch.setattr(
+        'physsim_ros.viewer._program', lambda: started.append(program) or shutil.which(program)
+    )
+    viewer = viewers(mode=ViewerMode.WEB)
+
+    assert 'no page could be served' in Events(viewer).wait_for('viewer_lost').message
+    assert len(started) == 1
+    # Who has a viewer can still look.
+    assert viewer.is_open
+    assert 'any Rerun viewer at rerun+http://127.0.0.1:' in viewer.state
 
 
 @pytest.fixture
@@ -513,6 +540,24 @@ def test_closing_gives_up_on_one_that_never_draws():
 
     assert not outlet.join()
     way.release.set()
+
+
+@pytest.mark.filterwarnings('ignore::pytest.PytestUnhandledThreadExceptionWarning')
+def test_a_bug_in_drawing_is_told_and_nothing_is_open_any_more():
+    class Buggy(Way):
+        kind = 'buggy'
+
+        def begin(self):
+            raise ZeroDivisionError('by zero')
+
+    told = []
+    outlet = Outlet(Buggy(), tell=told.append)
+
+    assert outlet.join()
+    assert not outlet.is_open
+    (answer,) = told
+    assert answer.code == 'viewer_lost'
+    assert 'ZeroDivisionError: by zero' in answer.message
 
 
 def test_importing_the_viewer_does_not_import_rerun():

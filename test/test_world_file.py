@@ -964,6 +964,27 @@ def test_a_plain_name_is_a_file_of_the_world_directory_before_a_shipped_one(fold
     assert world_file.find('demo', world_dir=folder, confined=True) == own
 
 
+@pytest.mark.parametrize(
+    ('name', 'hides'),
+    [('demo', True), ('demo.yaml', True), ('sub/demo.yaml', False), ('own', False)],
+)
+def test_only_what_the_name_of_a_shipped_world_now_means_hides_that(
+    folder: Path, name: str, hides: bool
+) -> None:
+    (folder / 'sub').mkdir()
+    saved = save(World(), folder, name)
+
+    assert world_file.hides_shipped(saved, world_dir=folder) is hides
+    meant = world_file.find('demo', world_dir=folder, confined=True)
+    assert (meant.resolve() == saved) is hides
+
+
+def test_saving_over_a_shipped_world_hides_none() -> None:
+    worlds = world_file.shipped_worlds()
+
+    assert not world_file.hides_shipped(worlds / 'demo.yaml', world_dir=worlds)
+
+
 def test_a_path_is_below_the_world_directory(folder: Path) -> None:
     (folder / 'sub').mkdir()
     path = write(folder / 'sub', 'format: 1', 'x.world')

@@ -16,12 +16,17 @@
 
 from __future__ import annotations
 
+import unicodedata
+
 from physsim_ros.core.errors import Malformed
 
 # The background's own name in joints, contacts and frames.
 WORLD = 'world'
 # What frame names and message strings can reasonably hold.
 LONGEST_NAME = 1000
+# Control characters, halves of characters, ends of lines and of paragraphs, as Unicode calls them.
+# Others that show nothing are part of how Persian and Hindi are written, or join emoji.
+_NO_TEXT = {'Cc', 'Cs', 'Zl', 'Zp'}
 # What stands before the namespace of a joint in the picture, so that a body and a joint of one
 # name do not hide each other; `~/join` knows it. What stands before those of its lines and of the
 # x of an anchored body, and the namespace of the walls.
@@ -36,10 +41,12 @@ def check_name(name: str) -> None:
     """
     namespace, id_ = split_name(name)
     if not namespace:
-        raise Malformed(f'{name!r} is not a name: <namespace>/<id>', field='name')
+        raise Malformed(
+            f'{name!r} is not a name: <namespace>/<id>, the id a whole number', field='name'
+        )
     if len(name) > LONGEST_NAME:
         raise Malformed(f'a name has at most {LONGEST_NAME} characters', field='name')
-    if '\0' in name or not name.isprintable():
+    if any(unicodedata.category(character) in _NO_TEXT for character in name):
         raise Malformed(f'{name!r} holds a character that cannot be printed', field='name')
     if not -(2**31) <= id_ < 2**31:
         raise Malformed(f'the id of {name!r} does not fit into 32 bits', field='name')

@@ -26,6 +26,11 @@ NAMES = {
     '7/7': ('7', 7),
     'Würfel/1': ('Würfel', 1),
     '球/1': ('球', 1),
+    'می\u200cروم/1': ('می\u200cروم', 1),
+    'क्\u200dष/1': ('क्\u200dष', 1),
+    '👩\u200d🚀/1': ('👩\u200d🚀', 1),
+    'à\xa0gauche/1': ('à\xa0gauche', 1),
+    '赤い\u3000球/1': ('赤い\u3000球', 1),
     'a|b/1': ('a|b', 1),
     f'a/{2**31 - 1}': ('a', 2**31 - 1),
     f'a/{-(2**31)}': ('a', -(2**31)),
@@ -50,9 +55,12 @@ def test_what_is_no_name_is_malformed_and_has_no_namespace(name: str) -> None:
     with pytest.raises(Malformed) as refused:
         check_name(name)
     assert refused.value.field == 'name'
+    assert 'the id a whole number' in str(refused.value)
 
 
-@pytest.mark.parametrize('character', ['\0', '\n', '\t', '\x7f', '\ud800', '\u200b', '\xa0'])
+@pytest.mark.parametrize(
+    'character', ['\0', '\n', '\t', '\x7f', '\x85', '\ud800', '\u2028', '\u2029']
+)
 def test_a_character_that_cannot_be_printed_is_refused(character: str) -> None:
     with pytest.raises(Malformed) as refused:
         check_name(f'a{character}b/1')

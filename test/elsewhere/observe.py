@@ -12,10 +12,15 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Look at everything that the world says, while it runs, while it is paused, and late."""
+"""
+Look at everything that the world says, while it runs, while it is paused, and late.
+
+Words on the command line: the topics on which the world is asked for something.
+"""
 
 from __future__ import annotations
 
+import sys
 from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
@@ -25,7 +30,6 @@ from sensor_msgs.msg import MultiDOFJointState
 from visitor import disc, KEPT, stamp_of, Visitor
 from visualization_msgs.msg import Marker, MarkerArray
 
-REQUESTS = ('spawn', 'spawn_array', 'anchor', 'release', 'command', 'stroke', 'speed')
 STREAMS = {
     'poses': PoseArray,
     'states': MultiDOFJointState,
@@ -112,10 +116,7 @@ def main() -> None:
         },
         subscriptions={
             topic: endpoints(visitor.node.get_subscriptions_info_by_topic(topic))
-            for topic in (
-                '/clicked_point',
-                *(f'/physsim/{name}' for name in REQUESTS),
-            )
+            for topic in sys.argv[1:]
         },
         services=dict(services),
         events=[
