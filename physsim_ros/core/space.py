@@ -21,7 +21,7 @@ velocities do not jump when gravity or a wrench changes.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 import math
 
@@ -88,6 +88,8 @@ class Space:
         self._dt = dt
         self._names: dict[pymunk.Body, str] = {}
         self._pushed: dict[str, RigidBody] = {}
+        # Those whose velocity has been set since the last step: they are not calmed in the next.
+        self._thrown: set[str] = set()
         self._layout: Layout | None = None
         self._space = pymunk.Space()
         self._arrays = EngineArrays(self._space)
@@ -234,19 +236,24 @@ class Space:
             return
         rigid = rigid_body.build(body, old.serial)
         pose = self._unwound(old, pose)
+        touching = self._touching(old.engine)
         self.machine.detach(body.name)
         self._take(old)
         self._put(rigid, pose, twist)
         self.machine.attach(body.name)
+        self._let_go(touching)
         if old.wrench != REST and not body.fixed:
             self.push(rigid, old.wrench, old.wrench_until)
 
     def remove(self, name: str) -> None:
         """Take a body and its joints out of the space for good."""
+        rigid = self.bodies[name]
+        touching = self._touching(rigid.engine)
         for joint in self.machine.of(name):
-            self.machine.remove(joint)
-        self._take(self.bodies[name])
+            self.unjoin(joint)
+        self._take(rigid)
         del self.bodies[name]
+        self._let_go(touching)
 
     def set_pose(self, rigid: RigidBody, pose: Pose) -> None:
         """Put a body somewhere else."""
@@ -254,6 +261,7 @@ class Space:
         rigid.pose = self._unwound(rigid, pose)
         self._fast.forget_standing()
         self._forget_state()
+        self._let_go(self._touching(rigid.engine))
 
     def join(self, joint: Joint) -> None:
         """Take in a joint; it replaces one of that name in its place."""
@@ -266,12 +274,15 @@ class Space:
         self._unlay()
         self.changes += 1
         self._powerless += 1
+        joint = self.machine.joints[name].joint
         self.machine.remove(name)
+        self._let_go([self.bodies[body] for body in (joint.a, joint.b) if body in self.bodies])
 
     def set_twist(self, rigid: RigidBody, twist: Pose) -> None:
         """Let a body fly freely at a velocity."""
         self.changes += 1
         rigid.set_twist(twist, self._settings.gravity, self._dt)
+        self._thrown.add(rigid.body.name)
         if self._layout is not None and not rigid.body.anchored:
             self._layout.free[self._layout.rows[rigid.body.name]] = True
         self._forget_state()
@@ -383,11 +394,29 @@ class Space:
         self._cascade.forget(rigid.engine)
         self._pushed.pop(rigid.body.name, None)
 
+    def _touching(self, engine: pymunk.Body) -> list[RigidBody]:
+        """Return the bodies that touched one, or the background, in the last step."""
+        found: list[pymunk.Body] = []
+        engine.each_arbiter(lambda arbiter: found.extend(arbiter.bodies))
+        names = dict.fromkeys(self._names[each] for each in found if each in self._names)
+        return [self.bodies[name] for name in names]
+
+    def _let_go(self, rigids: Iterable[RigidBody]) -> None:
+        """Let bodies fly from now on, unless something else holds them: what did is gone."""
+        for rigid in rigids:
+            here = self.bodies.get(rigid.body.name) is rigid
+            if here and not rigid.body.fixed:
+                twist = self.twist(rigid)
+                if not rigid.free:
+                    self.set_twist(rigid, twist)
+
     def _raise_walls(self) -> None:
+        touching = self._touching(self._space.static_body)
         self._shapes.remove(self._walls)
         self._contacts.forget(self._space.static_body.id)
         self._walls = []
         self._fast.forget_standing()
+        self._let_go(touching)
         if self._settings.bounds is None:
             return
         left, bottom, right, top = self._settings.bounds
@@ -425,7 +454,9 @@ class Space:
             fastest = np.abs(before).max(initial=0.0)
         layout = self._lay_out()
         if self._age % self._calm_steps == 0:
-            self._stillness.calm(layout.ground, before)
+            rows = [layout.rows[name] for name in self._thrown if name in layout.rows]
+            self._stillness.calm(layout.ground, before, layout.order[rows])
+        self._thrown.clear()
         self._fast.arrest(layout, before, float(fastest))
         self._watching = watching
         if self.machine.joints:

@@ -120,16 +120,18 @@ class Stillness:
     def __init__(self, arrays: EngineArrays) -> None:
         self._arrays = arrays
 
-    def calm(self, ground: Ground, twists: Floats) -> None:
+    def calm(self, ground: Ground, twists: Floats, thrown: NDArray[np.intp]) -> None:
         """
         Take a share of its speed from what is held in place.
 
         :param ground: what is constant about the bodies
         :param twists: (m, 3) float64: their velocities [m/s] and spins [rad/s] in the order of
             the engine's listing; kept up to date
+        :param thrown: (k,) places in it of what moves as it was told to
         """
         speed = np.hypot(twists[:, 0], twists[:, 1]) + np.abs(twists[:, 2]) * ground.reach
         slow = ground.loose[:-1] & (speed < FASTEST_ERROR)
+        slow[thrown] = False
         if not (slow & (speed > UNSEEN)).any():
             return
         held = self._held(ground, np.append(slow, False) | ground.fixed)[:-1] & slow

@@ -14,11 +14,26 @@
 
 """How bodies move: in flight, pushed, carried, through each other, under other settings."""
 
+from collections.abc import Callable
+from functools import partial
 import math
 
 import numpy as np
 from physsim_ros.core.errors import Anchored, BadProperty
-from physsim_ros.core.requests import Anchor, Command, Configure
+from physsim_ros.core.joint_properties import JointKind
+from physsim_ros.core.properties import Properties
+from physsim_ros.core.requests import (
+    Anchor,
+    Command,
+    Configure,
+    Delete,
+    Join,
+    Pin,
+    Release,
+    Request,
+    Spawn,
+    Unjoin,
+)
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.shapes import Box, Disc, Shape
 from physsim_ros.core.world import World
@@ -144,6 +159,77 @@ def test_a_resting_body_that_is_thrown_flies_exactly() -> None:
 
 
 # Wrenches
+
+
+def hung(world: World) -> Request:
+    world.apply(Join(name='rod/0', kind=JointKind.ROD, points=((0.0, 50.0), (0.0, 53.0)), a='r/0'))
+    return Unjoin(name='rod/0')
+
+
+def pinned(world: World) -> Request:
+    world.apply(Pin(point=(0.0, 50.0)))
+    return Release(point=(0.0, 50.0))
+
+
+BELOW = (0.0, 49.0, 0.0)
+
+
+def floored(world: World, request: Request) -> Request:
+    spawn(world, 'f/0', BOX, BELOW, anchored=True)
+    return request
+
+
+def walled(world: World) -> Request:
+    world.apply(Configure(changes={'bounds': (-9.0, 49.5, 9.0, 90.0)}))
+    return Configure(changes={'bounds': None})
+
+
+@pytest.mark.parametrize(
+    'held',
+    [
+        hung,
+        pinned,
+        walled,
+        partial(floored, request=Delete(name='f/0')),
+        partial(floored, request=Command(names=('f/0',), poses=((9.0, 0.0, 0.0),))),
+        partial(
+            floored,
+            request=Spawn(name='f/0', shape=BOX, pose=BELOW, properties=Properties(sensor=True)),
+        ),
+    ],
+    ids=['rod', 'pin', 'wall', 'deleted', 'moved', 'sensor'],
+)
+def test_what_is_let_go_falls_exactly(held: Callable[[World], Request]) -> None:
+    world = World()
+    spawn(world, 'r/0', BOX, (0.0, 50.0, 0.0))
+    let_go = held(world)
+    world.step(240)
+    before = world.snapshot()
+    x, y, _ = before.poses[0]
+    world.apply(let_go)
+    assert world.snapshot().twists[0] == pytest.approx(before.twists[0], abs=1e-12)
+    world.step(480)
+    vy = before.twists[0][1]
+    assert pose(world, 'r/0')[:2] == pytest.approx((x, y + 2.0 * vy - G * 2.0), abs=1e-9)
+    assert twist(world, 'r/0')[1] == pytest.approx(vy - 2.0 * G, abs=1e-9)
+
+
+def test_what_keeps_another_support_does_not_stir() -> None:
+    world = World()
+    spawn(world, 'plank/0', Box(width=4.0, height=0.2), (0.0, 2.1, 0.0))
+    for number in range(3):
+        spawn(
+            world,
+            f'post/{number}',
+            Box(width=0.5, height=2.0),
+            (number - 1.0, 1.0, 0.0),
+            anchored=True,
+        )
+    world.step(240)
+    before = pose(world, 'plank/0')
+    world.apply(Delete(name='post/1'))
+    world.step(240)
+    assert pose(world, 'plank/0') == pytest.approx(before, abs=1e-4)
 
 
 @pytest.mark.parametrize('gravity', [(0.0, 0.0), (0.0, -G)], ids=['weightless', 'falling'])
