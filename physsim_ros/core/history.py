@@ -106,6 +106,8 @@ class History:
         self._dropped = first.serial
         # What was loaded last before those that are.
         self._loaded: WorldState | None = None
+        # The number of requests up to the last that loaded anything.
+        self._restored = 0
         self._marks = [first]
         # The last step that was reached.
         self.head = first.step
@@ -179,8 +181,9 @@ class History:
         return min(stops)
 
     def is_due(self, step: int) -> bool:
-        """Whether it is time for the next keyframe."""
-        return step - self._marks[-1].step >= self._spacing
+        """Whether it is time for the next keyframe; what is loaded begins with one."""
+        last = self._marks[-1]
+        return step - last.step >= self._spacing or self._restored > last.serial
 
     def last_gesture(self, serial: int) -> list[Entry]:
         """Return the requests of the last gesture before a serial; none where none is kept."""
@@ -210,6 +213,8 @@ class History:
         ahead = self.head > entry.step or serial < self._dropped + len(self._entries)
         self._cut(entry.step, serial)
         self._entries.append(entry)
+        if isinstance(entry.request, Restore):
+            self._restored = serial + 1
         return ahead
 
     def see(self, step: int, serial: int) -> None:
@@ -252,6 +257,7 @@ class History:
     def _cut(self, step: int, serial: int) -> None:
         left = serial - self._dropped
         del self._entries[left:]
+        self._restored = min(self._restored, serial)
         while self._marks[-1].step > step or self._marks[-1].serial > serial:
             self._marks.pop()
         self.head = step

@@ -43,6 +43,8 @@ _SLOWEST = 1e-3
 _ENOUGH = 1e-6
 # So many contacts are solved at once, those that close fastest.
 _MOST = 48
+# A contact that yields by less than this share of what it would without joints is held.
+_HELD = 1e-7
 # So often friction goes from contact to contact.
 _SWEEPS = 8
 # So little give lets two contacts say the same.
@@ -66,6 +68,11 @@ class _Contacts(NamedTuple):
         """Return (c,) float64: how fast they open [m/s], from (m + 1, 3) velocities."""
         speeds: Floats = np.einsum('csj,csj->c', self.pushes, twists[self.sides])
         return speeds
+
+    def lightness(self, inverse: Floats) -> Floats:
+        """Return (c,) float64: what each makes of itself without joints [1/kg]."""
+        lightness: Floats = (self.pushes**2 * inverse[self.sides]).sum(axis=(1, 2))
+        return lightness
 
     def only(self, rows: Rows) -> _Contacts:
         """Return some of them."""
@@ -130,7 +137,8 @@ class Loads:
         :return: whether any has been moved
         """
         changed = np.abs(states[:, 3:] - engine)
-        if not (changed[:, :2].max(axis=1) + changed[:, 2] * self._reach > _SLOWEST / 4).any():
+        moved = changed[:, :2].max(axis=1) + changed[:, 2] * self._reach
+        if not (np.isfinite(moved).all() and (moved > _SLOWEST / 4).any()):
             return False
         touching = self._touching()
         contacts = _directed(touching, states, touching.normals)
@@ -149,7 +157,9 @@ class Loads:
         across = touching.normals[:, ::-1] * (-1.0, 1.0)
         pressing, rubbing = contacts.only(rows), _directed(touching, states, across).only(rows)
         changes, shared = self._answers(linkage, pressing.beside(rubbing), len(states))
-        pressed = _least(shared[:count, :count], short[rows])
+        # What cannot yield on either side is not pushed at: that would be rounding times rounding.
+        yields = shared.diagonal()[:count] > _HELD * pressing.lightness(self._inverse)
+        pressed = _least(shared[:count, :count], np.where(yields, short[rows], -np.inf))
         slip = rubbing.speeds(states[:, 3:]) + shared[count:, :count] @ pressed
         most = friction[rows] * pressed
         rubbed = _within(shared[count:, count:], -slip, most)
@@ -233,7 +243,8 @@ def _least(shared: Floats, short: Floats) -> Floats:
         if left[most] <= _ENOUGH:
             break
         active[most] = True
-        while True:
+        # Each time at least one less pushes.
+        for _ in range(count):
             rows = np.flatnonzero(active)
             aim = np.linalg.solve(shared[np.ix_(rows, rows)], short[rows])
             wrong = aim <= 0.0
