@@ -141,6 +141,8 @@ class Loads:
         if not (np.isfinite(moved).all() and (moved > _SLOWEST / 4).any()):
             return False
         touching = self._touching()
+        if not len(touching.bodies):
+            return False
         contacts = _directed(touching, states, touching.normals)
         speeds = contacts.speeds(states[:, 3:])
         left = np.minimum(contacts.speeds(engine), 0.0)
@@ -189,6 +191,8 @@ class Loads:
     def _touching(self) -> Touching:
         """Return where machines touch, and what touches them touches, in an order of its own."""
         touching = self._arrays.touching()
+        if not len(touching.bodies):
+            return touching
         sides = self._places_of(touching.bodies)
         near = self._member.copy()
         near[sides[self._member[sides].any(axis=1)]] = True
