@@ -30,6 +30,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 from physsim_ros.core.engine_arrays import EngineArrays, Touching
 from physsim_ros.core.graph import Rows
 from physsim_ros.core.linkage import Linkage
@@ -153,8 +154,7 @@ class Loads:
         friction, elasticity = self._surfaces[touching.bodies].prod(axis=1).T
         bounced = np.maximum(-elasticity * contacts.speeds(before), 0.0)
         short = np.where(closing, bounced, np.minimum(speeds, 0.0)) - speeds
-        # The fastest, in the order in which they were.
-        rows = np.sort(np.argsort(-short, kind='stable')[:_MOST])
+        rows = self._concerned(touching.bodies, closing, short)
         count = len(rows)
         across = touching.normals[:, ::-1] * (-1.0, 1.0)
         pressing, rubbing = contacts.only(rows), _directed(touching, states, across).only(rows)
@@ -169,6 +169,18 @@ class Loads:
         linkage.take(given)
         states[:, 3:] += changes @ given
         return True
+
+    def _concerned(self, sides: Rows, closing: NDArray[np.bool_], short: Floats) -> Rows:
+        """Return the contacts to solve: what closes, and what else touches the same bodies."""
+        pushed = np.zeros(len(self._inverse), np.bool_)
+        pushed[sides[closing]] = True
+        # What does not yield hands nothing on.
+        pushed &= self._inverse[:, 0] > 0.0
+        rows = np.flatnonzero(pushed[sides].any(axis=1))
+        if len(rows) > _MOST:
+            worst = np.argsort(-short[rows], kind='stable')[:_MOST]
+            rows = np.sort(rows[worst])
+        return rows
 
     def _answers(self, linkage: Linkage, contacts: _Contacts, count: int) -> tuple[Floats, Floats]:
         """
