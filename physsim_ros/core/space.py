@@ -156,7 +156,7 @@ class Space:
         self._contacts.clear()
 
     def essence(self) -> Iterator[bytes]:
-        """Yield everything that decides how the bodies go on."""
+        """Yield all that is known of the bodies, but for what the engine remembers of contacts."""
         layout = self._lay_out()
         yield layout.scene.key
         yield self._state(layout).tobytes()

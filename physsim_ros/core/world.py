@@ -141,7 +141,7 @@ class World:
         self._space.clear_contacts()
 
     def digest(self) -> str:
-        """Return a hash of everything that decides how the world goes on."""
+        """Return a hash of all that is known of the world, but for the engine's own memory."""
         digest = hashlib.blake2b(digest_size=16)
         digest.update(f'{self.step_count} {self.physics_rate!r}'.encode())
         for part in self._space.essence():
