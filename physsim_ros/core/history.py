@@ -212,9 +212,7 @@ class History:
         """
         ahead = self.head > entry.step or serial < self._dropped + len(self._entries)
         self._cut(entry.step, serial)
-        self._entries.append(entry)
-        if isinstance(entry.request, Restore):
-            self._restored = serial + 1
+        self._add(entry)
         return ahead
 
     def see(self, step: int, serial: int) -> None:
@@ -249,10 +247,16 @@ class History:
             raise OutOfHistory('what was undone is kept no more', field='history')
         while self._marks[-1].moment > tail.after:
             self._marks.pop()
-        self._entries += tail.entries
+        for entry in tail.entries:
+            self._add(entry)
         self._marks += tail.marks
         self.head = tail.head
         self._forget()
+
+    def _add(self, entry: Entry) -> None:
+        self._entries.append(entry)
+        if isinstance(entry.request, Restore):
+            self._restored = self._dropped + len(self._entries)
 
     def _cut(self, step: int, serial: int) -> None:
         left = serial - self._dropped

@@ -406,6 +406,7 @@ class Space:
         for rigid in rigids:
             here = self.bodies.get(rigid.body.name) is rigid
             if here and not rigid.body.fixed:
+                # Which also finds whether it flies already.
                 twist = self.twist(rigid)
                 if not rigid.free:
                     self.set_twist(rigid, twist)

@@ -81,7 +81,7 @@ def test_a_beam_of_light_planks_carries_what_is_heavy(
     assert lowest > DECK + 0.5 - 0.03
     assert most < began * (1.0 + 1e-3)
     x, y, _ = pose(world, 'load/0')
-    assert y == pytest.approx(DECK + 0.5, abs=0.006)
+    assert y == pytest.approx(DECK + 0.5, abs=1e-3)
     # Where it has come to lie it stays.
     assert x == pytest.approx(5.0, abs=0.1)
     world.step(480)
@@ -96,7 +96,7 @@ def test_a_taut_bridge_throws_nothing_higher_than_it_fell(mass: float) -> None:
     lowest, highest, most = watched(world, 'load/0', 6.0)
     assert lowest > 4.0
     assert highest < 7.0
-    assert most < began * 1.08
+    assert most < began + 0.25 * mass * G * (8.0 - DECK - 0.5)
 
 
 def test_boxes_on_each_other_lie_on_a_beam() -> None:
@@ -134,13 +134,11 @@ def test_a_car_drives_over_a_beam_as_on_the_ground() -> None:
 
 def test_what_bears_a_load_feels_it() -> None:
     world = bridge(Pin)
-    empty = world.snapshot()
     spawn(world, 'load/0', BOX, (5.0, 5.6, 0.0), mass=20.0)
     world.step(480)
     # The half of the weight, and its moment about the end of a beam that is held at both.
     shear, moment = (20.0 + 10 * 0.22) * G / 2, (20.0 + 10 * 0.22 / 1.5) * G * 10.0 / 8
     forces = world.snapshot().forces
-    assert empty.forces.max() < 1.0
     assert shear < forces.max() < 3.0 * math.hypot(shear, moment)
 
 
