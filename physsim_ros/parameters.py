@@ -21,15 +21,18 @@ Law: a value outside its range is refused with a reason and changes nothing.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import asdict, dataclass, fields
 import math
 from typing import Any
 
 from physsim_ros.core.errors import BadProperty, Malformed
 from physsim_ros.core.palette import color_from
-from physsim_ros.core.settings import WorldSettings
-from physsim_ros.core.shapes import Color
+from physsim_ros.core.properties import FASTEST
+from physsim_ros.core.settings import RANGES as WORLD_RANGES
+from physsim_ros.core.settings import STRONGEST, WorldSettings
+from physsim_ros.core.shapes import Color, LARGEST
 from physsim_ros.drawing.settings import DrawingSettings
+from physsim_ros.drawing.settings import RANGES as DRAWING_RANGES
 from physsim_ros.drawing.tools import Tool
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
 from rcl_interfaces.msg import Parameter as ParameterMessage
@@ -43,7 +46,7 @@ _TYPES = {each.value for each in Type}
 VIEWERS = ('none', 'spawn', 'web', 'connect', 'auto')
 _WORLD = {each.name for each in fields(WorldSettings)}
 _DRAWING = {each.name for each in fields(DrawingSettings)}
-# Of parameter draw_color: each body gets a colour of its own.
+# Of draw_color: each body gets a colour of its own.
 AUTO = 'auto'
 
 
@@ -89,15 +92,13 @@ class Spec:
             if self.kind == Type.INTEGER:
                 span = IntegerRange(from_value=int(self.low), to_value=int(self.high))
                 descriptor.integer_range = [span]
-            elif self.kind == Type.DOUBLE:
+            else:
                 spans = FloatingPointRange(from_value=float(self.low), to_value=float(self.high))
                 descriptor.floating_point_range = [spans]
-            else:
-                descriptor.additional_constraints = f'each {self.low:g} .. {self.high:g}'
         return descriptor
 
 
-SPECS: dict[str, Spec] = {
+_OF_NODE = {
     'frame_id': Spec(default='world', meaning='name of the world frame', read_only=True),
     'world_file': Spec(
         default='',
@@ -123,7 +124,6 @@ SPECS: dict[str, Spec] = {
         high=10000.0,
         read_only=True,
     ),
-    'iterations': Spec(default=10, meaning='solver iterations', low=1, high=1000),
     'speed': Spec(
         default=1.0,
         meaning='simulation seconds a second; 0 is paused, negative goes back',
@@ -133,63 +133,10 @@ SPECS: dict[str, Spec] = {
     'fast_speed': Spec(
         default=4.0, meaning='speed of ~/fast_forward and ~/fast_rewind', low=0.0, high=64.0
     ),
-    'gravity': Spec(default=[0.0, -9.81], meaning='of a length up to 10000 [m/s²]'),
-    'damping': Spec(
-        default=0.0, meaning='share of velocity lost to the air each second', low=0.0, high=1.0
-    ),
-    'bounds': Spec(
-        default=[],
-        meaning='[xmin, ymin, xmax, ymax] of walls around the world, each -1e5 .. 1e5 [m]; '
-        '[] is none',
-    ),
-    'density': Spec(
-        default=1.0, meaning='of what is made next without saying [kg/m²]', low=1e-9, high=1e12
-    ),
-    'friction': Spec(
-        default=0.5, meaning='of what is made next without saying', low=0.0, high=10.0
-    ),
-    'elasticity': Spec(
-        default=0.5, meaning='of what is made next without saying', low=0.0, high=1.0
-    ),
-    'draw_velocity': Spec(
-        default=[0.0, 0.0], meaning='of what is drawn next [m/s]', low=-1e5, high=1e5
-    ),
-    'draw_color': Spec(
-        default=AUTO,
-        meaning="of what is drawn next: '#rrggbb', '#rrggbbaa', or auto, one for each",
-    ),
     'tool': Spec(
         default='none',
         meaning='what a click on clicked_point does; another one drops what is half drawn',
         choices=tuple(Tool),
-    ),
-    'snap': Spec(
-        default=0.15,
-        meaning='what is drawn as near as this to something is meant to meet it [m]',
-        low=0.0,
-        high=10.0,
-    ),
-    'sketch_confidence': Spec(
-        default=0.6,
-        meaning='least confidence with which a stroke is taken for something',
-        low=0.0,
-        high=1.0,
-    ),
-    'beautify': Spec(
-        default=0.12,
-        meaning='how far a stroke may be from regular and still be meant so: angles [rad], '
-        'lengths as a share; 0 keeps it as it was drawn',
-        low=0.0,
-        high=0.5,
-    ),
-    'wall_thickness': Spec(
-        default=0.1, meaning='of walls that are drawn [m]', low=0.001, high=10.0
-    ),
-    'command_timeout': Spec(
-        default=0.5,
-        meaning='of a wrench [s of simulation time]; 0 means no limit',
-        low=0.0,
-        high=1e9,
     ),
     'history': Spec(
         default=600.0,
@@ -206,8 +153,47 @@ SPECS: dict[str, Spec] = {
     ),
     'viewer_url': Spec(default='', meaning='Rerun server to connect to', read_only=True),
     'record_file': Spec(default='', meaning='.rrd file written beside any viewer', read_only=True),
-    'max_bodies': Spec(default=20000, meaning='a spawn past it is refused', low=0, high=1_000_000),
 }
+# What is set of the world and of drawing; defaults and ranges are those of the settings.
+_MEANINGS = {
+    'iterations': 'solver iterations',
+    'gravity': f'of a length up to {STRONGEST:g} [m/s²]',
+    'damping': 'share of velocity lost to the air each second',
+    'bounds': '[xmin, ymin, xmax, ymax] of walls around the world, each '
+    f'{-LARGEST:g} .. {LARGEST:g} [m]; [] is none',
+    'density': 'of what is made next without saying [kg/m²]',
+    'friction': 'of what is made next without saying',
+    'elasticity': 'of what is made next without saying',
+    'draw_velocity': f'of what is drawn next, of a length up to {FASTEST:g} [m/s]',
+    'draw_color': f"of what is drawn next: '#rrggbb', '#rrggbbaa', or {AUTO}, one for each",
+    'snap': 'what is drawn as near as this to something is meant to meet it [m]',
+    'sketch_confidence': 'least confidence with which a stroke is taken for something',
+    'beautify': 'how far a stroke may be from regular and still be meant so: angles [rad], '
+    'lengths as a share; 0 keeps it as it was drawn',
+    'wall_thickness': 'of walls that are drawn [m]',
+    'command_timeout': 'of a wrench [s of simulation time]; 0 means no limit',
+    'max_bodies': 'a spawn past it is refused',
+}
+
+
+def _of_settings() -> dict[str, Spec]:
+    defaults = asdict(WorldSettings()) | asdict(DrawingSettings())
+    # In the words of ROS, which has no nothing.
+    defaults |= {'bounds': [], 'draw_color': AUTO}
+    ranges = WORLD_RANGES | DRAWING_RANGES
+    specs = {}
+    for name, meaning in _MEANINGS.items():
+        default, span = defaults[name], ranges.get(name)
+        specs[name] = Spec(
+            default=list(default) if isinstance(default, tuple) else default,
+            meaning=meaning,
+            low=None if span is None else span.low,
+            high=None if span is None else span.high,
+        )
+    return specs
+
+
+SPECS: dict[str, Spec] = _OF_NODE | _of_settings()
 
 
 class ParameterServices(ParameterService):
@@ -288,14 +274,12 @@ def check(parameter: Parameter) -> None:
             field=name,
         )
     numbers = value if isinstance(value, list) else [value]
-    for each in numbers:
-        if isinstance(each, float) and not math.isfinite(each):
-            raise Malformed(f'{name} is not finite', field=name)
-        if spec.low is not None and spec.high is not None and not spec.low <= each <= spec.high:
-            raise BadProperty(
-                f'{name} is {each:g}; it must lie between {spec.low:g} and {spec.high:g}',
-                field=name,
-            )
+    if any(isinstance(each, float) and not math.isfinite(each) for each in numbers):
+        raise Malformed(f'{name} is not finite', field=name)
+    if spec.low is not None and spec.high is not None and not spec.low <= value <= spec.high:
+        raise BadProperty(
+            f'{name} is {value:g}; it must lie between {spec.low:g} and {spec.high:g}', field=name
+        )
     if spec.choices and value not in spec.choices:
         raise BadProperty(f'{name} must be one of {", ".join(spec.choices)}', field=name)
 

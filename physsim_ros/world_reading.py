@@ -39,7 +39,7 @@ from physsim_ros.core.properties import (
     pair,
     properties_from,
     shown,
-    within,
+    Within,
 )
 from physsim_ros.core.requests import Command, join_from, joined_from, LONGEST, Restore, Spawn
 from physsim_ros.core.rigid_body import REST
@@ -217,7 +217,7 @@ def _seat(value: object) -> Seat:
     count = len(Seat._fields)
     if not isinstance(value, list) or len(value) != count:
         raise BadProperty(f'seat must be {count} numbers', field='seat')
-    return Seat(*(within(-LOST, LOST)(each, 'seat') for each in value))
+    return Seat(*(Within(-LOST, LOST)(each, 'seat') for each in value))
 
 
 @contextmanager
@@ -427,7 +427,7 @@ def _wrench_steps(wrench: Mapping[Any, Any], physics_rate: float) -> int | None:
     """Return for how many steps a wrench still acts; None is for ever."""
     seconds, steps = wrench.get('seconds'), wrench.get('steps')
     if seconds is not None:
-        return steps_in(within(0.0, LONGEST, 's')(seconds, 'seconds'), physics_rate)
+        return steps_in(Within(0.0, LONGEST, 's')(seconds, 'seconds'), physics_rate)
     # Files of before had steps, of whatever rate.
     if steps is None or _count(steps, 'steps') <= LONGEST * physics_rate:
         return steps

@@ -36,7 +36,7 @@ from physsim_ros.core.properties import (
     HEAVIEST,
     shown,
     values_said,
-    within,
+    Within,
 )
 from physsim_ros.core.shapes import LARGEST
 
@@ -155,27 +155,27 @@ def kind_from(value: object) -> JointKind:
 
 
 def _ratio(value: object, name: str) -> float:
-    ratio = within(-_MOST_RATIO, _MOST_RATIO)(value, name)
+    ratio = Within(-_MOST_RATIO, _MOST_RATIO)(value, name)
     if abs(ratio) < 1.0 / _MOST_RATIO:
         raise BadProperty(f'{name} is {ratio:g}; it must not be 0', field=name)
     return ratio
 
 
-_LIMIT = within(-LARGEST, LARGEST, 'rad or m')
-_LENGTH = within(0.0, LARGEST, 'm')
+_LIMIT = Within(-LARGEST, LARGEST, 'rad or m')
+_LENGTH = Within(0.0, LARGEST, 'm')
 _CHECKS: Checks = {
     'lower': _LIMIT,
     'upper': _LIMIT,
-    'rate': within(-FASTEST, FASTEST, 'rad/s'),
-    'max_torque': within(0.0, HEAVIEST, 'N m'),
-    'stiffness': within(0.0, HEAVIEST, 'N/m'),
-    'damping': within(0.0, HEAVIEST, 'N s/m'),
+    'rate': Within(-FASTEST, FASTEST, 'rad/s'),
+    'max_torque': Within(0.0, HEAVIEST, 'N m'),
+    'stiffness': Within(0.0, HEAVIEST, 'N/m'),
+    'damping': Within(0.0, HEAVIEST, 'N s/m'),
     'rest_length': _LENGTH,
     'length': _LENGTH,
     'ratio': _ratio,
-    'phase': within(-_MOST_TURN, _MOST_TURN, 'rad'),
-    'max_force': within(0.0, HEAVIEST, 'N'),
-    'break_force': within(0.0, HEAVIEST, 'N'),
+    'phase': Within(-_MOST_TURN, _MOST_TURN, 'rad'),
+    'max_force': Within(0.0, HEAVIEST, 'N'),
+    'break_force': Within(0.0, HEAVIEST, 'N'),
     'collide': flag,
 }
 

@@ -179,19 +179,32 @@ def check_finite(values: tuple[float, ...], count: int, name: str) -> None:
         raise Malformed(f'{name} is not finite', field=name)
 
 
-def within(low: float, high: float, unit: str = '') -> Callable[[object, str], float]:
-    """Return a check that a number lies in a closed range."""
+@dataclass(frozen=True, slots=True)
+class Within:
+    """
+    A check that a number lies in a closed range.
 
-    def check(value: object, name: str) -> float:
+    :param low: the least
+    :param high: the greatest
+    :param unit: of both, for messages
+    """
+
+    low: float
+    high: float
+    unit: str = ''
+
+    def __call__(self, value: object, name: str) -> float:
+        """
+        Return the number.
+
+        :raises BadProperty: it is not a number, or out of range
+        :raises Malformed: it is not finite
+        """
         result = number(value, name)
-        if not low <= result <= high:
-            raise BadProperty(
-                f'{name} is {result:g}; it must lie between {low:g} and {high:g} {unit}'.rstrip(),
-                field=name,
-            )
+        if not self.low <= result <= self.high:
+            span = f'{self.low:g} and {self.high:g} {self.unit}'.rstrip()
+            raise BadProperty(f'{name} is {result:g}; it must lie between {span}', field=name)
         return result
-
-    return check
 
 
 def pair(value: object, name: str) -> tuple[float, float]:
@@ -242,12 +255,12 @@ def _group(value: object, name: str) -> int:
 
 
 _CHECKS: Checks = {
-    'mass': within(LIGHTEST, HEAVIEST, 'kg'),
-    'density': within(LIGHTEST, HEAVIEST, 'kg/m²'),
-    'friction': within(0.0, 10.0),
-    'elasticity': within(0.0, 1.0),
+    'mass': Within(LIGHTEST, HEAVIEST, 'kg'),
+    'density': Within(LIGHTEST, HEAVIEST, 'kg/m²'),
+    'friction': Within(0.0, 10.0),
+    'elasticity': Within(0.0, 1.0),
     'velocity': velocity,
-    'spin': within(-FASTEST, FASTEST, 'rad/s'),
+    'spin': Within(-FASTEST, FASTEST, 'rad/s'),
     'anchored': flag,
     'kinematic': flag,
     'group': _group,

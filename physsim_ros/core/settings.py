@@ -16,12 +16,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 import math
 
 from physsim_ros.core.errors import BadProperty, Malformed
-from physsim_ros.core.properties import HEAVIEST, LIGHTEST, pair, shown, within
+from physsim_ros.core.properties import Checks, HEAVIEST, LIGHTEST, pair, shown, Within
 from physsim_ros.core.shapes import LARGEST, Point
 
 Bounds = tuple[float, float, float, float]
@@ -77,7 +76,7 @@ def _bounds(value: object, name: str) -> Bounds | None:
         raise BadProperty(f'{name} must be a list of four numbers, not {shown(value)}', field=name)
     if len(value) != 4:
         raise Malformed(f'{name} needs 4 numbers, not {len(value)}', field=name)
-    left, bottom, right, top = (within(-LARGEST, LARGEST, 'm')(each, name) for each in value)
+    left, bottom, right, top = (Within(-LARGEST, LARGEST, 'm')(each, name) for each in value)
     if not (left < right and bottom < top):
         raise BadProperty(
             f'{name} must be [xmin, ymin, xmax, ymax], each min below its max', field=name
@@ -85,26 +84,41 @@ def _bounds(value: object, name: str) -> Bounds | None:
     return left, bottom, right, top
 
 
-def _whole(low: int, high: int) -> Callable[[object, str], int]:
-    def check(value: object, name: str) -> int:
+@dataclass(frozen=True, slots=True)
+class Whole:
+    """
+    A check that a number is whole and lies in a closed range.
+
+    :param low: the least
+    :param high: the greatest
+    """
+
+    low: int
+    high: int
+
+    def __call__(self, value: object, name: str) -> int:
+        """
+        Return the number.
+
+        :raises BadProperty: it is not whole, or out of range
+        """
+        low, high = self.low, self.high
         if isinstance(value, bool) or not isinstance(value, int) or not low <= value <= high:
             raise BadProperty(f'{name} must be a whole number, {low} to {high}', field=name)
         return value
 
-    return check
 
-
-_CHECKS: dict[str, Callable[[object, str], object]] = {
-    'gravity': _gravity,
-    'damping': within(0.0, 1.0),
-    'iterations': _whole(1, 1000),
-    'bounds': _bounds,
-    'density': within(LIGHTEST, HEAVIEST, 'kg/m²'),
-    'friction': within(0.0, 10.0),
-    'elasticity': within(0.0, 1.0),
-    'command_timeout': within(0.0, 1e9, 's'),
-    'max_bodies': _whole(0, 1_000_000),
+# Of the settings that are one number each.
+RANGES: dict[str, Within | Whole] = {
+    'damping': Within(0.0, 1.0),
+    'iterations': Whole(1, 1000),
+    'density': Within(LIGHTEST, HEAVIEST, 'kg/m²'),
+    'friction': Within(0.0, 10.0),
+    'elasticity': Within(0.0, 1.0),
+    'command_timeout': Within(0.0, 1e9, 's'),
+    'max_bodies': Whole(0, 1_000_000),
 }
+_CHECKS: Checks = {'gravity': _gravity, 'bounds': _bounds, **RANGES}
 
 
 def check_setting(name: str) -> None:

@@ -18,7 +18,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from physsim_ros.core.properties import velocity, within
+from physsim_ros.core.properties import Checks, velocity, Within
 from physsim_ros.core.shapes import Color, Point, SMALLEST
 
 
@@ -53,10 +53,11 @@ class DrawingSettings:
             object.__setattr__(self, name, check(getattr(self, name), name))
 
 
-_CHECKS = {
-    'snap': within(0.0, 10.0, 'm'),
-    'sketch_confidence': within(0.0, 1.0),
-    'beautify': within(0.0, 0.5),
-    'wall_thickness': within(SMALLEST, 10.0, 'm'),
-    'draw_velocity': velocity,
+# Of the settings that are one number each.
+RANGES = {
+    'snap': Within(0.0, 10.0, 'm'),
+    'sketch_confidence': Within(0.0, 1.0),
+    'beautify': Within(0.0, 0.5),
+    'wall_thickness': Within(SMALLEST, 10.0, 'm'),
 }
+_CHECKS: Checks = {'draw_velocity': velocity, **RANGES}
