@@ -40,7 +40,7 @@ run: $(STAMP)
 	@exec $(BIN)/physsim --ros-args -p world_file:=demo $(ARGS)
 
 test: $(STAMP)
-	$(BIN)/python -m pytest $(ARGS)
+	$(BIN)/python -m pytest --numprocesses=auto --maxprocesses=8 --dist=worksteal $(ARGS)
 
 lint: $(STAMP)
 	$(BIN)/ruff check

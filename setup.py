@@ -80,6 +80,7 @@ setup(
             'psutil',
             'pytest>=8',
             'pytest-timeout',
+            'pytest-xdist',
             # With every rule selected, a new minor version of ruff is new rules.
             'ruff>=0.17,<0.18',
             'import-linter>=2.5,<3',

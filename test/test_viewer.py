@@ -421,7 +421,7 @@ FROZEN = """
     viewer.record(path)
     viewer.turn_to(ViewerMode.CONNECT, url)
     events = Events(viewer)
-    until(lambda: viewer.state.count('open') == 2)
+    until(lambda: viewer.state.count(', open,') == 2)
     os.kill(server, signal.SIGSTOP)
     step = 0
     while 'takes nothing' not in viewer.state:

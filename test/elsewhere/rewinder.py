@@ -294,7 +294,7 @@ class Travel:
                 traveller.call_well(word)
             passes[what] = traveller.collect(count, forward=forward)
             traveller.call_well('pause')
-            # The frame of a step comes after all that was shown before.
+            # Here and below: the frame of a step comes after all that was shown before.
             passes[f'a step after {what}'] = [traveller.step()]
 
         go('rewind', 60)
@@ -302,6 +302,7 @@ class Travel:
         self.seen['twice'] = twice
         self.seen['step while rewinding'] = traveller.call('/physsim/step')
         traveller.call_well('pause')
+        traveller.step()
         go('speed -0.5', 40)
         go('fast_rewind', 20)
         go('play', 40, forward=True)
@@ -323,7 +324,6 @@ class Travel:
             'speed then': traveller.parameter('speed'),
             'settings at the oldest': self.settings(),
         }
-        # As above.
         traveller.step()
         passes['to the oldest'] = [frame_of(each) for each in traveller.states[begin:-1]]
 

@@ -14,20 +14,25 @@
 
 """The table of all laws: measured against exact, with unit and tolerance, at the end of a run."""
 
-from dataclasses import dataclass, field
+from itertools import chain
+import math
 
 import pytest
 
+# Under which the report of a test keeps what it has measured; so it comes through where tests run
+# in several processes.
+MEASURED = 'measured'
 
-@dataclass
+
 class Report:
     """
-    Collects what the laws measure.
+    Collects what a law measures.
 
-    Of several cases of one quantity, the row shows the one that is furthest off.
+    :param properties: of the test
     """
 
-    rows: dict[tuple, list] = field(default_factory=dict)
+    def __init__(self, properties):
+        self._properties = properties
 
     def check(self, law, what, measured, exact, tolerance, unit, *, relative=False):
         """
@@ -35,49 +40,50 @@ class Report:
 
         :param tolerance: of the difference, or of the ratio less one where `relative`
         """
+        measured, exact, tolerance = float(measured), float(exact), float(tolerance)
         off = abs(measured - exact)
         if relative:
             off /= abs(exact)
-        key = (law, what, unit, tolerance)
-        # A number that is none is further off than every number.
-        worst = self.rows.setdefault(key, [0, -1.0, 0.0, 0.0])
-        worst[0] += 1
-        if not off <= worst[1]:
-            worst[1:] = [off, measured, exact]
+        row = (law, what, unit, tolerance, off, measured, exact)
+        self._properties.append((MEASURED, row))
         assert off <= tolerance, f'law {law}, {what}: {measured!r} {unit}, exact {exact!r}'
 
-    def lines(self):
-        """Yield the table, line by line."""
-        yield (
-            f'{"law":>3}  {"what":<46} {"measured":>14} {"exact":>14} {"off by":>9} '
-            f'{"tolerance":>9}  {"unit":<9} cases'
+
+def table(rows):
+    """Yield the table, line by line; of the cases of one quantity the one furthest off."""
+    yield (
+        f'{"law":>3}  {"what":<46} {"measured":>14} {"exact":>14} {"off by":>9} '
+        f'{"tolerance":>9}  {"unit":<9} cases'
+    )
+    quantities = {}
+    for law, what, unit, tolerance, *values in rows:
+        quantities.setdefault((law, what, unit, tolerance), []).append(values)
+    for (law, what, unit, tolerance), cases in sorted(quantities.items()):
+        # A number that is none is further off than every number.
+        off, measured, exact = max(
+            cases, key=lambda case: math.inf if math.isnan(case[0]) else case[0]
         )
-        for (law, what, unit, tolerance), (cases, off, measured, exact) in sorted(
-            self.rows.items(), key=lambda row: row[0][0]
-        ):
-            mark = '' if off <= tolerance else '  BROKEN'
-            yield (
-                f'{law:>3}  {what:<46} {measured:>14.8g} {exact:>14.8g} {off:>9.2g} '
-                f'{tolerance:>9.2g}  {unit:<9} {cases:>5}{mark}'
-            )
+        mark = '' if off <= tolerance else '  BROKEN'
+        yield (
+            f'{law:>3}  {what:<46} {measured:>14.8g} {exact:>14.8g} {off:>9.2g} '
+            f'{tolerance:>9.2g}  {unit:<9} {len(cases):>5}{mark}'
+        )
 
 
-_REPORT = pytest.StashKey[Report]()
-
-
-def pytest_configure(config):
-    config.stash[_REPORT] = Report()
-
-
-def pytest_terminal_summary(terminalreporter, config):
-    report = config.stash[_REPORT]
-    if report.rows:
+def pytest_terminal_summary(terminalreporter):
+    rows = [
+        value
+        for test in chain.from_iterable(terminalreporter.stats.values())
+        for name, value in getattr(test, 'user_properties', ())
+        if name == MEASURED and test.when == 'call'
+    ]
+    if rows:
         terminalreporter.section('the laws: measured against exact')
-        for line in report.lines():
+        for line in table(rows):
             terminalreporter.write_line(line)
 
 
-@pytest.fixture(scope='session')
+@pytest.fixture
 def report(request):
-    """Hand out what collects the measurements of the session."""
-    return request.config.stash[_REPORT]
+    """Hand out what collects the measurements of a test."""
+    return Report(request.node.user_properties)
