@@ -29,6 +29,8 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from physsim_ros.core.arrays import Floats, Singles
+from physsim_ros.core.description import Body, Scene
 from physsim_ros.core.settings import Bounds
 from physsim_ros.core.shapes import (
     Box,
@@ -42,9 +44,7 @@ from physsim_ros.core.shapes import (
     Point,
     Polygon,
 )
-from physsim_ros.core.snapshot import Body, Floats, Scene
 
-Singles = NDArray[np.float32]
 # A flat rectangle or disc on a body: x, y [m], yaw [rad] in the body's frame; half extents [m];
 # red, green, blue, alpha, each 0 .. 1. The corner of a triangle has no extent.
 Thing = tuple[float, float, float, float, float, float, float, float, float]

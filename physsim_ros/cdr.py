@@ -31,25 +31,15 @@ from functools import lru_cache
 import struct
 
 import numpy as np
-from numpy.typing import NDArray
+from physsim_ros.core.arrays import Floats, Ints, Singles
+from physsim_ros.core.description import Body, Joint, Scene
 from physsim_ros.core.joint_properties import JointKind
 from physsim_ros.core.names import WORLD
 from physsim_ros.core.rotation import turned
-from physsim_ros.core.snapshot import (
-    Answer,
-    Body,
-    Contacts,
-    Floats,
-    Ints,
-    Joint,
-    Scene,
-    Snapshot,
-)
+from physsim_ros.core.snapshot import Answer, Contacts, Snapshot
 from physsim_ros.linework import Linework, segments, size_of, strips
 from physsim_ros.symbols import joint_symbols, Key, Symbol, symbols, walls
 from visualization_msgs.msg import Marker
-
-Singles = NDArray[np.float32]
 
 # The header of a message; before it four bytes, so that what follows it lies aligned in memory.
 _START = b'\0\0\0\0\0\1\0\0'

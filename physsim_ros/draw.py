@@ -32,7 +32,7 @@ from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import PoseStamped
 from nav_msgs.msg import Path
 from physsim_ros import drawing_file
-from physsim_ros.core.snapshot import Floats
+from physsim_ros.core.arrays import Floats
 from physsim_ros.drawing_file import BadDrawing, Pace
 from physsim_ros.quiet_node import LOSSLESS, QuietNode
 import rclpy

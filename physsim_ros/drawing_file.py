@@ -31,9 +31,9 @@ from xml.etree.ElementTree import ParseError
 
 import numpy as np
 from numpy.typing import NDArray
+from physsim_ros.core.arrays import Floats
 from physsim_ros.core.errors import PhysSimError
 from physsim_ros.core.requests import FARTHEST
-from physsim_ros.core.snapshot import Floats
 from physsim_ros.paths import MOST_SAMPLES
 from physsim_ros.shipped import is_plain, shipped
 from svgelements import Curve, Matrix, Shape, SVG

@@ -23,7 +23,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.body_picture import FINE
-from physsim_ros.core.snapshot import Floats, Scene
+from physsim_ros.core.arrays import Floats
+from physsim_ros.core.description import Scene
 from physsim_ros.linework import Linework
 import pyarrow as pa
 import rerun as rr

@@ -28,10 +28,11 @@ import math
 
 import numpy as np
 from numpy.typing import NDArray
+from physsim_ros.core.arrays import Floats
+from physsim_ros.core.description import Body, Joint, Scene
 from physsim_ros.core.joint_properties import JointKind
 from physsim_ros.core.names import WORLD
 from physsim_ros.core.rotation import turned
-from physsim_ros.core.snapshot import Body, Floats, Joint, Scene
 
 # The smallest and the largest half size of a symbol [m].
 SMALL, _LARGE = 0.03, 0.15

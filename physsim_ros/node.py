@@ -49,7 +49,8 @@ from physsim_ros.core.requests import (
 )
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.simulation import Simulation
-from physsim_ros.core.snapshot import Answer, Frame, run_state, Snapshot, WorldState
+from physsim_ros.core.snapshot import Answer, Frame, run_state, Snapshot
+from physsim_ros.core.state import WorldState
 from physsim_ros.diagnostics import Meter
 from physsim_ros.drawing.pen import Pen, told
 from physsim_ros.drawing.tools import Tool

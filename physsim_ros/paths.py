@@ -24,8 +24,8 @@ from __future__ import annotations
 import struct
 
 import numpy as np
+from physsim_ros.core.arrays import Floats
 from physsim_ros.core.errors import Malformed
-from physsim_ros.core.snapshot import Floats
 
 # A minute of a pen of 160 Hz; nobody draws a line for that long.
 MOST_SAMPLES = 10_000

@@ -38,16 +38,16 @@ from physsim_ros.body_picture import (
     PLACES,
     RECTANGLES,
     shown,
-    Singles,
     Table,
     THICK,
     TRANSLUCENT,
     TRIANGLES,
 )
+from physsim_ros.core.arrays import Floats, Singles
 from physsim_ros.core.preview import NOTHING
 from physsim_ros.core.settings import Bounds
 from physsim_ros.core.shapes import Point
-from physsim_ros.core.snapshot import Answer, Floats, Frame, Snapshot
+from physsim_ros.core.snapshot import Answer, Frame, Snapshot
 from physsim_ros.joint_picture import JointPicture
 from physsim_ros.joint_picture import PATH as JOINTS
 import rerun as rr

@@ -24,6 +24,7 @@ from dataclasses import dataclass
 import json
 import math
 
+from physsim_ros.core.description import Body, Joint
 from physsim_ros.core.joint_properties import JointKind
 from physsim_ros.core.names import (
     CROSS_PREFIX,
@@ -44,7 +45,6 @@ from physsim_ros.core.shapes import (
     Shape,
     Triangles,
 )
-from physsim_ros.core.snapshot import Body, Joint
 from visualization_msgs.msg import Marker
 
 Size = tuple[float, float, float]

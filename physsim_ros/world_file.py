@@ -28,7 +28,7 @@ import textwrap
 
 from physsim_ros.core.errors import BadWorldFile, Malformed, Refusal
 from physsim_ros.core.settings import WorldSettings
-from physsim_ros.core.snapshot import WorldState
+from physsim_ros.core.state import WorldState
 from physsim_ros.shipped import is_plain, shipped
 from physsim_ros.world_reading import state_from
 from physsim_ros.world_writing import text_of

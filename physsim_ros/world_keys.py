@@ -20,7 +20,7 @@ from dataclasses import fields
 
 from physsim_ros.core.properties import Properties
 from physsim_ros.core.settings import WorldSettings
-from physsim_ros.core.snapshot import ContactMemory
+from physsim_ros.core.state import ContactMemory
 
 FORMAT = 1
 # How many bodies a world may hold is the node's own protection, not the file's to lift.

@@ -28,6 +28,7 @@ import math
 from typing import Any
 
 import numpy as np
+from physsim_ros.core.description import Joint, Seat
 from physsim_ros.core.errors import BadProperty, BadWorldFile, Refusal, UnknownProperty
 from physsim_ros.core.joining import drawn_points
 from physsim_ros.core.joint_properties import JointKind
@@ -57,8 +58,8 @@ from physsim_ros.core.shapes import (
     Shape,
     Triangles,
 )
-from physsim_ros.core.snapshot import BodyState, ContactMemory, Joint, Motion, Seat, WorldState
 from physsim_ros.core.space import LOST
+from physsim_ros.core.state import BodyState, ContactMemory, Motion, WorldState
 from physsim_ros.core.world import steps_in, World
 from physsim_ros.packed import unpack
 from physsim_ros.world_keys import FORMAT, MEMORY, PARAMETERS, PROPERTIES, SETTINGS

@@ -19,6 +19,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
+from physsim_ros.core.description import Joint
 from physsim_ros.core.joining import drawn_points
 from physsim_ros.core.palette import color_from
 from physsim_ros.core.shapes import (
@@ -32,7 +33,7 @@ from physsim_ros.core.shapes import (
     Shape,
     Triangles,
 )
-from physsim_ros.core.snapshot import BodyState, ContactMemory, Joint, WorldState
+from physsim_ros.core.state import BodyState, ContactMemory, WorldState
 from physsim_ros.packed import pack
 from physsim_ros.world_keys import FORMAT, MEMORY, SETTINGS
 import yaml

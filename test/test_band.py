@@ -20,8 +20,9 @@ from pathlib import Path
 
 import numpy as np
 from physsim_ros.band import Band
+from physsim_ros.core.description import Scene
 from physsim_ros.core.settings import WorldSettings
-from physsim_ros.core.snapshot import Answer, Frame, Scene, Snapshot
+from physsim_ros.core.snapshot import Answer, Frame, Snapshot
 import pytest
 
 rr = pytest.importorskip('rerun')

@@ -35,9 +35,10 @@ from hypothesis import strategies as st
 import numpy as np
 from physsim_ros import cdr
 from physsim_ros.conversions import body_request
+from physsim_ros.core.description import Body, Scene
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.shapes import Box, Chain, Compound, Disc, Polygon, Triangles
-from physsim_ros.core.snapshot import Answer, Body, Contacts, Scene, Snapshot
+from physsim_ros.core.snapshot import Answer, Contacts, Snapshot
 import pytest
 from rclpy.serialization import deserialize_message, serialize_message
 from rosgraph_msgs.msg import Clock

@@ -22,7 +22,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from physsim_ros.core.snapshot import Floats
+from physsim_ros.core.arrays import Floats
 from physsim_ros.drawing_file import BadDrawing, find, load, Pace
 from physsim_ros.paths import MOST_SAMPLES
 from physsim_ros.shipped import shipped

@@ -23,10 +23,11 @@ from pathlib import Path
 import time
 
 import numpy as np
+from physsim_ros.core.description import Body, Scene
 from physsim_ros.core.preview import NOTHING, Preview
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.shapes import Box, Chain, Compound, Disc, Polygon, Triangles
-from physsim_ros.core.snapshot import Answer, Body, Contacts, Frame, Scene, Snapshot
+from physsim_ros.core.snapshot import Answer, Contacts, Frame, Snapshot
 from physsim_ros.picture import LINGER, Picture, REPEAT
 import pytest
 

@@ -24,9 +24,10 @@ from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import PoseArray
 import numpy as np
 from physsim_ros import cdr
+from physsim_ros.core.description import Body, Scene
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.shapes import Disc
-from physsim_ros.core.snapshot import Answer, Body, Contacts, Frame, Scene, Snapshot
+from physsim_ros.core.snapshot import Answer, Contacts, Frame, Snapshot
 from physsim_ros.streams import QUIET, Streams
 import pytest
 import rclpy

@@ -30,9 +30,10 @@ from urllib.parse import parse_qs, urlsplit
 from urllib.request import urlopen
 
 import numpy as np
+from physsim_ros.core.description import Body, Scene
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.shapes import Box
-from physsim_ros.core.snapshot import Answer, Body, Frame, Scene, Snapshot
+from physsim_ros.core.snapshot import Answer, Frame, Snapshot
 from physsim_ros.outlet import Outlet, Way
 from physsim_ros.viewer import Viewer, ViewerMode
 import pytest

@@ -31,7 +31,7 @@ from physsim_ros.core.palette import color_of
 from physsim_ros.core.requests import Anchor, Command, Configure, Join, Release, Restore
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.shapes import Disc
-from physsim_ros.core.snapshot import WorldState
+from physsim_ros.core.state import WorldState
 from physsim_ros.core.world import World
 from physsim_ros.packed import pack
 from physsim_ros.parameters import SPECS

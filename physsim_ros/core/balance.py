@@ -32,10 +32,10 @@ from collections.abc import Mapping, Sequence
 import math
 
 import numpy as np
+from physsim_ros.core.arrays import Floats, Ints
 from physsim_ros.core.joint_properties import JointKind
 from physsim_ros.core.joints import EngineJoint, islands, springs_of
 from physsim_ros.core.restraints import Restraints
-from physsim_ros.core.snapshot import Floats, Ints
 import pymunk
 
 # Of an energy, what is rounding.

@@ -29,7 +29,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from physsim_ros.core.snapshot import ContactMemory, Ints
+from physsim_ros.core.arrays import Ints
+from physsim_ros.core.state import ContactMemory
 import pymunk
 from pymunk._chipmunk_cffi import ffi, lib
 

@@ -27,8 +27,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from physsim_ros.core.arrays import Floats, Ints
 from physsim_ros.core.engine_arrays import EngineArrays, Ids
-from physsim_ros.core.snapshot import Contacts, Floats, Ints
+from physsim_ros.core.snapshot import Contacts
 import pymunk
 from pymunk import batch
 

@@ -25,8 +25,8 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from physsim_ros.core.arrays import Floats, Ints
 from physsim_ros.core.graph import ranges
-from physsim_ros.core.snapshot import Floats, Ints
 
 Flags = NDArray[np.bool_]
 

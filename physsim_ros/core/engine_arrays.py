@@ -25,7 +25,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from physsim_ros.core.snapshot import Floats
+from physsim_ros.core.arrays import Floats
 import pymunk
 from pymunk import batch
 

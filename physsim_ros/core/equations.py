@@ -27,8 +27,8 @@ import itertools
 
 import numpy as np
 from numpy.typing import NDArray
+from physsim_ros.core.arrays import Floats
 from physsim_ros.core.graph import Graph, ranges, Rows
-from physsim_ros.core.snapshot import Floats
 
 # Up to so many rows are solved as one matrix. For larger ones numpy's algebra uses threads, whose
 # waiting for each other takes up to a thousand times as long where another program is busy.

@@ -22,11 +22,11 @@ import itertools
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.core import sweep
+from physsim_ros.core.arrays import Floats, Ints
 from physsim_ros.core.encounters import could_meet, Motions
 from physsim_ros.core.engine_arrays import EngineArrays
 from physsim_ros.core.layout import Layout
 from physsim_ros.core.rigid_body import RigidBody
-from physsim_ros.core.snapshot import Floats, Ints
 import pymunk
 
 # So many fast bodies are worth finding out first which of them could meet anything.

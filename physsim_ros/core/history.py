@@ -27,7 +27,7 @@ from typing import NamedTuple
 
 from physsim_ros.core.errors import OutOfHistory
 from physsim_ros.core.requests import Request, Restore
-from physsim_ros.core.snapshot import Keyframe, WorldState
+from physsim_ros.core.state import Keyframe, WorldState
 
 
 @dataclass(slots=True, eq=False)

@@ -25,13 +25,13 @@ from collections.abc import Mapping
 from dataclasses import replace
 import math
 
+from physsim_ros.core.description import Joint, Seat
 from physsim_ros.core.errors import Anchored, BadProperty, NothingThere, UnknownBody, UnknownJoint
 from physsim_ros.core.joint_properties import JointKind, JointProperties
 from physsim_ros.core.names import split_name, WORLD
 from physsim_ros.core.requests import Join
 from physsim_ros.core.rotation import rotated
 from physsim_ros.core.shapes import Point, Pose
-from physsim_ros.core.snapshot import Joint, Seat
 from physsim_ros.core.space import Space
 
 # Points that lie so near to where a joint is drawn are where it is [m]: what is drawn comes back

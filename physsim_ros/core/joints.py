@@ -27,10 +27,11 @@ from dataclasses import dataclass
 import math
 
 import numpy as np
+from physsim_ros.core.description import Joint
 from physsim_ros.core.joint_properties import JointKind
 from physsim_ros.core.rigid_body import RigidBody
 from physsim_ros.core.shapes import Point, SMALLEST
-from physsim_ros.core.snapshot import Joint, Springs
+from physsim_ros.core.snapshot import Springs
 import pymunk
 
 # How far a slider without limits goes to each side [m].

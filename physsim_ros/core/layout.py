@@ -29,9 +29,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.core import stillness, sweep
+from physsim_ros.core.arrays import Floats, Ints
+from physsim_ros.core.description import Scene
 from physsim_ros.core.engine_arrays import Ids
 from physsim_ros.core.rigid_body import REST, RigidBody
-from physsim_ros.core.snapshot import Floats, Ints, Scene
 
 
 @dataclass(slots=True, eq=False)

@@ -33,12 +33,12 @@ import itertools
 
 import numpy as np
 from numpy.typing import NDArray
+from physsim_ros.core.arrays import Floats
 from physsim_ros.core.equations import Equations
 from physsim_ros.core.graph import Graph, meetings
 from physsim_ros.core.joint_properties import JointKind
 from physsim_ros.core.joints import EngineJoint, FASTEST_CORRECTION, islands
 from physsim_ros.core.restraints import Restraints
-from physsim_ros.core.snapshot import Floats
 import pymunk
 
 # What hangs together and is no more work than so many rows of which each meets each, which take

@@ -31,11 +31,11 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from physsim_ros.core.arrays import Floats
 from physsim_ros.core.engine_arrays import EngineArrays, Touching
 from physsim_ros.core.graph import Rows
 from physsim_ros.core.linkage import Linkage
 from physsim_ros.core.rigid_body import RigidBody
-from physsim_ros.core.snapshot import Floats
 import pymunk
 
 # Contacts that close more slowly than this are left to the engine [m/s].

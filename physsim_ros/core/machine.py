@@ -29,7 +29,9 @@ from typing import NamedTuple
 
 import numpy as np
 from physsim_ros.core import joints
+from physsim_ros.core.arrays import Floats
 from physsim_ros.core.balance import Balance
+from physsim_ros.core.description import Body, Joint
 from physsim_ros.core.engine_arrays import EngineArrays
 from physsim_ros.core.graph import Rows
 from physsim_ros.core.joint_properties import JointKind
@@ -38,7 +40,7 @@ from physsim_ros.core.linkage import Linkage
 from physsim_ros.core.loads import Loads
 from physsim_ros.core.names import WORLD
 from physsim_ros.core.rigid_body import RigidBody
-from physsim_ros.core.snapshot import Body, Floats, Joint, Springs
+from physsim_ros.core.snapshot import Springs
 import pymunk
 
 # The roughest that the engine's own attempt may be with all bodies together [m/s²].

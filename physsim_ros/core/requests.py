@@ -46,7 +46,7 @@ from physsim_ros.core.properties import (
 )
 from physsim_ros.core.settings import check_setting
 from physsim_ros.core.shapes import Color, Point, Pose, Shape, SMALLEST
-from physsim_ros.core.snapshot import WorldState
+from physsim_ros.core.state import WorldState
 
 # 10 000 km: beyond it float64 positions are coarser than a nanometre.
 FARTHEST = 1e7

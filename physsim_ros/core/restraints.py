@@ -24,11 +24,12 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
+from physsim_ros.core.arrays import Floats
+from physsim_ros.core.description import Joint
 from physsim_ros.core.graph import Rows
 from physsim_ros.core.joint_properties import JointKind
 from physsim_ros.core.joints import EngineJoint
 from physsim_ros.core.rotation import turned
-from physsim_ros.core.snapshot import Floats, Joint
 import pymunk
 
 _PIVOTS = (JointKind.PIN, JointKind.AXLE, JointKind.MOTOR)

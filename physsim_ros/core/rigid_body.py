@@ -26,9 +26,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 import math
 
+from physsim_ros.core.description import Body
 from physsim_ros.core.rotation import rotated
 from physsim_ros.core.shapes import Capsule, Circle, Convex, Piece, Point, Pose
-from physsim_ros.core.snapshot import Body, Motion
+from physsim_ros.core.state import Motion
 import pymunk
 
 REST = (0.0, 0.0, 0.0)

@@ -31,7 +31,8 @@ from physsim_ros.core.errors import BadProperty, Refusal
 from physsim_ros.core.past import Past, Shot
 from physsim_ros.core.requests import Command, Delete, Join, Request, Restore, Spawn, Unjoin
 from physsim_ros.core.settings import WorldSettings
-from physsim_ros.core.snapshot import Answer, Contacts, Frame, Snapshot, WorldState
+from physsim_ros.core.snapshot import Answer, Contacts, Frame, Snapshot
+from physsim_ros.core.state import WorldState
 from physsim_ros.core.timeline import Timeline
 from physsim_ros.core.undo import Undo
 from physsim_ros.core.world import World

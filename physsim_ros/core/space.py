@@ -27,9 +27,11 @@ import math
 
 import numpy as np
 from physsim_ros.core import rigid_body, sweep
+from physsim_ros.core.arrays import Floats
 from physsim_ros.core.cascade import Cascade
 from physsim_ros.core.contact_memory import recall, remind, ShapeIds
 from physsim_ros.core.contacts import ContactLog
+from physsim_ros.core.description import Body, Joint, Scene
 from physsim_ros.core.engine_arrays import EngineArrays, Ids
 from physsim_ros.core.fast_bodies import FastBodies
 from physsim_ros.core.layout import lay_out, Layout
@@ -38,15 +40,8 @@ from physsim_ros.core.rigid_body import REST, RigidBody
 from physsim_ros.core.rotation import turned
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.shapes import Point, Pose
-from physsim_ros.core.snapshot import (
-    Body,
-    Contacts,
-    Floats,
-    Joint,
-    Keyframe,
-    Motion,
-    Scene,
-)
+from physsim_ros.core.snapshot import Contacts
+from physsim_ros.core.state import Keyframe, Motion
 from physsim_ros.core.stillness import RATE, Stillness
 import pymunk
 

@@ -22,8 +22,8 @@ rest of a keyframe. What the space before this one has left over is used again.
 from __future__ import annotations
 
 from physsim_ros.core import rigid_body
+from physsim_ros.core.description import Scene
 from physsim_ros.core.rigid_body import RigidBody
-from physsim_ros.core.snapshot import Scene
 from physsim_ros.core.space import Space
 
 

@@ -32,9 +32,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from physsim_ros.core.arrays import Floats
 from physsim_ros.core.engine_arrays import EngineArrays
 from physsim_ros.core.rigid_body import RigidBody
-from physsim_ros.core.snapshot import Floats
 from pymunk import batch
 
 # Looked for so often [Hz]: the solver itself ends within a second what sways faster than half of

@@ -30,9 +30,10 @@ from dataclasses import dataclass
 import math
 
 import numpy as np
+from physsim_ros.core.arrays import Floats
+from physsim_ros.core.description import Body
 from physsim_ros.core.rigid_body import RigidBody
 from physsim_ros.core.shapes import Chain
-from physsim_ros.core.snapshot import Body, Floats
 from physsim_ros.core.touch import (
     body_of,
     Looks,

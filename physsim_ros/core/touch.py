@@ -27,7 +27,7 @@ import math
 from typing import cast, NamedTuple
 
 import numpy as np
-from physsim_ros.core.snapshot import Floats
+from physsim_ros.core.arrays import Floats
 import pymunk
 from pymunk import Vec2d
 

@@ -26,7 +26,7 @@ from typing import NamedTuple
 
 from physsim_ros.core.errors import OutOfHistory
 from physsim_ros.core.history import Entry, Tail
-from physsim_ros.core.snapshot import WorldState
+from physsim_ros.core.state import WorldState
 from physsim_ros.core.timeline import Timeline
 
 # So many steps back can be redone, and so many resets undone.

@@ -26,6 +26,7 @@ import hashlib
 import math
 
 from physsim_ros.core import joining
+from physsim_ros.core.description import Body
 from physsim_ros.core.errors import (
     Anchored,
     BadProperty,
@@ -60,16 +61,10 @@ from physsim_ros.core.rigid_body import REST, RigidBody
 from physsim_ros.core.rotation import rotated
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.shapes import Point, Pose
-from physsim_ros.core.snapshot import (
-    Body,
-    BodyState,
-    Contacts,
-    Keyframe,
-    Snapshot,
-    WorldState,
-)
+from physsim_ros.core.snapshot import Contacts, Snapshot
 from physsim_ros.core.space import Space
 from physsim_ros.core.spares import Spares
+from physsim_ros.core.state import BodyState, Keyframe, WorldState
 
 
 class World:

@@ -25,9 +25,9 @@ import math
 
 import numpy as np
 from physsim_ros.core import outlines
+from physsim_ros.core.arrays import Floats
 from physsim_ros.core.outlines import cross
 from physsim_ros.core.shapes import Pose
-from physsim_ros.core.snapshot import Floats
 from physsim_ros.drawing import fits
 
 

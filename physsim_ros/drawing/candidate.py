@@ -25,7 +25,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 import math
 
-from physsim_ros.core.snapshot import Floats
+from physsim_ros.core.arrays import Floats
 
 # Weights below are not worth telling.
 LEAST = 0.04

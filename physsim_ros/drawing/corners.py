@@ -26,9 +26,9 @@ import math
 
 import numpy as np
 from numpy.typing import NDArray
+from physsim_ros.core.arrays import Floats
 from physsim_ros.core.outlines import cross
 from physsim_ros.core.shapes import Point
-from physsim_ros.core.snapshot import Floats
 from physsim_ros.drawing.fits import line
 from physsim_ros.drawing.stroke import HOOK, HOOK_TURN
 from physsim_ros.drawing.ways import angles, smoothed, turns

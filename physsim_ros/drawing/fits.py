@@ -24,7 +24,7 @@ import itertools
 import math
 
 import numpy as np
-from physsim_ros.core.snapshot import Floats
+from physsim_ros.core.arrays import Floats
 from physsim_ros.drawing.ways import COUNT, smoothed, spaced
 
 # How far straight sides may be from an open way, root mean square, before it counts as a curve;

@@ -25,11 +25,11 @@ from dataclasses import dataclass
 import math
 
 import numpy as np
+from physsim_ros.core.arrays import Floats
 from physsim_ros.core.errors import NothingThere, NotRecognised
 from physsim_ros.core.joint_properties import JointKind
 from physsim_ros.core.requests import Anchor, Axle, Configure, Delete, Join, Request
 from physsim_ros.core.shapes import Point
-from physsim_ros.core.snapshot import Floats
 from physsim_ros.drawing import beautifying, bodies, scribbling, snapping
 from physsim_ros.drawing.corners import bends_of
 from physsim_ros.drawing.fits import simplified

@@ -23,12 +23,13 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 import numpy as np
+from physsim_ros.core.arrays import Floats
 from physsim_ros.core.errors import NotRecognised
 from physsim_ros.core.names import split_name
 from physsim_ros.core.preview import Line, NOTHING, Preview
 from physsim_ros.core.requests import Join, Request, Spawn
 from physsim_ros.core.shapes import Point
-from physsim_ros.core.snapshot import Answer, Floats, Snapshot
+from physsim_ros.core.snapshot import Answer, Snapshot
 from physsim_ros.drawing.gesture import Gesture
 from physsim_ros.drawing.reading import read, Reading
 from physsim_ros.drawing.settings import DrawingSettings

@@ -29,12 +29,12 @@ from enum import StrEnum
 import math
 
 import numpy as np
+from physsim_ros.core.arrays import Floats
 from physsim_ros.core.errors import NotRecognised
 from physsim_ros.core.names import WORLD
 from physsim_ros.core.outlines import cross
 from physsim_ros.core.requests import Request
 from physsim_ros.core.shapes import Point
-from physsim_ros.core.snapshot import Floats
 from physsim_ros.drawing import making, recogniser, scribbling, snapping
 from physsim_ros.drawing.candidate import Candidate, falls, LEAST, Primitive
 from physsim_ros.drawing.making import Make, point_of

@@ -24,7 +24,7 @@ from collections.abc import Iterable
 
 import numpy as np
 from numpy.typing import NDArray
-from physsim_ros.core.snapshot import Floats
+from physsim_ros.core.arrays import Floats
 from physsim_ros.drawing.snapping import End
 from physsim_ros.drawing.view import View
 

@@ -26,8 +26,8 @@ import itertools
 import math
 
 import numpy as np
+from physsim_ros.core.arrays import Floats
 from physsim_ros.core.outlines import cross
-from physsim_ros.core.snapshot import Floats
 from physsim_ros.drawing.candidate import Candidate, falls, LEAST, Primitive, rises
 from physsim_ros.drawing.fits import line
 from physsim_ros.drawing.stroke import Stroke

@@ -26,8 +26,8 @@ import math
 
 import numpy as np
 from physsim_ros.core import outlines
+from physsim_ros.core.arrays import Floats
 from physsim_ros.core.outlines import cross
-from physsim_ros.core.snapshot import Floats
 from physsim_ros.drawing import corners
 from physsim_ros.drawing.candidate import Candidate, falls, LEAST, Primitive, rises
 from physsim_ros.drawing.fits import rectangle, traced

@@ -25,10 +25,10 @@ from dataclasses import dataclass
 import math
 
 import numpy as np
+from physsim_ros.core.arrays import Floats
 from physsim_ros.core.errors import BadSize, Malformed
 from physsim_ros.core.requests import FARTHEST
 from physsim_ros.core.shapes import SMALLEST
-from physsim_ros.core.snapshot import Floats
 from physsim_ros.drawing.ways import angles, COUNT, spaced
 
 # Where more points are needed, for the ends of something narrow: so many times more.

@@ -27,12 +27,14 @@ import math
 
 import numpy as np
 from numpy.typing import NDArray
+from physsim_ros.core.arrays import Floats
+from physsim_ros.core.description import Body
 from physsim_ros.core.errors import BadProperty, UnknownFrame
 from physsim_ros.core.names import split_name
 from physsim_ros.core.rotation import rotated
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.shapes import Capsule, Circle, Convex, Piece, Point, Pose
-from physsim_ros.core.snapshot import Body, Floats, Snapshot
+from physsim_ros.core.snapshot import Snapshot
 
 # The namespace of all that is drawn.
 DRAWN = 'drawn'

@@ -23,8 +23,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from physsim_ros.core.arrays import Floats
 from physsim_ros.core.outlines import cross
-from physsim_ros.core.snapshot import Floats
 
 # Points of an evenly spaced way: a dozen for each side of a star of five points.
 COUNT = 128

@@ -20,6 +20,7 @@ import math
 from typing import Any
 
 import numpy as np
+from physsim_ros.core.description import Joint
 from physsim_ros.core.errors import Refusal
 from physsim_ros.core.joint_properties import JointKind, JointProperties
 from physsim_ros.core.requests import (
@@ -38,7 +39,6 @@ from physsim_ros.core.requests import (
 )
 from physsim_ros.core.shapes import Box, Disc, Point
 from physsim_ros.core.simulation import Simulation
-from physsim_ros.core.snapshot import Joint
 from physsim_ros.core.world import World
 import pytest
 

@@ -22,6 +22,7 @@ import subprocess
 import sys
 
 import numpy as np
+from physsim_ros.core.description import Body
 from physsim_ros.core.errors import (
     Anchored,
     BadProperty,
@@ -46,7 +47,6 @@ from physsim_ros.core.requests import (
 )
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.shapes import Box, Disc, Shape, Triangles
-from physsim_ros.core.snapshot import Body
 from physsim_ros.core.world import World
 import pytest
 

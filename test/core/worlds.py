@@ -18,6 +18,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from physsim_ros.core.description import Body
 from physsim_ros.core.joint_properties import JointKind
 from physsim_ros.core.properties import Properties
 from physsim_ros.core.requests import Join, Spawn
@@ -33,7 +34,6 @@ from physsim_ros.core.shapes import (
     Shape,
     Triangles,
 )
-from physsim_ros.core.snapshot import Body
 from physsim_ros.core.world import World
 
 G = 9.81

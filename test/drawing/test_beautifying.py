@@ -17,7 +17,7 @@
 import math
 
 import numpy as np
-from physsim_ros.core.snapshot import Floats
+from physsim_ros.core.arrays import Floats
 from physsim_ros.drawing import beautifying
 import pytest
 

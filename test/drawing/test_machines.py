@@ -20,8 +20,8 @@ import math
 
 import numpy as np
 from physsim_ros import drawing_file
+from physsim_ros.core.arrays import Floats
 from physsim_ros.core.simulation import Simulation
-from physsim_ros.core.snapshot import Floats
 from physsim_ros.drawing.pen import Pen
 from physsim_ros.drawing.settings import DrawingSettings
 import pytest

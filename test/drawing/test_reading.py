@@ -20,12 +20,12 @@ import math
 from typing import Any
 
 import numpy as np
+from physsim_ros.core.arrays import Floats
 from physsim_ros.core.errors import BadProperty, NothingThere, NotRecognised, Refusal
 from physsim_ros.core.joint_properties import JointKind
 from physsim_ros.core.requests import Anchor, Axle, Configure, Delete, Join, Spawn
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.shapes import Box, Chain, Disc, Polygon
-from physsim_ros.core.snapshot import Floats
 from physsim_ros.core.world import World
 from physsim_ros.drawing.reading import Meaning, read, Reading
 from physsim_ros.drawing.settings import DrawingSettings

@@ -17,7 +17,7 @@
 import math
 
 import numpy as np
-from physsim_ros.core.snapshot import Floats
+from physsim_ros.core.arrays import Floats
 from physsim_ros.drawing.candidate import Primitive
 from physsim_ros.drawing.recogniser import recognise
 from physsim_ros.drawing.signs import swings_of

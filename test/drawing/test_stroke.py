@@ -17,8 +17,8 @@
 import math
 
 import numpy as np
+from physsim_ros.core.arrays import Floats
 from physsim_ros.core.errors import BadSize, Malformed
-from physsim_ros.core.snapshot import Floats
 from physsim_ros.drawing.corners import bends_of, corners, vertices
 from physsim_ros.drawing.fits import simplified
 from physsim_ros.drawing.stroke import stroke
