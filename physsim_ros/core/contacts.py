@@ -34,8 +34,10 @@ import pymunk
 from pymunk import batch
 
 _F = batch.ArbiterFields
-_PAIRS_AND_IMPULSES = _F.BODY_A_ID | _F.BODY_B_ID | _F.TOTAL_IMPULSE
-_PLACES = _F.NORMAL | _F.CONTACT_COUNT | _F.POINT_A_1 | _F.POINT_B_1 | _F.POINT_A_2 | _F.POINT_B_2
+_FIRSTS_AND_IMPULSES = _F.BODY_A_ID | _F.TOTAL_IMPULSE
+_PAIRS_AND_IMPULSES = _F.BODY_B_ID | _FIRSTS_AND_IMPULSES
+_PLACES = _F.BODY_A_ID | _F.NORMAL | _F.CONTACT_COUNT
+_PLACES |= _F.POINT_A_1 | _F.POINT_B_1 | _F.POINT_A_2 | _F.POINT_B_2
 # So many listings of earlier steps are kept until they are added up.
 _MOST_STEPS = 16
 # Makes one key of two ids.
@@ -54,9 +56,13 @@ class ContactLog:
 
     def __init__(self, arrays: EngineArrays) -> None:
         self._arrays = arrays
-        # Of the last step, in the engine's order: ids of each pair, and the sums of its impulses.
+        # Of the last step, in the engine's order: ids of each pair, the lesser one first, and the
+        # sums of its impulses.
         self._ids: Ids = np.empty((0, 2), np.uint64)
         self._sums: Floats = np.empty((0, 2))
+        # Which one the engine has first, and so which way round its impulses are.
+        self._firsts: Ids = np.empty(0, np.uint64)
+        self._signs: Floats = np.empty((0, 1))
         # Steps since the frame began.
         self._steps = 0
         # The same of earlier steps of the frame, at whose ends other pairs touched.
@@ -79,22 +85,31 @@ class ContactLog:
         """Add the contacts of the step that has just been made."""
         self._steps += 1
         if self.settled:
-            impulses = self._arrays.contacts(_F.TOTAL_IMPULSE)[1].reshape(-1, 2)
-            if len(impulses) == len(self._ids):
-                self._sums += impulses
+            firsts, impulses = self._arrays.contacts(_FIRSTS_AND_IMPULSES)
+            if len(firsts) == len(self._ids):
+                # The engine turns a pair round as its bodies move, in a contact that goes on too.
+                if not np.array_equal(firsts, self._firsts):
+                    self._firsts, self._signs = firsts.copy(), self._signs_of(firsts)
+                self._sums += impulses.reshape(-1, 2) * self._signs
                 return
-        ints, floats = self._arrays.contacts(_PAIRS_AND_IMPULSES)
-        self._add_pairs(ints.reshape(-1, 2).copy(), floats.reshape(-1, 2).copy())
+        ints, impulses = self._arrays.contacts(_PAIRS_AND_IMPULSES)
+        self._firsts = ints[::2].copy()
+        ids, self._signs = _oriented(ints.reshape(-1, 2))
+        if not np.array_equal(ids, self._ids):
+            self._begin_listing(ids)
+        self._sums += impulses.reshape(-1, 2) * self._signs
         self.settled = True
 
-    def _add_pairs(self, ids: Ids, sums: Floats) -> None:
-        if np.array_equal(self._ids, ids):
-            self._sums += sums
-            return
+    def _signs_of(self, firsts: Ids) -> Floats:
+        """Return (k, 1): -1 where the engine has another one of a pair first than its lesser."""
+        return np.where(firsts == self._ids[:, 0], 1.0, -1.0)[:, None]
+
+    def _begin_listing(self, ids: Ids) -> None:
+        """Go on with other pairs."""
         # What parts in the first step of a frame has not touched in it.
         if self._steps > 1:
             self._earlier.append((self._ids, self._sums))
-        self._ids, self._sums = ids, sums
+        self._ids, self._sums = ids, np.zeros(ids.shape)
         if len(self._earlier) >= _MOST_STEPS:
             self._earlier = [self._merge()]
 
@@ -120,6 +135,7 @@ class ContactLog:
         """
         if self._steps == 0:
             return
+        self.settled = False
         stays = (self._ids != body).all(axis=1)
         self._ids, self._sums = self._ids[stays], self._sums[stays]
         for number, (ids, sums) in enumerate(self._earlier):
@@ -146,7 +162,11 @@ class ContactLog:
             # What has gone since the last step is known to the log, but has no other id.
             known = np.isin(pairs, old_ids).all(axis=1)
             places = np.searchsorted(old_ids[ascending], pairs[known])
-            return ids[ascending[places]], values[known]
+            pairs, signs = _oriented(ids[ascending[places]])
+            values = values[known]
+            # An impulse, or a normal and what has no direction.
+            values[:, :2] *= signs
+            return pairs, values
 
         self._steps = old._steps
         self._ids, self._sums = renamed(old._ids, old._sums)
@@ -200,25 +220,27 @@ class ContactLog:
         rows, found = _find(pairs, ids)
         places[:, found] = known[:, rows[found]]
         for row, (a, b) in enumerate(pairs.tolist()):
-            contact = self._begun.get((a, b))
-            if contact is not None:
-                points = [(each.point_a + each.point_b) / 2 for each in contact.points]
-                mean = sum(points, pymunk.Vec2d(0, 0)) / max(1, len(points))
-                places[:, row] = *contact.normal, len(points), *mean
+            for sign, pair in ((1, (a, b)), (-1, (b, a))):
+                contact = self._begun.get(pair)
+                if contact is not None:
+                    points = [(each.point_a + each.point_b) / 2 for each in contact.points]
+                    mean = sum(points, pymunk.Vec2d(0, 0)) / max(1, len(points))
+                    places[:, row] = *(sign * contact.normal), len(points), *mean
         return places
 
     def _read_places(self) -> Floats:
         """Return (5, m) float64: normal, count of points, mean point, of the last step."""
         ints, floats = self._arrays.contacts(_PLACES)
+        firsts, counts = ints.reshape(-1, 2).T
         # Columns, because numpy adds them up five times as fast as pairs.
         columns = np.ascontiguousarray(floats.reshape(-1, 10).T)
-        places = np.empty((5, len(ints)))
-        places[:2] = columns[:2]
-        places[2] = ints
+        places = np.empty((5, len(counts)))
+        places[:2] = columns[:2] * self._signs_of(firsts).T
+        places[2] = counts
         # On either body; the second point is zero where there is but one.
         first, second = columns[2:4] + columns[4:6], columns[6:8] + columns[8:10]
         np.add(first, second, out=places[3:])
-        places[3:] *= 0.5 / np.maximum(ints, 1)
+        places[3:] *= 0.5 / np.maximum(counts, 1)
         return places
 
 
@@ -229,6 +251,14 @@ NO_CONTACTS = Contacts(
     normals=np.empty((0, 2)),
     impulses=np.empty((0, 2)),
 )
+
+
+def _oriented(pairs: Ids) -> tuple[Ids, Floats]:
+    """Return pairs with the lesser id first, and (k, 1): -1 where that turns one round, else 1."""
+    # Column by column: numpy sorts pairs ten times as slowly.
+    first, second = pairs.T
+    signs = np.where(first > second, -1.0, 1.0)[:, None]
+    return np.column_stack((np.minimum(first, second), np.maximum(first, second))), signs
 
 
 def _find(pairs: Ids, listing: Ids) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
