@@ -20,8 +20,9 @@ a ball that is a hundred times as heavy, `linkage` takes back from the plank alo
 would sink into it, step by step. Here contacts that close are given what it takes to keep them
 open, where each body yields as far as all that it is joined to lets it.
 
-Laws: bodies only push each other apart; momentum is kept; while no contact closes, nothing is
-changed; what is done depends on the state alone, in whatever order the engine lists contacts.
+Laws: bodies only push each other apart; momentum is kept, and no energy of motion is given that
+was not there before; while no contact closes, nothing is changed; what is done depends on the
+state alone, in whatever order the engine lists contacts.
 """
 
 from __future__ import annotations
@@ -105,7 +106,8 @@ class Loads:
         self._ids = ids[self._ascending]
         self._member = np.zeros(count + 1, np.bool_)
         self._member[places[:-1]] = True
-        self._inverse = np.zeros((count + 1, 3))
+        # Mass, mass, moment, and their inverses; zero for what forces do not move.
+        self._inertia, self._inverse = np.zeros((2, count + 1, 3))
         # The greatest distance of a point from the centre of mass [m].
         self._reach = np.zeros(count + 1)
         # The roots of friction and elasticity, which a pair multiplies.
@@ -116,6 +118,7 @@ class Loads:
                 self._reach[place] = rigid.body.shape.form.outer
                 if not rigid.body.fixed:
                     mass, moment = rigid.engine.mass, rigid.engine.moment
+                    self._inertia[place] = mass, mass, moment
                     self._inverse[place] = 1 / mass, 1 / mass, 1 / moment
 
     def carry(
@@ -153,22 +156,32 @@ class Loads:
         self._surfaces[-1] = _surface(background)
         friction, elasticity = self._surfaces[touching.bodies].prod(axis=1).T
         bounced = np.maximum(-elasticity * contacts.speeds(before), 0.0)
-        short = np.where(closing, bounced, np.minimum(speeds, 0.0)) - speeds
-        rows = self._concerned(touching.bodies, closing, short)
-        count = len(rows)
+        resting = np.where(closing, 0.0, np.minimum(speeds, 0.0))
+        wanted = np.where(closing, bounced, resting)
+        rows = self._concerned(touching.bodies, closing, wanted - speeds)
         across = touching.normals[:, ::-1] * (-1.0, 1.0)
         pressing, rubbing = contacts.only(rows), _directed(touching, states, across).only(rows)
         changes, shared = self._answers(linkage, pressing.beside(rubbing), len(states))
         # What cannot yield on either side is not pushed at: that would be rounding times rounding.
-        yields = shared.diagonal()[:count] > _HELD * pressing.lightness(self._inverse)
-        pressed = _least(shared[:count, :count], np.where(yields, short[rows], -np.inf))
-        slip = rubbing.speeds(states[:, 3:]) + shared[count:, :count] @ pressed
-        most = friction[rows] * pressed
-        rubbed = _within(shared[count:, count:], -slip, most)
-        given = np.concatenate((pressed, rubbed))
-        linkage.take(given)
-        states[:, 3:] += changes @ given
-        return True
+        yields = shared.diagonal()[: len(rows)] > _HELD * pressing.lightness(self._inverse)
+        twists, slips = states[:, 3:].copy(), rubbing.speeds(states[:, 3:])
+        pushed = np.flatnonzero(np.abs(changes).max(axis=(1, 2)))
+        most = max(self._energy(pushed, each) for each in (before, twists))
+        for aim in (wanted, resting):
+            short = np.where(yields, (aim - speeds)[rows], -np.inf)
+            given = _given(shared, short, slips, friction[rows])
+            states[:, 3:] = twists + changes @ given
+            # Against what joints hold fast, their errors would come back as blows: then nothing
+            # bounces, or all is left to the engine.
+            if self._energy(pushed, states[:, 3:]) <= most:
+                linkage.take(given)
+                return True
+        states[:, 3:] = twists
+        return False
+
+    def _energy(self, rows: Rows, twists: Floats) -> float:
+        """Return that of the motion of some bodies [J], at (m + 1, 3) velocities."""
+        return float((self._inertia[rows] * twists[rows] ** 2).sum() / 2)
 
     def _concerned(self, sides: Rows, closing: NDArray[np.bool_], short: Floats) -> Rows:
         """Return the contacts to solve: what closes, and what else touches the same bodies."""
@@ -237,6 +250,22 @@ def _directed(touching: Touching, states: Floats, directions: Floats) -> _Contac
     pushes[:, 0, :2], pushes[:, 1, :2] = -directions, directions
     pushes[:, :, 2] = arms[..., 0] * pushes[..., 1] - arms[..., 1] * pushes[..., 0]
     return _Contacts(touching.bodies, pushes)
+
+
+def _given(shared: Floats, short: Floats, slips: Floats, friction: Floats) -> Floats:
+    """
+    Return (2 c,) float64: what contacts give along their normals, then across them [N s].
+
+    :param shared: (2 c, 2 c) float64: how each changes the speed of each
+    :param short: (c,) float64: how much faster they are to open, at least [m/s]
+    :param slips: (c,) float64: how fast they slip [m/s]
+    :param friction: (c,) float64
+    """
+    count = len(short)
+    pressed = _least(shared[:count, :count], short)
+    slips = slips + shared[count:, :count] @ pressed
+    rubbed = _within(shared[count:, count:], -slips, friction * pressed)
+    return np.concatenate((pressed, rubbed))
 
 
 def _least(shared: Floats, short: Floats) -> Floats:

@@ -132,6 +132,35 @@ def test_a_car_drives_over_a_beam_as_on_the_ground() -> None:
     assert ways[1] == pytest.approx(ways[0], rel=0.03)
 
 
+@pytest.mark.parametrize('radius', [0.16, 0.2, 0.3])
+def test_a_ball_hung_by_links_that_it_overlaps_gains_nothing(radius: float) -> None:
+    # What it touches and what it hangs on contradict each other, along a chain that does not give.
+    world, count, length, lean = World(), 20, 0.15, math.radians(45.0)
+    way = np.array((math.sin(lean), -math.cos(lean)))
+    for number in range(count):
+        name, middle = f'link/{number}', way * length * (number + 0.5)
+        link = Box(width=length, height=0.03)
+        spawn(world, name, link, (*middle, lean - math.pi / 2), mass=1.0)
+        other = f'link/{number - 1}' if number else 'world'
+        end = tuple(way * length * number)
+        world.apply(
+            Join(name=f'joint/{number}', kind=JointKind.AXLE, points=(end,), a=name, b=other)
+        )
+    end = tuple(way * length * count)
+    spawn(world, 'ball/0', Disc(radius=radius), (*end, 0.0), mass=1.0)
+    world.apply(
+        Join(
+            name='joint/99', kind=JointKind.AXLE, points=(end,), a='ball/0', b=f'link/{count - 1}'
+        )
+    )
+    began = energy(world.snapshot())
+
+    _, _, most = watched(world, 'ball/0', 4.0)
+
+    # Of 96 J that it falls through.
+    assert most < began + 1.0
+
+
 def test_what_bears_a_load_feels_it() -> None:
     world = bridge(Pin)
     spawn(world, 'load/0', BOX, (5.0, 5.6, 0.0), mass=20.0)
