@@ -130,13 +130,16 @@ def spring(points: Floats, drawn: Stroke, view: View, settings: DrawingSettings)
     return _join(JointKind.SPRING, points, drawn, view, settings)
 
 
-def axle(points: Floats, _drawn: Stroke, view: View, settings: DrawingSettings) -> Made:
+def axle(points: Floats, drawn: Stroke, view: View, settings: DrawingSettings) -> Made:
     """Make an axle where a small circle was drawn."""
-    center = snapping.pivot(point_of(points[0]), view, settings)
-    under = view.bodies_at(center)[:2]
+    center, under = snapping.pivot(point_of(points[0]), drawn.points, view, settings)
+    request: Request = Axle(point=center)
+    if under != view.bodies_at(center)[:2]:
+        name, (a, b) = view.next_joint(), under
+        request = Join(name=name, kind=JointKind.AXLE, points=(center,), a=a, b=b)
     between = ' and '.join(under) if len(under) == 2 else f'{under[0]} and the background'
     return Made(
-        requests=(Axle(point=center),),
+        requests=(request,),
         subject=under[0],
         message=f'an axle between {between}',
         outline=_circle(center, math.dist(*points)),

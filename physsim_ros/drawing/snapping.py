@@ -24,10 +24,15 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 import math
 
+import numpy as np
+from physsim_ros.core.arrays import Floats
 from physsim_ros.core.names import WORLD
 from physsim_ros.core.shapes import Capsule, Chain, Circle, Convex, Disc, Piece, Point
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.view import on_segment, View
+
+# What so much of a circle lies on, it was drawn across the edge of.
+_ACROSS = 0.25
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,15 +67,39 @@ def ends_on(
     return None
 
 
-def pivot(center: Point, view: View, settings: DrawingSettings) -> Point:
-    """Return where an axle belongs: in the middle of a wheel, if it is as near to it as that."""
+def pivot(
+    center: Point, drawn: Floats, view: View, settings: DrawingSettings
+) -> tuple[Point, tuple[str, ...]]:
+    """
+    Return where an axle belongs, and the one or two bodies that it joins, the topmost first.
+
+    :param center: of the circle, on a body
+    :param drawn: (k, 2) float64: the circle [m]
+    """
     under = view.bodies_at(center)[:2]
+    if len(under) == 1:
+        under = _with_what_it_crosses(under[0], center, drawn, view)
     for name in under:
         if isinstance(view.body(name).shape, Disc):
             x, y, _ = view.pose(name)
-            if math.dist((x, y), center) <= settings.snap and view.bodies_at((x, y))[:2] == under:
-                return x, y
-    return center
+            if math.dist((x, y), center) > settings.snap:
+                continue
+            # In the middle of a wheel, where that is on the same bodies, or near the other one.
+            near = view.bodies_at((x, y), settings.snap)
+            if view.bodies_at((x, y))[:2] == under or (len(under) == 2 and set(under) <= {*near}):
+                return (x, y), under
+    return center, under
+
+
+def _with_what_it_crosses(name: str, center: Point, drawn: Floats, view: View) -> tuple[str, ...]:
+    """Return a body, and another one whose edge a circle on it was drawn across, topmost first."""
+    radius = float(np.hypot(*(drawn - center).T).max())
+    near = view.bodies_at(center, radius)
+    shares = {each: float(view.covers(each, drawn).mean()) for each in near if each != name}
+    beside = max(shares, key=shares.__getitem__, default=name)
+    if shares.get(beside, 0.0) < _ACROSS:
+        return (name,)
+    return tuple(each for each in near if each in (name, beside))
 
 
 def wall_end(point: Point, view: View, settings: DrawingSettings) -> Point:

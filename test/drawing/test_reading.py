@@ -362,6 +362,31 @@ def test_a_small_circle_over_two_bodies_is_an_axle_in_the_middle_of_the_wheel(
     assert 'wheel/0 and car/0' in reading.message
 
 
+@pytest.mark.parametrize('wheel', [-0.45, -0.5, -0.55])
+@pytest.mark.parametrize('beside', [-0.1, -0.05, 0.0, 0.05, 0.1])
+def test_a_small_circle_across_the_edge_of_a_car_is_an_axle_in_the_middle_of_its_wheel(
+    world: World, wheel: float, beside: float
+) -> None:
+    spawn(world, 'car/0', Box(width=3.0, height=1.0), (0.0, 0.0, 0.0))
+    spawn(world, 'wheel/0', Disc(radius=0.5), (1.0, wheel, 0.0))
+
+    reading = draw(world, circle(1.0, max(wheel + beside, -0.55), 0.1))
+
+    assert reading.message == 'an axle between wheel/0 and car/0'
+    (request,) = reading.requests
+    world.apply(request)
+    (joint,) = world.snapshot().scene.joints
+    assert {joint.a, joint.b} == {'wheel/0', 'car/0'}
+    assert world.snapshot().ends[0] == pytest.approx(np.array([(1.0, wheel)] * 2), abs=1e-9)
+
+
+def test_a_small_circle_beside_another_body_is_an_axle_to_the_background(world: World) -> None:
+    spawn(world, 'wheel/0', Disc(radius=0.5), (0.0, 0.0, 0.0))
+    spawn(world, 'wall/0', Box(width=1.0, height=4.0), (0.98, 0.0, 0.0))
+
+    assert draw(world, circle(0.4, 0.0, 0.1)).message.endswith('wheel/0 and the background')
+
+
 @pytest.mark.parametrize('radius', [0.5, 0.6, 0.9])
 def test_a_wheel_drawn_over_a_car_is_a_disc(world: World, radius: float) -> None:
     spawn(world, 'car/0', Box(width=4.0, height=1.0))
