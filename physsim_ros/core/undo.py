@@ -93,7 +93,9 @@ class Undo:
         try:
             undone, tail = self.timeline.undo()
         except OutOfHistory:
-            if not self._left:
+            # Before the reset come the requests since then, though they are kept no more.
+            begun = self.timeline.serial == 0 and self.timeline.history.oldest == 0
+            if not (self._left and begun):
                 raise
             self._leave(self._undone)
             self.timeline, self._beginning = self._left.pop()

@@ -400,6 +400,23 @@ def test_contacts_come_again_that_nobody_asked_for_the_first_time() -> None:
         assert frame.contacts.pairs.tolist() == [[0, -1]]
 
 
+@pytest.mark.parametrize('more', [True, False])
+def test_undo_passes_over_nothing_that_is_kept_no_more(*, more: bool) -> None:
+    sim = Simulation(history=1.0)
+    sim.perform(spawning('ball/0', BOX, anchored=True))
+    sim.advance_frame()
+    sim.reset()
+    if more:
+        sim.perform(spawning('ball/1', BOX, anchored=True))
+    for _ in range(600):
+        sim.advance_frame()
+
+    with pytest.raises(OutOfHistory):
+        sim.undo()
+    assert ('ball/1' in sim.world) is more
+    assert 'ball/0' not in sim.world
+
+
 def test_what_was_loaded_at_the_beginning_cannot_be_undone() -> None:
     first = Driven()
     first.ask(spawning('a/0'))
