@@ -273,7 +273,8 @@ class PhysSimNode(QuietNode):
             self._submit(marker, '~/spawn_array', conversions.body_request, joined=number > 0)
 
     def _speed(self, message: Float64) -> None:
-        speed = Parameter('speed', value=message.data)
+        # Without the sign of a negative zero.
+        speed = Parameter('speed', value=message.data + 0.0)
         try:
             # Here too, since rclpy refuses what is out of range in words without a code.
             parameters.check(speed)
@@ -281,7 +282,7 @@ class PhysSimNode(QuietNode):
             self._refuse(refusal, '~/speed')
             return
         self.set_parameters([speed])
-        self.simulation.tell(Answer(topic='~/speed', message=f'speed {message.data:g}'))
+        self.simulation.tell(Answer(topic='~/speed', message=f'speed {speed.value:g}'))
 
     def _seek(self, message: Clock) -> None:
         stamp = message.clock.sec * 10**9 + message.clock.nanosec

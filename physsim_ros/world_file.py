@@ -54,9 +54,10 @@ def find(name: str, *, world_dir: Path, confined: bool) -> Path:
     """
     if not name:
         raise BadWorldFile('parameter world_file names no file', field='world_file')
-    paths = [world_dir / name]
-    if is_plain(name):
-        paths = [world_dir / f'{name}.yaml', shipped_worlds() / f'{name}.yaml']
+    file = f'{name}.yaml' if is_plain(name) else name
+    paths = [world_dir / file]
+    if Path(file).name == file:
+        paths.append(shipped_worlds() / file)
     for path in paths:
         try:
             found = path.is_file()

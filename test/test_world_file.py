@@ -958,6 +958,7 @@ def test_a_name_that_no_file_can_have_is_refused(
 
 def test_a_plain_name_is_a_file_of_the_world_directory_before_a_shipped_one(folder: Path) -> None:
     shipped = world_file.find('demo', world_dir=folder, confined=True)
+    assert world_file.find('demo.yaml', world_dir=folder, confined=True) == shipped
     own = write(folder, 'format: 1', 'demo.yaml')
 
     assert shipped == world_file.shipped_worlds() / 'demo.yaml'

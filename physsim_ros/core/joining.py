@@ -185,7 +185,7 @@ def _check_members(space: Space, kind: JointKind, a: str, b: str) -> None:
             f'{body.name} is {"anchored" if body.anchored else "kinematic"}' for body in bodies
         )
         other = '' if len(bodies) == 2 else ', and so is the background'
-        raise Anchored(f'{fixed}{other}; a {kind} has nothing to hold', field='a')
+        raise Anchored(f'{fixed}{other}; there is nothing for the {kind} to hold', field='a')
 
 
 def _seat(

@@ -292,9 +292,7 @@ def _points(points: Sequence[Point], name: str) -> Corners:
     if not np.isfinite(array).all():
         raise Malformed(f'{name} holds a coordinate that is not finite', field=name)
     if len(array) > MOST_POINTS:
-        raise BadOutline(
-            f'{name} holds {len(array)} points; {MOST_POINTS} are the most', field=name
-        )
+        raise BadOutline(f'{name} holds more than {MOST_POINTS} points', field=name)
     if len(array) and np.abs(array).max() > LARGEST:
         raise BadSize(f'{name} reaches further than {LARGEST:g} m', field=name)
     return array
