@@ -17,13 +17,16 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from physsim_ros import world_file
 from physsim_ros.core.errors import OutOfHistory
+from physsim_ros.core.history import Entry
 from physsim_ros.core.joint_properties import JointKind, JointProperties
 from physsim_ros.core.requests import (
     Anchor,
+    Command,
     Configure,
     Delete,
     DeleteAll,
@@ -398,6 +401,36 @@ def test_contacts_come_again_that_nobody_asked_for_the_first_time() -> None:
     for frame in driven.run(-1.0, 4.0)[1:]:
         assert frame.contacts is not None
         assert frame.contacts.pairs.tolist() == [[0, -1]]
+
+
+def test_the_thousandth_command_to_a_paused_world_costs_no_more_than_the_first(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    looks = [0]
+
+    class Counted(Entry):
+        """A request of which each look at whether it was seen is counted."""
+
+        def __getattribute__(self, name: str) -> Any:
+            if name == 'seen':
+                looks[-1] += 1
+            return super().__getattribute__(name)
+
+        def __setattr__(self, name: str, value: Any) -> None:
+            if name == 'seen':
+                looks[-1] += 1
+            super().__setattr__(name, value)
+
+    monkeypatch.setattr('physsim_ros.core.timeline.Entry', Counted)
+    driven = Driven(speed=0.0)
+    driven.ask(spawning('a/0', BOX))
+    for _ in range(1000):
+        driven.ask(Command(names=('a/0',), wrenches=((1.0, 0.0, 0.0),)))
+        looks.append(0)
+        driven.settle()
+    assert max(looks) < 10
+    driven.simulation.seek(0)
+    assert driven.simulation.timeline.serial == 1001
 
 
 def test_what_was_loaded_at_the_beginning_cannot_be_undone() -> None:
