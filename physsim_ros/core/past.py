@@ -24,6 +24,7 @@ again, forward, while those after them are shown, backward.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import NamedTuple
 
 from physsim_ros.core.history import History, Mark
@@ -54,6 +55,10 @@ class Shot(NamedTuple):
         contacts = 0 if self.contacts is None else self.contacts.nbytes
         return _OVERHEAD + self.snapshot.nbytes + contacts
 
+    def copy(self) -> Shot:
+        """Return one without what has been worked out from its snapshot, which stays with that."""
+        return self._replace(snapshot=replace(self.snapshot))
+
 
 class _Reel:
     """The shots between two keyframes, by step."""
@@ -65,7 +70,7 @@ class _Reel:
     def add(self, shot: Shot) -> None:
         old = self.shots.get(shot.snapshot.step)
         self.size += shot.size - (0 if old is None else old.size)
-        self.shots[shot.snapshot.step] = shot
+        self.shots[shot.snapshot.step] = shot.copy()
 
     def has(self, step: int, *, watching: bool) -> bool:
         """Tell whether it has the shot of a step, with contacts if they are wanted."""
@@ -149,7 +154,7 @@ class Past:
             reel = self._reels[mark] = making.reel
             self._making = None
             self._drop(step)
-        return reel.shots[step]
+        return reel.shots[step].copy()
 
     def prepare(self, step: int, steps: int, *, fine: bool, watching: bool) -> None:
         """

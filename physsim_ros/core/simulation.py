@@ -23,7 +23,6 @@ goes on differently from there.
 from __future__ import annotations
 
 from collections import deque
-from dataclasses import replace
 from typing import NamedTuple
 
 from physsim_ros.core.clock import Clock
@@ -430,8 +429,7 @@ class Simulation:
         world = self.timeline.world
         snapshot = world.snapshot()
         contacts = world.contacts(snapshot) if world.watching else None
-        # A copy, since what is worked out from a snapshot stays with it.
-        self.past.keep(Shot(replace(snapshot), contacts))
+        self.past.keep(Shot(snapshot, contacts))
         self.timeline.see()
         return snapshot, contacts
 
