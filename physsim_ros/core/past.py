@@ -77,11 +77,6 @@ class _Reel:
         shot = self.shots.get(step)
         return shot is not None and (shot.contacts is not None or not watching)
 
-    @property
-    def tells_contacts(self) -> bool:
-        """Whether all its shots do."""
-        return all(shot.contacts is not None for shot in self.shots.values())
-
     def distance(self, step: int) -> int:
         """Return how far a step is from the nearest shot."""
         return max(min(self.shots) - step, step - max(self.shots), 0) if self.shots else step
@@ -145,11 +140,8 @@ class Past:
         mark, end = self._history.segment(step)
         reel = self._reels.get(mark)
         if reel is None or not reel.has(step, watching=watching):
-            making = self._making
-            if making is None or not making.suits(mark, step, watching=watching):
-                making = self._begin(
-                    mark, end, fine=step % self._frame_steps != 0, watching=watching
-                )
+            stride = self._frame_steps if step == end or step % self._frame_steps == 0 else 1
+            making = self._begin(mark, end, stride, watching=watching)
             making.go_on(end - mark.step)
             reel = self._reels[mark] = making.reel
             self._making = None
@@ -164,27 +156,43 @@ class Past:
         :param steps: to the one that is shown next
         :param fine: whether every step will be wanted
         """
-        mark, _ = self._history.segment(step)
-        before, end = self._history.segment(mark.step)
-        reel = self._reels.get(before)
-        made = reel is not None and (reel.tells_contacts or not watching)
-        if before == mark or made:
+        stride = 1 if fine else self._frame_steps
+        # At whole speeds all frames but the first, which may be shorter, go by as many steps.
+        apart = 1 if fine else -(-steps // stride) * stride
+        gap = self._gap(step, apart, watching=watching)
+        if gap is None:
             return
-        making = self._making
-        if making is None or not making.suits(before, end, watching=watching):
-            making = self._begin(before, end, fine=fine, watching=watching)
-        frames_left = max(1, (step - mark.step) // max(1, steps))
+        mark, end = self._history.segment(gap)
+        making = self._begin(mark, end, stride, watching=watching)
+        frames_left = max(1, (step - gap) // max(1, steps))
         making.go_on(-(-making.left // frames_left))
         if making.left == 0:
-            self._reels[before] = making.reel
+            self._reels[mark] = making.reel
             self._making = None
             self._drop(step)
 
-    def _begin(self, mark: Mark, end: int, *, fine: bool, watching: bool) -> _Making:
-        self._course.world.watching = watching
-        stride = 1 if fine else self._frame_steps
-        self._making = _Making(self._course, mark, end, stride)
-        return self._making
+    def _gap(self, step: int, apart: int, *, watching: bool) -> int | None:
+        """
+        Return the first step that is missing in this reel and the one before; None where none is.
+
+        :param step: from which on to look back
+        :param apart: from one wanted step to the next
+        """
+        mark, _ = self._history.segment(step)
+        before, _ = self._history.segment(mark.step)
+        for number in range(step - apart, before.step, -apart):
+            reel = self._reels.get(mark if number > mark.step else before)
+            if reel is None or not reel.has(number, watching=watching):
+                return number
+        return None
+
+    def _begin(self, mark: Mark, end: int, stride: int, *, watching: bool) -> _Making:
+        """Begin to make a reel, or go on with the one that is being made if it suits."""
+        making = self._making
+        if making is None or not making.suits(mark, end, stride, watching=watching):
+            self._course.world.watching = watching
+            making = self._making = _Making(self._course, mark, end, stride)
+        return making
 
     def _drop(self, step: int) -> None:
         """Drop the reels that are farthest away, until the rest fits."""
@@ -218,10 +226,10 @@ class _Making:
         course.show(mark.step)
         self._shoot()
 
-    def suits(self, mark: Mark, step: int, *, watching: bool) -> bool:
-        """Tell whether it will have the shot of a step after a keyframe."""
-        wanted = step % self._stride == 0 or step == self._end
-        return wanted and self.mark == mark and (self._watching or not watching)
+    def suits(self, mark: Mark, end: int, stride: int, *, watching: bool) -> bool:
+        """Tell whether it goes from a keyframe to a step, with all the shots that are wanted."""
+        same = self.mark == mark and self._end == end
+        return same and self._stride <= stride and (self._watching or not watching)
 
     @property
     def left(self) -> int:

@@ -43,6 +43,7 @@ from physsim_ros.core.requests import (
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.simulation import KEYFRAMES, Simulation
 from physsim_ros.core.snapshot import Answer, Frame
+from physsim_ros.core.world import World
 import pytest
 
 from .worlds import BOX, spawning
@@ -65,9 +66,13 @@ class Driven:
         self.simulation.speed = speed
         frames: list[Frame] = []
         for _ in range(round(seconds * 60)):
-            self.now += round(SECOND / 60)
-            frames += self.simulation.advance(self.now)
+            frames += self.tick()
         return frames
+
+    def tick(self) -> tuple[Frame, ...]:
+        """Go on by a tick of the node, and return its frames."""
+        self.now += round(SECOND / 60)
+        return self.simulation.advance(self.now)
 
     def record(self, seconds: float) -> None:
         for frame in self.run(1.0, seconds):
@@ -138,6 +143,78 @@ def test_the_past_is_the_same_where_it_has_to_be_made_again(
     driven.simulation.past.forget(0)
     for frame in driven.run(-1.0, 4.5):
         driven.assert_same(frame)
+
+
+@pytest.fixture
+def made(monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """Count the steps that all worlds make, from the last number on."""
+    counts = [0]
+    step = World.step
+
+    def counted(world: World, count: int) -> tuple[str, ...]:
+        counts[-1] += count
+        return step(world, count)
+
+    monkeypatch.setattr(World, 'step', counted)
+    return counts
+
+
+def most_made(driven: Driven, made: list[int], ticks: int) -> int:
+    """Return the number of steps of the tick that made most."""
+    first = len(made)
+    for _ in range(ticks):
+        made.append(0)
+        driven.tick()
+    return max(made[first:])
+
+
+@pytest.mark.parametrize('speed', [-1.0, -0.5, -0.1, -2.0])
+def test_no_tick_makes_many_steps_while_time_goes_back(made: list[int], speed: float) -> None:
+    driven = Driven()
+    driven.record(9.0)
+    # Of the last seconds nothing is known at first but the frames that were shown.
+    driven.run(speed, 0.2)
+    # Three seconds are made again while three seconds are shown.
+    assert most_made(driven, made, round(240 / -speed)) <= max(2.0, -2 * speed * FRAME)
+    assert driven.simulation.step == pytest.approx(5 * 240, abs=100)
+
+
+@pytest.mark.parametrize('on', [0.5, 2.5])
+def test_what_a_seek_left_out_is_made_again_in_time(made: list[int], on: float) -> None:
+    driven = Driven()
+    driven.record(12.0)
+    driven.simulation.past.forget(0)
+    driven.simulation.seek(round(4.5 * SECOND))
+    driven.settle()
+    driven.run(1.0, on)
+    driven.run(-1.0, 0.05)
+    # Three seconds are made again in the time from the seek on.
+    assert most_made(driven, made, round(60 * (on + 1.0))) <= 3 * FRAME * KEYFRAMES / on
+    assert driven.simulation.step < 4 * 240
+
+
+def test_where_frames_were_far_apart_no_others_are_made(made: list[int]) -> None:
+    driven = Driven()
+    driven.ask(spawning('a/0'))
+    driven.run(16.0, 1.0)
+    driven.simulation.speed = -16.0
+    assert most_made(driven, made, 55) == 0
+    assert driven.simulation.step < 2 * 240
+
+
+def test_what_is_half_made_again_ends_no_earlier_than_time_has_come_since(driven: Driven) -> None:
+    driven.simulation.past.forget(0)
+    driven.simulation.seek(round(4.8 * SECOND))
+    driven.settle()
+    driven.run(1.0, 0.2)
+    # What lies before the seek begins to be made again, up to now.
+    driven.run(-1.0, 0.05)
+    driven.run(8.0, 0.1)
+    frames = driven.run(-1.0, 1.0)
+    assert frames[0].snapshot.step > 1300
+    for frame in frames:
+        if frame.snapshot.step in driven.shown:
+            driven.assert_same(frame)
 
 
 def test_at_the_oldest_step_time_stops_and_says_so(driven: Driven) -> None:
