@@ -27,6 +27,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import NamedTuple
 
+import numpy as np
 from physsim_ros.core.history import History, Mark
 from physsim_ros.core.snapshot import Answer, Contacts, Snapshot
 from physsim_ros.core.timeline import Course
@@ -121,6 +122,15 @@ class Past:
         mark, _ = self._history.segment(shot.snapshot.step)
         self._reels.setdefault(mark, _Reel()).add(shot)
         self._drop(shot.snapshot.step)
+
+    def completed(self, shot: Shot) -> Shot:
+        """Return a shot with what touched when the same was shown first, where that is known."""
+        step = shot.snapshot.step
+        mark, _ = self._history.segment(step)
+        old = self._reels[mark].shots.get(step) if mark in self._reels else None
+        if old is None or old.contacts is None or not _same(old.snapshot, shot.snapshot):
+            return shot
+        return Shot(shot.snapshot, old.contacts)
 
     def forget(self, step: int) -> None:
         """Drop the shots from a step on: it goes on differently from there."""
@@ -251,3 +261,8 @@ class _Making:
         world = self._course.world
         snapshot = world.snapshot()
         self.reel.add(Shot(snapshot, world.contacts(snapshot) if world.watching else None))
+
+
+def _same(one: Snapshot, other: Snapshot) -> bool:
+    """Tell whether the same bodies are in the same places."""
+    return one.scene.names == other.scene.names and np.array_equal(one.poses, other.poses)

@@ -16,6 +16,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 import gc
 from pathlib import Path
 from typing import Any
@@ -222,6 +223,9 @@ def test_at_the_oldest_step_time_stops_and_says_so(driven: Driven) -> None:
     assert frames[-1].snapshot.step == 0
     assert driven.simulation.speed == 0.0
     assert len(told(frames, 'history')) == 1
+    again = driven.run(-1.0, 0.1)
+    assert len(told(again, 'history')) == 1
+    assert not any(frame.moved for frame in again)
     assert driven.run(0.0, 0.5) == []
 
 
@@ -289,6 +293,39 @@ def test_redo_returns_to_where_undo_was_asked_for(driven: Driven) -> None:
     driven.run(1.0, 0.7)
     driven.simulation.redo()
     assert (driven.simulation.step, driven.simulation.world.digest()) == (step, digest)
+
+
+# What makes a frame without a step, and changes nothing.
+IDLE: list[Callable[[Driven], object]] = [
+    lambda driven: driven.ask(Delete(name='nobody/0')),
+    lambda driven: driven.ask(DeleteAll(namespace='nobody')),
+    lambda driven: driven.simulation.tell(Answer(topic='~/test')),
+    lambda driven: driven.run(0.5, 0.0),
+]
+
+
+@pytest.mark.parametrize('idle', IDLE)
+@pytest.mark.parametrize('back', [False, True], ids=['now', 'past'])
+def test_a_frame_without_a_step_tells_no_contacts_and_drops_none(
+    idle: Callable[[Driven], object], *, back: bool
+) -> None:
+    driven = Driven()
+    driven.ask(spawning('a/0', BOX, (0.0, 0.5, 0.0)))
+    driven.simulation.watch_contacts(True)
+    driven.run(1.0, 2.0)
+    if back:
+        driven.run(-1.0, 1.0)
+    step = driven.simulation.step
+
+    idle(driven)
+    frame = driven.settle()
+    driven.run(1.0, 0.5)
+    again = [each for each in driven.run(-1.0, 1.0) if each.snapshot.step == step]
+
+    assert frame.snapshot.step == step
+    assert frame.contacts is not None
+    assert frame.contacts.pairs.tolist() == []
+    assert [each.contacts.pairs.tolist() for each in again if each.contacts] == [[[0, -1]]]
 
 
 @pytest.mark.parametrize('steps', [(238, 240), (239, 240), (240, 240), (237, 239)])
