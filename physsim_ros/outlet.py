@@ -196,6 +196,7 @@ class Outlet:
             raise
         finally:
             self._way.close()
+            self._let_go()
 
     def _draw_on(self, canvas: Canvas) -> None:
         """
@@ -250,6 +251,14 @@ class Outlet:
             if not everything:
                 self._wake.set()
                 return
+
+    def _let_go(self) -> None:
+        """Drop what waits: nobody will draw it."""
+        with self._lock:
+            self._dropped += len(self._frames)
+            self._frames.clear()
+            self._answers.clear()
+            self._bytes = 0
 
     def _flush(self, canvas: Canvas, patience: float) -> None:
         """

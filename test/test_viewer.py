@@ -28,6 +28,7 @@ import threading
 import time
 from urllib.parse import parse_qs, urlsplit
 from urllib.request import urlopen
+import weakref
 
 import numpy as np
 from physsim_ros.core.description import Body, Scene
@@ -559,6 +560,31 @@ def test_a_bug_in_drawing_is_told_and_nothing_is_open_any_more():
     (answer,) = told
     assert answer.code == 'viewer_lost'
     assert 'ZeroDivisionError: by zero' in answer.message
+
+
+def test_what_waited_for_a_way_that_failed_is_let_go():
+    class Failing(Way):
+        kind = 'failing'
+
+        def __init__(self):
+            self.release = threading.Event()
+
+        def begin(self):
+            assert self.release.wait(PATIENCE)
+            raise ConnectionError('there never can be one')
+
+    way = Failing()
+    outlet = Outlet(way, tell=lambda _: None)
+    waiting = frame(0, 'answer')
+    kept = weakref.ref(waiting.snapshot)
+    outlet.put(waiting, real_time_factor=1.0)
+    del waiting
+
+    way.release.set()
+
+    assert outlet.join()
+    assert kept() is None
+    assert 'failed, 0 frames, 1 dropped' in outlet.state
 
 
 def test_importing_the_viewer_does_not_import_rerun():
