@@ -91,7 +91,11 @@ class Way(ABC):
         """See to what was started; called every second."""
 
     def close(self) -> None:  # noqa: B027  the same
-        """End what was started, if anything was; called more than once."""
+        """
+        End what was started, if anything was, and start nothing any more.
+
+        Called more than once, and from another thread while `begin` or `look` may still be at it.
+        """
 
     def found(self) -> Answer:
         """Return the answer that says that it is there."""
