@@ -91,7 +91,11 @@ class Way(ABC):
         """See to what was started; called every second."""
 
     def close(self) -> None:  # noqa: B027  the same
-        """End what was started, if anything was; called more than once."""
+        """
+        End what was started, if anything was, and start nothing any more.
+
+        Called more than once, and from another thread while `begin` or `look` may still be at it.
+        """
 
     def found(self) -> Answer:
         """Return the answer that says that it is there."""
@@ -196,6 +200,7 @@ class Outlet:
             raise
         finally:
             self._way.close()
+            self._let_go()
 
     def _draw_on(self, canvas: Canvas) -> None:
         """
@@ -250,6 +255,14 @@ class Outlet:
             if not everything:
                 self._wake.set()
                 return
+
+    def _let_go(self) -> None:
+        """Drop what waits: nobody will draw it."""
+        with self._lock:
+            self._dropped += len(self._frames)
+            self._frames.clear()
+            self._answers.clear()
+            self._bytes = 0
 
     def _flush(self, canvas: Canvas, patience: float) -> None:
         """

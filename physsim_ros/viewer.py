@@ -30,6 +30,7 @@ import shutil
 import socket
 import subprocess
 import sys
+import threading
 import time
 from typing import TYPE_CHECKING
 from urllib.parse import quote, urlsplit
@@ -226,11 +227,15 @@ class _Server(Way):
         self._uri = ''
         self._program: subprocess.Popen[bytes] | None = None
         self._started = 0.0
+        # Held while a program is started or ended, so that none is started behind `close`.
+        self._lock = threading.Lock()
+        self._closed = False
 
     def begin(self) -> Canvas:
         import rerun as rr
 
-        self.close()
+        with self._lock:
+            self._end()
         sink = rr.GrpcServerSink('127.0.0.1', _free_port(), server_memory_limit=SERVED)
         stream = _Stream(sink)
         self._uri = sink.uri
@@ -241,7 +246,8 @@ class _Server(Way):
         return stream
 
     def look(self) -> None:
-        if self._program is None or (code := self._program.poll()) is None:
+        program = self._program
+        if program is None or (code := program.poll()) is None:
             return
         self._program = None
         settling = time.monotonic() - self._started < SETTLING
@@ -257,6 +263,12 @@ class _Server(Way):
             self._tell(self.lost(f'the window was closed; another one: rerun {self._uri}'))
 
     def close(self) -> None:
+        with self._lock:
+            self._closed = True
+            self._end()
+
+    def _end(self) -> None:
+        """End the program, if there is one; with the lock held."""
         program, self._program = self._program, None
         if program is not None:
             program.terminate()
@@ -284,13 +296,15 @@ class _Server(Way):
         # These two keep it from asking for analytics.
         environment = {**os.environ, 'CI': '1', 'RERUN_APP_ONLY': 'true'}
         try:
-            self._program = subprocess.Popen(  # noqa: S603  the command is ours
-                command,
-                env=environment,
-                stdin=subprocess.DEVNULL,
-                stdout=subprocess.DEVNULL,
-                stderr=subprocess.DEVNULL,
-            )
+            with self._lock:
+                if not self._closed:
+                    self._program = subprocess.Popen(  # noqa: S603  the command is ours
+                        command,
+                        env=environment,
+                        stdin=subprocess.DEVNULL,
+                        stdout=subprocess.DEVNULL,
+                        stderr=subprocess.DEVNULL,
+                    )
         except OSError as error:
             self.where = f'any Rerun viewer at {self._uri}'
             self._tell(self.lost(f'{command[0]} cannot be run: {error}'))

@@ -28,6 +28,7 @@ import threading
 import time
 from urllib.parse import parse_qs, urlsplit
 from urllib.request import urlopen
+import weakref
 
 import numpy as np
 from physsim_ros.core.description import Body, Scene
@@ -302,6 +303,58 @@ def test_nothing_is_left_running_after_closing(viewers):
     assert not program.is_running()
 
 
+@pytest.fixture
+def impatient(monkeypatch):
+    """Make closing give up at once on a viewer that has not ended."""
+    monkeypatch.setattr('physsim_ros.viewer._Server.closing', 0.0)
+
+
+def test_nothing_is_started_after_closing(viewers, monkeypatch, impatient):
+    began, go_on, started = threading.Event(), threading.Event(), []
+
+    def program():
+        # As long as it takes to begin: Rerun may have to be read from a cold disk.
+        began.set()
+        assert go_on.wait(PATIENCE)
+        return 'rerun'
+
+    monkeypatch.setattr('physsim_ros.viewer._program', program)
+    monkeypatch.setattr('subprocess.Popen', lambda *_, **__: started.append('a program'))
+    viewer = viewers(mode=ViewerMode.WEB)
+    assert began.wait(PATIENCE)
+
+    viewer.close()
+    go_on.set()
+
+    until(lambda: not viewer.is_open)
+    assert started == []
+
+
+def test_what_is_just_being_started_is_ended_by_closing(viewers, monkeypatch, impatient):
+    began, closed, started = threading.Event(), threading.Event(), []
+    start, join = subprocess.Popen, Outlet.join
+
+    def slowly(*arguments, **options):
+        began.set()
+        assert closed.wait(PATIENCE)
+        started.append(start(*arguments, **options))
+        return started[0]
+
+    def joins(outlet):
+        closed.set()
+        return join(outlet)
+
+    monkeypatch.setattr('physsim_ros.viewer._program', lambda: shutil.which('yes'))
+    monkeypatch.setattr('subprocess.Popen', slowly)
+    viewer = viewers(mode=ViewerMode.WEB)
+    assert began.wait(PATIENCE)
+    monkeypatch.setattr(Outlet, 'join', joins)
+
+    viewer.close()
+
+    assert started[0].poll() is not None
+
+
 def test_a_page_server_that_dies_is_started_again(viewers, monkeypatch):
     # It has settled at once.
     monkeypatch.setattr('physsim_ros.viewer.SETTLING', 0.0)
@@ -559,6 +612,31 @@ def test_a_bug_in_drawing_is_told_and_nothing_is_open_any_more():
     (answer,) = told
     assert answer.code == 'viewer_lost'
     assert 'ZeroDivisionError: by zero' in answer.message
+
+
+def test_what_waited_for_a_way_that_failed_is_let_go():
+    class Failing(Way):
+        kind = 'failing'
+
+        def __init__(self):
+            self.release = threading.Event()
+
+        def begin(self):
+            assert self.release.wait(PATIENCE)
+            raise ConnectionError('there never can be one')
+
+    way = Failing()
+    outlet = Outlet(way, tell=lambda _: None)
+    waiting = frame(0, 'answer')
+    kept = weakref.ref(waiting.snapshot)
+    outlet.put(waiting, real_time_factor=1.0)
+    del waiting
+
+    way.release.set()
+
+    assert outlet.join()
+    assert kept() is None
+    assert 'failed, 0 frames, 1 dropped' in outlet.state
 
 
 def test_importing_the_viewer_does_not_import_rerun():

@@ -140,11 +140,9 @@ class History:
 
     def seen_at(self, step: int) -> int:
         """Return the number of requests that were made until a step was shown last."""
-        place = bisect_left(self._entries, step, key=lambda each: each.step)
-        while place < len(self._entries):
-            if self._entries[place].step != step or not self._entries[place].seen:
-                break
-            place += 1
+        # Of a step those come first that have been seen.
+        unseen = (step, True)
+        place = bisect_left(self._entries, unseen, key=lambda each: (each.step, not each.seen))
         return self._dropped + place
 
     def between(self, serial: int, end: int) -> list[Entry]:
@@ -220,6 +218,8 @@ class History:
         place = serial - self._dropped
         while place > 0 and self._entries[place - 1].step == step:
             place -= 1
+            if self._entries[place].seen:
+                break
             self._entries[place].seen = True
 
     def keep(self, mark: Mark) -> None:

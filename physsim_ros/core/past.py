@@ -24,8 +24,10 @@ again, forward, while those after them are shown, backward.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import NamedTuple
 
+import numpy as np
 from physsim_ros.core.history import History, Mark
 from physsim_ros.core.snapshot import Answer, Contacts, Snapshot
 from physsim_ros.core.timeline import Course
@@ -54,6 +56,10 @@ class Shot(NamedTuple):
         contacts = 0 if self.contacts is None else self.contacts.nbytes
         return _OVERHEAD + self.snapshot.nbytes + contacts
 
+    def copy(self) -> Shot:
+        """Return one without what has been worked out from its snapshot, which stays with that."""
+        return self._replace(snapshot=replace(self.snapshot))
+
 
 class _Reel:
     """The shots between two keyframes, by step."""
@@ -65,17 +71,12 @@ class _Reel:
     def add(self, shot: Shot) -> None:
         old = self.shots.get(shot.snapshot.step)
         self.size += shot.size - (0 if old is None else old.size)
-        self.shots[shot.snapshot.step] = shot
+        self.shots[shot.snapshot.step] = shot.copy()
 
     def has(self, step: int, *, watching: bool) -> bool:
         """Tell whether it has the shot of a step, with contacts if they are wanted."""
         shot = self.shots.get(step)
         return shot is not None and (shot.contacts is not None or not watching)
-
-    @property
-    def tells_contacts(self) -> bool:
-        """Whether all its shots do."""
-        return all(shot.contacts is not None for shot in self.shots.values())
 
     def distance(self, step: int) -> int:
         """Return how far a step is from the nearest shot."""
@@ -122,6 +123,15 @@ class Past:
         self._reels.setdefault(mark, _Reel()).add(shot)
         self._drop(shot.snapshot.step)
 
+    def completed(self, shot: Shot) -> Shot:
+        """Return a shot with what touched when the same was shown first, where that is known."""
+        step = shot.snapshot.step
+        mark, _ = self._history.segment(step)
+        old = self._reels[mark].shots.get(step) if mark in self._reels else None
+        if old is None or old.contacts is None or not _same(old.snapshot, shot.snapshot):
+            return shot
+        return Shot(shot.snapshot, old.contacts)
+
     def forget(self, step: int) -> None:
         """Drop the shots from a step on: it goes on differently from there."""
         self._making = None
@@ -140,16 +150,13 @@ class Past:
         mark, end = self._history.segment(step)
         reel = self._reels.get(mark)
         if reel is None or not reel.has(step, watching=watching):
-            making = self._making
-            if making is None or not making.suits(mark, step, watching=watching):
-                making = self._begin(
-                    mark, end, fine=step % self._frame_steps != 0, watching=watching
-                )
+            stride = self._frame_steps if step == end or step % self._frame_steps == 0 else 1
+            making = self._begin(mark, end, stride, watching=watching)
             making.go_on(end - mark.step)
             reel = self._reels[mark] = making.reel
             self._making = None
             self._drop(step)
-        return reel.shots[step]
+        return reel.shots[step].copy()
 
     def prepare(self, step: int, steps: int, *, fine: bool, watching: bool) -> None:
         """
@@ -159,27 +166,43 @@ class Past:
         :param steps: to the one that is shown next
         :param fine: whether every step will be wanted
         """
-        mark, _ = self._history.segment(step)
-        before, end = self._history.segment(mark.step)
-        reel = self._reels.get(before)
-        made = reel is not None and (reel.tells_contacts or not watching)
-        if before == mark or made:
+        stride = 1 if fine else self._frame_steps
+        # At whole speeds all frames but the first, which may be shorter, go by as many steps.
+        apart = 1 if fine else -(-steps // stride) * stride
+        gap = self._gap(step, apart, watching=watching)
+        if gap is None:
             return
-        making = self._making
-        if making is None or not making.suits(before, end, watching=watching):
-            making = self._begin(before, end, fine=fine, watching=watching)
-        frames_left = max(1, (step - mark.step) // max(1, steps))
+        mark, end = self._history.segment(gap)
+        making = self._begin(mark, end, stride, watching=watching)
+        frames_left = max(1, (step - gap) // max(1, steps))
         making.go_on(-(-making.left // frames_left))
         if making.left == 0:
-            self._reels[before] = making.reel
+            self._reels[mark] = making.reel
             self._making = None
             self._drop(step)
 
-    def _begin(self, mark: Mark, end: int, *, fine: bool, watching: bool) -> _Making:
-        self._course.world.watching = watching
-        stride = 1 if fine else self._frame_steps
-        self._making = _Making(self._course, mark, end, stride)
-        return self._making
+    def _gap(self, step: int, apart: int, *, watching: bool) -> int | None:
+        """
+        Return the first step that is missing in this reel and the one before; None where none is.
+
+        :param step: from which on to look back
+        :param apart: from one wanted step to the next
+        """
+        mark, _ = self._history.segment(step)
+        before, _ = self._history.segment(mark.step)
+        for number in range(step - apart, before.step, -apart):
+            reel = self._reels.get(mark if number > mark.step else before)
+            if reel is None or not reel.has(number, watching=watching):
+                return number
+        return None
+
+    def _begin(self, mark: Mark, end: int, stride: int, *, watching: bool) -> _Making:
+        """Begin to make a reel, or go on with the one that is being made if it suits."""
+        making = self._making
+        if making is None or not making.suits(mark, end, stride, watching=watching):
+            self._course.world.watching = watching
+            making = self._making = _Making(self._course, mark, end, stride)
+        return making
 
     def _drop(self, step: int) -> None:
         """Drop the reels that are farthest away, until the rest fits."""
@@ -213,10 +236,10 @@ class _Making:
         course.show(mark.step)
         self._shoot()
 
-    def suits(self, mark: Mark, step: int, *, watching: bool) -> bool:
-        """Tell whether it will have the shot of a step after a keyframe."""
-        wanted = step % self._stride == 0 or step == self._end
-        return wanted and self.mark == mark and (self._watching or not watching)
+    def suits(self, mark: Mark, end: int, stride: int, *, watching: bool) -> bool:
+        """Tell whether it goes from a keyframe to a step, with all the shots that are wanted."""
+        same = self.mark == mark and self._end == end
+        return same and self._stride <= stride and (self._watching or not watching)
 
     @property
     def left(self) -> int:
@@ -238,3 +261,8 @@ class _Making:
         world = self._course.world
         snapshot = world.snapshot()
         self.reel.add(Shot(snapshot, world.contacts(snapshot) if world.watching else None))
+
+
+def _same(one: Snapshot, other: Snapshot) -> bool:
+    """Tell whether the same bodies are in the same places."""
+    return one.scene.names == other.scene.names and np.array_equal(one.poses, other.poses)

@@ -23,15 +23,15 @@ goes on differently from there.
 from __future__ import annotations
 
 from collections import deque
-from dataclasses import replace
 from typing import NamedTuple
 
 from physsim_ros.core.clock import Clock
+from physsim_ros.core.contacts import NO_CONTACTS
 from physsim_ros.core.errors import BadProperty, Refusal
 from physsim_ros.core.past import Past, Shot
 from physsim_ros.core.requests import Command, Delete, Join, Request, Restore, Spawn, Unjoin
 from physsim_ros.core.settings import WorldSettings
-from physsim_ros.core.snapshot import Answer, Contacts, Frame, Snapshot
+from physsim_ros.core.snapshot import Answer, Frame
 from physsim_ros.core.state import WorldState
 from physsim_ros.core.timeline import Timeline
 from physsim_ros.core.undo import Undo
@@ -325,14 +325,15 @@ class Simulation:
     def _go_back(self, steps: int) -> Frame:
         oldest = self.timeline.history.oldest
         step = max(oldest, self.step - steps)
-        if step < self.step:
+        moved = step < self.step
+        if moved:
             self._shown = self.past.shot(step, watching=self._watching)
             fine = not self.speed.is_integer()
             self.past.prepare(step, steps, fine=fine, watching=self._watching)
         if step == oldest:
             self.speed = 0.0
             self._tell_oldest('; paused')
-        return self._frame(moved=True)
+        return self._frame(moved=moved)
 
     def _catch_up(self) -> None:
         """Bring the world itself to the moment that is shown."""
@@ -412,7 +413,10 @@ class Simulation:
         return done
 
     def _frame(self, *, moved: bool) -> Frame:
-        snapshot, contacts = self._shown or self._look()
+        snapshot, contacts = self._shown or self._look(moved=moved)
+        if self._shown is not None and not moved:
+            # They have been shown.
+            contacts = NO_CONTACTS
         self._answers += self.timeline.tell() + self.past.tell()
         frame = Frame(
             snapshot=snapshot,
@@ -425,15 +429,16 @@ class Simulation:
         self._changed = False
         return frame
 
-    def _look(self) -> tuple[Snapshot, Contacts | None]:
+    def _look(self, *, moved: bool) -> Shot:
         """Return what there is to see, and keep it for going back."""
         world = self.timeline.world
         snapshot = world.snapshot()
         contacts = world.contacts(snapshot) if world.watching else None
-        # A copy, since what is worked out from a snapshot stays with it.
-        self.past.keep(Shot(replace(snapshot), contacts))
+        shot = Shot(snapshot, contacts)
+        # What touched in this step has been taken by the frame that came with it.
+        self.past.keep(shot if moved else self.past.completed(shot))
         self.timeline.see()
-        return snapshot, contacts
+        return shot
 
     def _timeline_of(self, state: WorldState) -> Timeline:
         """Return a timeline that begins with a state."""

@@ -91,7 +91,7 @@ class Snapshot:
     @property
     def nbytes(self) -> int:
         """Memory it takes [bytes]; what is worked out from it not counted."""
-        return self.poses.nbytes + self.twists.nbytes
+        return self.poses.nbytes + self.twists.nbytes + self.forces.nbytes
 
     @cached_property
     def centers(self) -> Floats:

@@ -16,14 +16,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+import gc
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from physsim_ros import world_file
 from physsim_ros.core.errors import OutOfHistory
+from physsim_ros.core.history import Entry
 from physsim_ros.core.joint_properties import JointKind, JointProperties
+from physsim_ros.core.past import Shot
 from physsim_ros.core.requests import (
     Anchor,
+    Command,
     Configure,
     Delete,
     DeleteAll,
@@ -38,6 +44,7 @@ from physsim_ros.core.requests import (
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.simulation import KEYFRAMES, Simulation
 from physsim_ros.core.snapshot import Answer, Frame
+from physsim_ros.core.world import World
 import pytest
 
 from .worlds import BOX, spawning
@@ -60,9 +67,13 @@ class Driven:
         self.simulation.speed = speed
         frames: list[Frame] = []
         for _ in range(round(seconds * 60)):
-            self.now += round(SECOND / 60)
-            frames += self.simulation.advance(self.now)
+            frames += self.tick()
         return frames
+
+    def tick(self) -> tuple[Frame, ...]:
+        """Go on by a tick of the node, and return its frames."""
+        self.now += round(SECOND / 60)
+        return self.simulation.advance(self.now)
 
     def record(self, seconds: float) -> None:
         for frame in self.run(1.0, seconds):
@@ -135,11 +146,86 @@ def test_the_past_is_the_same_where_it_has_to_be_made_again(
         driven.assert_same(frame)
 
 
+@pytest.fixture
+def made(monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """Count the steps that all worlds make, from the last number on."""
+    counts = [0]
+    step = World.step
+
+    def counted(world: World, count: int) -> tuple[str, ...]:
+        counts[-1] += count
+        return step(world, count)
+
+    monkeypatch.setattr(World, 'step', counted)
+    return counts
+
+
+def most_made(driven: Driven, made: list[int], ticks: int) -> int:
+    """Return the number of steps of the tick that made most."""
+    first = len(made)
+    for _ in range(ticks):
+        made.append(0)
+        driven.tick()
+    return max(made[first:])
+
+
+@pytest.mark.parametrize('speed', [-1.0, -0.5, -0.1, -2.0])
+def test_no_tick_makes_many_steps_while_time_goes_back(made: list[int], speed: float) -> None:
+    driven = Driven()
+    driven.record(9.0)
+    # Of the last seconds nothing is known at first but the frames that were shown.
+    driven.run(speed, 0.2)
+    # Three seconds are made again while three seconds are shown.
+    assert most_made(driven, made, round(240 / -speed)) <= max(2.0, -2 * speed * FRAME)
+    assert driven.simulation.step == pytest.approx(5 * 240, abs=100)
+
+
+@pytest.mark.parametrize('on', [0.5, 2.5])
+def test_what_a_seek_left_out_is_made_again_in_time(made: list[int], on: float) -> None:
+    driven = Driven()
+    driven.record(12.0)
+    driven.simulation.past.forget(0)
+    driven.simulation.seek(round(4.5 * SECOND))
+    driven.settle()
+    driven.run(1.0, on)
+    driven.run(-1.0, 0.05)
+    # Three seconds are made again in the time from the seek on.
+    assert most_made(driven, made, round(60 * (on + 1.0))) <= 3 * FRAME * KEYFRAMES / on
+    assert driven.simulation.step < 4 * 240
+
+
+def test_where_frames_were_far_apart_no_others_are_made(made: list[int]) -> None:
+    driven = Driven()
+    driven.ask(spawning('a/0'))
+    driven.run(16.0, 1.0)
+    driven.simulation.speed = -16.0
+    assert most_made(driven, made, 55) == 0
+    assert driven.simulation.step < 2 * 240
+
+
+def test_what_is_half_made_again_ends_no_earlier_than_time_has_come_since(driven: Driven) -> None:
+    driven.simulation.past.forget(0)
+    driven.simulation.seek(round(4.8 * SECOND))
+    driven.settle()
+    driven.run(1.0, 0.2)
+    # What lies before the seek begins to be made again, up to now.
+    driven.run(-1.0, 0.05)
+    driven.run(8.0, 0.1)
+    frames = driven.run(-1.0, 1.0)
+    assert frames[0].snapshot.step > 1300
+    for frame in frames:
+        if frame.snapshot.step in driven.shown:
+            driven.assert_same(frame)
+
+
 def test_at_the_oldest_step_time_stops_and_says_so(driven: Driven) -> None:
     frames = driven.run(-64.0, 1.0)
     assert frames[-1].snapshot.step == 0
     assert driven.simulation.speed == 0.0
     assert len(told(frames, 'history')) == 1
+    again = driven.run(-1.0, 0.1)
+    assert len(told(again, 'history')) == 1
+    assert not any(frame.moved for frame in again)
     assert driven.run(0.0, 0.5) == []
 
 
@@ -207,6 +293,39 @@ def test_redo_returns_to_where_undo_was_asked_for(driven: Driven) -> None:
     driven.run(1.0, 0.7)
     driven.simulation.redo()
     assert (driven.simulation.step, driven.simulation.world.digest()) == (step, digest)
+
+
+# What makes a frame without a step, and changes nothing.
+IDLE: list[Callable[[Driven], object]] = [
+    lambda driven: driven.ask(Delete(name='nobody/0')),
+    lambda driven: driven.ask(DeleteAll(namespace='nobody')),
+    lambda driven: driven.simulation.tell(Answer(topic='~/test')),
+    lambda driven: driven.run(0.5, 0.0),
+]
+
+
+@pytest.mark.parametrize('idle', IDLE)
+@pytest.mark.parametrize('back', [False, True], ids=['now', 'past'])
+def test_a_frame_without_a_step_tells_no_contacts_and_drops_none(
+    idle: Callable[[Driven], object], *, back: bool
+) -> None:
+    driven = Driven()
+    driven.ask(spawning('a/0', BOX, (0.0, 0.5, 0.0)))
+    driven.simulation.watch_contacts(True)
+    driven.run(1.0, 2.0)
+    if back:
+        driven.run(-1.0, 1.0)
+    step = driven.simulation.step
+
+    idle(driven)
+    frame = driven.settle()
+    driven.run(1.0, 0.5)
+    again = [each for each in driven.run(-1.0, 1.0) if each.snapshot.step == step]
+
+    assert frame.snapshot.step == step
+    assert frame.contacts is not None
+    assert frame.contacts.pairs.tolist() == []
+    assert [each.contacts.pairs.tolist() for each in again if each.contacts] == [[[0, -1]]]
 
 
 @pytest.mark.parametrize('steps', [(238, 240), (239, 240), (240, 240), (237, 239)])
@@ -417,6 +536,36 @@ def test_undo_passes_over_nothing_that_is_kept_no_more(*, more: bool) -> None:
     assert 'ball/0' not in sim.world
 
 
+def test_the_thousandth_command_to_a_paused_world_costs_no_more_than_the_first(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    looks = [0]
+
+    class Counted(Entry):
+        """A request of which each look at whether it was seen is counted."""
+
+        def __getattribute__(self, name: str) -> Any:
+            if name == 'seen':
+                looks[-1] += 1
+            return super().__getattribute__(name)
+
+        def __setattr__(self, name: str, value: Any) -> None:
+            if name == 'seen':
+                looks[-1] += 1
+            super().__setattr__(name, value)
+
+    monkeypatch.setattr('physsim_ros.core.timeline.Entry', Counted)
+    driven = Driven(speed=0.0)
+    driven.ask(spawning('a/0', BOX))
+    for _ in range(1000):
+        driven.ask(Command(names=('a/0',), wrenches=((1.0, 0.0, 0.0),)))
+        looks.append(0)
+        driven.settle()
+    assert max(looks) < 10
+    driven.simulation.seek(0)
+    assert driven.simulation.timeline.serial == 1001
+
+
 def test_what_was_loaded_at_the_beginning_cannot_be_undone() -> None:
     first = Driven()
     first.ask(spawning('a/0'))
@@ -470,6 +619,20 @@ def test_few_bodies_take_no_more_memory_than_their_poses_would(bodies: int) -> N
     assert driven.simulation.past.size <= max(120 * 60 * 24 * bodies, 3 * a_reel)
     for frame in driven.run(-4.0, 5.0):
         driven.assert_same(frame)
+
+
+def test_what_is_worked_out_from_the_past_is_not_kept(driven: Driven) -> None:
+    driven.ask(spawning('sensor/0', BOX, (0.0, 0.5, 0.0), anchored=True, sensor=True))
+    driven.record(4.0)
+    driven.simulation.watch_contacts(True)
+    # Among them some that are made again, with a sensor's contacts, which take the centres.
+    for frame in driven.run(-1.0, 3.5):
+        assert frame.snapshot.centers.size
+    kept = [each for each in gc.get_objects() if isinstance(each, Shot)]
+    shots = [shot for shot in kept if shot.snapshot.scene.names == driven.names]
+    assert len(shots) > 100
+    # Else it would take memory that nobody counts; but for the one that is shown.
+    assert sum('centers' in vars(shot.snapshot) for shot in shots) <= 1
 
 
 @pytest.mark.parametrize('back', [-1.0, -8.0])
