@@ -70,7 +70,7 @@ DARK, LIGHT = (0.08, 0.08, 0.1, 1.0), (1.0, 1.0, 1.0, 1.0)
 LIT = 0.2 + 0.5 * 5 / math.sqrt(35)
 
 
-class Motion(NamedTuple):
+class Tracks(NamedTuple):
     """
     Where n bodies are in f frames: position [m], and cosine and sine of yaw and of half of it.
 
@@ -85,8 +85,8 @@ class Motion(NamedTuple):
     half_sin: Singles
 
     @classmethod
-    def of(cls, poses: Floats) -> Motion:
-        """Return the motion of poses, (f, n, 3) float64: x, y [m], yaw [rad]."""
+    def of(cls, poses: Floats) -> Tracks:
+        """Return those of poses, (f, n, 3) float64: x, y [m], yaw [rad]."""
         x, y, half = np.moveaxis(poses, 2, 0)
         cos, sin = np.cos(half / 2), np.sin(half / 2)
         each = (x, y, cos**2 - sin**2, 2 * sin * cos, cos, sin)
@@ -113,22 +113,22 @@ class Table:
     colors: NDArray[np.uint8]
     depth: Singles
 
-    def centers(self, motion: Motion) -> Singles:
+    def centers(self, tracks: Tracks) -> Singles:
         """Return (f * k, 3) float32: where they are."""
-        centers = np.empty((len(motion.x), len(self.rows), 3), dtype=np.float32)
-        centers[..., 0] = motion.x[:, self.rows]
-        centers[..., 1] = motion.y[:, self.rows]
+        centers = np.empty((len(tracks.x), len(self.rows), 3), dtype=np.float32)
+        centers[..., 0] = tracks.x[:, self.rows]
+        centers[..., 1] = tracks.y[:, self.rows]
         centers[..., 2] = self.depth
         x, y = self.spots[:, 0], self.spots[:, 1]
         if x.any() or y.any():
-            cos, sin = motion.cos[:, self.rows], motion.sin[:, self.rows]
+            cos, sin = tracks.cos[:, self.rows], tracks.sin[:, self.rows]
             centers[..., 0] += cos * x - sin * y
             centers[..., 1] += sin * x + cos * y
         return centers.reshape(-1, 3)
 
-    def quaternions(self, motion: Motion) -> Singles:
+    def quaternions(self, tracks: Tracks) -> Singles:
         """Return (f * k, 4) float32: how they are turned."""
-        cos, sin = motion.half_cos[:, self.rows], motion.half_sin[:, self.rows]
+        cos, sin = tracks.half_cos[:, self.rows], tracks.half_sin[:, self.rows]
         turns = np.zeros((*cos.shape, 4), dtype=np.float32)
         if self.spots[:, 2].any():
             own_cos, own_sin = np.cos(self.spots[:, 2] / 2), np.sin(self.spots[:, 2] / 2)
@@ -137,16 +137,16 @@ class Table:
         return turns.reshape(-1, 4)
 
 
-class Layout:
+class BodyPicture:
     """
     What a scene is drawn with: all of the picture that stays while the world steps.
 
     :param scene: the bodies
     :param unit: the length that lines are measured in [m]
-    :param before: the layout before this one; bodies that it knows are not sketched anew
+    :param before: the picture before this one; bodies that it knows are not sketched anew
     """
 
-    def __init__(self, scene: Scene, unit: float, before: Layout | None = None) -> None:
+    def __init__(self, scene: Scene, unit: float, before: BodyPicture | None = None) -> None:
         self.scene = scene
         self.unit = unit
         known = before.sketches if before is not None and before.unit == unit else {}
@@ -166,15 +166,15 @@ class Layout:
             for (place, kind), each in parts.items()
         }
 
-    def extent(self, motion: Motion) -> Bounds:
+    def extent(self, tracks: Tracks) -> Bounds:
         """Return left, bottom, right, top [m] of all bodies in a frame; at least one body."""
         low, high = [], []
         for table in self.tables.values():
             reach = table.sizes[:, :2]
             if table.kind in RECTANGLES:
-                _, _, sin, cos = table.quaternions(motion).T[..., None]
+                _, _, sin, cos = table.quaternions(tracks).T[..., None]
                 reach = np.abs(cos**2 - sin**2) * reach + np.abs(2 * sin * cos) * reach[:, ::-1]
-            centers = table.centers(motion)[:, :2]
+            centers = table.centers(tracks)[:, :2]
             low.append(centers - reach)
             high.append(centers + reach)
         left, bottom = np.concatenate(low).min(axis=0).tolist()

@@ -32,14 +32,14 @@ import numpy as np
 from numpy.typing import NDArray
 from physsim_ros import band
 from physsim_ros.body_picture import (
+    BodyPicture,
     DEPTH,
-    Layout,
-    Motion,
     PLACES,
     RECTANGLES,
     shown,
     Table,
     THICK,
+    Tracks,
     TRANSLUCENT,
     TRIANGLES,
 )
@@ -97,7 +97,7 @@ class Picture:
         self._count = 0
         self._due = 0
         self._last: Frame | None = None
-        self._layout: Layout | None = None
+        self._bodies: BodyPicture | None = None
         self._joints: JointPicture | None = None
         self._area = NOWHERE
         self._framed = False
@@ -144,28 +144,28 @@ class Picture:
         snapshots = [frame.snapshot for frame in frames]
         scene = snapshots[0].scene
         poses = np.stack([each.poses for each in snapshots])
-        motion = Motion.of(poses)
+        tracks = Tracks.of(poses)
         numbers = range(self._count, self._count + len(frames))
         times = _times(snapshots, numbers)
-        layout = self._layout
-        if layout is None or scene is not layout.scene:
-            layout = Layout(scene, _unit(self._area), layout)
-            self._look_at(layout, Motion.of(poses[:1]), snapshots[0].ends)
-            if layout.unit != _unit(self._area):
-                layout = Layout(scene, _unit(self._area))
-            self._layout, self._due = layout, self._count
-            above = 2 * (THICK + DEPTH) * layout.unit
-            self._joints = JointPicture(scene, layout.unit, above) if scene.joints else None
+        bodies = self._bodies
+        if bodies is None or scene is not bodies.scene:
+            bodies = BodyPicture(scene, _unit(self._area), bodies)
+            self._look_at(bodies, Tracks.of(poses[:1]), snapshots[0].ends)
+            if bodies.unit != _unit(self._area):
+                bodies = BodyPicture(scene, _unit(self._area))
+            self._bodies, self._due = bodies, self._count
+            above = 2 * (THICK + DEPTH) * bodies.unit
+            self._joints = JointPicture(scene, bodies.unit, above) if scene.joints else None
         if self._count >= self._due:
             self._due = self._count + REPEAT
-            self._send_geometry(layout, _times(snapshots[:1], numbers[:1]))
+            self._send_geometry(bodies, _times(snapshots[:1], numbers[:1]))
             stirred = np.ones(len(scene.bodies), dtype=bool)
         else:
             stirred = (poses != self._poses).any(axis=(0, 2))
         self._poses = poses[-1]
-        for path, table in layout.tables.items():
+        for path, table in bodies.tables.items():
             if stirred[table.rows].any():
-                self._send_motion(path, table, motion, times)
+                self._send_tracks(path, table, tracks, times)
         if self._joints is not None and self._joints.stirs(stirred):
             columns = self._joints.columns(poses, [each.forces for each in snapshots])
             self._recording.send_columns(JOINTS, times, columns)
@@ -176,13 +176,13 @@ class Picture:
         self._band.draw(frames, numbers)
         self._count += len(frames)
 
-    def _look_at(self, layout: Layout, motion: Motion, ends: Floats) -> None:
+    def _look_at(self, bodies: BodyPicture, tracks: Tracks, ends: Floats) -> None:
         """Choose what is seen: seldom anew, as a picture that jumps is hard to read."""
-        bounds = layout.scene.settings.bounds
+        bounds = bodies.scene.settings.bounds
         if bounds is not None:
             self._area, self._framed = _widened(bounds, MARGIN / 2), True
-        elif layout.scene.bodies:
-            left, bottom, right, top = extent = _around(layout.extent(motion), ends)
+        elif bodies.scene.bodies:
+            left, bottom, right, top = extent = _around(bodies.extent(tracks), ends)
             near = _widened(self._area, 0.5)
             inside = left >= near[0] and bottom >= near[1] and right <= near[2] and top <= near[3]
             if not self._framed or not inside:
@@ -220,9 +220,9 @@ class Picture:
         for path, style in styles.items():
             self._recording.log(path, style, static=True)
 
-    def _send_geometry(self, layout: Layout, times: Times) -> None:
+    def _send_geometry(self, bodies: BodyPicture, times: Times) -> None:
         """Send what stays while the world steps, and nothing where there is none any more."""
-        for path, table in layout.tables.items():
+        for path, table in bodies.tables.items():
             if table.kind in RECTANGLES:
                 columns = rr.Boxes3D.columns(half_sizes=table.sizes, colors=table.colors)
             elif table.kind in TRIANGLES:
@@ -232,24 +232,24 @@ class Picture:
                     radii=table.sizes[:, 0], lengths=2 * table.sizes[:, 2], colors=table.colors
                 )
             self._recording.send_columns(path, times, columns.partition([len(table.rows)]))
-        gone = self._drawn - layout.tables.keys() - ({JOINTS} if layout.scene.joints else set())
+        gone = self._drawn - bodies.tables.keys() - ({JOINTS} if bodies.scene.joints else set())
         for path in gone:
             self._recording.send_columns(path, times, rr.Clear.columns(is_recursive=[False]))
-        self._drawn = set(layout.tables) | ({JOINTS} if layout.scene.joints else set())
-        centers, sizes = _walls(layout.scene.settings.bounds, layout.unit)
+        self._drawn = set(bodies.tables) | ({JOINTS} if bodies.scene.joints else set())
+        centers, sizes = _walls(bodies.scene.settings.bounds, bodies.unit)
         walls = rr.Boxes3D.columns(centers=centers, half_sizes=sizes).partition([len(centers)])
         self._recording.send_columns('world/walls', times, walls)
         left, bottom, right, top = self._area
-        eye = ((left + right) / 2, (bottom + top) / 2, DISTANCE * layout.unit)
+        eye = ((left + right) / 2, (bottom + top) / 2, DISTANCE * bodies.unit)
         # Straight down: the image's x is the world's, its y the world's turned over.
         camera = rr.Transform3D.columns(translation=[eye], mat3x3=[np.diag((1.0, -1.0, -1.0))])
         self._recording.send_columns('world/camera', times, camera)
 
-    def _send_motion(self, path: str, table: Table, motion: Motion, times: Times) -> None:
-        lengths = [len(table.rows)] * len(motion.x)
-        centers = table.centers(motion)
+    def _send_tracks(self, path: str, table: Table, tracks: Tracks, times: Times) -> None:
+        lengths = [len(table.rows)] * len(tracks.x)
+        centers = table.centers(tracks)
         if table.kind in RECTANGLES:
-            turns = table.quaternions(motion)
+            turns = table.quaternions(tracks)
             columns = [
                 _column(_BOX_CENTERS, centers, lengths),
                 _column(_BOX_TURNS, turns, lengths),

@@ -158,11 +158,11 @@ class Streams:
 
     def tell(self) -> None:
         """Publish the answers that wait for listeners to keep up; for every tick."""
-        while self._answers and self._heard():
+        while self._answers and self._keeps_up():
             self._events.publish(self._answers.popleft())
             self._unheard += 1
 
-    def _heard(self) -> bool:
+    def _keeps_up(self) -> bool:
         """Tell whether one more answer pushes none out that has not arrived."""
         if self._unheard < KEPT_ANSWERS:
             return True

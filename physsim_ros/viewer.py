@@ -144,7 +144,7 @@ class Viewer:
             sys.modules['rerun'].unregister_shutdown()
 
 
-class _Stream:
+class _RerunCanvas:
     """A stream of Rerun's and the picture on it."""
 
     def __init__(self, *sinks: rr.GrpcSink | rr.GrpcServerSink | rr.FileSink) -> None:
@@ -189,7 +189,7 @@ class _File(Way):
     def begin(self) -> Canvas:
         import rerun as rr
 
-        return _Stream(rr.FileSink(self.where))
+        return _RerunCanvas(rr.FileSink(self.where))
 
 
 class _Client(Way):
@@ -210,7 +210,7 @@ class _Client(Way):
         except (RuntimeError, ValueError) as error:
             raise ConnectionError(error) from error
         # Rerun would wait 5 s for nobody, and then keep all that it is given.
-        return _Stream(sink) if _is_open(host, port) else None
+        return _RerunCanvas(sink) if _is_open(host, port) else None
 
 
 class _Server(Way):
@@ -237,7 +237,7 @@ class _Server(Way):
         with self._lock:
             self._end()
         sink = rr.GrpcServerSink('127.0.0.1', _free_port(), server_memory_limit=SERVED)
-        stream = _Stream(sink)
+        stream = _RerunCanvas(sink)
         self._uri = sink.uri
         if self.kind == 'spawn' and not _has_display():
             self._fall_back('there is no display')

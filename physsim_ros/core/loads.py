@@ -55,7 +55,7 @@ _GIVE = 1e-9
 _NOTHING = 1e-12
 
 
-class _Contacts(NamedTuple):
+class _Pushes(NamedTuple):
     """
     How contacts push.
 
@@ -76,14 +76,14 @@ class _Contacts(NamedTuple):
         lightness: Floats = (self.pushes**2 * inverse[self.sides]).sum(axis=(1, 2))
         return lightness
 
-    def only(self, rows: Rows) -> _Contacts:
+    def only(self, rows: Rows) -> _Pushes:
         """Return some of them."""
-        return _Contacts(self.sides[rows], self.pushes[rows])
+        return _Pushes(self.sides[rows], self.pushes[rows])
 
-    def beside(self, others: _Contacts) -> _Contacts:
+    def beside(self, others: _Pushes) -> _Pushes:
         """Return these and others."""
         pushes = np.concatenate((self.pushes, others.pushes))
-        return _Contacts(np.concatenate((self.sides, others.sides)), pushes)
+        return _Pushes(np.concatenate((self.sides, others.sides)), pushes)
 
 
 class Loads:
@@ -195,7 +195,7 @@ class Loads:
             rows = np.sort(rows[worst])
         return rows
 
-    def _answers(self, linkage: Linkage, contacts: _Contacts, count: int) -> tuple[Floats, Floats]:
+    def _answers(self, linkage: Linkage, contacts: _Pushes, count: int) -> tuple[Floats, Floats]:
         """
         Return what pushes do, with what the joints make of them.
 
@@ -243,13 +243,13 @@ def _surface(body: pymunk.Body) -> tuple[float, float]:
     return (0.0, 0.0) if shape is None else (shape.friction, shape.elasticity)
 
 
-def _directed(touching: Touching, states: Floats, directions: Floats) -> _Contacts:
+def _directed(touching: Touching, states: Floats, directions: Floats) -> _Pushes:
     """Return how contacts push along (c, 2) directions: the first body back, the second forth."""
     arms = touching.points[:, None, :] - states[touching.bodies, :2]
     pushes = np.empty((len(arms), 2, 3))
     pushes[:, 0, :2], pushes[:, 1, :2] = -directions, directions
     pushes[:, :, 2] = arms[..., 0] * pushes[..., 1] - arms[..., 1] * pushes[..., 0]
-    return _Contacts(touching.bodies, pushes)
+    return _Pushes(touching.bodies, pushes)
 
 
 def _given(shared: Floats, short: Floats, slips: Floats, friction: Floats) -> Floats:
