@@ -32,6 +32,7 @@ from physsim_ros.core import stillness, sweep
 from physsim_ros.core.arrays import Floats, Ints
 from physsim_ros.core.description import Scene
 from physsim_ros.core.engine_arrays import Ids
+from physsim_ros.core.graph import Rows
 from physsim_ros.core.rigid_body import REST, RigidBody
 
 
@@ -53,6 +54,7 @@ class Layout:
     :param apart: (j, 2): places of bodies that a joint keeps from colliding
     :param unswept: while no velocity [m/s] and no spin [rad/s] is greater, all are that slow
     :param loose: (n,) bool: whether forces move the body
+    :param joined: (j,) and (j,): places of what joints hold together, the background's last
     :param offsets: (n, 2): the engine's origin in the body's frame [m]
     :param lead: (n, 3): how far the engine's velocity leads in free flight
     :param free: (n,) bool: in free flight; changes from frame to frame
@@ -75,6 +77,7 @@ class Layout:
     apart: Ints
     unswept: float
     loose: NDArray[np.bool_]
+    joined: tuple[Rows, Rows]
     offsets: Floats
     lead: Floats
     free: NDArray[np.bool_]
@@ -120,6 +123,7 @@ def lay_out(
     listed: list[RigidBody | None] = [None] * len(listing)
     for rigid, place in zip(rigids, order.tolist(), strict=True):
         listed[place] = rigid
+    all_places = np.append(order, len(listing))
     safe, arm = np.full(len(listing), np.inf), np.zeros(len(listing))
     group = np.zeros(len(listing), np.int64)
     safe[order], arm[order], group[order] = rows.safe, rows.arm, rows.group
@@ -142,6 +146,7 @@ def lay_out(
         # The length of a vector is at most 1.42 times its greater coordinate.
         unswept=float((safe / (1.42 + arm)).min(initial=np.inf)),
         loose=rows.loose,
+        joined=(all_places[rows.joined[0]], all_places[rows.joined[1]]),
         offsets=rows.offsets,
         lead=lead,
         free=np.array([rigid.free for rigid in rigids], dtype=np.bool_),
@@ -164,6 +169,7 @@ class _Rows(NamedTuple):
     group: Ints
     apart: Ints
     loose: NDArray[np.bool_]
+    joined: tuple[Rows, Rows]
     offsets: Floats
     lead: Floats
     expiries: dict[int, list[str]]
@@ -191,6 +197,8 @@ def _rows(scene: Scene, dt: float) -> _Rows:
         for joint in scene.joints
         if joint.b in names and not joint.collide
     ]
+    ends = [(names[joint.a], names.get(joint.b, len(names))) for joint in scene.joints]
+    one, other = np.array(ends, np.intp).reshape(-1, 2).T
     return _Rows(
         names=names,
         depths=depths,
@@ -199,6 +207,7 @@ def _rows(scene: Scene, dt: float) -> _Rows:
         group=np.array([body.group for body in bodies], np.int64),
         apart=np.array(apart, np.int64).reshape(-1, 2),
         loose=loose,
+        joined=(one, other),
         offsets=np.where(anchored[:, None], 0.0, scene.centroids),
         lead=lead,
         expiries=expiries,
