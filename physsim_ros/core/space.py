@@ -488,7 +488,7 @@ class Space:
         return lost
 
     def _settle(self) -> None:
-        """Let what has lost its footing fly."""
+        """Let what has lost its footing fly, and what hangs on a spring not."""
         layout = self._lay_out()
         state, free, fallen = self._settled(layout)
         self._loosened.clear()
@@ -549,7 +549,8 @@ class Space:
         flown += 2.0 * layout.lead
         # Rounding of the same sum in another order, nothing more.
         same = np.abs(flown - after) <= 1e-12 * (1.0 + np.abs(after))
-        layout.free = same[:, 0] & same[:, 1] & same[:, 2] & layout.loose
+        flies = layout.loose & ~layout.hung
+        layout.free = same[:, 0] & same[:, 1] & same[:, 2] & flies
 
     # Rows
 
@@ -574,7 +575,7 @@ class Space:
             of the shapes whose contacts hold nothing any more
         """
         state, free, fallen = self._state(layout), layout.free, np.empty(0, np.int64)
-        leads = free.copy()
+        leads = free & ~layout.hung
         if self._loosened:
             lost = self._find_lost(layout)
             leads |= lost
@@ -582,6 +583,7 @@ class Space:
         if not np.array_equal(leads, free):
             state = state.copy()
             state[leads & ~free, 3:] += layout.lead[leads & ~free]
+            state[free & ~leads, 3:] -= layout.lead[free & ~leads]
         return state, leads, fallen
 
     def _find_lost(self, layout: Layout) -> NDArray[np.bool_]:
