@@ -121,6 +121,17 @@ class _Points(NamedTuple):
     pairs: Ints
     points: NDArray[Any]
 
+    def scale(self, share: float) -> None:
+        """Make all impulses so many times as great."""
+        for impulse in ('jnAcc', 'jtAcc'):
+            self.points[impulse] *= share
+
+    def forget(self, numbers: Ints) -> None:
+        """Set to nothing what shapes of some numbers give and get."""
+        parted = np.isin(self.pairs, numbers).any(axis=1)
+        for impulse in ('jnAcc', 'jtAcc'):
+            self.points[impulse][parted] = 0.0
+
     def write(self) -> None:
         """Hand the points back to the engine."""
         data, begin = self.points.tobytes(), 0
@@ -130,15 +141,32 @@ class _Points(NamedTuple):
             begin = end
 
 
-def recall(shapes: ShapeIds, ids: Sequence[int], walls: int) -> ContactMemory:
+def weaken(shapes: ShapeIds, share: float) -> None:
+    """Let the engine start its next step from a share of what it remembers."""
+    found = shapes.contacts()
+    found.scale(share)
+    found.write()
+
+
+def forget(shapes: ShapeIds, numbers: Ints) -> None:
+    """Let the engine forget what shapes of some numbers give and get."""
+    found = shapes.contacts()
+    found.forget(numbers)
+    found.write()
+
+
+def recall(shapes: ShapeIds, ids: Sequence[int], walls: int, *, forgotten: Ints) -> ContactMemory:
     """
     Return what a space remembers.
 
     :param shapes: in the space
     :param ids: number of the first shape of each body, in spawn order
     :param walls: number of the first wall
+    :param forgotten: numbers of the shapes of which nothing is remembered
     """
-    _, pairs, points = shapes.contacts()
+    found = shapes.contacts()
+    found.forget(forgotten)
+    _, pairs, points = found
     # The engine lists by address, which is never the same twice.
     order = np.lexsort((points['hash'], pairs[:, 1], pairs[:, 0]))
     points = points[order]

@@ -45,6 +45,24 @@ def meetings(places: Rows, items: Rows) -> tuple[Rows, Rows]:
     return np.repeat(items, count), items[ranges(first, count)]
 
 
+def spread(marked: NDArray[np.bool_], one: Rows, other: Rows) -> NDArray[np.bool_]:
+    """
+    Return (n,) bool: what is marked, and what hangs together with it.
+
+    :param marked: (n,)
+    :param one: (k,) of each pair
+    :param other: (k,) of each pair
+    """
+    reached = marked.copy()
+    # Pair by pair from there; as many rounds as the longest way has pairs.
+    while True:
+        near = reached[one] | reached[other]
+        if not near.any():
+            return reached
+        reached[one[near]] = reached[other[near]] = True
+        one, other = one[~near], other[~near]
+
+
 class Graph:
     """
     What meets what.

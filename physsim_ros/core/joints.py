@@ -80,7 +80,7 @@ class EngineJoint:
     @property
     def exact(self) -> bool:
         """Whether it is held exactly: no spring, and nothing that gives way to too much force."""
-        return bool(self.constraints) and _is_exact(self.joint)
+        return bool(self.constraints) and is_exact(self.joint)
 
     @property
     def impulse(self) -> float:
@@ -112,18 +112,19 @@ def build(
     constraints = tuple(_MAKE[joint.kind](joint, ends))
     most = joint.properties.max_force
     # The engine leaves this share of an error after a second.
-    left = 0.5 ** (1.0 / dt) if _is_exact(joint) else (1.0 - _CORRECTION) ** (1.0 / dt)
+    left = 0.5 ** (1.0 / dt) if is_exact(joint) else (1.0 - _CORRECTION) ** (1.0 / dt)
     for constraint in constraints:
         if most is not None and not isinstance(constraint, pymunk.SimpleMotor):
             constraint.max_force = most
         constraint.error_bias = left
-        constraint.max_bias = FASTEST_CORRECTION if _is_exact(joint) else _CREEP
+        constraint.max_bias = FASTEST_CORRECTION if is_exact(joint) else _CREEP
         # With the background, which is the walls of `bounds` too, a body always collides.
         constraint.collide_bodies = joint.collide or b is None
     return EngineJoint(joint, ends, constraints)
 
 
-def _is_exact(joint: Joint) -> bool:
+def is_exact(joint: Joint) -> bool:
+    """Tell whether a joint is no spring, and gives way to no force."""
     return joint.kind is not JointKind.SPRING and joint.properties.max_force is None
 
 

@@ -32,6 +32,8 @@ from physsim_ros.core import stillness, sweep
 from physsim_ros.core.arrays import Floats, Ints
 from physsim_ros.core.description import Scene
 from physsim_ros.core.engine_arrays import Ids
+from physsim_ros.core.graph import Rows, spread
+from physsim_ros.core.joints import is_exact
 from physsim_ros.core.rigid_body import REST, RigidBody
 
 
@@ -53,6 +55,8 @@ class Layout:
     :param apart: (j, 2): places of bodies that a joint keeps from colliding
     :param unswept: while no velocity [m/s] and no spin [rad/s] is greater, all are that slow
     :param loose: (n,) bool: whether forces move the body
+    :param joined: (j,) and (j,): places of what joints hold together, the background's last
+    :param hung: (n,) bool: hangs by joints that give way, so that its velocity never leads
     :param offsets: (n, 2): the engine's origin in the body's frame [m]
     :param lead: (n, 3): how far the engine's velocity leads in free flight
     :param free: (n,) bool: in free flight; changes from frame to frame
@@ -75,6 +79,8 @@ class Layout:
     apart: Ints
     unswept: float
     loose: NDArray[np.bool_]
+    joined: tuple[Rows, Rows]
+    hung: NDArray[np.bool_]
     offsets: Floats
     lead: Floats
     free: NDArray[np.bool_]
@@ -120,6 +126,7 @@ def lay_out(
     listed: list[RigidBody | None] = [None] * len(listing)
     for rigid, place in zip(rigids, order.tolist(), strict=True):
         listed[place] = rigid
+    all_places = np.append(order, len(listing))
     safe, arm = np.full(len(listing), np.inf), np.zeros(len(listing))
     group = np.zeros(len(listing), np.int64)
     safe[order], arm[order], group[order] = rows.safe, rows.arm, rows.group
@@ -142,6 +149,8 @@ def lay_out(
         # The length of a vector is at most 1.42 times its greater coordinate.
         unswept=float((safe / (1.42 + arm)).min(initial=np.inf)),
         loose=rows.loose,
+        joined=(all_places[rows.joined[0]], all_places[rows.joined[1]]),
+        hung=rows.hung,
         offsets=rows.offsets,
         lead=lead,
         free=np.array([rigid.free for rigid in rigids], dtype=np.bool_),
@@ -164,6 +173,8 @@ class _Rows(NamedTuple):
     group: Ints
     apart: Ints
     loose: NDArray[np.bool_]
+    joined: tuple[Rows, Rows]
+    hung: NDArray[np.bool_]
     offsets: Floats
     lead: Floats
     expiries: dict[int, list[str]]
@@ -191,6 +202,9 @@ def _rows(scene: Scene, dt: float) -> _Rows:
         for joint in scene.joints
         if joint.b in names and not joint.collide
     ]
+    ends = [(names[joint.a], names.get(joint.b, len(names))) for joint in scene.joints]
+    one, other = np.array(ends, np.intp).reshape(-1, 2).T
+    yielding = np.array([not is_exact(joint) for joint in scene.joints], dtype=np.bool_)
     return _Rows(
         names=names,
         depths=depths,
@@ -199,7 +213,30 @@ def _rows(scene: Scene, dt: float) -> _Rows:
         group=np.array([body.group for body in bodies], np.int64),
         apart=np.array(apart, np.int64).reshape(-1, 2),
         loose=loose,
+        joined=(one, other),
+        hung=_hung(np.append(loose, False), one, other, yielding),
         offsets=np.where(anchored[:, None], 0.0, scene.centroids),
         lead=lead,
         expiries=expiries,
     )
+
+
+def _hung(
+    loose: NDArray[np.bool_], one: Rows, other: Rows, yielding: NDArray[np.bool_]
+) -> NDArray[np.bool_]:
+    """
+    Return (n,) bool: what hangs on something that forces do not move, and not by exact joints.
+
+    :param loose: (n + 1,) whether forces move it; the background comes last
+    :param one: (j,) of each joint
+    :param other: (j,) of each joint
+    :param yielding: (j,) whether it gives way
+    """
+    inner = loose[one] & loose[other]
+
+    def together(joints: NDArray[np.bool_]) -> NDArray[np.bool_]:
+        marked = np.zeros(len(loose), np.bool_)
+        marked[one[joints]] = marked[other[joints]] = True
+        return spread(marked & loose, one[inner], other[inner])
+
+    return (together(~inner) & together(yielding))[:-1]

@@ -116,6 +116,10 @@ class Machine:
         """Return the names of a body's joints, in the order in which they were made."""
         return tuple(name for name in self.joints if name in self._on.get(body, ()))
 
+    def has(self, body: str) -> bool:
+        """Tell whether a body has joints."""
+        return body in self._on
+
     def put(self, joint: Joint) -> None:
         """Take in a joint; it replaces one of that name in its place."""
         old = self.joints.get(joint.name)

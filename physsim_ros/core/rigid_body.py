@@ -109,15 +109,8 @@ class RigidBody:
         self.engine.angular_velocity = twist[2] + ahead[2]
         self.free = True
 
-    @property
-    def motion(self) -> Motion:
-        """Return the engine's own numbers."""
-        x, y = self.engine.position
-        vx, vy = self.engine.velocity
-        return Motion(x, y, self.engine.angle, vx, vy, self.engine.angular_velocity, self.free)
-
-    @motion.setter
-    def motion(self, motion: Motion) -> None:
+    def go_on_from(self, motion: Motion) -> None:
+        """Take over the engine's own numbers."""
         self.engine.angle = motion.yaw
         self.engine.position = motion.x, motion.y
         self.engine.velocity = motion.vx, motion.vy

@@ -16,24 +16,27 @@
 The engine's side of the world: bodies and joints in a Pymunk space, stepped, read and changed.
 
 Laws: a Pymunk object never leaves the core; what is read is a fresh array in spawn order; true
-velocities do not jump when gravity or a wrench changes.
+velocities do not jump when gravity or a wrench changes; what loses its footing falls as one.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
+import itertools
 import math
 
 import numpy as np
+from numpy.typing import NDArray
 from physsim_ros.core import rigid_body, sweep
-from physsim_ros.core.arrays import Floats
+from physsim_ros.core.arrays import Floats, Ints
 from physsim_ros.core.cascade import Cascade
-from physsim_ros.core.contact_memory import recall, remind, ShapeIds
+from physsim_ros.core.contact_memory import forget, recall, remind, ShapeIds, weaken
 from physsim_ros.core.contacts import ContactLog
 from physsim_ros.core.description import Body, Joint, Scene
 from physsim_ros.core.engine_arrays import EngineArrays, Ids
 from physsim_ros.core.fast_bodies import FastBodies
+from physsim_ros.core.footing import Footing
 from physsim_ros.core.layout import lay_out, Layout
 from physsim_ros.core.machine import Machine
 from physsim_ros.core.rigid_body import REST, RigidBody
@@ -85,6 +88,10 @@ class Space:
         self._pushed: dict[str, RigidBody] = {}
         # Those whose velocity has been set since the last step: they are not calmed in the next.
         self._thrown: set[str] = set()
+        # Those that something has let go of since the last step.
+        self._loosened: set[str] = set()
+        # What of these hangs together with nothing that stands, and `changes` when it was found.
+        self._lost: tuple[int, NDArray[np.bool_]] | None = None
         self._layout: Layout | None = None
         self._space = pymunk.Space()
         self._arrays = EngineArrays(self._space)
@@ -102,6 +109,7 @@ class Space:
         self._fast = FastBodies(self._space, self._arrays, self.bodies, self._names, dt)
         self._contacts = ContactLog(self._arrays)
         self._stillness = Stillness(self._arrays)
+        self._footing = Footing(self._space, self._arrays)
         self._cascade = Cascade(self._space)
         self._calm_steps = max(1, round(1.0 / (RATE * dt)))
         # Steps since the space was empty: what is done every so many steps counts from there, so
@@ -126,11 +134,11 @@ class Space:
     def rows(self) -> tuple[Scene, Floats, Floats]:
         """Return the scene, and (n, 3) float64 poses and twists, in spawn order."""
         layout = self._lay_out()
-        state = self._state(layout)
+        state, free, _ = self._settled(layout)
         poses, twists = state[:, :3].copy(), state[:, 3:].copy()
         if layout.offsets.any():
             poses[:, :2] -= turned(layout.offsets, poses[:, 2])
-        twists -= np.where(layout.free[:, None], layout.lead, 0.0)
+        twists -= np.where(free[:, None], layout.lead, 0.0)
         return layout.scene, poses, twists
 
     def forces(self) -> Floats:
@@ -153,9 +161,10 @@ class Space:
     def essence(self) -> Iterator[bytes]:
         """Yield all that is known of the bodies, but for what the engine remembers of contacts."""
         layout = self._lay_out()
+        state, free, _ = self._settled(layout)
         yield layout.scene.key
-        yield self._state(layout).tobytes()
-        yield layout.free.tobytes()
+        yield state.tobytes()
+        yield free.tobytes()
         # In spawn order, whichever was pushed first.
         for rigid in sorted(self._pushed.values(), key=lambda rigid: rigid.serial):
             yield f'{rigid.body.name} {rigid.wrench!r} {rigid.wrench_until}'.encode()
@@ -164,17 +173,19 @@ class Space:
         """Return all that the bodies go on from; `step` is the number of steps made."""
         layout = self._lay_out()
         rigids = list(self.bodies.values())
+        state, free, fallen = self._settled(layout)
+        ids = [rigid.first for rigid in rigids]
         return Keyframe(
             step=step,
             scene=layout.scene,
-            state=self._state(layout).copy(),
-            free=layout.free.copy(),
+            state=state.copy(),
+            free=free.copy(),
             wrenches=tuple(
                 (row, rigid.wrench, rigid.wrench_until)
                 for row, rigid in enumerate(rigids)
                 if rigid.body.name in self._pushed
             ),
-            memory=recall(self._shapes, [rigid.first for rigid in rigids], self._first_wall),
+            memory=recall(self._shapes, ids, self._first_wall, forgotten=fallen),
             forces=self.forces(),
         )
 
@@ -198,8 +209,12 @@ class Space:
         old, self._settings = self._settings, settings
         self.changes += old != settings
         if old.gravity != settings.gravity:
-            for rigid in self.bodies.values():
-                if rigid.free:
+            share = _share(old.gravity, settings.gravity)
+            if share < 1.0:
+                weaken(self._shapes, share)
+            for name, rigid in self.bodies.items():
+                # Where nothing of it is left, what lay on something lies there no more.
+                if rigid.free or not (share or self.machine.has(name)):
                     twist = rigid.twist(old.gravity, self._dt)
                     rigid.set_twist(twist, settings.gravity, self._dt)
         self._space.gravity = settings.gravity
@@ -285,7 +300,7 @@ class Space:
     def set_motion(self, rigid: RigidBody, motion: Motion) -> None:
         """Let a body go on from saved numbers."""
         self._unlay()
-        rigid.motion = motion
+        rigid.go_on_from(motion)
 
     def push(self, rigid: RigidBody, wrench: Pose, until: int | None) -> None:
         """Let a wrench act from now on, to the step `until`; None is for ever."""
@@ -397,14 +412,8 @@ class Space:
         return [self.bodies[name] for name in names]
 
     def _let_go(self, rigids: Iterable[RigidBody]) -> None:
-        """Let bodies fly from now on, unless something else holds them: what did is gone."""
-        for rigid in rigids:
-            here = self.bodies.get(rigid.body.name) is rigid
-            if here and not rigid.body.fixed:
-                # Which also finds whether it flies already.
-                twist = self.twist(rigid)
-                if not rigid.free:
-                    self.set_twist(rigid, twist)
+        """Let bodies fly from the next step on, unless something else holds them then."""
+        self._loosened.update(rigid.body.name for rigid in rigids)
 
     def _raise_walls(self) -> None:
         touching = self._touching(self._space.static_body)
@@ -441,6 +450,7 @@ class Space:
         """
         self._push_all(number)
         lost: tuple[str, ...] = ()
+        self._settle()
         before = self._arrays.twists()
         fastest = np.abs(before).max(initial=0.0)
         # NaN compares false.
@@ -477,6 +487,22 @@ class Space:
             self.unjoin(name)
             self.broken.append((name, force))
         return lost
+
+    def _settle(self) -> None:
+        """Let what has lost its footing fly, and what hangs on a spring not."""
+        layout = self._lay_out()
+        if not self._loosened and not (layout.free & layout.hung).any():
+            return
+        state, free, fallen = self._settled(layout)
+        self._loosened.clear()
+        if state is not layout.state:
+            self.changes += 1
+            twists = self._arrays.twists()
+            twists[layout.order] = state[:, 3:]
+            self._arrays.write_twists(twists)
+            layout.state, layout.free = state, free
+        if len(fallen):
+            forget(self._shapes, fallen)
 
     def drop_lost(self) -> tuple[str, ...]:
         """Remove what has left the range of numbers, before it poisons what it touches."""
@@ -526,7 +552,8 @@ class Space:
         flown += 2.0 * layout.lead
         # Rounding of the same sum in another order, nothing more.
         same = np.abs(flown - after) <= 1e-12 * (1.0 + np.abs(after))
-        layout.free = same[:, 0] & same[:, 1] & same[:, 2] & layout.loose
+        flies = layout.loose & ~layout.hung
+        layout.free = same[:, 0] & same[:, 1] & same[:, 2] & flies
 
     # Rows
 
@@ -542,6 +569,42 @@ class Space:
         if layout.state is None:
             layout.state = self._arrays.states().take(layout.order, axis=0)
         return layout.state
+
+    def _settled(self, layout: Layout) -> tuple[Floats, NDArray[np.bool_], Ints]:
+        """
+        Return what the next step begins with, whatever has been asked since the last one.
+
+        :return: (n, 6) float64 as in `_state`, (n,) bool what is in free flight, and the numbers
+            of the shapes whose contacts hold nothing any more
+        """
+        state, free, fallen = self._state(layout), layout.free, np.empty(0, np.int64)
+        leads = free & ~layout.hung
+        if self._loosened:
+            lost = self._find_lost(layout)
+            leads |= lost
+            fallen = self._shape_numbers(lost)
+        if not np.array_equal(leads, free):
+            state = state.copy()
+            state[leads & ~free, 3:] += layout.lead[leads & ~free]
+            state[free & ~leads, 3:] -= layout.lead[free & ~leads]
+        return state, leads, fallen
+
+    def _find_lost(self, layout: Layout) -> NDArray[np.bool_]:
+        """Return (n,) bool: what has lost its footing since the last step."""
+        if self._lost is None or self._lost[0] != self.changes:
+            rigids = (self.bodies[name] for name in self._loosened if name in self.bodies)
+            loose = [rigid for rigid in rigids if not rigid.body.fixed]
+            lost = self._footing.lost(layout.ground, layout.joined, loose)
+            self._lost = self.changes, lost[layout.order]
+        return self._lost[1]
+
+    def _shape_numbers(self, rows: NDArray[np.bool_]) -> Ints:
+        """Return the engine's numbers of the shapes of some bodies, (n,) bool."""
+        rigids = itertools.compress(self.bodies.values(), rows.tolist())
+        numbers = (
+            range(rigid.first, rigid.first + len(rigid.body.shape.form.pieces)) for rigid in rigids
+        )
+        return np.fromiter(itertools.chain.from_iterable(numbers), np.int64)
 
     def _write_state(self, layout: Layout, state: Floats) -> None:
         """Set the (n, 6) float64 poses and velocities of the engine's origins."""
@@ -580,3 +643,13 @@ class Space:
 def _same_in_engine(a: Body, b: Body) -> bool:
     """Tell whether two bodies differ only in what the engine does not know."""
     return a == replace(b, color=a.color, expires=a.expires)
+
+
+def _share(old: Point, new: Point) -> float:
+    """Return how much of what one gravity has pressed together another one still does."""
+    before = math.hypot(*old)
+    if before == 0.0:
+        return 1.0
+    along = old[0] / before * new[0] + old[1] / before * new[1]
+    # No more than all of it: what springs press, and blows, do not grow with gravity.
+    return min(max(along / before, 0.0), 1.0)

@@ -34,6 +34,7 @@ import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.core.arrays import Floats
 from physsim_ros.core.engine_arrays import EngineArrays
+from physsim_ros.core.graph import spread
 from physsim_ros.core.rigid_body import RigidBody
 from pymunk import batch
 
@@ -151,12 +152,5 @@ class Stillness:
         a, b = ground.rows(ints[face, :2]).T
         stuck = across < INSIDE * ground.grip[a] * ground.grip[b] * along
         stuck &= slow[a] & slow[b]
-        a, b = a[stuck], b[stuck]
-        held = ground.fixed.copy()
-        # From the background up, contact by contact; as many rounds as a pile has layers.
-        while True:
-            reached = held[a] | held[b]
-            if not reached.any():
-                return held
-            held[a[reached]] = held[b[reached]] = True
-            a, b = a[~reached], b[~reached]
+        # From the background up, contact by contact.
+        return spread(ground.fixed, a[stuck], b[stuck])

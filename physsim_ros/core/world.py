@@ -64,7 +64,7 @@ from physsim_ros.core.shapes import Point, Pose
 from physsim_ros.core.snapshot import Contacts, Snapshot
 from physsim_ros.core.space import Space
 from physsim_ros.core.spares import Spares
-from physsim_ros.core.state import BodyState, Keyframe, WorldState
+from physsim_ros.core.state import BodyState, Keyframe, Motion, WorldState
 
 
 class World:
@@ -150,8 +150,9 @@ class World:
     def save(self) -> WorldState:
         """Return everything that the world goes on from."""
         now = self.step_count
-        bodies = []
-        for rigid in self._space.bodies.values():
+        key, bodies = self._space.keyframe(now), []
+        motions = zip(key.state.tolist(), key.free.tolist(), strict=True)
+        for rigid, (state, free) in zip(self._space.bodies.values(), motions, strict=True):
             body, until = rigid.body, rigid.wrench_until
             if body.expires is not None:
                 body = replace(body, expires=body.expires - now)
@@ -160,15 +161,14 @@ class World:
                     body=body,
                     pose=rigid.pose,
                     twist=self._space.twist(rigid),
-                    motion=rigid.motion,
+                    motion=Motion._make((*state, free)),
                     wrench=rigid.wrench,
                     wrench_steps=None if until is None else until - now,
                 )
             )
-        memory = self._space.keyframe(now).memory
         joints = tuple(held.joint for held in self._space.machine.joints.values())
         return WorldState(
-            settings=self._settings, bodies=tuple(bodies), joints=joints, memory=memory
+            settings=self._settings, bodies=tuple(bodies), joints=joints, memory=key.memory
         )
 
     # Changing

@@ -19,7 +19,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from physsim_ros.core.requests import Command
+from physsim_ros.core.requests import Command, Delete, Restore
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.world import World
 import pytest
@@ -93,6 +93,21 @@ def test_who_resumes_a_keyframe_goes_on_like_who_made_it(shape: object) -> None:
         world.step(60)
         elsewhere.step(60)
         assert elsewhere.digest() == world.digest()
+
+
+def test_who_resumes_at_a_letting_go_goes_on_alike() -> None:
+    world, saved, resumed = settled(6), World(), World()
+    world.apply(Delete(name='stack/2'))
+    before, digest = world.snapshot(), world.digest()
+    state, key = world.save(), world.renew()
+    assert world.digest() == digest
+    np.testing.assert_array_equal(world.snapshot().twists, before.twists)
+    resumed.resume(key)
+    saved.apply(Restore(state=state))
+    for each in (world, saved, resumed):
+        each.step(60)
+    assert resumed.digest() == world.digest()
+    np.testing.assert_array_equal(saved.snapshot().poses, world.snapshot().poses)
 
 
 def test_bodies_of_the_space_before_last_are_as_good_as_new() -> None:

@@ -20,7 +20,7 @@ import itertools
 import random
 
 import numpy as np
-from physsim_ros.core.graph import Graph, meetings, ranges
+from physsim_ros.core.graph import Graph, meetings, ranges, spread
 import pytest
 
 
@@ -40,6 +40,13 @@ def test_all_that_are_at_one_place_meet_both_ways_round() -> None:
     one, other = meetings(places, items)
     expected = [*itertools.product((10, 30, 40), repeat=2), (20, 20)]
     assert sorted(zip(one.tolist(), other.tolist(), strict=True)) == sorted(expected)
+
+
+def test_a_mark_spreads_to_all_that_hangs_together() -> None:
+    marked = np.array([True, False, False, False, False, False])
+    one, other = np.array([3, 1, 4, 5]), np.array([1, 0, 5, 4])
+    assert spread(marked, one, other).tolist() == [True, True, False, True, False, False]
+    assert marked.sum() == 1
 
 
 @pytest.mark.parametrize('seed', range(5))

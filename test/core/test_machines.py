@@ -20,6 +20,8 @@ Machines at random: no number leaves the range, nothing raises, and no energy co
 
 from __future__ import annotations
 
+from dataclasses import replace
+import math
 import os
 import random
 from typing import Any
@@ -28,7 +30,19 @@ from hypothesis import given, Phase, settings, strategies
 import numpy as np
 from physsim_ros.core.errors import Anchored
 from physsim_ros.core.joint_properties import JointKind, JointProperties
-from physsim_ros.core.requests import Join, Pin, Unjoin, UnjoinAll
+from physsim_ros.core.names import WORLD
+from physsim_ros.core.requests import (
+    Anchor,
+    Command,
+    Configure,
+    Join,
+    Pin,
+    Release,
+    Request,
+    Spawn,
+    Unjoin,
+    UnjoinAll,
+)
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.shapes import Box, Disc, Polygon, Shape
 from physsim_ros.core.snapshot import Snapshot
@@ -176,3 +190,82 @@ def test_joints_come_and_go_in_a_world_that_stands() -> None:
                 world.snapshot()
     world.step(10)
     assert np.isfinite(world.snapshot().poses).all()
+
+
+def weighted(
+    stiffness: float, *, stretched: float = 0.0, physics_rate: float = 240.0, mass: float = 1.0
+) -> World:
+    """Return a weight on a spring, so far below where 1 kg would hang at rest, which is y = 0."""
+    world = World(physics_rate=physics_rate)
+    spawn(world, 'weight/0', Disc(radius=0.1), (0.0, -stretched, 0.0), mass=mass)
+    ends = ((0.0, -stretched), (0.0, 1.0 + G / stiffness))
+    said = JointProperties(stiffness=stiffness, rest_length=1.0)
+    spring = Join(name='spring/0', kind=JointKind.SPRING, points=ends, a='weight/0', b=WORLD)
+    world.apply(replace(spring, properties=said))
+    return world
+
+
+def total_energy(snapshot: Snapshot) -> float:
+    return snapshot.kinetic_energy + snapshot.potential_energy + snapshot.elastic_energy
+
+
+@pytest.mark.parametrize('physics_rate', [60.0, 240.0])
+@pytest.mark.parametrize('stiffness', [4.0, 40.0])
+def test_a_weight_at_balance_on_its_spring_stays(stiffness: float, physics_rate: float) -> None:
+    world = weighted(stiffness, physics_rate=physics_rate)
+    for _ in range(240):
+        world.step(10)
+        assert world.snapshot().poses[0] == pytest.approx((0.0, 0.0, 0.0), abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    'again',
+    [
+        (Anchor(point=(0.0, 0.0)), Release(point=(0.0, 0.0))),
+        (Command(names=('weight/0',), twists=((0.0, 0.0, 0.0),)),),
+        (Command(names=('weight/0',), poses=((0.0, 0.0, 0.0),)),),
+        (Configure(changes={'gravity': (0.0, 0.0)}), Configure(changes={'gravity': (0.0, -G)})),
+        (Spawn(name='weight/0', shape=Disc(radius=0.2), pose=(0.0, 0.0, 0.0)),),
+    ],
+    ids=['released', 'stopped', 'put', 'gravity', 'changed'],
+)
+def test_it_stays_where_it_is_let_go_again(again: tuple[Request, ...]) -> None:
+    world = weighted(10.0)
+    world.step(60)
+    for request in again:
+        world.apply(request)
+    world.step(120)
+    assert world.snapshot().poses[0] == pytest.approx((0.0, 0.0, 0.0), abs=1e-9)
+
+
+def test_what_hangs_on_a_weight_by_a_rod_stays_with_it() -> None:
+    world = weighted(20.0, mass=0.5)
+    spawn(world, 'weight/1', Disc(radius=0.1), (0.0, -1.0, 0.0), mass=0.5)
+    below = ((0.0, 0.0), (0.0, -1.0))
+    world.apply(Join(name='rod/0', kind=JointKind.ROD, points=below, a='weight/0', b='weight/1'))
+    for _ in range(24):
+        world.step(10)
+        assert np.abs(world.snapshot().twists).max() < 1e-3
+
+
+def test_a_weight_on_a_stretched_spring_swings_as_far_as_it_was_pulled() -> None:
+    world = weighted(10.0, stretched=0.2)
+    omega, start = math.sqrt(10.0), world.snapshot()
+    for _ in range(480):
+        world.step(1)
+        now = world.snapshot()
+        exact = -0.2 * math.cos(omega * world.step_count / 240.0)
+        # Half a step of the fastest that it goes.
+        assert now.poses[0, 1] == pytest.approx(exact, abs=0.2 * omega / 480.0 * 1.01)
+        assert total_energy(now) == pytest.approx(total_energy(start), abs=0.01 * 0.2)
+
+
+def test_two_bodies_that_a_spring_joins_fly_together_exactly() -> None:
+    world = World()
+    for number in range(2):
+        spawn(world, f'weight/{number}', Disc(radius=0.1), (float(number), 0.0, 0.0))
+    said = JointProperties(stiffness=10.0, rest_length=0.8)
+    ends = {'points': ((0.0, 0.0), (1.0, 0.0)), 'a': 'weight/0', 'b': 'weight/1'}
+    world.apply(Join(name='spring/0', kind=JointKind.SPRING, properties=said, **ends))
+    world.step(480)
+    assert world.snapshot().poses[:, 1] == pytest.approx(-2.0 * G, abs=1e-9)

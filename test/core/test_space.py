@@ -166,6 +166,12 @@ def hung(world: World) -> Request:
     return Unjoin(name='rod/0')
 
 
+def sprung(world: World) -> Request:
+    points = (0.0, 50.0), (0.0, 53.0)
+    world.apply(Join(name='spring/0', kind=JointKind.SPRING, points=points, a='r/0'))
+    return Unjoin(name='spring/0')
+
+
 def pinned(world: World) -> Request:
     world.apply(Pin(point=(0.0, 50.0)))
     return Release(point=(0.0, 50.0))
@@ -188,6 +194,7 @@ def walled(world: World) -> Request:
     'held',
     [
         hung,
+        sprung,
         pinned,
         walled,
         partial(floored, request=Delete(name='f/0')),
@@ -197,7 +204,7 @@ def walled(world: World) -> Request:
             request=Spawn(name='f/0', shape=BOX, pose=BELOW, properties=Properties(sensor=True)),
         ),
     ],
-    ids=['rod', 'pin', 'wall', 'deleted', 'moved', 'sensor'],
+    ids=['rod', 'spring', 'pin', 'wall', 'deleted', 'moved', 'sensor'],
 )
 def test_what_is_let_go_falls_exactly(held: Callable[[World], Request]) -> None:
     world = World()
@@ -230,6 +237,101 @@ def test_what_keeps_another_support_does_not_stir() -> None:
     world.apply(Delete(name='post/1'))
     world.step(240)
     assert pose(world, 'plank/0') == pytest.approx(before, abs=1e-4)
+
+
+def standing(count: int) -> World:
+    """Return a stack at rest on a floor that can be taken away; its boxes are rows 1 and up."""
+    world = World(settings=WorldSettings(elasticity=0.0))
+    spawn(world, 'floor/0', Box(width=20.0, height=1.0), (0.0, -0.5, 0.0), anchored=True)
+    stack(world, count)
+    world.step(1200)
+    return world
+
+
+@pytest.mark.parametrize(
+    ('request_', 'gravity'),
+    [
+        (Delete(name='floor/0'), (0.0, -G)),
+        (Command(names=('floor/0',), poses=((0.0, -9.0, 0.0),)), (0.0, -G)),
+        (Configure(changes={'gravity': (0.0, 0.0)}), (0.0, 0.0)),
+        (Configure(changes={'gravity': (0.0, G)}), (0.0, G)),
+    ],
+    ids=['floor deleted', 'floor moved', 'weightless', 'upward'],
+)
+def test_a_stack_that_loses_its_footing_falls_as_one(
+    request_: Request, gravity: tuple[float, float]
+) -> None:
+    world = standing(10)
+    before = world.snapshot()
+
+    world.apply(request_)
+    world.step(240)
+
+    # What the stack still swayed, and not what it has borne.
+    after, now = gravity[1], world.snapshot()
+    assert now.twists[-10:, 1] == pytest.approx(after, abs=1e-4)
+    assert now.poses[-10:, 1] == pytest.approx(before.poses[-10:, 1] + after / 2, abs=1e-4)
+
+
+def test_what_stood_on_a_box_that_is_deleted_falls_as_one_and_the_rest_stands() -> None:
+    world = standing(8)
+
+    world.apply(Delete(name='stack/3'))
+    world.step(48)
+
+    vy = world.snapshot().twists[1:, 1]
+    assert vy[3:] == pytest.approx(-0.2 * G, abs=1e-4)
+    assert vy[:3] == pytest.approx(0.0, abs=0.02)
+
+
+def test_a_floor_laid_at_once_holds_the_stack() -> None:
+    world = standing(6)
+
+    world.apply(Delete(name='floor/0'))
+    spawn(world, 'floor/1', Box(width=20.0, height=1.0), (0.0, -0.5, 0.0), anchored=True)
+    world.step(1)
+
+    assert np.abs(world.snapshot().twists).max() < 0.01
+
+
+@pytest.mark.parametrize('gravity', [(0.0, -9.7), (0.0, -5.0), (0.0, -0.1)])
+def test_a_stack_does_not_stir_where_gravity_is_less(gravity: tuple[float, float]) -> None:
+    world = standing(10)
+
+    world.apply(Configure(changes={'gravity': gravity}))
+
+    for _ in range(30):
+        world.step(1)
+        assert np.abs(world.snapshot().twists).max() < 1e-3
+
+
+def test_gravity_that_comes_back_finds_what_it_left() -> None:
+    world = standing(3)
+
+    for gravity in ((1e-310, 0.0), (G, -G), (0.0, 0.0), (0.0, -G)):
+        world.apply(Configure(changes={'gravity': gravity}))
+    world.step(240)
+
+    assert np.abs(world.snapshot().twists).max() < 1e-3
+
+
+def test_looking_at_what_is_let_go_changes_nothing() -> None:
+    one, other = standing(4), standing(4)
+
+    for world in (one, other):
+        world.apply(Delete(name='floor/0'))
+        if world is one:
+            world.snapshot()
+            world.digest()
+            world.save()
+        spawn(world, 'floor/1', Box(width=20.0, height=1.0), (0.0, -0.5, 0.0), anchored=True)
+        world.apply(Delete(name='stack/1'))
+    digests = one.digest(), other.digest()
+    for world in (one, other):
+        world.step(60)
+
+    assert digests[0] == digests[1]
+    assert one.digest() == other.digest()
 
 
 @pytest.mark.parametrize('gravity', [(0.0, 0.0), (0.0, -G)], ids=['weightless', 'falling'])
