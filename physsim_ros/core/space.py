@@ -28,6 +28,7 @@ import math
 import numpy as np
 from physsim_ros.core import rigid_body, sweep
 from physsim_ros.core.arrays import Floats
+from physsim_ros.core.blows import Blows
 from physsim_ros.core.cascade import Cascade
 from physsim_ros.core.contact_memory import recall, remind, ShapeIds
 from physsim_ros.core.contacts import ContactLog
@@ -103,6 +104,7 @@ class Space:
         self._contacts = ContactLog(self._arrays)
         self._stillness = Stillness(self._arrays)
         self._cascade = Cascade(self._space)
+        self._blows = Blows(self._space, self._arrays)
         self._calm_steps = max(1, round(1.0 / (RATE * dt)))
         # Steps since the space was empty: what is done every so many steps counts from there, so
         # that a restored state goes on alike at whatever step it is restored.
@@ -505,6 +507,7 @@ class Space:
         contact = arbiter.contact_point_set
         sweep.relieve(arbiter, contact, space)
         self._cascade.begin(arbiter)
+        self._blows.begin(arbiter)
         if self._watching:
             self._contacts.begin(arbiter, contact)
         else:
