@@ -20,9 +20,9 @@ more than a quarter of that of the smallest body, is swept along its way first; 
 enter something, the step ends there. The engine then finds the contact and resolves it with the
 full velocity. What a kinematic body would run over is carried along to where the step ends. What
 a slower body overshoots at a first touch is taken back in `relieve`. None of these changes a
-velocity, but for what gravity or a wrench gave on the way that is taken back: else what falls
-would gain energy by each bounce. Of a crowd in which there is more to look at than a step allows,
-the rest may pass.
+velocity, but for what gravity or a wrench gave on the way that is taken back, unless there are
+joints: else what falls would gain energy by each bounce. Of a crowd in which there is more to
+look at than a step allows, the rest may pass.
 """
 
 from __future__ import annotations
@@ -172,9 +172,10 @@ def arrest(
             way, back = mover.move.way, move.way - mover.move.way
             engine.position += back
             engine.angle += move.turn - mover.move.turn
-            # As far as a kinematic body carries it, that is none of its own way.
-            share = -way.dot(back) / max(way.dot(way), 1e-300)
-            _slow(space, engine, -way * min(max(share, 0.0), 1.0), dt)
+            if not _joined(engine):
+                # As far as a kinematic body carries it, that is none of its own way.
+                share = -way.dot(back) / max(way.dot(way), 1e-300)
+                _slow(space, engine, -way * min(max(share, 0.0), 1.0), dt)
 
 
 def relieve(arbiter: pymunk.Arbiter, contact: pymunk.ContactPointSet, space: pymunk.Space) -> None:
@@ -207,10 +208,16 @@ def relieve(arbiter: pymunk.Arbiter, contact: pymunk.ContactPointSet, space: pym
         if give:
             body.position += normal * give
             own = min(abs(give), max(ahead, 0.0))
-            _slow(space, body, normal * math.copysign(own, give), dt)
+            if not (_joined(a) or _joined(b)):
+                _slow(space, body, normal * math.copysign(own, give), dt)
             # Further shapes of it, and further contacts, are found where it is now.
             for shape in body.shapes:
                 shape.cache_bb()
+
+
+def _joined(body: pymunk.Body) -> bool:
+    """Tell whether a body hangs on joints: what it gains they take, and it does not fly."""
+    return body.body_type == pymunk.Body.DYNAMIC and bool(body.constraints)
 
 
 def _slow(space: pymunk.Space, body: pymunk.Body, back: Vec2d, dt: float) -> None:
