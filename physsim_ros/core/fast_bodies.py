@@ -68,7 +68,8 @@ class FastBodies:
         """
         Shorten the coming step of the bodies that are too fast for the engine.
 
-        :param twists: (m, 3) float64: velocities and spins in the engine's listing
+        :param twists: (m, 3) float64: velocities and spins in the engine's listing; kept up to
+            date
         :param fastest: no number of these is greater
         """
         if fastest <= layout.unswept:
@@ -87,6 +88,10 @@ class FastBodies:
                 depth_of=layout.depth,
                 rigid_of=lambda engine: self._bodies.get(self._names.get(engine, '')),
             )
+            for place, rigid in zip(fast.tolist(), movers, strict=True):
+                if rigid is not None:
+                    engine = rigid.engine
+                    twists[place] = *engine.velocity, engine.angular_velocity
 
     def _could_meet(self, layout: Layout, twists: Floats, fast: Ints) -> NDArray[np.bool_]:
         """Return (k,): which of so many fast bodies, by their places, could meet anything."""

@@ -30,6 +30,7 @@ import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.core import rigid_body, sweep
 from physsim_ros.core.arrays import Floats, Ints
+from physsim_ros.core.blows import Blows
 from physsim_ros.core.cascade import Cascade
 from physsim_ros.core.contact_memory import forget, recall, remind, ShapeIds, weaken
 from physsim_ros.core.contacts import ContactLog
@@ -111,6 +112,7 @@ class Space:
         self._stillness = Stillness(self._arrays)
         self._footing = Footing(self._space, self._arrays)
         self._cascade = Cascade(self._space)
+        self._blows = Blows(self._space, self._arrays)
         self._calm_steps = max(1, round(1.0 / (RATE * dt)))
         # Steps since the space was empty: what is done every so many steps counts from there, so
         # that a restored state goes on alike at whatever step it is restored.
@@ -531,6 +533,7 @@ class Space:
         contact = arbiter.contact_point_set
         sweep.relieve(arbiter, contact, space)
         self._cascade.begin(arbiter)
+        self._blows.begin(arbiter)
         if self._watching:
             self._contacts.begin(arbiter, contact)
         else:

@@ -20,7 +20,9 @@ more than a quarter of that of the smallest body, is swept along its way first; 
 enter something, the step ends there. The engine then finds the contact and resolves it with the
 full velocity. What a kinematic body would run over is carried along to where the step ends. What
 a slower body overshoots at a first touch is taken back in `relieve`. None of these changes a
-velocity. Of a crowd in which there is more to look at than a step allows, the rest may pass.
+velocity, but for what gravity or a wrench gave on the way that is taken back, unless there are
+joints: else what falls would gain energy by each bounce. Of a crowd in which there is more to
+look at than a step allows, the rest may pass.
 """
 
 from __future__ import annotations
@@ -167,8 +169,13 @@ def arrest(
         move = moves[engine]
         if move is not mover.move:
             # The engine will add the whole move; put the body back by what it may not go.
-            engine.position += move.way - mover.move.way
+            way, back = mover.move.way, move.way - mover.move.way
+            engine.position += back
             engine.angle += move.turn - mover.move.turn
+            if not _joined(engine):
+                # As far as a kinematic body carries it, that is none of its own way.
+                share = -way.dot(back) / max(way.dot(way), 1e-300)
+                _slow(space, engine, -way * min(max(share, 0.0), 1.0), dt)
 
 
 def relieve(arbiter: pymunk.Arbiter, contact: pymunk.ContactPointSet, space: pymunk.Space) -> None:
@@ -197,12 +204,43 @@ def relieve(arbiter: pymunk.Arbiter, contact: pymunk.ContactPointSet, space: pym
     if excess <= 0 or give_a + give_b <= 0:
         return
     share = min(1.0, excess / (give_a + give_b))
-    for body, give in ((a, -give_a * share), (b, give_b * share)):
+    for body, give, ahead in ((a, -give_a * share, ahead_a), (b, give_b * share, ahead_b)):
         if give:
             body.position += normal * give
+            own = min(abs(give), max(ahead, 0.0))
+            if not (_joined(a) or _joined(b)):
+                _slow(space, body, normal * math.copysign(own, give), dt)
             # Further shapes of it, and further contacts, are found where it is now.
             for shape in body.shapes:
                 shape.cache_bb()
+
+
+def _joined(body: pymunk.Body) -> bool:
+    """Tell whether a body hangs on joints: what it gains they take, and it does not fly."""
+    return body.body_type == pymunk.Body.DYNAMIC and bool(body.constraints)
+
+
+def _slow(space: pymunk.Space, body: pymunk.Body, back: Vec2d, dt: float) -> None:
+    """
+    Give a body that is put back the speed that it had there, as it flew.
+
+    :param back: its way [m]
+    :param dt: of a step [s]
+    """
+    pull = space.gravity + body.force / body.mass
+    work = pull.dot(back)
+    if not work:
+        return
+    along = back.normalized()
+    # The engine's velocity is that of half a step before.
+    speed = body.velocity.dot(along) + pull.dot(along) * dt / 2
+    square = speed * speed + 2.0 * work
+    body.velocity += along * (math.copysign(math.sqrt(max(square, 0.0)), speed) - speed)
+    if square < 0.0:
+        # It has come so far by turning.
+        spin = body.angular_velocity
+        left = max(spin * spin + square * body.mass / body.moment, 0.0)
+        body.angular_velocity = math.copysign(math.sqrt(left), spin)
 
 
 def _mover(rigid: RigidBody, dt: float, depth: float) -> _Mover:

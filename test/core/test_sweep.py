@@ -24,7 +24,9 @@ import pytest
 
 from ..laws.scenes import (
     DT,
+    energy,
     floor,
+    G,
     NOWHERE,
     run,
     simulation,
@@ -274,6 +276,27 @@ def test_a_fast_body_slides_over_tiles_as_over_one_floor(shape, speed):
     assert last.twists[row] == pytest.approx((speed, 0.0, 0.0), abs=1e-3)
     assert last.poses[row, 0] - before[0] == pytest.approx(speed * 0.9, rel=1e-5)
     assert abs(last.poses[row, 1] - before[1]) < 1e-3
+
+
+@pytest.mark.parametrize('shape', [Disc(radius=0.2), Box(width=1.0, height=0.2), ELL], ids=repr)
+@pytest.mark.parametrize('angle', [0.0, 0.3])
+def test_what_falls_gains_no_energy_where_a_bounce_is_taken_back(shape, angle):
+    sim = simulation(friction=0.0, elasticity=1.0)
+    floor(sim)
+    walls(sim, -3.0, -1.0, 3.0, 20.0)
+    row = spawn(sim, 'body/0', shape, (0.5, 1.5, angle), velocity=(0.7, 0.0), spin=angle)
+    before = energy(sim.world.snapshot())
+
+    flying = []
+    last = sim.world.snapshot()
+    for snapshot in steps(sim, 2400):
+        # In the step of a bounce a velocity is that of half a step before.
+        change = snapshot.twists[row] - last.twists[row]
+        if np.abs(change - (0.0, -G * DT, 0.0)).max() < 1e-9:
+            flying.append(energy(snapshot))
+        last = snapshot
+
+    assert np.array(flying) == pytest.approx(before, rel=1e-3)
 
 
 @pytest.mark.parametrize('speed', [40.0, 700.0])
