@@ -26,9 +26,11 @@ goes through no more contacts than `MOST`, so that no step takes long.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
-from physsim_ros.core.cascade import ELASTIC, SLOWEST
+from physsim_ros.core import bell
+from physsim_ros.core.bell import ELASTIC, SLOWEST
 from physsim_ros.core.engine_arrays import EngineArrays
 import pymunk
 from pymunk import batch
@@ -56,34 +58,28 @@ class Blows:
         self._arrays = arrays
         # Bodies that begin to touch something elastic in the coming step.
         self._begun: dict[pymunk.Body, None] = {}
-        self._iterations = space.iterations
-        # A joint that holds nothing: the engine calls it before it solves the contacts of a step,
-        # and behind.
-        self._bell = pymunk.RotaryLimitJoint(space.static_body, pymunk.Body(1.0, 1.0), -1.0, 1.0)
-        self._bell.pre_solve = self._more
-        self._bell.post_solve = self._as_before
-        space.add(self._bell)
+        # How often the engine otherwise goes through all contacts, while it does so more often.
+        self._usual: int | None = None
+        bell.hang(space, self._more).post_solve = self._as_before
 
-    def begin(self, arbiter: pymunk.Arbiter) -> None:
-        """Take note of two shapes that touch for the first time."""
-        if arbiter.restitution >= ELASTIC:
-            self._begun.update(
-                (body, None) for body in arbiter.bodies if body.body_type == pymunk.Body.DYNAMIC
-            )
+    def begin(self, struck: Iterable[pymunk.Body]) -> None:
+        """Take note of bodies that begin to touch something elastic."""
+        self._begun.update(dict.fromkeys(struck))
 
     def _more(self, *_: object) -> None:
         """Let the engine go on for longer if blows of the coming step have to agree."""
-        self._iterations = self._space.iterations
         if not self._begun:
             return
         begun, self._begun = self._begun, {}
         contacts = self._arrays.contacts(batch.ArbiterFields.CONTACT_COUNT)[0]
         iterations = min(ITERATIONS, MOST // max(1, len(contacts)))
-        if iterations > self._iterations and any(map(_struck_together, begun)):
-            self._space.iterations = iterations
+        usual = self._space.iterations
+        if iterations > usual and any(map(_struck_together, begun)):
+            self._usual, self._space.iterations = usual, iterations
 
     def _as_before(self, *_: object) -> None:
-        self._space.iterations = self._iterations
+        if self._usual is not None:
+            self._space.iterations, self._usual = self._usual, None
 
 
 def _struck_together(body: pymunk.Body) -> bool:

@@ -27,16 +27,15 @@ press with nothing yet.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
+from physsim_ros.core import bell
+from physsim_ros.core.bell import ELASTIC, SLOWEST
 import pymunk
 
 # ruff: noqa: SLF001 - the engine's contacts have no public way to be written
 
-# From this restitution on, bodies pass blows on rather than take them as one.
-ELASTIC = 0.75
-# What is slower is no blow, but the tremor of what lies still [m/s].
-SLOWEST = 0.05
 # Whatever moves against its neighbour by less than this share of the blow has no speed yet.
 SHARE = 0.05
 # Steps for which a body is looked at after the last blow.
@@ -56,18 +55,11 @@ class Cascade:
     def __init__(self, space: pymunk.Space) -> None:
         # Bodies that have been struck, and for how many steps they are still looked at.
         self._struck: dict[pymunk.Body, int] = {}
-        # A joint that holds nothing: the engine calls it when it has found all contacts of a step
-        # and their speeds, and has solved none.
-        self._bell = pymunk.RotaryLimitJoint(space.static_body, pymunk.Body(1.0, 1.0), -1.0, 1.0)
-        self._bell.pre_solve = self._relay
-        space.add(self._bell)
+        bell.hang(space, self._relay)
 
-    def begin(self, arbiter: pymunk.Arbiter) -> None:
-        """Take note of two shapes that touch for the first time."""
-        if arbiter.restitution >= ELASTIC:
-            self._struck.update(
-                (body, LASTS) for body in arbiter.bodies if body.body_type == pymunk.Body.DYNAMIC
-            )
+    def begin(self, struck: Iterable[pymunk.Body]) -> None:
+        """Take note of bodies that begin to touch something elastic."""
+        self._struck.update((body, LASTS) for body in struck)
 
     def forget(self, body: pymunk.Body) -> None:
         """Look no more at a body that leaves the space."""

@@ -28,7 +28,7 @@ import math
 
 import numpy as np
 from numpy.typing import NDArray
-from physsim_ros.core import rigid_body, sweep
+from physsim_ros.core import bell, rigid_body, sweep
 from physsim_ros.core.arrays import Floats, Ints
 from physsim_ros.core.blows import Blows
 from physsim_ros.core.cascade import Cascade
@@ -379,7 +379,7 @@ class Space:
 
     def _unwound(self, rigid: RigidBody, pose: Pose) -> Pose:
         """Return a pose with as many whole turns as a jointed body has made: joints count them."""
-        if not self.machine.of(rigid.body.name):
+        if not self.machine.has(rigid.body.name):
             return pose
         turns = round((rigid.engine.angle - pose[2]) / math.tau)
         return pose[0], pose[1], pose[2] + turns * math.tau
@@ -532,8 +532,9 @@ class Space:
         """Look at two shapes that touch for the first time."""
         contact = arbiter.contact_point_set
         sweep.relieve(arbiter, contact, space)
-        self._cascade.begin(arbiter)
-        self._blows.begin(arbiter)
+        struck = bell.struck(arbiter)
+        self._cascade.begin(struck)
+        self._blows.begin(struck)
         if self._watching:
             self._contacts.begin(arbiter, contact)
         else:

@@ -17,6 +17,7 @@
 import math
 
 import numpy as np
+from physsim_ros.core.bell import struck
 from physsim_ros.core.blows import Blows, ITERATIONS, MOST
 from physsim_ros.core.engine_arrays import EngineArrays
 from physsim_ros.core.shapes import Box, Chain, Disc, Polygon
@@ -124,7 +125,7 @@ def _iterations(*, walls, more=0):
     bell = pymunk.RotaryLimitJoint(space.static_body, pymunk.Body(1.0, 1.0), -1.0, 1.0)
     bell.pre_solve = lambda *_: seen.append(space.iterations)
     space.add(bell)
-    space.on_collision(begin=lambda arbiter, *_: blows.begin(arbiter))
+    space.on_collision(begin=lambda arbiter, *_: blows.begin(struck(arbiter)))
     space.step(1 / 240)
     return seen, space.iterations
 

@@ -28,7 +28,7 @@ from physsim_ros.core.shapes import Box, Disc
 from physsim_ros.core.world import World
 import pytest
 
-from .worlds import MESH, net, spawn
+from .worlds import G, MESH, net, spawn, swing
 
 
 def stretched(world: World) -> float:
@@ -55,6 +55,20 @@ def test_a_net_is_held_part_by_part_where_even_its_work_is_not_looked_at(
     world = net(20)
     world.step(120)
     assert 2e-4 < stretched(world) < MESH / 4
+
+
+def test_a_heavy_ball_swings_on_a_light_chain() -> None:
+    world = swing(link=0.5, ball=70.0, radius=0.1)
+    start = world.snapshot()
+    fall = 70.0 * G * 3.0 * (1.0 - math.cos(math.radians(45.0)))
+    for _ in range(72):
+        world.step(20)
+        now = world.snapshot()
+        gained = now.kinetic_energy + now.potential_energy
+        gained -= start.kinetic_energy + start.potential_energy
+        assert abs(gained) < 0.02 * fall
+        # Its links weigh something, so that it is bent a little as it turns back.
+        assert math.hypot(*now.poses[-1, :2]) == pytest.approx(3.0, abs=5e-3)
 
 
 def wheel(spokes: int) -> World:

@@ -30,7 +30,7 @@ from physsim_ros.core.snapshot import Snapshot
 from physsim_ros.core.world import World
 import pytest
 
-from .worlds import BOX, DISC, G, pose, spawn, twist
+from .worlds import BOX, DISC, G, pose, spawn, swing, twist
 
 PLANK = Box(width=1.1, height=0.2)
 # Where planks have their upper sides [m].
@@ -135,24 +135,7 @@ def test_a_car_drives_over_a_beam_as_on_the_ground() -> None:
 @pytest.mark.parametrize('radius', [0.16, 0.2, 0.3])
 def test_a_ball_hung_by_links_that_it_overlaps_gains_nothing(radius: float) -> None:
     # What it touches and what it hangs on contradict each other, along a chain that does not give.
-    world, count, length, lean = World(), 20, 0.15, math.radians(45.0)
-    way = np.array((math.sin(lean), -math.cos(lean)))
-    for number in range(count):
-        name, middle = f'link/{number}', way * length * (number + 0.5)
-        link = Box(width=length, height=0.03)
-        spawn(world, name, link, (*middle, lean - math.pi / 2), mass=1.0)
-        other = f'link/{number - 1}' if number else 'world'
-        end = tuple(way * length * number)
-        world.apply(
-            Join(name=f'joint/{number}', kind=JointKind.AXLE, points=(end,), a=name, b=other)
-        )
-    end = tuple(way * length * count)
-    spawn(world, 'ball/0', Disc(radius=radius), (*end, 0.0), mass=1.0)
-    world.apply(
-        Join(
-            name='joint/99', kind=JointKind.AXLE, points=(end,), a='ball/0', b=f'link/{count - 1}'
-        )
-    )
+    world = swing(link=1.0, ball=1.0, radius=radius)
     began = energy(world.snapshot())
 
     _, _, most = watched(world, 'ball/0', 4.0)

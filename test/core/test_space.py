@@ -746,6 +746,17 @@ def test_more_iterations_hold_a_stack_better() -> None:
     assert speeds[0] > 2 * speeds[1]
 
 
+def test_a_heavy_box_lies_on_a_light_one() -> None:
+    world = World()
+    spawn(world, 'floor/0', Box(width=10.0, height=1.0), (0.0, -0.5, 0.0), anchored=True)
+    for number, mass in enumerate((1.0, 30.0)):
+        box = Box(width=0.5, height=0.5)
+        spawn(world, f'box/{number}', box, (0.0, 0.25 + 0.5 * number, 0.0), mass=mass)
+    for _ in range(100):
+        world.step(24)
+        assert pose(world, 'box/1') == pytest.approx((0.0, 0.75, 0.0), abs=5e-3)
+
+
 def test_a_change_of_defaults_changes_no_body(world: World) -> None:
     spawn(world, 'a/0', DISC)
     before = world.snapshot().scene.bodies[0]

@@ -14,6 +14,8 @@
 
 """Short words for the tests of the core: a world, what is spawned into it, where it is then."""
 
+from itertools import pairwise
+import math
 from typing import Any
 
 import numpy as np
@@ -124,6 +126,23 @@ def stack(world: World, count: int) -> None:
     """Stack boxes of 1 m on the floor of the world's bounds."""
     for number in range(count):
         spawn(world, f'stack/{number}', BOX, (0.0, 0.5 + number, 0.0))
+
+
+def swing(*, link: float, ball: float, radius: float) -> World:
+    """Return a ball on 20 links of 0.15 m and so many kg each, let go at 45 degrees."""
+    world, count, length, lean = World(), 20, 0.15, math.radians(45.0)
+    way = np.array((math.sin(lean), -math.cos(lean)))
+    shape = Box(width=length, height=0.03)
+    for number in range(count):
+        middle = way * length * (number + 0.5)
+        spawn(world, f'link/{number}', shape, (*middle, lean - math.pi / 2), mass=link)
+    spawn(world, 'ball/0', Disc(radius=radius), (*(way * length * count), 0.0), mass=ball)
+    names = ['world', *(f'link/{number}' for number in range(count)), 'ball/0']
+    for number, (b, a) in enumerate(pairwise(names)):
+        point = tuple(way * length * number)
+        axle = Join(name=f'joint/{number}', kind=JointKind.AXLE, points=(point,), a=a, b=b)
+        world.apply(axle)
+    return world
 
 
 def net(side: int) -> World:

@@ -28,11 +28,14 @@ class Report:
     """
     Collects what a law measures.
 
+    Of several cases of one quantity it keeps the one that is furthest off.
+
     :param properties: of the test
     """
 
     def __init__(self, properties):
         self._properties = properties
+        self._rows = {}
 
     def check(self, law, what, measured, exact, tolerance, unit, *, relative=False):
         """
@@ -44,13 +47,20 @@ class Report:
         off = abs(measured - exact)
         if relative:
             off /= abs(exact)
-        row = (law, what, unit, tolerance, off, measured, exact)
-        self._properties.append((MEASURED, row))
+        key = (law, what, unit, tolerance)
+        if key not in self._rows:
+            self._rows[key] = [*key, 0, -1.0, 0.0, 0.0]
+            self._properties.append((MEASURED, self._rows[key]))
+        _, _, _, _, cases, worst, *_ = row = self._rows[key]
+        row[4] = cases + 1
+        # A number that is none is further off than every number.
+        if not off <= worst:
+            row[5:] = off, measured, exact
         assert off <= tolerance, f'law {law}, {what}: {measured!r} {unit}, exact {exact!r}'
 
 
 def table(rows):
-    """Yield the table, line by line; of the cases of one quantity the one furthest off."""
+    """Yield the table, line by line; of the rows of one quantity the one furthest off."""
     yield (
         f'{"law":>3}  {"what":<46} {"measured":>14} {"exact":>14} {"off by":>9} '
         f'{"tolerance":>9}  {"unit":<9} cases'
@@ -59,14 +69,13 @@ def table(rows):
     for law, what, unit, tolerance, *values in rows:
         quantities.setdefault((law, what, unit, tolerance), []).append(values)
     for (law, what, unit, tolerance), cases in sorted(quantities.items()):
-        # A number that is none is further off than every number.
-        off, measured, exact = max(
-            cases, key=lambda case: math.inf if math.isnan(case[0]) else case[0]
+        _, off, measured, exact = max(
+            cases, key=lambda case: math.inf if math.isnan(case[1]) else case[1]
         )
         mark = '' if off <= tolerance else '  BROKEN'
         yield (
             f'{law:>3}  {what:<46} {measured:>14.8g} {exact:>14.8g} {off:>9.2g} '
-            f'{tolerance:>9.2g}  {unit:<9} {len(cases):>5}{mark}'
+            f'{tolerance:>9.2g}  {unit:<9} {sum(case[0] for case in cases):>5}{mark}'
         )
 
 
