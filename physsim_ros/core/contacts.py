@@ -63,6 +63,10 @@ class ContactLog:
         # Which one the engine has first, and so which way round its impulses are.
         self._firsts: Ids = np.empty(0, np.uint64)
         self._signs: Floats = np.empty((0, 1))
+        # What these gave in the last step that was read.
+        self._given: Floats = np.empty((0, 2))
+        # Whether the last step has not been added yet.
+        self._waits = False
         # Steps since the frame began.
         self._steps = 0
         # The same of earlier steps of the frame, at whose ends other pairs touched.
@@ -81,8 +85,33 @@ class ContactLog:
         a, b = arbiter.bodies
         self._begun[a.id, b.id] = contact
 
-    def add_step(self) -> None:
-        """Add the contacts of the step that has just been made."""
+    def add_step(self, *, waits: bool) -> None:
+        """
+        Add the contacts of the step that has just been made.
+
+        :param waits: whether all was at rest before it, so that nothing may have changed in it
+            either: then it is looked at when that is known, or somebody wants to know
+        """
+        self._waits = waits
+        if not waits:
+            self._add_step()
+
+    def catch_up(self, *, same: bool = False) -> None:
+        """
+        Add the step that waits, if one does, before anything else is done.
+
+        :param same: whether nothing has changed in it
+        """
+        if not self._waits:
+            return
+        self._waits = False
+        if same and self.settled:
+            self._steps += 1
+            self._sums += self._given
+        else:
+            self._add_step()
+
+    def _add_step(self) -> None:
         self._steps += 1
         if self.settled:
             firsts, impulses = self._arrays.contacts(_FIRSTS_AND_IMPULSES)
@@ -90,15 +119,19 @@ class ContactLog:
                 # The engine turns a pair round as its bodies move, in a contact that goes on too.
                 if not np.array_equal(firsts, self._firsts):
                     self._firsts, self._signs = firsts.copy(), self._signs_of(firsts)
-                self._sums += impulses.reshape(-1, 2) * self._signs
+                self._give(impulses.reshape(-1, 2))
                 return
         ints, impulses = self._arrays.contacts(_PAIRS_AND_IMPULSES)
         self._firsts = ints[::2].copy()
         ids, self._signs = _oriented(ints.reshape(-1, 2))
         if not np.array_equal(ids, self._ids):
             self._begin_listing(ids)
-        self._sums += impulses.reshape(-1, 2) * self._signs
+        self._give(impulses.reshape(-1, 2))
         self.settled = True
+
+    def _give(self, impulses: Floats) -> None:
+        self._given = impulses * self._signs
+        self._sums += self._given
 
     def _signs_of(self, firsts: Ids) -> Floats:
         """Return (k, 1): -1 where the engine has another one of a pair first than its lesser."""
@@ -133,6 +166,7 @@ class ContactLog:
 
         :param body: its id in the engine
         """
+        self.catch_up()
         if self._steps == 0:
             return
         self.settled = False
@@ -144,6 +178,7 @@ class ContactLog:
 
     def clear(self) -> None:
         """Forget what has been summed up since the last call of `take`."""
+        self._waits = False
         self._earlier = []
         self._sums = np.zeros_like(self._sums)
         self._steps = 0
@@ -168,6 +203,7 @@ class ContactLog:
             values[:, :2] *= signs
             return pairs, values
 
+        old.catch_up()
         self._steps = old._steps
         self._ids, self._sums = renamed(old._ids, old._sums)
         self._earlier = [renamed(pairs, sums) for pairs, sums in old._earlier]
@@ -191,6 +227,7 @@ class ContactLog:
         :param centers: gives (n, 2) float64: centres of mass, between which overlaps with sensors
             lie
         """
+        self.catch_up()
         if self._steps == 0:
             return NO_CONTACTS
         parted, given = self._merge()

@@ -38,6 +38,7 @@ from physsim_ros.core.description import Body, Joint, Scene
 from physsim_ros.core.engine_arrays import EngineArrays, Ids
 from physsim_ros.core.fast_bodies import FastBodies
 from physsim_ros.core.footing import Footing
+from physsim_ros.core.iterations import Iterations
 from physsim_ros.core.layout import lay_out, Layout
 from physsim_ros.core.machine import Machine
 from physsim_ros.core.rigid_body import REST, RigidBody
@@ -108,6 +109,7 @@ class Space:
         # Joints that have broken, and what each gave then [N]; whoever reads it empties it.
         self.broken: list[tuple[str, float]] = []
         self._fast = FastBodies(self._space, self._arrays, self.bodies, self._names, dt)
+        self._iterations = Iterations(self._space)
         self._contacts = ContactLog(self._arrays)
         self._stillness = Stillness(self._arrays)
         self._footing = Footing(self._space, self._arrays)
@@ -221,7 +223,7 @@ class Space:
                     rigid.set_twist(twist, settings.gravity, self._dt)
         self._space.gravity = settings.gravity
         self._space.damping = 1.0 - settings.damping
-        self._space.iterations = settings.iterations
+        self._iterations.most = settings.iterations
         walls = (settings.bounds, settings.friction, settings.elasticity)
         if walls != (old.bounds, old.friction, old.elasticity):
             # Only then: what lies on the walls would stir.
@@ -329,6 +331,18 @@ class Space:
         """Take over what an older space of the same bodies has seen of the frame so far."""
         self._contacts.inherit(old._contacts, old._engine_ids(), self._engine_ids())
         self.broken = old.broken
+
+    def retire(self) -> None:
+        """
+        Have the engine forget all contacts; for a space that is used no more.
+
+        It goes through all that it remembers for each shape that is taken out.
+        """
+        self.machine.clear()
+        apart = np.zeros((len(self._space.bodies), 6))
+        apart[:, 0] = np.arange(len(apart)) * 1e6
+        self._arrays.write_states(apart)
+        self._space.step(0.0)
 
     def give_up(self) -> RigidBody | None:
         """Take a body out of a space that is used no more, as good as new; None is none left."""
@@ -461,13 +475,17 @@ class Space:
             before = self._arrays.twists()
             fastest = np.abs(before).max(initial=0.0)
         layout = self._lay_out()
-        if self._age % self._calm_steps == 0:
+        # What has rested since the last time has not been calmed then.
+        if self._age % self._calm_steps == 0 and self._iterations.resting < self._calm_steps:
             rows = [layout.rows[name] for name in self._thrown if name in layout.rows]
             self._stillness.calm(layout.ground, before, layout.order[rows])
         self._thrown.clear()
         self._fast.arrest(layout, before, float(fastest))
+        self._iterations.choose(before, self.changes, fastest=float(fastest))
+        self._contacts.catch_up(same=self._iterations.resting > 0)
         self._watching = watching
         if self.machine.joints:
+            self._iterations.stir()
             self.machine.prepare(layout.listed, self._states)
         self._space.step(self._dt)
         self._age += 1
@@ -477,7 +495,7 @@ class Space:
             self._hold(layout, before, driven=driven)
             self._powerless = self.changes
         if watching:
-            self._contacts.add_step()
+            self._contacts.add_step(waits=self._iterations.resting > 0)
         expired = layout.expiries.get(number + 1, ())
         # When a wrench ends, what flies is told from what does not, however steps are counted out.
         ends = any(rigid.wrench_until == number + 1 for rigid in self._pushed.values())
@@ -531,6 +549,7 @@ class Space:
     def _begin(self, arbiter: pymunk.Arbiter, space: pymunk.Space, _: object) -> None:
         """Look at two shapes that touch for the first time."""
         contact = arbiter.contact_point_set
+        self._iterations.stir()
         sweep.relieve(arbiter, contact, space)
         struck = bell.struck(arbiter)
         self._cascade.begin(struck)

@@ -37,6 +37,8 @@ class Spares:
     def __init__(self, retired: Space | None = None) -> None:
         self.bodies: dict[str, RigidBody] = {}
         self._retired = retired
+        if retired is not None:
+            retired.retire()
         # What has been looked through for bodies that have none, and how far.
         self._scene: Scene | None = None
         self._row = 0

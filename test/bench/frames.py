@@ -40,6 +40,7 @@ from physsim_ros.core.shapes import Box, Disc
 from physsim_ros.core.world import World
 from physsim_ros.node import clear_the_way, PhysSimNode
 from physsim_ros.testing import own_domain
+import pymunk
 import rclpy
 from rclpy.parameter import Parameter
 
@@ -123,16 +124,38 @@ def fill(world: World, count: int, *, settle: float = SETTLE) -> None:
 
 
 class Bare:
-    """The engine alone: four plain calls of `Space.step`."""
+    """The engine alone, in a space that nothing of ours is in: four calls of `Space.step`."""
 
     def __init__(self, pile: Pile) -> None:
-        self.world = World()
-        fill(self.world, pile.count, settle=SETTLE * pile.settled)
+        world = World()
+        fill(world, pile.count, settle=0.0)
+        ours = world._space._space
+        self.space = pymunk.Space()
+        self.space.gravity, self.space.collision_slop = ours.gravity, ours.collision_slop
+        for body in ours.bodies:
+            twin = pymunk.Body(body.mass, body.moment)
+            twin.position, twin.angle = body.position, body.angle
+            self.space.add(twin, *(_twin(shape, twin) for shape in body.shapes))
+        walls = ours.static_body.shapes
+        self.space.add(*(_twin(wall, self.space.static_body) for wall in walls))
+        for _ in range(round(SETTLE * pile.settled * 60)):
+            Bare.frame(self)
 
     def frame(self) -> None:
         """Make four steps."""
         for _ in range(4):
-            self.world._space._space.step(1 / 240)
+            self.space.step(1 / 240)
+
+
+def _twin(shape: pymunk.Shape, body: pymunk.Body) -> pymunk.Shape:
+    """Return the same shape on another body."""
+    if isinstance(shape, pymunk.Circle):
+        twin: pymunk.Shape = pymunk.Circle(body, shape.radius, shape.offset)
+    else:
+        assert isinstance(shape, pymunk.Poly)
+        twin = pymunk.Poly(body, shape.get_vertices(), radius=shape.radius)
+    twin.friction, twin.elasticity = shape.friction, shape.elasticity
+    return twin
 
 
 class Naive(Bare):
@@ -146,11 +169,11 @@ class Naive(Bare):
         """Make four steps and publish the poses, one stream of the six."""
         super().frame()
         message = PoseArray()
-        for rigid in self.world._space.bodies.values():
+        for body in self.space.bodies:
             pose = Pose()
-            pose.position.x, pose.position.y = rigid.engine.position
-            pose.orientation.z = math.sin(rigid.engine.angle / 2)
-            pose.orientation.w = math.cos(rigid.engine.angle / 2)
+            pose.position.x, pose.position.y = body.position
+            pose.orientation.z = math.sin(body.angle / 2)
+            pose.orientation.w = math.cos(body.angle / 2)
             message.poses.append(pose)
         self._poses.publish(message)
 
