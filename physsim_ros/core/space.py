@@ -339,10 +339,11 @@ class Space:
         It goes through all that it remembers for each shape that is taken out.
         """
         self.machine.clear()
-        apart = np.zeros((len(self._space.bodies), 6))
-        apart[:, 0] = np.arange(len(apart)) * 1e6
-        self._arrays.write_states(apart)
-        self._space.step(0.0)
+        states = self._arrays.states()
+        states[:] = 0.0
+        states[:, 0] = np.arange(len(states)) * 1e6
+        self._arrays.write_states(states)
+        self._space.step(self._dt)
 
     def give_up(self) -> RigidBody | None:
         """Take a body out of a space that is used no more, as good as new; None is none left."""

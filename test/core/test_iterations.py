@@ -37,7 +37,7 @@ ALL = YARD.iterations
 def made(world: World) -> list[int]:
     """Return a list that gets, in each step, how many iterations it is made with."""
     counts: list[int] = []
-    space = world._space._space
+    space = world._space._space  # noqa: SLF001 - where the engine's iterations are
     bell.hang(space, lambda *_: counts.append(space.iterations))
     return counts
 
