@@ -498,15 +498,18 @@ class Space:
         if watching:
             self._contacts.add_step(waits=self._iterations.resting > 0)
         expired = layout.expiries.get(number + 1, ())
-        # When a wrench ends, what flies is told from what does not, however steps are counted out.
+        # When a wrench ends, or anything lets go, what flies is told from what does not, however
+        # steps are counted out.
         ends = any(rigid.wrench_until == number + 1 for rigid in self._pushed.values())
-        if last or expired or ends:
+        broken = self.machine.broken()
+        if last or expired or ends or broken:
             self._judge_flight(layout, before)
         for name in expired:
             self.remove(name)
-        for name, force in self.machine.broken():
-            self.unjoin(name)
-            self.broken.append((name, force))
+        for name, force in broken:
+            if name in self.machine.joints:
+                self.unjoin(name)
+                self.broken.append((name, force))
         return lost
 
     def _settle(self) -> None:

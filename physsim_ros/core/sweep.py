@@ -172,7 +172,7 @@ def arrest(
             way, back = mover.move.way, move.way - mover.move.way
             engine.position += back
             engine.angle += move.turn - mover.move.turn
-            if not _joined(engine):
+            if not _joined(space, engine):
                 # As far as a kinematic body carries it, that is none of its own way.
                 share = -way.dot(back) / max(way.dot(way), 1e-300)
                 _slow(space, engine, -way * min(max(share, 0.0), 1.0), dt)
@@ -208,16 +208,22 @@ def relieve(arbiter: pymunk.Arbiter, contact: pymunk.ContactPointSet, space: pym
         if give:
             body.position += normal * give
             own = min(abs(give), max(ahead, 0.0))
-            if not (_joined(a) or _joined(b)):
+            if not (_joined(space, a) or _joined(space, b)):
                 _slow(space, body, normal * math.copysign(own, give), dt)
             # Further shapes of it, and further contacts, are found where it is now.
             for shape in body.shapes:
                 shape.cache_bb()
 
 
-def _joined(body: pymunk.Body) -> bool:
+def _joined(space: pymunk.Space, body: pymunk.Body) -> bool:
     """Tell whether a body hangs on joints: what it gains they take, and it does not fly."""
-    return body.body_type == pymunk.Body.DYNAMIC and bool(body.constraints)
+    return body.body_type == pymunk.Body.DYNAMIC and any(_joints(space, body))
+
+
+def _joints(space: pymunk.Space, body: pymunk.Body) -> Iterator[pymunk.Constraint]:
+    """Yield the joints of a body."""
+    # It lists those that have left the space for as long as anything refers to them.
+    return (joint for joint in body.constraints if joint in space.constraints)
 
 
 def _slow(space: pymunk.Space, body: pymunk.Body, back: Vec2d, dt: float) -> None:
@@ -260,7 +266,7 @@ def _near(space: pymunk.Space, mover: _Mover, reach: float) -> Iterator[Pair]:
     engine, way = mover.engine, mover.move.way
     apart = {
         joint.b if joint.a is engine else joint.a
-        for joint in engine.constraints
+        for joint in _joints(space, engine)
         if not joint.collide_bodies
     }
     for own in engine.shapes:

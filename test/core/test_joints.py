@@ -37,6 +37,7 @@ from physsim_ros.core.requests import (
     Unjoin,
     UnjoinAll,
 )
+from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.shapes import Box, Disc, Point
 from physsim_ros.core.simulation import Simulation
 from physsim_ros.core.world import World
@@ -241,6 +242,25 @@ def test_a_joint_that_is_strong_enough_does_not_break() -> None:
     world.step(480)
     assert world.take_broken() == []
     assert len(joints(world)) == 1
+
+
+@pytest.mark.parametrize('height', [0.3, 5.1])
+def test_what_breaks_lets_go_alike_however_steps_are_counted_out(height: float) -> None:
+    worlds = []
+    for _ in range(2):
+        world = World(settings=WorldSettings(bounds=(-40.0, 0.0, 40.0, 90.0)))
+        spawn(world, 'a/0', BOX, (0.0, 10.0, 0.0), velocity=(4.0, 0.0))
+        spawn(world, 'a/1', BOX, (3.0, height, 0.3))
+        ends = [(0.0, 10.0), (3.0, height)]
+        world.apply(joining('rope', ends, length=4.0, break_force=60.0, a='a/0', b='a/1'))
+        worlds.append(world)
+
+    worlds[0].step(480)
+    for _ in range(480):
+        worlds[1].step(1)
+
+    assert np.array_equal(*(world.snapshot().poses for world in worlds))
+    assert worlds[0].take_broken() == worlds[1].take_broken() != []
 
 
 def energies(world: World, steps: int) -> list[float]:

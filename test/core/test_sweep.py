@@ -18,7 +18,10 @@ import math
 
 import numpy as np
 from physsim_ros.core import rigid_body, sweep, touch
+from physsim_ros.core.requests import Spawn
+from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.shapes import Box, Chain, Compound, Disc, Polygon
+from physsim_ros.core.world import World
 import pymunk
 import pytest
 
@@ -257,6 +260,21 @@ def test_a_body_that_lands_on_many_feet_is_lifted_once(speed):
     down = next(number for number, height in enumerate(heights) if height < 1e-3)
     assert min(heights) > -0.01
     assert max(heights[down:]) < 1e-3
+
+
+def test_what_hung_on_a_joint_once_bounces_as_if_it_never_had():
+    landed = []
+    for hung in (False, True):
+        world = World(settings=WorldSettings(bounds=(-1.0, 0.0, 1.0, 9.0), elasticity=0.9))
+        world.apply(Spawn(name='body/0', shape=Disc(radius=0.2), pose=(0.0, 2.0, 0.0)))
+        engine = world._space.bodies['body/0'].engine  # noqa: SLF001 - what the engine keeps
+        # The body lists its joint for as long as this refers to it.
+        joint = hung and pymunk.PinJoint(engine, pymunk.Body())
+        world.step(240)
+        landed.append(world.snapshot().twists.tolist())
+        assert bool(engine.constraints) is bool(joint)
+
+    assert landed[0] == landed[1]
 
 
 @pytest.mark.parametrize('shape', [Disc(radius=0.1), Box(width=0.4, height=0.2)], ids=repr)
