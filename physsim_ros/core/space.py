@@ -48,10 +48,9 @@ from physsim_ros.core.shapes import Point, Pose
 from physsim_ros.core.snapshot import Contacts
 from physsim_ros.core.state import Keyframe, Motion
 from physsim_ros.core.stillness import RATE, Stillness
+from physsim_ros.core.walls import Walls
 import pymunk
 
-# Thickness of the walls of `bounds` [m]: what is squeezed into one still finds its way back in.
-WALL = 10.0
 # A point so near counts as inside [m]: on the seam of two pieces it lies inside neither.
 SEAM = 1e-9
 # What has come further than this has left every world [m]; float64 holds 0.1 mm there.
@@ -102,8 +101,7 @@ class Space:
         self._space.collision_persistence = 1
         self._shapes = ShapeIds(self._space)
         self._watching = False
-        self._walls: list[pymunk.Shape] = []
-        self._first_wall = 0
+        self._walls = Walls(self._space, self._shapes)
         known = None if before is None else before.machine
         self.machine: Machine = Machine(self._space, self._arrays, self.bodies, dt, before=known)
         # Joints that have broken, and what each gave then [N]; whoever reads it empties it.
@@ -189,7 +187,7 @@ class Space:
                 for row, rigid in enumerate(rigids)
                 if rigid.body.name in self._pushed
             ),
-            memory=recall(self._shapes, ids, self._first_wall, forgotten=fallen),
+            memory=recall(self._shapes, ids, self._walls.first, forgotten=fallen),
             forces=self.forces(),
         )
 
@@ -433,26 +431,12 @@ class Space:
         self._loosened.update(rigid.body.name for rigid in rigids)
 
     def _raise_walls(self) -> None:
-        touching = self._touching(self._space.static_body)
-        self._shapes.remove(self._walls)
-        self._contacts.forget(self._space.static_body.id)
-        self._walls = []
+        background = self._space.static_body
+        touching = self._touching(background)
+        self._walls.follow(self._settings)
+        self._contacts.forget(background.id)
         self._fast.forget_standing()
         self._let_go(touching)
-        if self._settings.bounds is None:
-            return
-        left, bottom, right, top = self._settings.bounds
-        for box in (
-            pymunk.BB(left - WALL, bottom - WALL, left, top + WALL),
-            pymunk.BB(right, bottom - WALL, right + WALL, top + WALL),
-            pymunk.BB(left - WALL, bottom - WALL, right + WALL, bottom),
-            pymunk.BB(left - WALL, top, right + WALL, top + WALL),
-        ):
-            wall = pymunk.Poly.create_box_bb(self._space.static_body, box)
-            wall.friction = math.sqrt(self._settings.friction)
-            wall.elasticity = math.sqrt(self._settings.elasticity)
-            self._walls.append(wall)
-        self._first_wall = self._shapes.add(self._walls)
 
     # Stepping
 
