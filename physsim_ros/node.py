@@ -206,7 +206,7 @@ class PhysSimNode(QuietNode):
         if frame is not None:
             self.deliver(frame)
         else:
-            self._streams.tell()
+            self._streams.flush()
 
     @property
     def frame_period(self) -> float:

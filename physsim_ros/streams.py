@@ -129,14 +129,14 @@ class Streams:
         """Publish the answers of a frame, and the streams of it that somebody subscribes to."""
         for answer in frame.answers:
             self.report(answer)
-        self.tell()
+        self.flush()
         self._last = frame
         for stream in (*self._lasting, self._contacts):
             stream.publish(frame)
 
     def welcome(self) -> None:
         """Publish the last frame again where a subscriber has come since; for idle ticks."""
-        self.tell()
+        self.flush()
         if self._last is not None:
             for stream in self._lasting:
                 stream.welcome(self._last)
@@ -154,9 +154,9 @@ class Streams:
         if self._events.get_subscription_count():
             self._answers.append(cdr.encode_event(answer))
             if len(self._answers) == 1:
-                self.tell()
+                self.flush()
 
-    def tell(self) -> None:
+    def flush(self) -> None:
         """Publish the answers that wait for listeners to keep up; for every tick."""
         while self._answers and self._keeps_up():
             self._events.publish(self._answers.popleft())

@@ -76,7 +76,7 @@ def test_a_burst_waits_for_a_listener_that_has_not_taken_the_last(bench: Bench) 
     assert len(bench.slow.sent) == KEPT_ANSWERS
     # Asking costs a fifth of a millisecond: once a tick, not once an answer.
     assert bench.slow.asked == 1
-    bench.streams.tell()
+    bench.streams.flush()
     assert len(bench.slow.sent) == KEPT_ANSWERS
     bench.slow.taken = True
     bench.streams.welcome()
@@ -89,13 +89,13 @@ def test_a_listener_that_has_stopped_holds_nobody_up_for_long(bench: Bench) -> N
     bench.slow.taken = False
     bench.report(3 * KEPT_ANSWERS)
     bench.now += PATIENCE - 0.1
-    bench.streams.tell()
+    bench.streams.flush()
     assert len(bench.slow.sent) == KEPT_ANSWERS
     bench.now += 0.2
-    bench.streams.tell()
+    bench.streams.flush()
     assert len(bench.slow.sent) == 2 * KEPT_ANSWERS
     bench.now += PATIENCE + 0.1
-    bench.streams.tell()
+    bench.streams.flush()
     assert len(bench.slow.sent) == 3 * KEPT_ANSWERS
 
 

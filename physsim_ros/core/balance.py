@@ -102,7 +102,7 @@ class Balance:
         """Note that energy has come from outside."""
         self._fresh = True
 
-    def keep(self, states: Floats) -> bool:
+    def limit_energy(self, states: Floats) -> bool:
         """
         Slow what has gained energy that nothing gave it in the last step.
 

@@ -222,7 +222,7 @@ class History:
                 break
             self._entries[place].seen = True
 
-    def keep(self, mark: Mark) -> None:
+    def add_keyframe(self, mark: Mark) -> None:
         """Add a keyframe, as the last."""
         self._marks.append(mark)
 

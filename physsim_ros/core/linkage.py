@@ -113,10 +113,10 @@ class Linkage:
         for system in self._systems:
             system.take(shares)
 
-    def tell(self, impulses: Floats) -> None:
+    def write_impulses(self, impulses: Floats) -> None:
         """Write what each joint of the space has given since it was held, (j,) float64 [N s]."""
         for system in self._systems:
-            system.tell(impulses)
+            system.write_impulses(impulses)
 
     def redundant(self, states: Floats) -> set[tuple[int, int]]:
         """
@@ -272,7 +272,7 @@ class _System:
         held = self._known()
         held.given += held.answers @ shares
 
-    def tell(self, impulses: Floats) -> None:
+    def write_impulses(self, impulses: Floats) -> None:
         """Write what each joint has given: what its rows give together."""
         given = self._known().given
         total = np.bincount(self._restraints.owner, given * given, len(self._numbers))

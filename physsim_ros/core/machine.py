@@ -183,10 +183,10 @@ class Machine:
         assert self._balance is not None and self._loads is not None  # noqa: S101, PT018
         if driven:
             self._balance.drive()
-        moved |= self._balance.keep(states)
+        moved |= self._balance.limit_energy(states)
         moved |= self._loads.carry(linkage, states, before, engine, self._space.static_body)
         self._impulses[:] = 0.0
-        linkage.tell(self._impulses)
+        linkage.write_impulses(self._impulses)
         return moved
 
     def prepare(self, listed: Sequence[RigidBody | None], read: Callable[[], Floats]) -> None:

@@ -112,9 +112,9 @@ class Past:
         """Return the memory that the shots take [bytes]."""
         return sum(reel.size for reel in self._reels.values())
 
-    def tell(self) -> list[Answer]:
+    def take_answers(self) -> list[Answer]:
         """Return what was noticed since the last call."""
-        return self._course.tell()
+        return self._course.take_answers()
 
     def keep(self, shot: Shot) -> None:
         """Keep a shot of what has just been shown."""
@@ -158,7 +158,7 @@ class Past:
             self._drop(step)
         return reel.shots[step].copy()
 
-    def prepare(self, step: int, steps: int, *, fine: bool, watching: bool) -> None:
+    def make_ahead(self, step: int, steps: int, *, fine: bool, watching: bool) -> None:
         """
         Make again what comes next in going back, in time for it.
 

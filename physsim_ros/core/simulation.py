@@ -319,7 +319,7 @@ class Simulation:
     def _go(self, steps: int) -> Frame:
         self._catch_up()
         self.timeline.go(steps)
-        self.timeline.prepare(steps)
+        self.timeline.build_ahead(steps)
         return self._frame(moved=True)
 
     def _go_back(self, steps: int) -> Frame:
@@ -329,7 +329,7 @@ class Simulation:
         if moved:
             self._shown = self.past.shot(step, watching=self._watching)
             fine = not self.speed.is_integer()
-            self.past.prepare(step, steps, fine=fine, watching=self._watching)
+            self.past.make_ahead(step, steps, fine=fine, watching=self._watching)
         if step == oldest:
             self.speed = 0.0
             self._tell_oldest('; paused')
@@ -417,7 +417,7 @@ class Simulation:
         if self._shown is not None and not moved:
             # They have been shown.
             contacts = NO_CONTACTS
-        self._answers += self.timeline.tell() + self.past.tell()
+        self._answers += self.timeline.take_answers() + self.past.take_answers()
         frame = Frame(
             snapshot=snapshot,
             contacts=contacts if self._watching else None,

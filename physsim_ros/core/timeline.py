@@ -53,7 +53,7 @@ class Course:
         """Return step and serial."""
         return self.world.step_count, self.serial
 
-    def tell(self) -> list[Answer]:
+    def take_answers(self) -> list[Answer]:
         """Return what has happened without a request since the last call."""
         told, self._told = self._told, []
         return told
@@ -225,7 +225,7 @@ class Timeline(Course):
         """
         if self.world.step_count < self.history.head or self._resumed == self.moment:
             return
-        self._keep()
+        self._add_keyframe()
 
     def undo(self) -> tuple[list[Entry], Tail]:
         """
@@ -259,14 +259,14 @@ class Timeline(Course):
         step = self.world.step_count
         changed = self._resumed is not None and self._resumed[0] == step
         if self.history.at(*self.moment) is None and (changed or self.history.is_due(step)):
-            self._keep()
+            self._add_keyframe()
 
-    def _keep(self) -> None:
+    def _add_keyframe(self) -> None:
         mark = Mark(*self.moment, self.world.renew(), self.world.digest())
-        self.history.keep(mark)
+        self.history.add_keyframe(mark)
         self._resumed = mark.moment
 
-    def prepare(self, steps: int) -> None:
+    def build_ahead(self, steps: int) -> None:
         """Build ahead for the next keyframe what a share of its time, so many steps, allows."""
         bodies = len(self.world)
-        self.world.prepare(-(-bodies * steps // max(1, int(self._spacing * _AHEAD))))
+        self.world.build_spares(-(-bodies * steps // max(1, int(self._spacing * _AHEAD))))

@@ -262,7 +262,7 @@ class World:
             space.inherit(self._space)
         self._take(space, Spares())
 
-    def prepare(self, count: int) -> None:
+    def build_spares(self, count: int) -> None:
         """Make so many bodies ready for the next `renew`."""
         self._spares.add(self._space.scene, count)
 

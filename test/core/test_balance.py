@@ -76,10 +76,10 @@ def momentum(rows: np.ndarray) -> tuple[float, float, float]:
 def test_what_a_linkage_has_gained_is_taken_and_momentum_is_kept() -> None:
     _, balance = machine(JointKind.ROD)
     before, after = state(*SLOW), state(*FAST)
-    assert not balance.keep(before)
+    assert not balance.limit_energy(before)
     kept = momentum(after)
     # The rigid part of the motion could not be slowed without its momentum.
-    assert balance.keep(after)
+    assert balance.limit_energy(after)
     assert momentum(after) == pytest.approx(kept, abs=1e-12)
     assert energy(before) <= energy(after) < energy(state(*FAST)) - 1.0
     assert after[2].tolist() == state(*FAST)[2].tolist()
@@ -88,8 +88,8 @@ def test_what_a_linkage_has_gained_is_taken_and_momentum_is_kept() -> None:
 def test_what_the_background_holds_is_slowed_as_a_whole() -> None:
     _, balance = machine(JointKind.ROD, b='world')
     before, after = state(*SLOW), state(FAST[0], *SLOW[1:])
-    balance.keep(before)
-    assert balance.keep(after)
+    balance.limit_energy(before)
+    assert balance.limit_energy(after)
     assert energy(after) == pytest.approx(energy(before), rel=1e-9)
     assert after[1:].tolist() == before[1:].tolist()
 
@@ -97,30 +97,30 @@ def test_what_the_background_holds_is_slowed_as_a_whole() -> None:
 def test_what_is_lost_is_not_given_back_and_not_gained_again() -> None:
     _, balance = machine(JointKind.ROD, b='world')
     rest = state((0.0, 0.0, 0.0), *SLOW[1:])
-    balance.keep(state(*SLOW))
-    assert not balance.keep(rest)
+    balance.limit_energy(state(*SLOW))
+    assert not balance.limit_energy(rest)
     again = state(*SLOW)
-    assert balance.keep(again)
+    assert balance.limit_energy(again)
     assert energy(again) == pytest.approx(energy(rest), rel=1e-9)
 
 
 def test_what_contacts_have_given_an_island_as_a_whole_is_taken_too() -> None:
     _, balance = machine(JointKind.ROD)
     rest = state((0.0, 0.0, 0.0), (0.0, 0.0, 0.0), SLOW[2])
-    balance.keep(rest)
+    balance.limit_energy(rest)
     # Both alike: nothing of it is motion against each other.
     thrown = state((3.0, 0.0, 0.0), (3.0, 0.0, 0.0), SLOW[2])
-    assert balance.keep(thrown)
+    assert balance.limit_energy(thrown)
     assert energy(thrown) == pytest.approx(energy(rest), rel=1e-9)
 
 
 def test_a_balance_follows_another_of_the_same_bodies() -> None:
     _, before = machine(JointKind.ROD, b='world')
     _, after = machine(JointKind.ROD, b='world')
-    before.keep(state(*SLOW))
+    before.limit_energy(state(*SLOW))
     after.follow(before)
     thrown = state(FAST[0], *SLOW[1:])
-    assert after.keep(thrown)
+    assert after.limit_energy(thrown)
     assert energy(thrown) == pytest.approx(energy(state(*SLOW)), rel=1e-9)
 
 
@@ -128,37 +128,37 @@ def test_what_a_fresh_balance_has_not_seen_is_not_followed() -> None:
     _, before = machine(JointKind.ROD, b='world')
     _, after = machine(JointKind.ROD, b='world')
     after.follow(before)
-    assert not after.keep(state(*FAST))
+    assert not after.limit_energy(state(*FAST))
 
 
 def test_after_a_drive_all_is_kept() -> None:
     _, balance = machine(JointKind.ROD)
-    balance.keep(state(*SLOW))
+    balance.limit_energy(state(*SLOW))
     balance.drive()
     after = state(*FAST)
-    assert not balance.keep(after)
+    assert not balance.limit_energy(after)
     assert after.tolist() == state(*FAST).tolist()
 
 
 def test_a_motor_may_drive() -> None:
     _, balance = machine(JointKind.MOTOR)
-    balance.keep(state(*SLOW))
-    assert not balance.keep(state(*FAST))
+    balance.limit_energy(state(*SLOW))
+    assert not balance.limit_energy(state(*FAST))
 
 
 def test_what_a_loose_body_gains_is_not_taken_from_a_linkage() -> None:
     _, balance = machine(JointKind.ROD)
-    balance.keep(state(*SLOW))
+    balance.limit_energy(state(*SLOW))
     after = state(*SLOW[:2], (30.0, 0.0, 0.0))
-    assert not balance.keep(after)
+    assert not balance.limit_energy(after)
     assert after[2, 3] == 30.0
 
 
 def test_what_one_gives_another_may_have() -> None:
     _, balance = machine(JointKind.ROD, b='world')
-    balance.keep(state((0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (2.0, 0.0, 0.0)))
+    balance.limit_energy(state((0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (2.0, 0.0, 0.0)))
     struck = state((2.0 * 2**0.5, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
-    assert not balance.keep(struck)
+    assert not balance.limit_energy(struck)
 
 
 def test_a_joint_that_gave_way_comes_back() -> None:
