@@ -147,6 +147,8 @@ class Timeline(Course):
         :return: the body concerned, or '', and a sentence that says what was done
         :raises Refusal: and nothing is changed
         """
+        # As it will be carried out again.
+        self._go_over()
         done = self.world.apply(request)
         if not self.world.changed:
             return done

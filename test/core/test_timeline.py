@@ -47,7 +47,7 @@ from physsim_ros.core.snapshot import Answer, Frame
 from physsim_ros.core.world import World
 import pytest
 
-from .worlds import BOX, spawning
+from .worlds import BOX, DISC, spawning
 
 FRAME = 4
 SECOND = 10**9
@@ -723,6 +723,29 @@ def test_a_request_at_the_step_of_a_keyframe_is_made_again_where_it_was() -> Non
         if frame.snapshot.step in driven.shown:
             driven.assert_same(frame)
         assert told([frame], 'divergence') == []
+
+
+def test_a_request_where_the_past_was_saved_is_made_again_where_it_was() -> None:
+    sim = Simulation(settings=FLOOR)
+    # A seek comes from the frame before, for its contacts.
+    sim.watch_contacts(True)
+    # Deep in the floor, so that it goes on otherwise in a space that is built anew.
+    sim.perform(spawning('a/0', DISC, (2.4, 0.1, 3.0), velocity=(1.8, 2.7)))
+    sim.advance_frame()
+    sim.save()
+    for _ in range(14):
+        sim.advance_frame()
+    sim.seek(round(FRAME * SECOND / 240))
+    sim.perform(spawning('a/1', DISC, (-0.2, 3.6, 0.0)))
+    sim.advance_frame()
+    before = sim.world.digest()
+
+    sim.undo()
+    for _ in range(4):
+        sim.advance_frame()
+    sim.redo()
+
+    assert sim.world.digest() == before
 
 
 def test_a_seek_to_now_keeps_what_was_just_asked() -> None:
