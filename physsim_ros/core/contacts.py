@@ -74,7 +74,7 @@ class ContactLog:
         # Where pairs touched at the end of the last frame: normal, count of points, mean point, a
         # column each; and where they touched first since then.
         self._places: tuple[Ids, Floats] = (self._ids, np.empty((5, 0)))
-        self._begun: dict[tuple[int, int], pymunk.ContactPointSet] = {}
+        self._begun: dict[tuple[int, int], tuple[int, pymunk.ContactPointSet]] = {}
         self._listing: _Listing | None = None
         # Whether no pair has begun to touch since the ids were read: then as many are the same.
         self.settled = False
@@ -82,8 +82,8 @@ class ContactLog:
     def begin(self, arbiter: pymunk.Arbiter, contact: pymunk.ContactPointSet) -> None:
         """Remember where two shapes touched first, should they part before the frame ends."""
         self.settled = False
-        a, b = arbiter.bodies
-        self._begun[a.id, b.id] = contact
+        a, b = (body.id for body in arbiter.bodies)
+        self._begun[min(a, b), max(a, b)] = (1 if a < b else -1, contact)
 
     def add_step(self, *, waits: bool) -> None:
         """
@@ -176,6 +176,11 @@ class ContactLog:
             stays = (ids != body).all(axis=1)
             self._earlier[number] = ids[stays], sums[stays]
 
+    def skip_step(self) -> None:
+        """Forget what was, since nobody looks at the step that has just been made."""
+        self.clear()
+        self.settled = False
+
     def clear(self) -> None:
         """Forget what has been summed up since the last call of `take`."""
         self._waits = False
@@ -211,11 +216,10 @@ class ContactLog:
         pairs, rows = renamed(pairs, places.T)
         self._places = pairs, rows.T
         names = dict(zip(old_ids.tolist(), ids.tolist(), strict=True))
-        self._begun = {
-            (names[a], names[b]): place
-            for (a, b), place in old._begun.items()
-            if a in names and b in names
-        }
+        for (first, second), (sign, contact) in old._begun.items():
+            if first in names and second in names:
+                a, b = names[first], names[second]
+                self._begun[min(a, b), max(a, b)] = (sign if a < b else -sign, contact)
 
     def take(self, ids: Ids, rows: Ints, centers: Callable[[], Floats]) -> Contacts:
         """
@@ -256,13 +260,12 @@ class ContactLog:
         places[0] = 1.0
         rows, found = _find(pairs, ids)
         places[:, found] = known[:, rows[found]]
-        for row, (a, b) in enumerate(pairs.tolist()):
-            for sign, pair in ((1, (a, b)), (-1, (b, a))):
-                contact = self._begun.get(pair)
-                if contact is not None:
-                    points = [(each.point_a + each.point_b) / 2 for each in contact.points]
-                    mean = sum(points, pymunk.Vec2d(0, 0)) / max(1, len(points))
-                    places[:, row] = *(sign * contact.normal), len(points), *mean
+        for row, pair in enumerate(map(tuple, pairs.tolist())):
+            if pair in self._begun:
+                sign, contact = self._begun[pair]
+                points = [(each.point_a + each.point_b) / 2 for each in contact.points]
+                mean = sum(points, pymunk.Vec2d(0, 0)) / max(1, len(points))
+                places[:, row] = *(sign * contact.normal), len(points), *mean
         return places
 
     def _read_places(self) -> Floats:

@@ -17,10 +17,11 @@
 How often the engine goes through the contacts of a step: less often where all is at rest.
 
 The engine begins a step with the impulses of the one before. Where these have left every body the
-velocity that it had, and nothing moves far, next to nothing is left to be solved for in the next.
+velocity that it had, and where it was, next to nothing is left to be solved for in the next.
 
-Law: what rests, rests as it would by all iterations; a step in which shapes begin to touch, or
-before which anything was asked, has all of them.
+Law: what rests stays where it would by all iterations, and what creeps is changed by no more than
+`STIRS` in a step. A step in which shapes begin to touch, or before which anything was asked, has
+all of them.
 """
 
 from __future__ import annotations
@@ -31,10 +32,13 @@ import pymunk
 
 # So many do for what rests. Of a single box two leave 1e-9 m/s; by one alone a pile stirs.
 FEW = 3
-# What changes by no more in a step is the same [m/s, rad/s].
-SAME = 1e-8
-# What is faster meets its contacts at another place in each step [m/s, rad/s].
-SLOW = 0.01
+# Velocities that change by no more in a step rest [m/s, rad/s], and no more rest that change by
+# ten times as much: to go from few iterations to all of them and back keeps a pile swaying.
+CALM = 1e-10
+STIRS = 1e-9
+# What goes faster meets its contacts at another place in each step [m/s, rad/s], whether it flies
+# or is pushed out of what it overlaps, for which it has no velocity.
+SLOW = 0.002
 
 
 class Iterations:
@@ -42,35 +46,39 @@ class Iterations:
     Chooses how often the engine goes through the contacts of each step.
 
     :param space: whose contacts they are
+    :param dt: of a step [s]
 
     :ivar most: iterations where anything moves
     :ivar resting: steps since anything has moved
     """
 
-    def __init__(self, space: pymunk.Space) -> None:
+    def __init__(self, space: pymunk.Space, dt: float) -> None:
         self.most: int = space.iterations
         self.resting = 0
         self._space = space
-        # What the last step began with: velocities, and the count of changes from outside.
+        self._near = SLOW * dt
+        # What the last step began with: places, velocities, and the count of changes from outside.
+        self._poses: Floats = np.empty((0, 3))
         self._twists: Floats = np.empty((0, 3))
         self._changes = -1
 
-    def choose(self, twists: Floats, changes: int, *, fastest: float) -> None:
+    def choose(self, poses: Floats, twists: Floats, changes: int) -> None:
         """
         Choose for the coming step.
 
-        :param twists: (m, 3) float64: velocities [m/s] and spins [rad/s] that it begins with
+        :param poses: (m, 3) float64: places [m] and turns [rad] that it begins with
+        :param twists: (m, 3) float64: velocities [m/s] and spins [rad/s]
         :param changes: counts what has been done to the bodies from outside
-        :param fastest: of the numbers in `twists`
         """
+        most = STIRS if self.resting else CALM
         rests = (
-            fastest <= SLOW
-            and changes == self._changes
-            and np.abs(twists - self._twists).max(initial=0.0) <= SAME
+            changes == self._changes
+            and np.abs(twists - self._twists).max(initial=0.0) <= most
+            and np.abs(poses - self._poses).max(initial=0.0) <= self._near
         )
         self.resting = self.resting + 1 if rests else 0
         self._space.iterations = min(FEW, self.most) if rests else self.most
-        self._twists, self._changes = twists, changes
+        self._poses, self._twists, self._changes = poses, twists, changes
 
     def stir(self) -> None:
         """Have all of them in the coming step, or in the one that is being made."""

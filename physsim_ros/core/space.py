@@ -107,7 +107,7 @@ class Space:
         # Joints that have broken, and what each gave then [N]; whoever reads it empties it.
         self.broken: list[tuple[str, float]] = []
         self._fast = FastBodies(self._space, self._arrays, self.bodies, self._names, dt)
-        self._iterations = Iterations(self._space)
+        self._iterations = Iterations(self._space, dt)
         self._contacts = ContactLog(self._arrays)
         self._stillness = Stillness(self._arrays)
         self._footing = Footing(self._space, self._arrays)
@@ -213,6 +213,7 @@ class Space:
         if old.gravity != settings.gravity:
             share = _share(old.gravity, settings.gravity)
             if share < 1.0:
+                self._contacts.catch_up()
                 weaken(self._shapes, share)
             for name, rigid in self.bodies.items():
                 # Where nothing of it is left, what lay on something lies there no more.
@@ -452,12 +453,12 @@ class Space:
         self._push_all(number)
         lost: tuple[str, ...] = ()
         self._settle()
-        before = self._arrays.twists()
+        poses, before = self._arrays.motion()
         fastest = np.abs(before).max(initial=0.0)
         # NaN compares false.
         if not fastest < LOST:
             lost = self.drop_lost()
-            before = self._arrays.twists()
+            poses, before = self._arrays.motion()
             fastest = np.abs(before).max(initial=0.0)
         layout = self._lay_out()
         # What has rested since the last time has not been calmed then.
@@ -466,7 +467,7 @@ class Space:
             self._stillness.calm(layout.ground, before, layout.order[rows])
         self._thrown.clear()
         self._fast.arrest(layout, before, float(fastest))
-        self._iterations.choose(before, self.changes, fastest=float(fastest))
+        self._iterations.choose(poses, before, self.changes)
         self._contacts.catch_up(same=self._iterations.resting > 0)
         self._watching = watching
         if self.machine.joints:
@@ -481,6 +482,8 @@ class Space:
             self._powerless = self.changes
         if watching:
             self._contacts.add_step(waits=self._iterations.resting > 0)
+        else:
+            self._contacts.skip_step()
         expired = layout.expiries.get(number + 1, ())
         # When a wrench ends, or anything lets go, what flies is told from what does not, however
         # steps are counted out.
@@ -501,6 +504,7 @@ class Space:
         layout = self._lay_out()
         if not self._loosened and not (layout.free & layout.hung).any():
             return
+        self._contacts.catch_up()
         state, free, fallen = self._settled(layout)
         self._loosened.clear()
         if state is not layout.state:
@@ -544,8 +548,6 @@ class Space:
         self._blows.begin(struck)
         if self._watching:
             self._contacts.begin(arbiter, contact)
-        else:
-            self._contacts.settled = False
 
     def _hold(self, layout: Layout, before: Floats, *, driven: bool) -> None:
         """Hold what the engine has not held of the joints."""

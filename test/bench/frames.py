@@ -50,7 +50,7 @@ WARM = 200
 # Frames in a row of each: one alone would leave what is to be sent to the others' time.
 TURN = 20
 PERIOD = 16_666_667  # ns
-SETTLE = 20.0  # simulated seconds until a pile has come to rest, but for its last tremors
+SETTLE = 30.0  # simulated seconds in which a pile of a thousand comes to rest
 TOPICS = ('clock', 'poses', 'states', 'contacts', 'markers', 'events')
 # Subscribes to topics from another process, as serialised bytes: what a viewer costs is its own
 # affair.

@@ -19,7 +19,7 @@ from itertools import pairwise
 import math
 
 import numpy as np
-from physsim_ros.core.requests import Command, Configure, Delete
+from physsim_ros.core.requests import Command, Configure, Delete, Request
 from physsim_ros.core.settings import WorldSettings
 from physsim_ros.core.shapes import Box, Compound, Disc
 from physsim_ros.core.snapshot import Contacts
@@ -343,6 +343,60 @@ def test_requests_between_a_step_and_its_contacts_do_no_harm() -> None:
 
     assert_sound(contacts, 4)
     assert_sound(frame(world), 4)
+
+
+def at_rest() -> World:
+    """Return a world with a stack of three boxes of 1 kg that rest."""
+    world = watched(YARD)
+    for number in range(3):
+        spawn(world, f'a/{number}', BOX, (0.0, 0.5 + number, 0.0), mass=1.0)
+    for _ in range(600):
+        frame(world)
+    return world
+
+
+@pytest.mark.parametrize(
+    ('request_', 'forces'),
+    [
+        (Configure(changes={'gravity': (0.0, -4.0)}), [-12.0, 8.0, 4.0]),
+        (Delete(name='a/2'), [-2 * G, G]),
+    ],
+    ids=['gravity', 'deleted'],
+)
+def test_what_changes_while_nobody_watches_is_told_right_from_then_on(
+    request_: Request, forces: list[float]
+) -> None:
+    world = at_rest()
+    world.watching = False
+    world.step(FRAME)
+    world.apply(request_)
+    world.step(240)
+    world.watching = True
+
+    contacts = frame(world)
+
+    assert contacts.impulses[:, 1] / (FRAME * DT) == pytest.approx(forces, abs=1e-3)
+
+
+@pytest.mark.parametrize(
+    'request_',
+    [
+        Configure(changes={'gravity': (0.0, 0.0)}),
+        Command(names=('a/0',), poses=((9.0, 0.5, 0.0),)),
+    ],
+    ids=['gravity', 'moved'],
+)
+def test_what_was_given_before_a_request_within_a_frame_is_told(request_: Request) -> None:
+    world = at_rest()
+    world.step(2)
+    world.apply(request_)
+    world.step(1)
+
+    contacts = world.contacts(world.snapshot())
+
+    given = dict(zip(map(tuple, contacts.pairs.tolist()), contacts.impulses[:, 1], strict=True))
+    assert given[1, 2] == pytest.approx(2 * G * DT, abs=1e-6)
+    assert given[0, 1] == pytest.approx(2 * 2 * G * DT, abs=1e-6)
 
 
 def test_a_crowd_is_told_of_alike_each_time_and_adds_up() -> None:

@@ -122,11 +122,11 @@ def test_what_hangs_on_joints_has_all_of_them() -> None:
 def test_a_step_in_which_anything_begins_to_touch_has_all_of_them() -> None:
     world = at_rest()
     # Slow enough to count as rest, and on no ground that could slow it down.
-    spawn(world, 'a/0', DISC, (2.0, 0.5, 0.0), velocity=(0.005, 0.0), friction=0.0)
-    spawn(world, 'a/1', DISC, (3.02, 0.5, 0.0), friction=0.0)
+    spawn(world, 'a/0', DISC, (2.0, 0.5, 0.0), velocity=(0.001, 0.0), friction=0.0)
+    spawn(world, 'a/1', DISC, (3.005, 0.5, 0.0), friction=0.0)
     world.step(240)
     counts, last = made(world), world.snapshot().twists[3, 0]
-    assert last == pytest.approx(0.005, abs=1e-9)
+    assert last == pytest.approx(0.001, abs=1e-9)
 
     while world.snapshot().twists[4, 0] < 1e-4:
         world.step(1)
@@ -135,6 +135,19 @@ def test_a_step_in_which_anything_begins_to_touch_has_all_of_them() -> None:
     assert len(counts) > 240
     assert counts[-1] == ALL
     assert set(counts[:-1]) == {FEW}
+
+
+def test_what_is_pushed_out_of_what_it_overlaps_has_all_of_them() -> None:
+    world = World(settings=replace(YARD, bounds=None, gravity=(0.0, 0.0)))
+    for number in range(6):
+        spawn(world, f'a/{number}', BOX, (0.7 * number, 0.5, 0.0), elasticity=0.0)
+    counts = made(world)
+
+    world.step(48)
+
+    # It has no velocity. What the first step asks for is seen after the second.
+    assert not world.snapshot().twists.any()
+    assert counts[2:] == [ALL] * 46
 
 
 def incline(world: World) -> None:
@@ -166,21 +179,20 @@ def test_what_rests_stays_where_it_would_by_all_iterations(
         monkeypatch.setattr(iterations, 'FEW', few)
         world = World(settings=replace(YARD, bounds=(-5.0, 0.0, 5.0, 40.0), friction=0.5))
         build(world)
-        world.step(240 * 20)
+        world.step(240 * 40)
         counts = made(world)
         world.step(240 * 40)
-        # It was still coming to rest when they began.
-        assert counts.count(few) > 0.95 * len(counts)
+        assert counts.count(few) > 0.9 * len(counts)
         poses.append(world.snapshot().poses)
 
-    assert poses[0] == pytest.approx(poses[1], abs=1e-8)
+    assert poses[0] == pytest.approx(poses[1], abs=1e-9)
 
 
 def test_the_same_bits_come_again_where_rest_is_disturbed() -> None:
     sim = Simulation(settings=YARD, keyframes=1.0)
     for number in range(4):
         sim.perform(spawning(f'stack/{number}', BOX, (0.0, 0.5 + number, 0.0)))
-    sim.perform(spawning('a/1', DISC, (5.0, 0.5, 0.0), velocity=(0.005, 0.0), friction=0.0))
+    sim.perform(spawning('a/1', DISC, (5.0, 0.5, 0.0), velocity=(0.001, 0.0), friction=0.0))
     digests, rested = {}, 0
     for number in range(60 * 12):
         if number == 60 * 8:
@@ -199,12 +211,12 @@ def test_the_same_bits_come_again_where_rest_is_disturbed() -> None:
 def test_what_rests_is_given_its_weight_in_each_frame_until_it_is_disturbed() -> None:
     world = World(settings=replace(YARD, bounds=None))
     world.watching = True
-    spawn(world, 'shelf/0', Box(width=2.0, height=1.0), (-0.9, -0.5, 0.0), anchored=True)
-    spawn(world, 'a/0', DISC, (0.0, 0.5, 0.0), mass=1.0, friction=0.0, velocity=(0.005, 0.0))
+    spawn(world, 'shelf/0', Box(width=2.0, height=1.0), (-0.98, -0.5, 0.0), anchored=True)
+    spawn(world, 'a/0', DISC, (0.0, 0.5, 0.0), mass=1.0, friction=0.0, velocity=(0.001, 0.0))
     world.step(4)
     counts, off, fell = made(world), [], 0
-    # At 0.1 m it comes to the edge, and falls: no pair begins to touch, and nothing is asked.
-    for _ in range(60 * 22):
+    # At 0.02 m it comes to the edge, and falls: no pair begins to touch, and nothing is asked.
+    for _ in range(60 * 24):
         before = world.snapshot().twists[1, :2]
         world.contacts(world.snapshot())
         world.step(4)
