@@ -86,11 +86,6 @@ class EngineArrays:
         """Return (m, 6) float64: where they are [m, rad], velocities and spins."""
         return self._bodies(_STATE, 6)
 
-    def motion(self) -> tuple[Floats, Floats]:
-        """Return (m, 3) float64 each: where they are [m, rad], and velocities and spins."""
-        states = self.states()
-        return states[:, :3], states[:, 3:].copy()
-
     def write_twists(self, twists: Floats) -> None:
         """Set the velocities and spins of all bodies, (m, 3) float64."""
         self._written.set_float_buf(np.ascontiguousarray(twists))

@@ -28,6 +28,7 @@ from __future__ import annotations
 
 import numpy as np
 from physsim_ros.core.arrays import Floats
+from physsim_ros.core.engine_arrays import EngineArrays
 import pymunk
 
 # So many do for what rests. Of a single box two leave 1e-9 m/s; by one alone a pile stirs.
@@ -39,6 +40,8 @@ STIRS = 1e-9
 # What goes faster meets its contacts at another place in each step [m/s, rad/s], whether it flies
 # or is pushed out of what it overlaps, for which it has no velocity.
 SLOW = 0.002
+# Steps from one look at how far all have gone to the next.
+LOOK = 8
 
 
 class Iterations:
@@ -46,41 +49,56 @@ class Iterations:
     Chooses how often the engine goes through the contacts of each step.
 
     :param space: whose contacts they are
+    :param arrays: of it
     :param dt: of a step [s]
 
     :ivar most: iterations where anything moves
     :ivar resting: steps since anything has moved
     """
 
-    def __init__(self, space: pymunk.Space, dt: float) -> None:
+    def __init__(self, space: pymunk.Space, arrays: EngineArrays, dt: float) -> None:
         self.most: int = space.iterations
         self.resting = 0
         self._space = space
-        self._near = SLOW * dt
-        # What the last step began with: places, velocities, and the count of changes from outside.
-        self._poses: Floats = np.empty((0, 3))
+        self._arrays = arrays
+        self._near = SLOW * LOOK * dt
+        # What the last step began with: velocities, and the count of changes from outside.
         self._twists: Floats = np.empty((0, 3))
         self._changes = -1
+        # Steps in which neither has changed, and where all was when that was looked at last.
+        self._same = 0
+        self._poses: Floats | None = None
+        self._near_by = False
 
-    def choose(self, poses: Floats, twists: Floats, changes: int) -> None:
+    def choose(self, twists: Floats, changes: int) -> None:
         """
         Choose for the coming step.
 
-        :param poses: (m, 3) float64: places [m] and turns [rad] that it begins with
-        :param twists: (m, 3) float64: velocities [m/s] and spins [rad/s]
+        :param twists: (m, 3) float64: velocities [m/s] and spins [rad/s] that it begins with
         :param changes: counts what has been done to the bodies from outside
         """
         most = STIRS if self.resting else CALM
-        rests = (
-            changes == self._changes
-            and np.abs(twists - self._twists).max(initial=0.0) <= most
-            and np.abs(poses - self._poses).max(initial=0.0) <= self._near
-        )
+        if changes == self._changes and np.abs(twists - self._twists).max(initial=0.0) <= most:
+            if self._same % LOOK == 0:
+                self._look()
+            self._same += 1
+            rests = self._near_by
+        else:
+            self._same, self._poses, rests = 0, None, False
+        self._twists, self._changes = twists, changes
         self.resting = self.resting + 1 if rests else 0
         self._space.iterations = min(FEW, self.most) if rests else self.most
-        self._poses, self._twists, self._changes = poses, twists, changes
+
+    def _look(self) -> None:
+        """Find whether anything has gone far since the last time."""
+        poses = self._arrays.states()[:, :3]
+        self._near_by = self._poses is not None and bool(
+            np.abs(poses - self._poses).max(initial=0.0) <= self._near
+        )
+        self._poses = poses
 
     def stir(self) -> None:
         """Have all of them in the coming step, or in the one that is being made."""
-        self.resting = 0
+        self.resting = self._same = 0
+        self._poses = None
         self._space.iterations = self.most

@@ -107,7 +107,7 @@ class Space:
         # Joints that have broken, and what each gave then [N]; whoever reads it empties it.
         self.broken: list[tuple[str, float]] = []
         self._fast = FastBodies(self._space, self._arrays, self.bodies, self._names, dt)
-        self._iterations = Iterations(self._space, dt)
+        self._iterations = Iterations(self._space, self._arrays, dt)
         self._contacts = ContactLog(self._arrays)
         self._stillness = Stillness(self._arrays)
         self._footing = Footing(self._space, self._arrays)
@@ -453,12 +453,12 @@ class Space:
         self._push_all(number)
         lost: tuple[str, ...] = ()
         self._settle()
-        poses, before = self._arrays.motion()
+        before = self._arrays.twists()
         fastest = np.abs(before).max(initial=0.0)
         # NaN compares false.
         if not fastest < LOST:
             lost = self.drop_lost()
-            poses, before = self._arrays.motion()
+            before = self._arrays.twists()
             fastest = np.abs(before).max(initial=0.0)
         layout = self._lay_out()
         # What has rested since the last time has not been calmed then.
@@ -467,7 +467,7 @@ class Space:
             self._stillness.calm(layout.ground, before, layout.order[rows])
         self._thrown.clear()
         self._fast.arrest(layout, before, float(fastest))
-        self._iterations.choose(poses, before, self.changes)
+        self._iterations.choose(before, self.changes)
         self._contacts.catch_up(same=self._iterations.resting > 0)
         self._watching = watching
         if self.machine.joints:
