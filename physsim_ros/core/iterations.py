@@ -12,7 +12,6 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-
 """
 How often the engine goes through the contacts of a step: less often where all is at rest.
 
@@ -77,17 +76,17 @@ class Iterations:
         :param twists: (m, 3) float64: velocities [m/s] and spins [rad/s] that it begins with
         :param changes: counts what has been done to the bodies from outside
         """
-        most = STIRS if self.resting else CALM
-        if changes == self._changes and np.abs(twists - self._twists).max(initial=0.0) <= most:
-            if self._same % LOOK == 0:
-                self._look()
-            self._same += 1
-            rests = self._near_by
-        else:
-            self._same, self._poses, rests = 0, None, False
+        limit = STIRS if self.resting else CALM
+        same = changes == self._changes and np.abs(twists - self._twists).max(initial=0.0) <= limit
         self._twists, self._changes = twists, changes
-        self.resting = self.resting + 1 if rests else 0
-        self._space.iterations = min(FEW, self.most) if rests else self.most
+        if not same:
+            self.stir()
+            return
+        if self._same % LOOK == 0:
+            self._look()
+        self._same += 1
+        self.resting = self.resting + 1 if self._near_by else 0
+        self._space.iterations = min(FEW, self.most) if self._near_by else self.most
 
     def _look(self) -> None:
         """Find whether anything has gone far since the last time."""

@@ -345,10 +345,9 @@ class Space:
         self._space.step(self._dt)
 
     def give_up(self) -> RigidBody | None:
-        """Take a body out of a space that is used no more, as good as new; None is none left."""
+        """Take a body out of a retired space, as good as new; None is none left."""
         if not self.bodies:
             return None
-        self.machine.clear()
         rigid = self.bodies.popitem()[1]
         self._shapes.remove(rigid.engine.shapes)
         self._space.remove(rigid.engine)
@@ -467,12 +466,13 @@ class Space:
             self._stillness.calm(layout.ground, before, layout.order[rows])
         self._thrown.clear()
         self._fast.arrest(layout, before, float(fastest))
-        self._iterations.choose(before, self.changes)
-        self._contacts.catch_up(same=self._iterations.resting > 0)
-        self._watching = watching
         if self.machine.joints:
             self._iterations.stir()
             self.machine.prepare(layout.listed, self._states)
+        else:
+            self._iterations.choose(before, self.changes)
+        self._contacts.catch_up(same=self._iterations.resting > 0)
+        self._watching = watching
         self._space.step(self._dt)
         self._age += 1
         layout.state = None

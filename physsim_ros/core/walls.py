@@ -12,7 +12,6 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-
 """The walls of `bounds`, which close a world off on all four sides."""
 
 from __future__ import annotations

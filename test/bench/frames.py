@@ -139,10 +139,13 @@ class Bare:
         walls = ours.static_body.shapes
         self.space.add(*(_twin(wall, self.space.static_body) for wall in walls))
         for _ in range(round(SETTLE * pile.settled * 60)):
-            Bare.frame(self)
+            self._go_on()
 
     def frame(self) -> None:
         """Make four steps."""
+        self._go_on()
+
+    def _go_on(self) -> None:
         for _ in range(4):
             self.space.step(1 / 240)
 
