@@ -65,8 +65,6 @@ class ContactLog:
         self._signs: Floats = np.empty((0, 1))
         # What these gave in the last step that was read.
         self._given: Floats = np.empty((0, 2))
-        # Whether the last step has not been added yet.
-        self._waits = False
         # Steps since the frame began.
         self._steps = 0
         # The same of earlier steps of the frame, at whose ends other pairs touched.
@@ -85,33 +83,8 @@ class ContactLog:
         a, b = (body.id for body in arbiter.bodies)
         self._begun[min(a, b), max(a, b)] = (1 if a < b else -1, contact)
 
-    def add_step(self, *, waits: bool) -> None:
-        """
-        Add the contacts of the step that has just been made.
-
-        :param waits: whether all was at rest before it, so that nothing may have changed in it
-            either: then it is looked at when that is known, or somebody wants to know
-        """
-        self._waits = waits
-        if not waits:
-            self._add_step()
-
-    def catch_up(self, *, same: bool = False) -> None:
-        """
-        Add the step that waits, if one does, before anything else is done.
-
-        :param same: whether nothing has changed in it
-        """
-        if not self._waits:
-            return
-        self._waits = False
-        if same and self.settled:
-            self._steps += 1
-            self._sums += self._given
-        else:
-            self._add_step()
-
-    def _add_step(self) -> None:
+    def add_step(self) -> None:
+        """Add the contacts of the step that the engine has just made."""
         self._steps += 1
         if self.settled:
             firsts, impulses = self._arrays.contacts(_FIRSTS_AND_IMPULSES)
@@ -128,6 +101,14 @@ class ContactLog:
             self._begin_listing(ids)
         self._give(impulses.reshape(-1, 2))
         self.settled = True
+
+    def repeat_step(self) -> None:
+        """Add the contacts of the engine's last step once more."""
+        if self.settled:
+            self._steps += 1
+            self._sums += self._given
+        else:
+            self.add_step()
 
     def _give(self, impulses: Floats) -> None:
         self._given = impulses * self._signs
@@ -166,7 +147,6 @@ class ContactLog:
 
         :param body: its id in the engine
         """
-        self.catch_up()
         if self._steps == 0:
             return
         self.settled = False
@@ -183,7 +163,6 @@ class ContactLog:
 
     def clear(self) -> None:
         """Forget what has been summed up since the last call of `take`."""
-        self._waits = False
         self._earlier = []
         self._sums = np.zeros_like(self._sums)
         self._steps = 0
@@ -208,7 +187,6 @@ class ContactLog:
             values[:, :2] *= signs
             return pairs, values
 
-        old.catch_up()
         self._steps = old._steps
         self._ids, self._sums = renamed(old._ids, old._sums)
         self._earlier = [renamed(pairs, sums) for pairs, sums in old._earlier]
@@ -231,7 +209,6 @@ class ContactLog:
         :param centers: gives (n, 2) float64: centres of mass, between which overlaps with sensors
             lie
         """
-        self.catch_up()
         if self._steps == 0:
             return NO_CONTACTS
         parted, given = self._merge()

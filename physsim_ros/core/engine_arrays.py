@@ -33,7 +33,8 @@ Ids = NDArray[np.uint64]
 
 _PLACE = batch.BodyFields.POSITION
 _TWIST = batch.BodyFields.VELOCITY | batch.BodyFields.ANGULAR_VELOCITY
-_STATE = _PLACE | batch.BodyFields.ANGLE | _TWIST
+_POSE = _PLACE | batch.BodyFields.ANGLE
+_STATE = _POSE | _TWIST
 
 _F = batch.ArbiterFields
 _POINTS = _F.BODY_A_ID | _F.BODY_B_ID | _F.NORMAL | _F.CONTACT_COUNT
@@ -78,6 +79,10 @@ class EngineArrays:
         """Return (m, 2) float64: where the engine has its origins [m]."""
         return self._bodies(_PLACE, 2)
 
+    def poses(self) -> Floats:
+        """Return (m, 3) float64: where they are, and their angles [m, rad]."""
+        return self._bodies(_POSE, 3)
+
     def twists(self) -> Floats:
         """Return (m, 3) float64: velocities [m/s] and spins [rad/s]."""
         return self._bodies(_TWIST, 3)
@@ -85,6 +90,11 @@ class EngineArrays:
     def states(self) -> Floats:
         """Return (m, 6) float64: where they are [m, rad], velocities and spins."""
         return self._bodies(_STATE, 6)
+
+    def write_poses(self, poses: Floats) -> None:
+        """Set where all bodies are, and their angles, (m, 3) float64."""
+        self._written.set_float_buf(np.ascontiguousarray(poses))
+        batch.set_space_bodies(self._space, _POSE, self._written)
 
     def write_twists(self, twists: Floats) -> None:
         """Set the velocities and spins of all bodies, (m, 3) float64."""

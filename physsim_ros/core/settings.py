@@ -36,7 +36,7 @@ class WorldSettings:
 
     :param gravity: [m/s²]
     :param damping: share of velocity lost to the air each second, 0 .. 1
-    :param iterations: of the solver, where anything moves
+    :param iterations: of the solver
     :param bounds: xmin, ymin, xmax, ymax of the walls around the world [m]; None is no walls
     :param density: default [kg/m²]
     :param friction: default

@@ -38,9 +38,9 @@ from physsim_ros.core.description import Body, Joint, Scene
 from physsim_ros.core.engine_arrays import EngineArrays, Ids
 from physsim_ros.core.fast_bodies import FastBodies
 from physsim_ros.core.footing import Footing
-from physsim_ros.core.iterations import Iterations
 from physsim_ros.core.layout import lay_out, Layout
 from physsim_ros.core.machine import Machine
+from physsim_ros.core.rest import Rest, SLOW, STRIDE
 from physsim_ros.core.rigid_body import REST, RigidBody
 from physsim_ros.core.rotation import turned
 from physsim_ros.core.settings import WorldSettings
@@ -107,7 +107,7 @@ class Space:
         # Joints that have broken, and what each gave then [N]; whoever reads it empties it.
         self.broken: list[tuple[str, float]] = []
         self._fast = FastBodies(self._space, self._arrays, self.bodies, self._names, dt)
-        self._iterations = Iterations(self._space, self._arrays, dt)
+        self._rest = Rest(self._arrays, dt)
         self._contacts = ContactLog(self._arrays)
         self._stillness = Stillness(self._arrays)
         self._footing = Footing(self._space, self._arrays)
@@ -193,6 +193,10 @@ class Space:
 
     def bodies_at(self, point: Point) -> list[str]:
         """Return the bodies that cover a point of the world [m], the highest serial first."""
+        # What coasts has gone on since the engine looked where its shapes are.
+        for engine in self._names:
+            for shape in engine.shapes:
+                shape.cache_bb()
         hits = self._space.point_query(point, SEAM, pymunk.ShapeFilter())
         names = {self._names[hit.shape.body] for hit in hits if hit.shape.body in self._names}
         return sorted(names, key=lambda name: -self.bodies[name].serial)
@@ -213,7 +217,6 @@ class Space:
         if old.gravity != settings.gravity:
             share = _share(old.gravity, settings.gravity)
             if share < 1.0:
-                self._contacts.catch_up()
                 weaken(self._shapes, share)
             for name, rigid in self.bodies.items():
                 # Where nothing of it is left, what lay on something lies there no more.
@@ -222,7 +225,7 @@ class Space:
                     rigid.set_twist(twist, settings.gravity, self._dt)
         self._space.gravity = settings.gravity
         self._space.damping = 1.0 - settings.damping
-        self._iterations.most = settings.iterations
+        self._space.iterations = settings.iterations
         walls = (settings.bounds, settings.friction, settings.elasticity)
         if walls != (old.bounds, old.friction, old.elasticity):
             # Only then: what lies on the walls would stir.
@@ -450,47 +453,19 @@ class Space:
         :return: bodies that had left the range of numbers, and were removed before it
         """
         self._push_all(number)
-        lost: tuple[str, ...] = ()
         self._settle()
-        before = self._arrays.twists()
-        fastest = np.abs(before).max(initial=0.0)
-        # NaN compares false.
-        if not fastest < LOST:
-            lost = self.drop_lost()
-            before = self._arrays.twists()
-            fastest = np.abs(before).max(initial=0.0)
-        layout = self._lay_out()
-        # What has rested since the last time has not been calmed then.
-        if self._age % self._calm_steps == 0 and self._iterations.resting < self._calm_steps:
-            rows = [layout.rows[name] for name in self._thrown if name in layout.rows]
-            self._stillness.calm(layout.ground, before, layout.order[rows])
-        self._thrown.clear()
-        self._fast.arrest(layout, before, float(fastest))
-        if self.machine.joints:
-            self._iterations.stir()
-            self.machine.prepare(layout.listed, self._states)
-        else:
-            self._iterations.choose(before, self.changes)
-        self._contacts.catch_up(same=self._iterations.resting > 0)
         self._watching = watching
-        self._space.step(self._dt)
-        self._age += 1
-        layout.state = None
-        if self.machine.joints:
-            driven = bool(self._pushed) or self.changes != self._powerless
-            self._hold(layout, before, driven=driven)
-            self._powerless = self.changes
-        if watching:
-            self._contacts.add_step(waits=self._iterations.resting > 0)
+        expired = self._lay_out().expiries.get(number + 1, ())
+        lost: tuple[str, ...] = ()
+        broken: tuple[tuple[str, float], ...] = ()
+        if self._rest.coasts(self._age, self.changes):
+            self._coast()
         else:
-            self._contacts.skip_step()
-        expired = layout.expiries.get(number + 1, ())
-        # When a wrench ends, or anything lets go, what flies is told from what does not, however
-        # steps are counted out.
-        ends = any(rigid.wrench_until == number + 1 for rigid in self._pushed.values())
-        broken = self.machine.broken()
-        if last or expired or ends or broken:
-            self._judge_flight(layout, before)
+            # When a wrench ends, or anything lets go, what flies is told from what does not,
+            # however steps are counted out.
+            ends = any(rigid.wrench_until == number + 1 for rigid in self._pushed.values())
+            lost, broken = self._solve(told=last or ends or bool(expired))
+        self._age += 1
         for name in expired:
             self.remove(name)
         for name, force in broken:
@@ -499,12 +474,63 @@ class Space:
                 self.broken.append((name, force))
         return lost
 
+    def _coast(self) -> None:
+        """Make a step in which all go on as they did, and touch what they touched."""
+        self._rest.coast()
+        self._forget_state()
+        if self._watching:
+            self._contacts.repeat_step()
+        else:
+            self._contacts.skip_step()
+
+    def _solve(self, *, told: bool) -> tuple[tuple[str, ...], tuple[tuple[str, float], ...]]:
+        """
+        Have the engine make a step.
+
+        :param told: whether it has to be told after it what flies
+        :return: bodies that were lost and removed before it, and joints that broke in it with
+            what they gave [N]
+        """
+        lost: tuple[str, ...] = ()
+        before = self._arrays.twists()
+        fastest = float(np.abs(before).max(initial=0.0))
+        # NaN compares false.
+        if not fastest < LOST:
+            lost = self.drop_lost()
+            before = self._arrays.twists()
+            fastest = float(np.abs(before).max(initial=0.0))
+        layout = self._lay_out()
+        # What has rested since the last time has not been calmed then.
+        if self._age % self._calm_steps == 0 and self._rest.steps < self._calm_steps:
+            rows = [layout.rows[name] for name in self._thrown if name in layout.rows]
+            self._stillness.calm(layout.ground, before, layout.order[rows])
+        self._thrown.clear()
+        self._fast.arrest(layout, before, fastest)
+        if self.machine.joints:
+            self.machine.prepare(layout.listed, self._states)
+        self._space.step(self._dt)
+        layout.state = None
+        if self.machine.joints:
+            driven = bool(self._pushed) or self.changes != self._powerless
+            self._hold(layout, before, driven=driven)
+            self._powerless = self.changes
+        slow = fastest <= min(SLOW, layout.unswept * self._dt / STRIDE) and not self.machine.joints
+        self._rest.look(before, self.changes, slow=slow)
+        if self._watching:
+            self._contacts.add_step()
+        else:
+            self._contacts.skip_step()
+        broken = tuple(self.machine.broken())
+        # What coasts flies, or does not, as it did in the step before.
+        if told or broken or self._rest.steps:
+            self._judge_flight(layout, before)
+        return lost, broken
+
     def _settle(self) -> None:
         """Let what has lost its footing fly, and what hangs on a spring not."""
         layout = self._lay_out()
         if not self._loosened and not (layout.free & layout.hung).any():
             return
-        self._contacts.catch_up()
         state, free, fallen = self._settled(layout)
         self._loosened.clear()
         if state is not layout.state:
@@ -541,7 +567,7 @@ class Space:
     def _begin(self, arbiter: pymunk.Arbiter, space: pymunk.Space, _: object) -> None:
         """Look at two shapes that touch for the first time."""
         contact = arbiter.contact_point_set
-        self._iterations.stir()
+        self._rest.stir()
         sweep.relieve(arbiter, contact, space)
         struck = bell.struck(arbiter)
         self._cascade.begin(struck)

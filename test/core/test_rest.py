@@ -12,18 +12,17 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""What rests costs few iterations, and rests as it would by all of them."""
+"""What rests needs the engine now and then, and rests as it would by every step of it."""
 
 from collections.abc import Callable
 from dataclasses import replace
 import math
 
 import numpy as np
-from physsim_ros.core import bell, iterations
-from physsim_ros.core.iterations import FEW
+from physsim_ros.core import bell, rest
 from physsim_ros.core.requests import Command, Configure, Delete, Pin, Request
 from physsim_ros.core.settings import WorldSettings
-from physsim_ros.core.shapes import Box
+from physsim_ros.core.shapes import Box, Disc
 from physsim_ros.core.simulation import Simulation
 from physsim_ros.core.world import World
 import pymunk
@@ -32,19 +31,18 @@ import pytest
 from .worlds import BOX, DISC, DT, G, spawn, spawning, stack
 
 YARD = WorldSettings(bounds=(-20.0, 0.0, 20.0, 40.0))
-ALL = YARD.iterations
+STRIDE = 8  # steps of a 240th of a second
+
+
+def solved(world: World) -> list[int]:
+    """Return a list that gets the number of each step that the engine makes."""
+    steps: list[int] = []
+    bell.hang(_engine(world), lambda *_: steps.append(world.step_count))
+    return steps
 
 
 def _engine(world: World) -> pymunk.Space:
-    return world._space._space  # noqa: SLF001 - where the engine's iterations are
-
-
-def made(world: World) -> list[int]:
-    """Return a list that gets, in each step, how many iterations it is made with."""
-    counts: list[int] = []
-    space = _engine(world)
-    bell.hang(space, lambda *_: counts.append(space.iterations))
-    return counts
+    return world._space._space  # noqa: SLF001 - what makes its steps
 
 
 def at_rest(count: int = 3) -> World:
@@ -54,36 +52,74 @@ def at_rest(count: int = 3) -> World:
     return world
 
 
-def test_what_rests_is_solved_by_few_iterations() -> None:
+def test_what_rests_is_solved_for_in_one_step_of_a_stride() -> None:
     world = at_rest()
-    counts = made(world)
+    steps = solved(world)
 
-    world.step(48)
+    world.step(6 * STRIDE)
 
-    assert counts == [FEW] * 48
+    assert len(steps) == 6
+    assert set(np.diff(steps)) == {STRIDE}
 
 
-def test_no_more_than_what_is_asked_for() -> None:
-    world = World(settings=replace(YARD, iterations=1))
+@pytest.mark.parametrize(('rate', 'stride'), [(60.0, 2), (1000.0, 33)])
+def test_a_stride_is_as_long_at_any_rate(rate: float, stride: int) -> None:
+    world = World(settings=YARD, physics_rate=rate)
     spawn(world, 'a/0', DISC, (0.0, 0.5, 0.0))
     world.step(240)
-    counts = made(world)
+    steps = solved(world)
 
-    world.step(4)
+    world.step(4 * stride)
 
-    assert counts == [1] * 4
+    assert len(steps) == 4
 
 
-def test_what_moves_has_all_of_them() -> None:
+def test_what_moves_is_solved_for_in_each_step() -> None:
     world = at_rest()
     spawn(world, 'a/0', DISC, (9.0, 0.5, 0.0), velocity=(0.5, 0.0), friction=0.0)
     world.step(48)
-    counts = made(world)
+    steps = solved(world)
 
-    # At a steady velocity too: it meets its contact at another place in each step.
+    # At a steady velocity too: it would come too far before it is seen to touch.
     world.step(48)
 
-    assert counts == [ALL] * 48
+    assert len(steps) == 48
+
+
+@pytest.mark.parametrize(('radius', 'count'), [(0.1, 3), (0.001, 24)])
+def test_what_is_slow_is_solved_for_in_each_step_where_it_is_fast_for_its_size(
+    radius: float, count: int
+) -> None:
+    world = World(settings=replace(YARD, gravity=(0.0, 0.0)))
+    spawn(world, 'a/0', Disc(radius=radius), (0.0, 1.0, 0.0), velocity=(0.01, 0.0))
+    world.step(48)
+    steps = solved(world)
+
+    world.step(24)
+
+    assert len(steps) == count
+
+
+def test_what_coasts_goes_on_as_it_did() -> None:
+    world = World(settings=replace(YARD, gravity=(0.0, 0.0)))
+    spawn(world, 'a/0', BOX, (0.0, 1.0, 0.0), velocity=(0.01, -0.005), spin=0.02)
+    steps = solved(world)
+
+    world.step(480)
+
+    assert len(steps) < 80
+    assert world.snapshot().poses[0] == pytest.approx((0.02, 0.99, 0.04), abs=1e-12)
+    assert world.snapshot().twists[0].tolist() == [0.01, -0.005, 0.02]
+
+
+def test_what_coasts_is_found_where_it_is() -> None:
+    world = World(settings=replace(YARD, gravity=(0.0, 0.0)))
+    spawn(world, 'a/0', DISC, (0.0, 1.0, 0.0), velocity=(0.02, 0.0))
+    for step in range(1, 49):
+        world.step(1)
+        edge = 0.02 * step * DT + 0.5
+        assert world.body_at((edge - 1e-6, 1.0)) == 'a/0'
+        assert world.body_at((edge + 1e-6, 1.0)) is None
 
 
 @pytest.mark.parametrize(
@@ -98,56 +134,84 @@ def test_what_moves_has_all_of_them() -> None:
     ],
     ids=['gravity', 'bounds', 'pose', 'twist', 'wrench', 'deleted'],
 )
-def test_the_step_after_a_request_has_all_of_them(request_of: Callable[[], Request]) -> None:
+def test_steps_after_a_request_are_solved_for(request_of: Callable[[], Request]) -> None:
     world = at_rest()
-    counts = made(world)
+    steps = solved(world)
 
     world.apply(request_of())
-    world.step(1)
+    world.step(4)
 
-    assert counts == [ALL]
+    assert len(steps) == 4
 
 
-def test_what_hangs_on_joints_has_all_of_them() -> None:
+def test_what_hangs_on_joints_is_solved_for_in_each_step() -> None:
     world = at_rest()
     world.apply(Pin(point=(0.0, 1.0)))
     world.step(480)
-    counts = made(world)
+    steps = solved(world)
 
-    world.step(4)
+    world.step(STRIDE)
 
-    assert counts == [ALL] * 4
+    assert len(steps) == STRIDE
 
 
-def test_a_step_in_which_anything_begins_to_touch_has_all_of_them() -> None:
+def test_what_begins_to_touch_is_solved_for() -> None:
     world = at_rest()
     # Slow enough to count as rest, and on no ground that could slow it down.
     spawn(world, 'a/0', DISC, (2.0, 0.5, 0.0), velocity=(0.001, 0.0), friction=0.0)
     spawn(world, 'a/1', DISC, (3.005, 0.5, 0.0), friction=0.0)
     world.step(240)
-    counts, last = made(world), world.snapshot().twists[3, 0]
-    assert last == pytest.approx(0.001, abs=1e-9)
+    steps = solved(world)
+    assert world.snapshot().twists[3, 0] == pytest.approx(0.001, abs=1e-9)
 
     while world.snapshot().twists[4, 0] < 1e-4:
         world.step(1)
+    struck = world.step_count
+    world.step(4)
 
-    # What the blow does is a matter of the next step; it falls in this one.
-    assert len(counts) > 240
-    assert counts[-1] == ALL
-    assert set(counts[:-1]) == {FEW}
+    assert 240 < struck - 2640 < 1300
+    assert struck - 2640 > 7 * len([step for step in steps if step < struck])
+    assert steps[-4:] == [struck, struck + 1, struck + 2, struck + 3]
 
 
-def test_what_is_pushed_out_of_what_it_overlaps_has_all_of_them() -> None:
+def test_what_is_pushed_out_of_what_it_overlaps_is_solved_for_in_each_step() -> None:
     world = World(settings=replace(YARD, bounds=None, gravity=(0.0, 0.0)))
     for number in range(6):
         spawn(world, f'a/{number}', BOX, (0.7 * number, 0.5, 0.0), elasticity=0.0)
-    counts = made(world)
+    steps = solved(world)
 
     world.step(48)
 
-    # It has no velocity. What the first step asks for is seen after the second.
+    # It has no velocity.
     assert not world.snapshot().twists.any()
-    assert counts[2:] == [ALL] * 46
+    assert len(steps) == 48
+
+
+def test_a_wrench_that_ends_stirs_what_it_held() -> None:
+    world = World(settings=replace(YARD, bounds=None))
+    spawn(world, 'a/0', DISC, (0.0, 0.5, 0.0), mass=1.0)
+    world.apply(Configure(changes={'command_timeout': 2.0}))
+    world.apply(Command(names=('a/0',), wrenches=((0.0, G, 0.0),)))
+    steps = solved(world)
+
+    world.step(480)
+    assert len(steps) < 80
+    assert np.abs(world.snapshot().twists).max() < 1e-9
+    world.step(240)
+
+    assert len(steps) > 240
+    assert world.snapshot().twists[0, 1] == pytest.approx(-G, rel=1e-9)
+
+
+def test_what_expires_at_rest_goes_in_its_step() -> None:
+    world = at_rest()
+    spawn(world, 'a/0', DISC, (9.0, 0.5, 0.0), lifetime=1.0)
+
+    world.step(239)
+    assert 'a/0' in world.snapshot().scene.names
+    world.step(1)
+
+    assert 'a/0' not in world.snapshot().scene.names
 
 
 def incline(world: World) -> None:
@@ -167,42 +231,45 @@ def pyramid(world: World) -> None:
 def heap(world: World) -> None:
     for number in range(24):
         pose = 1.05 * (number % 4) - 2.0, 0.6 + 1.1 * (number // 4), 0.1 * number
-        spawn(world, f'a/{number}', DISC if number % 2 else BOX, pose)
+        spawn(world, f'a/{number}', BOX, pose)
 
 
 @pytest.mark.parametrize('build', [incline, pyramid, heap])
-def test_what_rests_stays_where_it_would_by_all_iterations(
+def test_what_rests_stays_where_it_would_by_every_step(
     build: Callable[[World], None], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     poses = []
-    for few in (FEW, ALL):
-        monkeypatch.setattr(iterations, 'FEW', few)
+    for stride in (rest.STRIDE, DT):
+        monkeypatch.setattr(rest, 'STRIDE', stride)
         world = World(settings=replace(YARD, bounds=(-5.0, 0.0, 5.0, 40.0), friction=0.5))
         build(world)
-        world.step(240 * 40)
-        counts = made(world)
-        world.step(240 * 40)
-        assert counts.count(few) > 0.8 * len(counts)
+        steps = solved(world)
+        world.step(240 * 80)
+        assert (len(steps) < 240 * 40) == (stride != DT)
         poses.append(world.snapshot().poses)
 
     assert poses[0] == pytest.approx(poses[1], abs=1e-9)
 
 
-def test_the_same_bits_come_again_where_rest_is_disturbed() -> None:
+def test_the_same_bits_come_again_where_rest_is_disturbed(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    coasted: list[rest.Rest] = []
+    coast = rest.Rest.coast
+    monkeypatch.setattr(rest.Rest, 'coast', lambda rest: (coasted.append(rest), coast(rest)))
     sim = Simulation(settings=YARD, keyframes=1.0)
     for number in range(4):
         sim.perform(spawning(f'stack/{number}', BOX, (0.0, 0.5 + number, 0.0)))
     sim.perform(spawning('a/1', DISC, (5.0, 0.5, 0.0), velocity=(0.001, 0.0), friction=0.0))
-    digests, rested = {}, 0
+    digests = {}
     for number in range(60 * 12):
         if number == 60 * 8:
             sim.perform(spawning('a/0', DISC, (0.2, 6.0, 0.0)))
         sim.advance_frame()
-        rested += _engine(sim.world).iterations == FEW
         if number % 25 == 0:
             digests[sim.step] = sim.world.digest()
 
-    assert 60 < rested < 60 * 8
+    assert 240 < len(coasted) < 2400
     for step in reversed(digests):
         sim.seek(round(step * DT * 1e9))
         assert sim.world.digest() == digests[step]
@@ -214,7 +281,7 @@ def test_what_rests_is_given_its_weight_in_each_frame_until_it_is_disturbed() ->
     spawn(world, 'shelf/0', Box(width=2.0, height=1.0), (-0.98, -0.5, 0.0), anchored=True)
     spawn(world, 'a/0', DISC, (0.0, 0.5, 0.0), mass=1.0, friction=0.0, velocity=(0.001, 0.0))
     world.step(4)
-    counts, off, fell = made(world), [], 0
+    steps, off, fell = solved(world), [], 0
     # At 0.02 m it comes to the edge, and falls: no pair begins to touch, and nothing is asked.
     for _ in range(60 * 24):
         before = world.snapshot().twists[1, :2]
@@ -225,7 +292,7 @@ def test_what_rests_is_given_its_weight_in_each_frame_until_it_is_disturbed() ->
         fell += not given.any()
         off.append(np.abs(given - after.twists[1, :2] + before - (0.0, G * 4 * DT)).max())
 
-    assert FEW in counts
+    assert len(steps) < 240 * 23
     assert fell > 30
     # But for half a step of gravity where it comes to fly, or flies no more.
     landed = np.isclose(off, G * DT / 2, rtol=0.0, atol=1e-9)
