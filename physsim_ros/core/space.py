@@ -467,7 +467,8 @@ class Space:
             lost, broken = self._solve(told=last or ends or bool(expired))
         self._age += 1
         for name in expired:
-            self.remove(name)
+            if name in self.bodies:
+                self.remove(name)
         for name, force in broken:
             if name in self.machine.joints:
                 self.unjoin(name)

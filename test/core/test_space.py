@@ -785,6 +785,17 @@ def test_a_body_that_leaves_the_range_of_numbers_is_removed_and_told(world: Worl
     assert pose(world, 'a/1') == pytest.approx((5.0 + 12 * DT, 0.0, 0.0), abs=ROUNDING)
 
 
+def test_a_body_that_is_lost_in_the_last_step_of_its_life_goes_once(world: World) -> None:
+    unlimited(world)
+    spawn(world, 'a/0', DISC, mass=1e-9, lifetime=DT)
+    command(world, 'a/0', wrench=(-1e12, 0.0, 0.0))
+
+    lost = world.step(4)
+
+    assert lost == ('a/0',)
+    assert 'a/0' not in world
+
+
 # Energy and momentum
 
 
