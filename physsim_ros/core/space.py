@@ -21,15 +21,13 @@ velocities do not jump when gravity or a wrench changes; what loses its footing 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
-import itertools
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 from physsim_ros.core import bell, rigid_body, sweep
-from physsim_ros.core.arrays import Floats, Ints
+from physsim_ros.core.arrays import Floats
 from physsim_ros.core.blows import Blows
 from physsim_ros.core.cascade import Cascade
 from physsim_ros.core.contact_memory import forget, recall, remind, ShapeIds, weaken
@@ -37,7 +35,7 @@ from physsim_ros.core.contacts import ContactLog
 from physsim_ros.core.description import Body, Joint, Scene
 from physsim_ros.core.engine_arrays import EngineArrays, Ids
 from physsim_ros.core.fast_bodies import FastBodies
-from physsim_ros.core.footing import Footing
+from physsim_ros.core.flight import Flight, Settled
 from physsim_ros.core.layout import lay_out, Layout
 from physsim_ros.core.machine import Machine
 from physsim_ros.core.rest import Rest, SLOW, STRIDE
@@ -89,10 +87,6 @@ class Space:
         self._pushed: dict[str, RigidBody] = {}
         # Those whose velocity has been set since the last step: they are not calmed in the next.
         self._thrown: set[str] = set()
-        # Those that something has let go of since the last step.
-        self._loosened: set[str] = set()
-        # What of these hangs together with nothing that stands, and `changes` when it was found.
-        self._lost: tuple[int, NDArray[np.bool_]] | None = None
         self._layout: Layout | None = None
         self._space = pymunk.Space()
         self._arrays = EngineArrays(self._space)
@@ -110,7 +104,7 @@ class Space:
         self._rest = Rest(self._arrays, dt)
         self._contacts = ContactLog(self._arrays)
         self._stillness = Stillness(self._arrays)
-        self._footing = Footing(self._space, self._arrays)
+        self._flight = Flight(self._space, self._arrays, self.bodies)
         self._cascade = Cascade(self._space)
         self._blows = Blows(self._space, self._arrays)
         self._calm_steps = max(1, round(1.0 / (RATE * dt)))
@@ -135,8 +129,7 @@ class Space:
 
     def rows(self) -> tuple[Scene, Floats, Floats]:
         """Return the scene, and (n, 3) float64 poses and twists, in spawn order."""
-        layout = self._lay_out()
-        state, free, _ = self._settled(layout)
+        layout, (state, free, _) = self._lay_out(), self._settled()
         poses, twists = state[:, :3].copy(), state[:, 3:].copy()
         if layout.offsets.any():
             poses[:, :2] -= turned(layout.offsets, poses[:, 2])
@@ -162,8 +155,7 @@ class Space:
 
     def essence(self) -> Iterator[bytes]:
         """Yield all that is known of the bodies, but for what the engine remembers of contacts."""
-        layout = self._lay_out()
-        state, free, _ = self._settled(layout)
+        layout, (state, free, _) = self._lay_out(), self._settled()
         yield layout.scene.key
         yield state.tobytes()
         yield free.tobytes()
@@ -173,9 +165,8 @@ class Space:
 
     def keyframe(self, step: int) -> Keyframe:
         """Return all that the bodies go on from; `step` is the number of steps made."""
-        layout = self._lay_out()
+        layout, (state, free, fallen) = self._lay_out(), self._settled()
         rigids = list(self.bodies.values())
-        state, free, fallen = self._settled(layout)
         ids = [rigid.first for rigid in rigids]
         return Keyframe(
             step=step,
@@ -257,7 +248,7 @@ class Space:
         self._take(old)
         self._put(rigid, pose, twist)
         self.machine.attach(body.name)
-        self._let_go(touching)
+        self._flight.let_go(touching)
         if old.wrench != REST and not body.fixed:
             self.push(rigid, old.wrench, old.wrench_until)
 
@@ -269,7 +260,7 @@ class Space:
             self.unjoin(joint)
         self._take(rigid)
         del self.bodies[name]
-        self._let_go(touching)
+        self._flight.let_go(touching)
 
     def set_pose(self, rigid: RigidBody, pose: Pose) -> None:
         """Put a body somewhere else."""
@@ -277,7 +268,7 @@ class Space:
         rigid.pose = self._unwound(rigid, pose)
         self._fast.forget_standing()
         self._forget_state()
-        self._let_go(self._touching(rigid.engine))
+        self._flight.let_go(self._touching(rigid.engine))
 
     def join(self, joint: Joint) -> None:
         """Take in a joint; it replaces one of that name in its place."""
@@ -292,7 +283,9 @@ class Space:
         self._powerless += 1
         joint = self.machine.joints[name].joint
         self.machine.remove(name)
-        self._let_go([self.bodies[body] for body in (joint.a, joint.b) if body in self.bodies])
+        self._flight.let_go(
+            [self.bodies[body] for body in (joint.a, joint.b) if body in self.bodies]
+        )
 
     def set_twist(self, rigid: RigidBody, twist: Pose) -> None:
         """Let a body fly freely at a velocity."""
@@ -429,17 +422,13 @@ class Space:
         names = dict.fromkeys(self._names[each] for each in found if each in self._names)
         return [self.bodies[name] for name in names]
 
-    def _let_go(self, rigids: Iterable[RigidBody]) -> None:
-        """Let bodies fly from the next step on, unless something else holds them then."""
-        self._loosened.update(rigid.body.name for rigid in rigids)
-
     def _raise_walls(self) -> None:
         background = self._space.static_body
         touching = self._touching(background)
         self._walls.follow(self._settings)
         self._contacts.forget(background.id)
         self._fast.forget_standing()
-        self._let_go(touching)
+        self._flight.let_go(touching)
 
     # Stepping
 
@@ -524,16 +513,17 @@ class Space:
         broken = tuple(self.machine.broken())
         # What coasts flies, or does not, as it did in the step before.
         if told or broken or self._rest.steps:
-            self._judge_flight(layout, before)
+            kept = (1.0 - self._settings.damping) ** self._dt
+            self._flight.judge(layout, before * kept, self._state(layout))
         return lost, broken
 
     def _settle(self) -> None:
         """Let what has lost its footing fly, and what hangs on a spring not."""
         layout = self._lay_out()
-        if not self._loosened and not (layout.free & layout.hung).any():
+        if not self._flight.is_unsettled(layout):
             return
-        state, free, fallen = self._settled(layout)
-        self._loosened.clear()
+        state, free, fallen = self._settled()
+        self._flight.forget_loosened()
         if state is not layout.state:
             self.changes += 1
             twists = self._arrays.twists()
@@ -584,17 +574,6 @@ class Space:
             self._arrays.write_twists(states[:-1, 3:])
         layout.state = states.take(layout.order, axis=0)
 
-    def _judge_flight(self, layout: Layout, before: Floats) -> None:
-        """Find which bodies the last step only accelerated: those are in free flight."""
-        after = self._state(layout)[:, 3:]
-        flown = before.take(layout.order, axis=0)
-        flown *= (1.0 - self._settings.damping) ** self._dt
-        flown += 2.0 * layout.lead
-        # Rounding of the same sum in another order, nothing more.
-        same = np.abs(flown - after) <= 1e-12 * (1.0 + np.abs(after))
-        flies = layout.loose & ~layout.hung
-        layout.free = same[:, 0] & same[:, 1] & same[:, 2] & flies
-
     # Rows
 
     def _states(self) -> Floats:
@@ -610,41 +589,10 @@ class Space:
             layout.state = self._arrays.states().take(layout.order, axis=0)
         return layout.state
 
-    def _settled(self, layout: Layout) -> tuple[Floats, NDArray[np.bool_], Ints]:
-        """
-        Return what the next step begins with, whatever has been asked since the last one.
-
-        :return: (n, 6) float64 as in `_state`, (n,) bool what is in free flight, and the numbers
-            of the shapes whose contacts hold nothing any more
-        """
-        state, free, fallen = self._state(layout), layout.free, np.empty(0, np.int64)
-        leads = free & ~layout.hung
-        if self._loosened:
-            lost = self._find_lost(layout)
-            leads |= lost
-            fallen = self._shape_numbers(lost)
-        if not np.array_equal(leads, free):
-            state = state.copy()
-            state[leads & ~free, 3:] += layout.lead[leads & ~free]
-            state[free & ~leads, 3:] -= layout.lead[free & ~leads]
-        return state, leads, fallen
-
-    def _find_lost(self, layout: Layout) -> NDArray[np.bool_]:
-        """Return (n,) bool: what has lost its footing since the last step."""
-        if self._lost is None or self._lost[0] != self.changes:
-            rigids = (self.bodies[name] for name in self._loosened if name in self.bodies)
-            loose = [rigid for rigid in rigids if not rigid.body.fixed]
-            lost = self._footing.lost(layout.ground, layout.joined, loose)
-            self._lost = self.changes, lost[layout.order]
-        return self._lost[1]
-
-    def _shape_numbers(self, rows: NDArray[np.bool_]) -> Ints:
-        """Return the engine's numbers of the shapes of some bodies, (n,) bool."""
-        rigids = itertools.compress(self.bodies.values(), rows.tolist())
-        numbers = (
-            range(rigid.first, rigid.first + len(rigid.body.shape.form.pieces)) for rigid in rigids
-        )
-        return np.fromiter(itertools.chain.from_iterable(numbers), np.int64)
+    def _settled(self) -> Settled:
+        """Return what the next step begins with, whatever has been asked since the last one."""
+        layout = self._lay_out()
+        return self._flight.settled(layout, self._state(layout), self.changes)
 
     def _write_state(self, layout: Layout, state: Floats) -> None:
         """Set the (n, 6) float64 poses and velocities of the engine's origins."""
