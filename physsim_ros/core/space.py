@@ -441,7 +441,7 @@ class Space:
         :param last: whether the state after it will be looked at
         :return: bodies that had left the range of numbers, and were removed before it
         """
-        self._push_all(number)
+        self._end_wrenches(number)
         self._settle()
         self._watching = watching
         expired = self._lay_out().expiries.get(number + 1, ())
@@ -482,6 +482,7 @@ class Space:
             what they gave [N]
         """
         lost: tuple[str, ...] = ()
+        self._push_all()
         before = self._arrays.twists()
         fastest = float(np.abs(before).max(initial=0.0))
         # NaN compares false.
@@ -546,14 +547,17 @@ class Space:
             self.remove(name)
         return names
 
-    def _push_all(self, number: int) -> None:
-        """Apply the wrenches of the coming step; the engine forgets them after it."""
+    def _end_wrenches(self, number: int) -> None:
+        """Let wrenches end that act no longer than to a step."""
         for rigid in list(self._pushed.values()):
             if rigid.wrench_until is not None and rigid.wrench_until <= number:
                 self.push(rigid, REST, None)
-            else:
-                fx, fy, rigid.engine.torque = rigid.wrench
-                rigid.engine.force = fx, fy
+
+    def _push_all(self) -> None:
+        """Apply the wrenches in the coming step of the engine, which forgets them after it."""
+        for rigid in self._pushed.values():
+            fx, fy, rigid.engine.torque = rigid.wrench
+            rigid.engine.force = fx, fy
 
     def _begin(self, arbiter: pymunk.Arbiter, space: pymunk.Space, _: object) -> None:
         """Look at two shapes that touch for the first time."""

@@ -187,14 +187,14 @@ def test_what_is_pushed_out_of_what_it_overlaps_is_solved_for_in_each_step() -> 
     assert len(steps) == 48
 
 
-def test_a_wrench_that_ends_stirs_what_it_held() -> None:
-    world = World(settings=replace(YARD, bounds=None))
+@pytest.mark.parametrize('count', range(480, 480 + STRIDE))
+def test_a_wrench_that_ends_holds_no_longer(count: int) -> None:
+    world = World(settings=replace(YARD, bounds=None, command_timeout=count * DT))
     spawn(world, 'a/0', DISC, (0.0, 0.5, 0.0), mass=1.0)
-    world.apply(Configure(changes={'command_timeout': 2.0}))
     world.apply(Command(names=('a/0',), wrenches=((0.0, G, 0.0),)))
     steps = solved(world)
 
-    world.step(480)
+    world.step(count)
     assert len(steps) < 80
     assert np.abs(world.snapshot().twists).max() < 1e-9
     world.step(240)
