@@ -37,6 +37,9 @@ from physsim_ros.core.layout import Layout
 from physsim_ros.core.rigid_body import RigidBody
 import pymunk
 
+# What a wrench leaves of gravity where it bears a body, by rounding [m/s, rad/s].
+ROUNDING = 1e-14
+
 
 class Settled(NamedTuple):
     """
@@ -118,6 +121,11 @@ class Flight:
         same = np.abs(flown - after) <= 1e-12 * (1.0 + np.abs(after))
         flies = layout.loose & ~layout.hung
         layout.free = same[:, 0] & same[:, 1] & same[:, 2] & flies
+
+    @staticmethod
+    def accelerates(layout: Layout) -> bool:
+        """Tell whether anything that flies goes on otherwise than it does now."""
+        return bool((np.abs(layout.lead[layout.free]) > ROUNDING).any())
 
     def _find_lost(self, layout: Layout, changes: int) -> NDArray[np.bool_]:
         """Return (n,) bool: what has lost its footing since the last step."""

@@ -19,9 +19,9 @@ The engine begins a step with the impulses of the one before. Where these have l
 velocity that it had, and have pushed none out of another, there is next to nothing to be solved
 for in the next steps either: each body goes on as it did, and what touches is as it was.
 
-Law: what rests stays where it would if every step were solved for, and what creeps is changed by
-no more than `STIRS` in a step. A step after anything has been asked, or has begun to touch, is
-solved for.
+Law: what rests stays where it would if every step were solved for; what something holds and is
+accelerated by less than `STIRS` may be held back. A step after anything has been asked, or has
+begun to touch, is solved for.
 """
 
 from __future__ import annotations
@@ -38,9 +38,11 @@ LONG = 8
 STIRS = 2.5e-7
 # What is pushed out of what it overlaps, for which it has no velocity, goes faster [m/s, rad/s].
 PUSHED = 1e-7
-# What is faster might come too far in a stride before it is seen to touch [m/s, rad/s]: 0.7 mm,
-# a seventh of what may overlap anyway.
+# What has a point that is faster might come too far in a stride before it is seen to touch [m/s]:
+# 0.7 mm, a seventh of what may overlap anyway.
 SLOW = 0.02
+# The same where the air slows things down, which it does in the engine's steps only [m/s].
+SLOW_IN_AIR = 1e-6
 
 
 class Rest:

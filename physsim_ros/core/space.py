@@ -38,7 +38,7 @@ from physsim_ros.core.fast_bodies import FastBodies
 from physsim_ros.core.flight import Flight, Settled
 from physsim_ros.core.layout import lay_out, Layout
 from physsim_ros.core.machine import Machine
-from physsim_ros.core.rest import Rest, SLOW, STRIDE
+from physsim_ros.core.rest import Rest, SLOW, SLOW_IN_AIR, STRIDE
 from physsim_ros.core.rigid_body import REST, RigidBody
 from physsim_ros.core.rotation import turned
 from physsim_ros.core.settings import WorldSettings
@@ -184,12 +184,12 @@ class Space:
 
     def bodies_at(self, point: Point) -> list[str]:
         """Return the bodies that cover a point of the world [m], the highest serial first."""
+        names = set()
         # What coasts has gone on since the engine looked where its shapes are.
-        for engine in self._names:
-            for shape in engine.shapes:
-                shape.cache_bb()
-        hits = self._space.point_query(point, SEAM, pymunk.ShapeFilter())
-        names = {self._names[hit.shape.body] for hit in hits if hit.shape.body in self._names}
+        for hit in self._space.point_query(point, SEAM + SLOW * STRIDE, pymunk.ShapeFilter()):
+            hit.shape.cache_bb()
+            if hit.shape.body in self._names and hit.shape.point_query(point).distance <= SEAM:
+                names.add(self._names[hit.shape.body])
         return sorted(names, key=lambda name: -self.bodies[name].serial)
 
     def twist(self, rigid: RigidBody) -> Pose:
@@ -505,7 +505,7 @@ class Space:
             driven = bool(self._pushed) or self.changes != self._powerless
             self._hold(layout, before, driven=driven)
             self._powerless = self.changes
-        slow = fastest <= min(SLOW, layout.unswept * self._dt / STRIDE) and not self.machine.joints
+        slow = self._is_slow(layout, before, fastest)
         self._rest.look(before, self.changes, slow=slow)
         if self._watching:
             self._contacts.add_step()
@@ -516,7 +516,16 @@ class Space:
         if told or broken or self._rest.steps:
             kept = (1.0 - self._settings.damping) ** self._dt
             self._flight.judge(layout, before * kept, self._state(layout))
+            if self._rest.steps and self._flight.accelerates(layout):
+                self._rest.stir()
         return lost, broken
+
+    def _is_slow(self, layout: Layout, twists: Floats, fastest: float) -> bool:
+        """Tell whether all are so slow that most steps need no engine if they go on like this."""
+        limit = SLOW_IN_AIR if self._settings.damping else SLOW
+        if self.machine.joints or fastest > min(limit, layout.unswept * self._dt / STRIDE):
+            return False
+        return bool(layout.ground.speeds(twists).max(initial=0.0) <= limit)
 
     def _settle(self) -> None:
         """Let what has lost its footing fly, and what hangs on a spring not."""

@@ -88,6 +88,11 @@ class Ground:
         near = np.minimum(np.searchsorted(self.ids, ids), len(self.ids) - 1)
         return np.where(self.ids[near] == ids, self.places[near], len(self.ids))
 
+    def speeds(self, twists: Floats) -> Floats:
+        """Return (m,) float64: what no point of each body is faster than [m/s]."""
+        speeds: Floats = np.hypot(twists[:, 0], twists[:, 1])
+        return speeds + np.abs(twists[:, 2]) * self.reach
+
 
 def ground(listed: Sequence[RigidBody | None], ids: Sequence[int], friction: float) -> Ground:
     """
@@ -130,7 +135,7 @@ class Stillness:
             the engine's listing; kept up to date
         :param thrown: (k,) places in it of what moves as it was told to
         """
-        speed = np.hypot(twists[:, 0], twists[:, 1]) + np.abs(twists[:, 2]) * ground.reach
+        speed = ground.speeds(twists)
         slow = ground.loose[:-1] & (speed < FASTEST_ERROR)
         slow[thrown] = False
         if not (slow & (speed > UNSEEN)).any():
