@@ -66,6 +66,8 @@ class Rest:
         self._poses: Floats = np.empty((0, 3))
         self._twists: Floats = np.empty((0, 3))
         self._changes = -1
+        # Whether all have gone further than the engine knows.
+        self._ahead = False
 
     def coasts(self, age: int, changes: int) -> bool:
         """
@@ -77,11 +79,23 @@ class Rest:
         rests = self.steps >= LONG and changes == self._changes
         return rests and (age + 1) % self._stride != 0
 
-    def coast(self) -> None:
-        """Make a step in which all go on as they did."""
+    def coast(self, *, seen: bool) -> None:
+        """
+        Make a step in which all go on as they did.
+
+        :param seen: whether the engine is asked after it where they are
+        """
         self.steps += 1
         self._poses = self._poses + self._twists * self._dt
-        self._arrays.write_poses(self._poses)
+        self._ahead = True
+        if seen:
+            self.catch_up()
+
+    def catch_up(self) -> None:
+        """Have the engine know where all are."""
+        if self._ahead:
+            self._arrays.write_poses(self._poses)
+            self._ahead = False
 
     def look(self, before: Floats, changes: int, *, slow: bool) -> None:
         """

@@ -448,7 +448,7 @@ class Space:
         lost: tuple[str, ...] = ()
         broken: tuple[tuple[str, float], ...] = ()
         if self._rest.coasts(self._age, self.changes):
-            self._coast()
+            self._coast(seen=last or bool(expired))
         else:
             # When a wrench ends, or anything lets go, what flies is told from what does not,
             # however steps are counted out.
@@ -464,9 +464,9 @@ class Space:
                 self.broken.append((name, force))
         return lost
 
-    def _coast(self) -> None:
+    def _coast(self, *, seen: bool) -> None:
         """Make a step in which all go on as they did, and touch what they touched."""
-        self._rest.coast()
+        self._rest.coast(seen=seen)
         self._forget_state()
         if self._watching:
             self._contacts.repeat_step()
@@ -482,6 +482,7 @@ class Space:
             what they gave [N]
         """
         lost: tuple[str, ...] = ()
+        self._rest.catch_up()
         self._push_all()
         before = self._arrays.twists()
         fastest = float(np.abs(before).max(initial=0.0))

@@ -223,10 +223,12 @@ class World:
         """
         lost: list[str] = []
         for remaining in range(count, 0, -1):
-            lost += self._space.step(self.step_count, watching=self.watching, last=remaining == 1)
-            self.step_count += 1
             # Counted from the beginning, so that it does not depend on who makes how many steps.
-            if self.step_count % self.frame_steps == 0:
+            ends = (self.step_count + 1) % self.frame_steps == 0
+            last = ends or remaining == 1
+            lost += self._space.step(self.step_count, watching=self.watching, last=last)
+            self.step_count += 1
+            if ends:
                 lost += self._space.drop_lost()
         return tuple(lost)
 

@@ -105,11 +105,29 @@ def test_what_coasts_goes_on_as_it_did() -> None:
     spawn(world, 'a/0', BOX, (0.0, 1.0, 0.0), velocity=(0.01, -0.005), spin=0.01)
     steps = solved(world)
 
-    world.step(480)
+    world.step(485)
 
     assert len(steps) < 80
-    assert world.snapshot().poses[0] == pytest.approx((0.02, 0.99, 0.02), abs=1e-12)
+    gone = 485 * DT
+    expected = 0.01 * gone, 1.0 - 0.005 * gone, 0.01 * gone
+    assert world.snapshot().poses[0] == pytest.approx(expected, abs=1e-12)
     assert world.snapshot().twists[0].tolist() == [0.01, -0.005, 0.01]
+
+
+@pytest.mark.parametrize('chunk', [1, 3, 267])
+def test_what_coasts_is_there_however_steps_are_counted_out(chunk: int) -> None:
+    digests = []
+    for count in (2403, chunk):
+        world = at_rest()
+        spawn(world, 'a/0', DISC, (5.0, 0.5, 0.0), velocity=(0.01, 0.0), friction=0.0)
+        # Goes within a stride, and what lay on it falls.
+        spawn(world, 'a/1', BOX, (9.0, 0.5, 0.0), lifetime=1917 * DT)
+        spawn(world, 'a/2', BOX, (9.0, 1.5, 0.0))
+        for _ in range(2403 // count):
+            world.step(count)
+        digests.append(world.digest())
+
+    assert digests[0] == digests[1]
 
 
 @pytest.mark.parametrize('properties', [{}, {'sensor': True}, {'kinematic': True}])
@@ -289,7 +307,12 @@ def test_the_same_bits_come_again_where_rest_is_disturbed(
 ) -> None:
     coasted: list[rest.Rest] = []
     coast = rest.Rest.coast
-    monkeypatch.setattr(rest.Rest, 'coast', lambda rest: (coasted.append(rest), coast(rest)))
+
+    def noted(rest: rest.Rest, *, seen: bool) -> None:
+        coasted.append(rest)
+        coast(rest, seen=seen)
+
+    monkeypatch.setattr(rest.Rest, 'coast', noted)
     sim = Simulation(settings=YARD, keyframes=1.0)
     for number in range(4):
         sim.perform(spawning(f'stack/{number}', BOX, (0.0, 0.5 + number, 0.0)))
