@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""The types of the arrays that numbers of many bodies are held in."""
+"""The arrays that numbers of many bodies are held in."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,3 +20,8 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 Singles = NDArray[np.float32]
 Ints = NDArray[np.int64]
+
+
+def greatest(numbers: Floats) -> float:
+    """Return how great the greatest of some numbers is, either way; of none 0, of NaN NaN."""
+    return float(np.abs(numbers).max(initial=0.0))

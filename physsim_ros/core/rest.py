@@ -27,7 +27,7 @@ begun to touch, is solved for.
 from __future__ import annotations
 
 import numpy as np
-from physsim_ros.core.arrays import Floats
+from physsim_ros.core.arrays import Floats, greatest
 from physsim_ros.core.engine_arrays import EngineArrays
 
 # At rest the engine makes a step so often [s].
@@ -113,15 +113,11 @@ class Rest:
         self._changes = changes
         rests = (
             known
-            and _greatest(self._twists - before) <= STIRS * self._dt
-            and _greatest(self._poses - poses - before * self._dt) <= PUSHED * self._dt
+            and greatest(self._twists - before) <= STIRS * self._dt
+            and greatest(self._poses - poses - before * self._dt) <= PUSHED * self._dt
         )
         self.steps = self.steps + 1 if rests else 0
 
     def stir(self) -> None:
         """Take it that what comes is not as it was."""
         self.steps = 0
-
-
-def _greatest(numbers: Floats) -> float:
-    return float(np.abs(numbers).max(initial=0.0))

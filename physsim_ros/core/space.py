@@ -27,7 +27,7 @@ import math
 
 import numpy as np
 from physsim_ros.core import bell, rigid_body, sweep
-from physsim_ros.core.arrays import Floats
+from physsim_ros.core.arrays import Floats, greatest
 from physsim_ros.core.blows import Blows
 from physsim_ros.core.cascade import Cascade
 from physsim_ros.core.contact_memory import forget, recall, remind, ShapeIds, weaken
@@ -447,13 +447,21 @@ class Space:
         expired = self._lay_out().expiries.get(number + 1, ())
         lost: tuple[str, ...] = ()
         broken: tuple[tuple[str, float], ...] = ()
-        if self._rest.coasts(self._age, self.changes):
-            self._coast(seen=last or bool(expired))
+        coasts = self._rest.coasts(self._age, self.changes)
+        if coasts:
+            self._rest.coast(seen=last or bool(expired))
+            self._forget_state()
         else:
             # When a wrench ends, or anything lets go, what flies is told from what does not,
             # however steps are counted out.
             ends = any(rigid.wrench_until == number + 1 for rigid in self._pushed.values())
             lost, broken = self._solve(told=last or ends or bool(expired))
+        if not watching:
+            self._contacts.skip_step()
+        elif coasts:
+            self._contacts.repeat_step()
+        else:
+            self._contacts.add_step()
         self._age += 1
         for name in expired:
             if name in self.bodies:
@@ -463,15 +471,6 @@ class Space:
                 self.unjoin(name)
                 self.broken.append((name, force))
         return lost
-
-    def _coast(self, *, seen: bool) -> None:
-        """Make a step in which all go on as they did, and touch what they touched."""
-        self._rest.coast(seen=seen)
-        self._forget_state()
-        if self._watching:
-            self._contacts.repeat_step()
-        else:
-            self._contacts.skip_step()
 
     def _solve(self, *, told: bool) -> tuple[tuple[str, ...], tuple[tuple[str, float], ...]]:
         """
@@ -485,15 +484,14 @@ class Space:
         self._rest.catch_up()
         self._push_all()
         before = self._arrays.twists()
-        fastest = float(np.abs(before).max(initial=0.0))
+        fastest = greatest(before)
         # NaN compares false.
         if not fastest < LOST:
             lost = self.drop_lost()
             before = self._arrays.twists()
-            fastest = float(np.abs(before).max(initial=0.0))
+            fastest = greatest(before)
         layout = self._lay_out()
-        # What has rested since the last time has not been calmed then.
-        if self._age % self._calm_steps == 0 and self._rest.steps < self._calm_steps:
+        if self._age % self._calm_steps == 0:
             rows = [layout.rows[name] for name in self._thrown if name in layout.rows]
             self._stillness.calm(layout.ground, before, layout.order[rows])
         self._thrown.clear()
@@ -506,12 +504,7 @@ class Space:
             driven = bool(self._pushed) or self.changes != self._powerless
             self._hold(layout, before, driven=driven)
             self._powerless = self.changes
-        slow = self._is_slow(layout, before, fastest)
-        self._rest.look(before, self.changes, slow=slow)
-        if self._watching:
-            self._contacts.add_step()
-        else:
-            self._contacts.skip_step()
+        self._rest.look(before, self.changes, slow=self._is_slow(layout, before, fastest))
         broken = tuple(self.machine.broken())
         # What coasts flies, or does not, as it did in the step before.
         if told or broken or self._rest.steps:
@@ -526,7 +519,7 @@ class Space:
         limit = SLOW_IN_AIR if self._settings.damping else SLOW
         if self.machine.joints or fastest > min(limit, layout.unswept * self._dt / STRIDE):
             return False
-        return bool(layout.ground.speeds(twists).max(initial=0.0) <= limit)
+        return greatest(layout.ground.speeds(twists)) <= limit
 
     def _settle(self) -> None:
         """Let what has lost its footing fly, and what hangs on a spring not."""

@@ -302,6 +302,47 @@ def test_what_rests_stays_where_it_would_by_every_step(
     assert poses[0] == pytest.approx(poses[1], abs=1e-9)
 
 
+def into_wall(world: World, velocity: float) -> None:
+    spin = -velocity / 0.5
+    pose = 19.45, 0.5, 0.0
+    spawn(world, 'a/0', DISC, pose, velocity=(velocity, 0.0), spin=spin, elasticity=0.5)
+
+
+def into_disc(world: World, velocity: float) -> None:
+    world.apply(Configure(changes={'gravity': (0.0, 0.0)}))
+    for number, pose in enumerate([(0.0, 5.0, 0.0), (1.05, 5.2, 0.0)]):
+        twist = velocity * (number == 0), 0.0
+        spawn(world, f'a/{number}', DISC, pose, velocity=twist, friction=0.0, elasticity=1.0)
+
+
+def into_box(world: World, velocity: float) -> None:
+    world.apply(Configure(changes={'gravity': (0.0, 0.0)}))
+    for number, pose in enumerate([(0.0, 5.0, 0.0), (1.05, 5.2, 0.0)]):
+        twist = velocity * (number == 0), 0.0
+        spawn(world, f'a/{number}', BOX, pose, velocity=twist, elasticity=1.0)
+
+
+@pytest.mark.parametrize('velocity', [0.0009, 0.005, 0.0199])
+@pytest.mark.parametrize('build', [into_wall, into_disc, into_box])
+def test_what_meets_something_slowly_leaves_as_it_would_by_every_step(
+    build: Callable[[World, float], None], velocity: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    ends = []
+    for stride in (rest.STRIDE, DT):
+        monkeypatch.setattr(rest, 'STRIDE', stride)
+        world = World(settings=YARD)
+        build(world, velocity)
+        world.step(round(0.12 / velocity / DT))
+        ends.append(world.snapshot())
+
+    # It has met it.
+    assert ends[0].twists[0, 0] < 0.5 * velocity
+    assert ends[0].twists == pytest.approx(ends[1].twists, abs=1e-3 * velocity)
+    # Seen to touch so late, and so far behind on its way back.
+    late = rest.SLOW * STRIDE * DT
+    assert ends[0].poses[:, :2] == pytest.approx(ends[1].poses[:, :2], abs=2 * late)
+
+
 def test_the_same_bits_come_again_where_rest_is_disturbed(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
