@@ -1,0 +1,67 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Digests of every shipped world and drawing, which tell whether a change moves anything by a bit.
+
+``python -m test.worlds.digests`` writes them anew, into ``digests.yaml``.
+"""
+
+from pathlib import Path
+
+from physsim_ros import drawing_file
+from physsim_ros import world_file
+from physsim_ros.shipped import shipped
+from physsim_ros.core.simulation import Simulation
+from physsim_ros.drawing.pen import Pen
+from physsim_ros.drawing.settings import DrawingSettings
+import yaml
+
+from .film import simulation
+
+DIGESTS = Path(__file__).with_name('digests.yaml')
+WORLDS = sorted(path.stem for path in world_file.shipped_worlds().glob('*.yaml'))
+DRAWINGS = sorted(path.stem for path in shipped('drawings').glob('*.svg'))
+SCENES = [f'worlds/{name}' for name in WORLDS] + [f'drawings/{name}' for name in DRAWINGS]
+# Simulation time at which digests are taken [s]; the rewind goes from the last to the first.
+TIMES = (4, 10)
+
+
+def scene(name):
+    """Begin with a shipped world, or with a drawing that has been drawn while time stood."""
+    folder, _, name = name.partition('/')
+    if folder == 'worlds':
+        return simulation(name)
+    sim, pen = Simulation(speed=0.0), Pen(DrawingSettings())
+    frame = sim.advance_frame()
+    for stroke in drawing_file.load(drawing_file.find(name)):
+        for request in pen.stroke(stroke, '', frame.snapshot).requests:
+            sim.submit(request, topic='~/stroke')
+        frame = sim.settle() or frame
+    return sim
+
+
+def digest_at(sim, time):
+    """Go on to a time [s], and return the digest there."""
+    while sim.step < round(time * sim.physics_rate):
+        sim.advance_frame()
+    return sim.world.digest()
+
+
+if __name__ == '__main__':
+    found = {}
+    for each in SCENES:
+        played = scene(each)
+        found[each] = [digest_at(played, time) for time in TIMES]
+    DIGESTS.write_text(yaml.safe_dump(found), encoding='utf-8')

@@ -1,0 +1,43 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Every shipped world and drawing moves as it did, to the bit; a rewind brings it back."""
+
+import pytest
+import yaml
+
+from .digests import digest_at, DIGESTS, scene, SCENES, TIMES
+
+EXPECTED = yaml.safe_load(DIGESTS.read_text(encoding='utf-8'))
+
+
+def test_every_scene_has_digests():
+    assert sorted(EXPECTED) == sorted(SCENES)
+
+
+@pytest.mark.parametrize('name', SCENES)
+def test_it_moves_as_it_did(name):
+    sim = scene(name)
+
+    assert [digest_at(sim, time) for time in TIMES] == EXPECTED[name]
+
+
+@pytest.mark.parametrize('name', SCENES)
+def test_a_rewind_repeats_it(name):
+    sim = scene(name)
+    digest_at(sim, TIMES[-1])
+
+    sim.seek(TIMES[0] * 10**9)
+
+    assert [digest_at(sim, time) for time in TIMES] == EXPECTED[name]
