@@ -109,8 +109,8 @@ setup(
     },
     entry_points={
         'console_scripts': [
-            'physsim = physsim_ros.node:main',
-            'physsim_draw = physsim_ros.draw:main',
+            'physsim = physsim_ros.ros.node:main',
+            'physsim_draw = physsim_ros.ros.draw_cli:main',
         ],
         'pytest11': ['physsim = physsim_ros.testing'],
     },

@@ -38,7 +38,7 @@ import pytest
 if TYPE_CHECKING:
     from diagnostic_msgs.msg import DiagnosticStatus
     from geometry_msgs.msg import PointStamped
-    from physsim_ros.core.snapshot import Answer, Snapshot
+    from physsim_ros.model.snapshot import Answer, Snapshot
     from rclpy.context import Context
     from rclpy.node import Node
     from sensor_msgs.msg import MultiDOFJointState
@@ -97,7 +97,7 @@ class Refused(Exception):
 @contextmanager
 def _refusing() -> Iterator[None]:
     """Let a refusal of the world's be one to the test."""
-    from physsim_ros.core.errors import Refusal
+    from physsim_ros.model.errors import Refusal
 
     try:
         yield
@@ -114,7 +114,7 @@ class PhysSim:
     """
 
     def __init__(self, context: Context, **parameters: Any) -> None:
-        from physsim_ros.node import PhysSimNode
+        from physsim_ros.ros.node import PhysSimNode
         from rclpy.experimental import EventsExecutor
         from rclpy.parameter import Parameter
 
@@ -439,7 +439,7 @@ class _Client:
     def __init__(self, context: Context) -> None:
         from diagnostic_msgs.msg import DiagnosticStatus
         from geometry_msgs.msg import PointStamped
-        from physsim_ros.quiet_node import LOSSLESS, QuietNode
+        from physsim_ros.ros.qos_safe_node import LOSSLESS, QuietNode
         from sensor_msgs.msg import MultiDOFJointState
         from visualization_msgs.msg import Marker, MarkerArray
 

@@ -21,13 +21,19 @@ import time
 from typing import Any, NamedTuple
 
 from diagnostic_msgs.msg import DiagnosticStatus
-from physsim_ros.quiet_node import QuietNode
+from physsim_ros.ros.qos_safe_node import QuietNode
 from physsim_ros.testing import PhysSim
-from rclpy.qos import HistoryPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 from std_srvs.srv import Trigger
 
 # Ten times what discovery takes where it loses its first message [s].
 PATIENCE = 25.0
+# Of topics that keep their last message for whoever comes late.
+KEPT = QoSProfile(
+    depth=1,
+    reliability=ReliabilityPolicy.RELIABLE,
+    durability=DurabilityPolicy.TRANSIENT_LOCAL,
+)
 
 
 class Event(NamedTuple):

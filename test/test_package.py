@@ -157,8 +157,8 @@ def test_pip_installs_the_executable_and_the_pytest_plugin(installed, distributi
     points = {(point.group, point.name, point.value) for point in distribution.entry_points}
 
     assert points == {
-        ('console_scripts', 'physsim', 'physsim_ros.node:main'),
-        ('console_scripts', 'physsim_draw', 'physsim_ros.draw:main'),
+        ('console_scripts', 'physsim', 'physsim_ros.ros.node:main'),
+        ('console_scripts', 'physsim_draw', 'physsim_ros.ros.draw_cli:main'),
         ('pytest11', 'physsim', 'physsim_ros.testing'),
     }
     for program in ('physsim', 'physsim_draw'):

@@ -12,4 +12,4 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Clicks and strokes -> requests: numpy and the core only."""
+"""Clicks and strokes become requests, without ROS. Start with `session`."""

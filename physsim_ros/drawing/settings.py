@@ -18,8 +18,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from physsim_ros.core.properties import Checks, velocity, Within
-from physsim_ros.core.shapes import Color, Point, SMALLEST
+from physsim_ros.model.body_properties import Checks, velocity, Within
+from physsim_ros.model.shapes import Color, Point, SMALLEST
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

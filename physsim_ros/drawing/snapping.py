@@ -25,11 +25,11 @@ from dataclasses import dataclass
 import math
 
 import numpy as np
-from physsim_ros.core.arrays import Floats
-from physsim_ros.core.names import WORLD
-from physsim_ros.core.shapes import Capsule, Chain, Circle, Convex, Disc, Piece, Point
+from physsim_ros.drawing.scene_query import on_segment, View
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.view import on_segment, View
+from physsim_ros.model.arrays import Floats
+from physsim_ros.model.names import WORLD
+from physsim_ros.model.shapes import Capsule, Chain, Circle, Convex, Disc, Piece, Point
 
 # What so much of a circle lies on, it was drawn across the edge of.
 _ACROSS = 0.25

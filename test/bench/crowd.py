@@ -16,9 +16,9 @@
 
 import time
 
-from physsim_ros.core.requests import Configure, Spawn
-from physsim_ros.core.shapes import Disc
-from physsim_ros.core.world import World
+from physsim_ros.model.requests import Configure, Spawn
+from physsim_ros.model.shapes import Disc
+from physsim_ros.simulation.world import World
 
 FRAMES = 100
 

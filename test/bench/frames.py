@@ -34,11 +34,11 @@ import time
 from typing import NamedTuple
 
 from geometry_msgs.msg import Pose, PoseArray
-from physsim_ros.core.properties import Properties
-from physsim_ros.core.requests import Configure, Spawn
-from physsim_ros.core.shapes import Box, Disc
-from physsim_ros.core.world import World
-from physsim_ros.node import clear_the_way, PhysSimNode
+from physsim_ros.model.body_properties import Properties
+from physsim_ros.model.requests import Configure, Spawn
+from physsim_ros.model.shapes import Box, Disc
+from physsim_ros.ros.node import clear_the_way, PhysSimNode
+from physsim_ros.simulation.world import World
 from physsim_ros.testing import own_domain
 import pymunk
 import rclpy

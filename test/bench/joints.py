@@ -17,14 +17,14 @@
 import statistics
 import time
 
-from physsim_ros.core.joint_properties import JointKind
-from physsim_ros.core.properties import Properties
-from physsim_ros.core.requests import Join, Spawn
-from physsim_ros.core.shapes import Box
-from physsim_ros.core.simulation import Simulation
-from physsim_ros.core.world import World
+from physsim_ros.model.body_properties import Properties
+from physsim_ros.model.joint_properties import JointKind
+from physsim_ros.model.requests import Join, Spawn
+from physsim_ros.model.shapes import Box
+from physsim_ros.simulation.simulation import Simulation
+from physsim_ros.simulation.world import World
 
-from ..core.worlds import net
+from ..building import net
 
 STEPS = 480
 FRAMES = 180

@@ -20,7 +20,7 @@ import gc
 import random
 import statistics
 
-from physsim_ros.core.simulation import Simulation
+from physsim_ros.simulation.simulation import Simulation
 
 from .frames import fill, timed
 

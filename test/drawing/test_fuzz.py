@@ -21,13 +21,13 @@ import math
 from hypothesis import given, settings
 from hypothesis import strategies as st
 import numpy as np
-from physsim_ros.core.errors import Refusal
-from physsim_ros.core.requests import Spawn
-from physsim_ros.core.shapes import Box, Disc
-from physsim_ros.core.world import World
-from physsim_ros.drawing.pen import Pen
+from physsim_ros.drawing.clicks.tools import Tool
+from physsim_ros.drawing.session import Pen
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.tools import Tool
+from physsim_ros.model.errors import Refusal
+from physsim_ros.model.requests import Spawn
+from physsim_ros.model.shapes import Box, Disc
+from physsim_ros.simulation.world import World
 
 # Where people click: near one another and near bodies; and where only programs do.
 near = st.integers(-8, 8).map(lambda eighths: eighths / 8)

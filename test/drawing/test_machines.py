@@ -19,11 +19,11 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from physsim_ros import drawing_file
-from physsim_ros.core.arrays import Floats
-from physsim_ros.core.simulation import Simulation
-from physsim_ros.drawing.pen import Pen
+from physsim_ros.drawing.session import Pen
 from physsim_ros.drawing.settings import DrawingSettings
+from physsim_ros.files import drawing_file
+from physsim_ros.model.arrays import Floats
+from physsim_ros.simulation.simulation import Simulation
 import pytest
 
 G = 9.81

@@ -19,14 +19,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from physsim_ros.core.requests import Command, Configure, Delete, Join, Spawn
-from physsim_ros.core.settings import WorldSettings
-from physsim_ros.core.shapes import Disc, Point
-from physsim_ros.core.simulation import Simulation
-from physsim_ros.core.snapshot import Answer, Frame
-from physsim_ros.drawing.pen import Pen
+from physsim_ros.drawing.clicks.tools import Tool
+from physsim_ros.drawing.session import Pen
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.tools import Tool
+from physsim_ros.model.requests import Command, Configure, Delete, Join, Spawn
+from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.shapes import Disc, Point
+from physsim_ros.model.snapshot import Answer, Frame
+from physsim_ros.simulation.simulation import Simulation
 import pytest
 
 TICK = 1_000_000_000 // 60

@@ -26,11 +26,11 @@ import statistics
 import sys
 import time
 
-from physsim_ros.core.errors import Refusal
-from physsim_ros.drawing.reading import Meaning, read
-from physsim_ros.drawing.recogniser import recognise
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.stroke import stroke
+from physsim_ros.drawing.strokes.interpretation import Meaning, read
+from physsim_ros.drawing.strokes.recogniser import recognise
+from physsim_ros.drawing.strokes.stroke import stroke
+from physsim_ros.model.errors import Refusal
 
 from .scenes import Scene, scenes
 

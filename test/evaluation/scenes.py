@@ -25,11 +25,11 @@ from dataclasses import dataclass
 import math
 
 import numpy as np
-from physsim_ros.core.requests import Spawn
-from physsim_ros.core.shapes import Box, Disc, Shape
-from physsim_ros.core.world import World
-from physsim_ros.drawing.reading import Meaning
-from physsim_ros.drawing.view import View
+from physsim_ros.drawing.scene_query import View
+from physsim_ros.drawing.strokes.interpretation import Meaning
+from physsim_ros.model.requests import Spawn
+from physsim_ros.model.shapes import Box, Disc, Shape
+from physsim_ros.simulation.world import World
 
 from . import figures
 from .figures import Figure

@@ -17,12 +17,12 @@
 import math
 
 import numpy as np
-from physsim_ros.core.joint_properties import JointKind, JointProperties
-from physsim_ros.core.properties import Properties
-from physsim_ros.core.requests import Configure, Join, Spawn
-from physsim_ros.core.settings import WorldSettings
-from physsim_ros.core.shapes import Box
-from physsim_ros.core.simulation import Simulation
+from physsim_ros.model.body_properties import Properties
+from physsim_ros.model.joint_properties import JointKind, JointProperties
+from physsim_ros.model.requests import Configure, Join, Spawn
+from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.shapes import Box
+from physsim_ros.simulation.simulation import Simulation
 
 G = 9.81
 DT = 1 / 240

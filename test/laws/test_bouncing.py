@@ -17,7 +17,7 @@
 import math
 
 import numpy as np
-from physsim_ros.core.shapes import Box, Disc
+from physsim_ros.model.shapes import Box, Disc
 import pytest
 
 from .scenes import DT, G, NOWHERE, simulation, spawn, steps, turned, walls

@@ -18,8 +18,8 @@ import itertools
 import math
 
 import numpy as np
-from physsim_ros.core.requests import Command
-from physsim_ros.core.shapes import Box, Chain, Disc
+from physsim_ros.model.requests import Command
+from physsim_ros.model.shapes import Box, Chain, Disc
 import pytest
 
 from .scenes import (

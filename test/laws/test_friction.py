@@ -17,8 +17,8 @@
 import math
 
 import numpy as np
-from physsim_ros.core.requests import Command
-from physsim_ros.core.shapes import Box, Disc
+from physsim_ros.model.requests import Command
+from physsim_ros.model.shapes import Box, Disc
 import pytest
 
 from .scenes import floor, G, run, simulation, spawn, turned

@@ -22,10 +22,10 @@ import subprocess
 import sys
 
 import numpy as np
-from physsim_ros import world_file
-from physsim_ros.core.requests import Anchor, Command, Configure, Delete, Release, Spawn
-from physsim_ros.core.shapes import Box, Chain, Compound, Disc, Polygon
-from physsim_ros.core.simulation import Simulation
+from physsim_ros.files import world_file
+from physsim_ros.model.requests import Anchor, Command, Configure, Delete, Release, Spawn
+from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon
+from physsim_ros.simulation.simulation import Simulation
 import pytest
 
 from .scenes import floor, G, NOWHERE, run, simulation, spawn, turned, walls

@@ -17,7 +17,7 @@
 import random
 
 import numpy as np
-from physsim_ros.core.shapes import Box
+from physsim_ros.model.shapes import Box
 import pytest
 
 from .scenes import floor, run, simulation, spawn, walls

@@ -17,7 +17,7 @@
 import math
 
 import numpy as np
-from physsim_ros.core.shapes import Box, Chain, Compound, Disc, Polygon
+from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon
 import pytest
 
 from .scenes import NOWHERE, simulation, spawn, steps, turned

@@ -20,12 +20,11 @@ Digests of every shipped world and drawing, which tell whether a change moves an
 
 from pathlib import Path
 
-from physsim_ros import drawing_file
-from physsim_ros import world_file
-from physsim_ros.shipped import shipped
-from physsim_ros.core.simulation import Simulation
-from physsim_ros.drawing.pen import Pen
+from physsim_ros.drawing.session import Pen
 from physsim_ros.drawing.settings import DrawingSettings
+from physsim_ros.files import drawing_file, world_file
+from physsim_ros.files.resources import shipped
+from physsim_ros.simulation.simulation import Simulation
 import yaml
 
 from .film import simulation

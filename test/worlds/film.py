@@ -17,9 +17,9 @@
 from pathlib import Path
 
 import numpy as np
-from physsim_ros import world_file
-from physsim_ros.core.settings import WorldSettings
-from physsim_ros.core.simulation import Simulation
+from physsim_ros.files import world_file
+from physsim_ros.model.settings import WorldSettings
+from physsim_ros.simulation.simulation import Simulation
 
 G = 9.81
 RATE = 240.0

@@ -16,10 +16,10 @@
 
 from pathlib import Path
 
-from physsim_ros import world_file
-from physsim_ros.core.requests import Restore
-from physsim_ros.core.settings import WorldSettings
-from physsim_ros.core.world import World
+from physsim_ros.files import world_file
+from physsim_ros.model.requests import Restore
+from physsim_ros.model.settings import WorldSettings
+from physsim_ros.simulation.world import World
 import pytest
 
 from .film import RATE, simulation, state_of

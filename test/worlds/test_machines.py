@@ -18,7 +18,7 @@ import math
 
 import numpy as np
 from numpy.testing import assert_allclose
-from physsim_ros.core.requests import Delete
+from physsim_ros.model.requests import Delete
 import pytest
 
 from .film import Film, first, G, simulation

@@ -1,0 +1,99 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Bodies as they are drawn: geometry in the world -> the request that adds it.
+
+What is not said here, density, friction and elasticity, is the world's own default when the
+request is applied. A body's origin lies at its centre of mass.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+import math
+
+from physsim_ros.drawing.settings import DrawingSettings
+from physsim_ros.model.body_properties import Properties
+from physsim_ros.model.requests import Spawn
+from physsim_ros.model.shapes import Box, Chain, Disc, Point, Polygon, Pose, Shape
+
+
+def disc(name: str, center: Point, radius: float, settings: DrawingSettings) -> Spawn:
+    """
+    Return the request for a disc.
+
+    :raises BadSize: the radius [m] is out of range
+    """
+    return _moving(name, Disc(radius=radius), (*center, 0.0), settings)
+
+
+def rectangle(
+    name: str, center: Pose, width: float, height: float, settings: DrawingSettings
+) -> Spawn:
+    """
+    Return the request for a rectangle.
+
+    :param center: x, y [m] and the yaw of its width [rad]
+    :raises BadSize: a side [m] is out of range
+    """
+    return _moving(name, Box(width=width, height=height), center, settings)
+
+
+def polygon(name: str, corners: Sequence[Point], settings: DrawingSettings) -> Spawn:
+    """
+    Return the request for a polygon.
+
+    :param corners: in order, either way round, the first not repeated [m]
+    :raises BadOutline: they are no simple outline
+    :raises BadSize: it is too large or too thin
+    """
+    x, y = Polygon(outline=tuple(corners)).form.centroid
+    outline = tuple((corner[0] - x, corner[1] - y) for corner in corners)
+    return _moving(name, Polygon(outline=outline), (x, y, 0.0), settings)
+
+
+def wall(name: str, points: Sequence[Point], settings: DrawingSettings) -> Spawn:
+    """
+    Return the request for a wall: anchored segments; where it is one, its x axis is along it.
+
+    :param points: at least two, in order [m]
+    :raises BadOutline: they are one point
+    """
+    thickness = settings.wall_thickness
+    x, y = Chain(points=tuple(points), thickness=thickness).form.centroid
+    yaw = 0.0
+    line = tuple((point[0] - x, point[1] - y) for point in points)
+    if len(points) == 2:
+        (start, end), half = points, math.dist(*points) / 2
+        yaw = math.atan2(end[1] - start[1], end[0] - start[0])
+        line = (-half, 0.0), (half, 0.0)
+    return Spawn(
+        name=name,
+        shape=Chain(points=line, thickness=thickness),
+        pose=(x, y, yaw),
+        color=settings.draw_color,
+        properties=Properties(anchored=True),
+    )
+
+
+def _moving(name: str, shape: Shape, pose: Pose, settings: DrawingSettings) -> Spawn:
+    velocity = settings.draw_velocity
+    return Spawn(
+        name=name,
+        shape=shape,
+        pose=pose,
+        color=settings.draw_color,
+        properties=Properties(velocity=None if velocity == (0.0, 0.0) else velocity),
+    )

@@ -1,0 +1,211 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+The world as whoever draws sees it: names, what lies under a point, where it is.
+
+Law: it reads a snapshot, so drawing needs neither engine nor running time, and a picture of the
+past will do.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from functools import cached_property
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+from physsim_ros.model.arrays import Floats
+from physsim_ros.model.errors import BadProperty, UnknownFrame
+from physsim_ros.model.names import split_name
+from physsim_ros.model.scene import Body
+from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.shapes import Capsule, Circle, Convex, Piece, Point, Pose
+from physsim_ros.model.snapshot import Snapshot
+from physsim_ros.model.transform import rotated
+
+# The namespace of all that is drawn.
+DRAWN = 'drawn'
+# Nobody has drawn so much: whoever takes such a number leaves those below to what is drawn.
+_FARTHEST = 10**9
+
+
+class View:
+    """
+    A world at a moment.
+
+    :param snapshot: of the world
+    :param first: the lowest number that no drawn body has had, as far as is remembered
+    :param first_joint: the same of drawn joints
+    """
+
+    def __init__(self, snapshot: Snapshot, *, first: int = 0, first_joint: int = 0) -> None:
+        self.snapshot = snapshot
+        self._first, self._first_joint = first, first_joint
+
+    @property
+    def settings(self) -> WorldSettings:
+        """Return what holds for the whole world."""
+        return self.snapshot.scene.settings
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Return the names of all bodies, in spawn order."""
+        return self.snapshot.scene.names
+
+    def body(self, name: str) -> Body:
+        """Return what a body is."""
+        return self.snapshot.scene.bodies[self._rows[name]]
+
+    def pose(self, name: str) -> Pose:
+        """Return x, y [m] and yaw [rad] of a body's origin."""
+        x, y, yaw = self.snapshot.poses[self._rows[name]].tolist()
+        return x, y, yaw
+
+    def twist(self, name: str) -> Pose:
+        """Return vx, vy [m/s] of a body's centre of mass and its spin [rad/s], world axes."""
+        vx, vy, spin = self.snapshot.twists[self._rows[name]].tolist()
+        return vx, vy, spin
+
+    def bodies_at(self, point: Point, slack: float = 0.0) -> tuple[str, ...]:
+        """
+        Return the bodies that cover a point, topmost (that spawned last) first.
+
+        :param point: in the world [m]
+        :param slack: how far outside a body a point may lie and still count [m]
+        """
+        away = self.snapshot.centers - point
+        near = np.hypot(away[:, 0], away[:, 1]) <= self._reaches + slack
+        return tuple(
+            self.names[row]
+            for row in np.flatnonzero(near)[::-1]
+            if self._covers(row, point, slack)
+        )
+
+    def covers(self, name: str, points: Floats) -> NDArray[np.bool_]:
+        """
+        Tell which points a body covers, (k,) bool.
+
+        :param points: (k, 2) float64: in the world [m]
+        """
+        row = self._rows[name]
+        away = points - self.snapshot.centers[row]
+        hits: NDArray[np.bool_] = np.hypot(away[:, 0], away[:, 1]) <= self._reaches[row]
+        for place in np.flatnonzero(hits).tolist():
+            x, y = points[place].tolist()
+            hits[place] = self._covers(row, (x, y), 0.0)
+        return hits
+
+    def local(self, name: str, point: Point) -> Point:
+        """Return a point of the world as it is in a body's frame [m]."""
+        x, y, yaw = self.pose(name)
+        return rotated((point[0] - x, point[1] - y), -yaw)
+
+    def in_world(self, name: str, point: Point) -> Point:
+        """Return a point of a body's frame as it is in the world [m]."""
+        x, y, yaw = self.pose(name)
+        dx, dy = rotated(point, yaw)
+        return x + dx, y + dy
+
+    def placed(self, point: Point, frame: str) -> Point:
+        """
+        Return where a point lies in the world [m].
+
+        :param point: [m]
+        :param frame: of it: '' for the world, or a body's name
+        :raises UnknownFrame: there is no such body
+        """
+        if not frame:
+            return point
+        if frame not in self._rows:
+            raise UnknownFrame(
+                f'frame {frame!r} is neither the world nor a body', field='header.frame_id'
+            )
+        return self.in_world(frame, point)
+
+    def gravity_strength(self) -> float:
+        """
+        Return how strong the gravity is that is to be turned [m/s²].
+
+        :raises BadProperty: there is none
+        """
+        strength = math.hypot(*self.settings.gravity)
+        if strength == 0.0:
+            raise BadProperty(
+                'there is no gravity to turn; set the parameter gravity first', field='gravity'
+            )
+        return strength
+
+    def next_body(self) -> str:
+        """Return the name of the next body, numbered above all that are or have been drawn."""
+        return f'{DRAWN}/{max(_above(self.names), self._first)}'
+
+    def next_joint(self) -> str:
+        """Return the name of the next joint, numbered above all that are or have been drawn."""
+        names = (joint.name for joint in self.snapshot.scene.joints)
+        return f'{DRAWN}/{max(_above(names), self._first_joint)}'
+
+    @cached_property
+    def _rows(self) -> dict[str, int]:
+        return {name: row for row, name in enumerate(self.names)}
+
+    @cached_property
+    def _reaches(self) -> Floats:
+        """(n,) float64: how far each body reaches from its centre of mass [m]."""
+        return np.array([body.shape.form.outer for body in self.snapshot.scene.bodies])
+
+    def _covers(self, row: int, point: Point, slack: float) -> bool:
+        body = self.snapshot.scene.bodies[row]
+        local = self.local(body.name, point)
+        return any(_covers(piece, local, slack) for piece in body.shape.form.pieces)
+
+
+def _above(names: Iterable[str]) -> int:
+    """Return the lowest number above all that drawn things among these have."""
+    numbers = (split_name(name) for name in names)
+    drawn = (id_ for space, id_ in numbers if space == DRAWN and id_ < _FARTHEST)
+    return 1 + max(drawn, default=-1)
+
+
+def _covers(piece: Piece, point: Point, slack: float) -> bool:
+    """Tell whether a convex piece covers a point, or lies as near to it as the slack."""
+    match piece:
+        case Circle(center, radius):
+            return math.dist(center, point) <= radius + slack
+        case Capsule(start, end, radius):
+            return math.dist(point, on_segment(start, end, point)) <= radius + slack
+        case Convex(vertices):
+            sides = list(zip(vertices, (*vertices[1:], vertices[0]), strict=True))
+            if all(_left_of(start, end, point) for start, end in sides):
+                return True
+            return (
+                slack > 0
+                and min(math.dist(point, on_segment(*side, point)) for side in sides) <= slack
+            )
+
+
+def _left_of(start: Point, end: Point, point: Point) -> bool:
+    turn = (end[0] - start[0]) * (point[1] - start[1]) - (end[1] - start[1]) * (
+        point[0] - start[0]
+    )
+    return turn >= 0
+
+
+def on_segment(start: Point, end: Point, point: Point) -> Point:
+    """Return the point of a segment that is nearest to a point."""
+    along = end[0] - start[0], end[1] - start[1]
+    dot = (point[0] - start[0]) * along[0] + (point[1] - start[1]) * along[1]
+    share = min(max(dot / max(along[0] ** 2 + along[1] ** 2, 1e-24), 0.0), 1.0)
+    return start[0] + share * along[0], start[1] + share * along[1]

@@ -1,0 +1,162 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+What a person meant by what they drew: right angles, level lines, equal sides.
+
+Law: a tolerance says how far from regular is still meant so: an angle [rad], or a share of a
+length. With a tolerance of 0 everything stays as it is.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from physsim_ros.drawing.strokes import fitting
+from physsim_ros.model.arrays import Floats
+from physsim_ros.model.polygon import cross, crosses_itself
+from physsim_ros.model.shapes import Pose
+
+
+def rectangle(corners: Floats, tolerance: float) -> tuple[Pose, float, float]:
+    """
+    Return the rectangle that four corners mean.
+
+    :return: its centre and the yaw of its width, -π/4 .. π/4; its width and height [m]
+    """
+    nearest = fitting.rectangle(corners)
+    side, other = nearest[1] - nearest[0], nearest[2] - nearest[1]
+    angle = math.atan2(side[1], side[0])
+    width, height = float(np.hypot(*side)), float(np.hypot(*other))
+    quarters = round(angle / (math.pi / 2))
+    yaw = angle - quarters * math.pi / 2
+    if quarters % 2:
+        width, height = height, width
+    if abs(yaw) <= tolerance:
+        yaw = 0.0
+    if abs(width - height) <= tolerance * max(width, height):
+        width = height = math.sqrt(width * height)
+    x, y = nearest.mean(axis=0).tolist()
+    return (x, y, yaw), width, height
+
+
+def polygon_outline(corners: Floats, tolerance: float) -> Floats:
+    """Return the outline that corners mean: regular if it may be, else with straight angles."""
+    if tolerance == 0.0:
+        return corners
+    regular = _regular(corners, tolerance)
+    if regular is not None:
+        return regular
+    straightened = _squared(corners, tolerance)
+    if len(corners) == 3 and not _has_right_angle(straightened):
+        straightened = _isosceles(straightened, tolerance)
+    # What folds over was not meant.
+    return corners if crosses_itself(straightened) else straightened
+
+
+def line(points: Floats, tolerance: float) -> Floats:
+    """Return the line that ends and bends mean: sides level and upright where they nearly are."""
+    made = points.copy()
+    sides = np.diff(points, axis=0)
+    for axis in (0, 1):
+        # Sides that hardly change in an axis do not change in it at all.
+        still = np.abs(sides[:, axis]) <= math.sin(tolerance) * np.hypot(*sides.T)
+        first = 0
+        while first < len(still):
+            last = first
+            while last < len(still) and still[last]:
+                last += 1
+            if last > first:
+                run = slice(first, last + 1)
+                made[run, axis] = points[run, axis].mean()
+            first = last + 1
+    return made if tolerance > 0 else points
+
+
+def _regular(corners: Floats, tolerance: float) -> Floats | None:
+    """Return the regular polygon that corners mean, if they do."""
+    count = len(corners)
+    middle = corners.mean(axis=0)
+    away = corners - middle
+    radii = np.hypot(*away.T)
+    angles = np.arctan2(away[:, 1], away[:, 0])
+    turn = 2 * math.pi / count
+    if cross(away, np.roll(away, -1, axis=0)).sum() < 0:
+        turn = -turn
+    # Each corner says where the first one lies.
+    firsts = np.exp(1j * (angles - turn * np.arange(count)))
+    first = float(np.angle(firsts.sum()))
+    off = np.abs(np.angle(firsts * np.exp(-1j * first)))
+    if off.max() > tolerance or np.ptp(radii) > 2 * tolerance * radii.mean():
+        return None
+    # A side that is nearly level or upright is so.
+    normals = first + turn * (np.arange(count) + 0.5)
+    slants = normals - np.round(normals / (math.pi / 2)) * math.pi / 2
+    slant = float(slants[np.abs(slants).argmin()])
+    if abs(slant) <= tolerance:
+        first -= slant
+    places = first + turn * np.arange(count)
+    regular: Floats = middle + radii.mean() * np.column_stack((np.cos(places), np.sin(places)))
+    return regular
+
+
+def _squared(corners: Floats, tolerance: float) -> Floats:
+    """Return corners whose sides run level, upright, or at right angles where they nearly do."""
+    following = np.roll(corners, -1, axis=0)
+    sides = following - corners
+    angles = np.arctan2(sides[:, 1], sides[:, 0])
+    lengths = np.hypot(*sides.T)
+    # The direction that most of the way has, quarter turns left out.
+    base = float(np.angle((lengths**2 * np.exp(4j * angles)).sum())) / 4
+    if abs(base) <= tolerance:
+        base = 0.0
+    for grid in (base, 0.0):
+        slants = angles - grid
+        slants -= np.round(slants / (math.pi / 2)) * math.pi / 2
+        angles = np.where(np.abs(slants) <= tolerance, angles - slants, angles)
+    middles = (corners + following) / 2
+    along = np.column_stack((np.cos(angles), np.sin(angles)))
+    made = corners.copy()
+    for corner in range(len(corners)):
+        (p, u), (q, v) = ((middles[side], along[side]) for side in (corner - 1, corner))
+        sine = float(cross(u, v))
+        # Nearly parallel lines meet anywhere.
+        if abs(sine) > 0.3:
+            made[corner] = p + u * (float(cross(q - p, v)) / sine)
+    moved = np.hypot(*(made - corners).T)
+    return made if moved.max() <= tolerance * lengths.mean() + 1e-12 else corners
+
+
+def _has_right_angle(corners: Floats) -> bool:
+    sides = np.roll(corners, -1, axis=0) - corners
+    lengths = np.hypot(*sides.T)
+    cosines = (sides * np.roll(sides, 1, axis=0)).sum(axis=1) / (lengths * np.roll(lengths, 1))
+    return bool(np.abs(cosines).min() < 1e-9)
+
+
+def _isosceles(corners: Floats, tolerance: float) -> Floats:
+    """Return a triangle whose two sides are equal where two nearly are."""
+    sides = np.hypot(*(np.roll(corners, -1, axis=0) - corners).T)
+    # How much the two sides at each corner differ.
+    ahead, behind = sides, np.roll(sides, 1)
+    apart = np.abs(ahead - behind) / np.maximum(ahead, behind)
+    apex = int(apart.argmin())
+    if apart[apex] > tolerance:
+        return corners
+    base = corners[[apex - 1, (apex + 1) % 3]]
+    along = (base[1] - base[0]) / np.hypot(*(base[1] - base[0]))
+    made = corners.copy()
+    made[apex] -= along * float((corners[apex] - base.mean(axis=0)) @ along)
+    return made

@@ -1,0 +1,62 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The walls of `bounds`, which close a world off on all four sides."""
+
+from __future__ import annotations
+
+import math
+
+from physsim_ros.engine.warm_start import ShapeIds
+from physsim_ros.model.settings import WorldSettings
+import pymunk
+
+# Thickness [m]: what is squeezed into one still finds its way back in.
+THICKNESS = 10.0
+
+
+class Walls:
+    """
+    Stands walls around a space.
+
+    :param space: that they are in, on its static body
+    :param shapes: numbers of its shapes
+
+    :ivar first: number of the first wall
+    """
+
+    def __init__(self, space: pymunk.Space, shapes: ShapeIds) -> None:
+        self.first = 0
+        self._space = space
+        self._shapes = shapes
+        self._walls: list[pymunk.Shape] = []
+
+    def follow(self, settings: WorldSettings) -> None:
+        """Put up walls as the settings of the world have them, in place of those that stand."""
+        self._shapes.remove(self._walls)
+        self._walls = []
+        if settings.bounds is None:
+            return
+        left, bottom, right, top = settings.bounds
+        for box in (
+            pymunk.BB(left - THICKNESS, bottom - THICKNESS, left, top + THICKNESS),
+            pymunk.BB(right, bottom - THICKNESS, right + THICKNESS, top + THICKNESS),
+            pymunk.BB(left - THICKNESS, bottom - THICKNESS, right + THICKNESS, bottom),
+            pymunk.BB(left - THICKNESS, top, right + THICKNESS, top + THICKNESS),
+        ):
+            wall = pymunk.Poly.create_box_bb(self._space.static_body, box)
+            wall.friction = math.sqrt(settings.friction)
+            wall.elasticity = math.sqrt(settings.elasticity)
+            self._walls.append(wall)
+        self.first = self._shapes.add(self._walls)

@@ -1,0 +1,215 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+What the engine remembers of contacts: the impulses from which its next step starts.
+
+A space built anew from poses and velocities alone has forgotten them, and what rests stirs until
+the solver has found them again. Pymunk has no public way to read or give them; this goes the way
+of its own pickling, through the structures of its binding.
+
+Law: two spaces built from one memory go on alike to the bit.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from physsim_ros.model.arrays import Ints
+from physsim_ros.model.checkpoint import ContactMemory
+import pymunk
+from pymunk._chipmunk_cffi import ffi, lib
+
+# ruff: noqa: SLF001
+
+# What is read and written of the engine's contact point: what it tells the points of a pair apart
+# by, and its impulses along and across the normal.
+_POINT = np.dtype(
+    {
+        'names': ['hash', 'jnAcc', 'jtAcc'],
+        'formats': [np.uint64, np.float64, np.float64],
+        'offsets': [ffi.offsetof('struct cpContact', each) for each in ('hash', 'jnAcc', 'jtAcc')],
+        'itemsize': ffi.sizeof('struct cpContact'),
+    }
+)
+
+
+class ShapeIds:
+    """
+    The engine's numbers of the shapes in a space: its contacts know them by these.
+
+    :param space: where they are
+    """
+
+    def __init__(self, space: pymunk.Space) -> None:
+        self._space = space
+        self._numbers: dict[Any, int] = {}
+
+    @property
+    def following(self) -> int:
+        """Return the number that the next shape gets."""
+        number: int = lib.cpSpaceGetShapeIDCounter(self._space._space)
+        return number
+
+    @following.setter
+    def following(self, number: int) -> None:
+        lib.cpSpaceSetShapeIDCounter(self._space._space, number)
+
+    def add(self, shapes: Collection[pymunk.Shape]) -> int:
+        """Add shapes to the space, and return the number of the first."""
+        first = self.following
+        self._space.add(*shapes)
+        for number, shape in enumerate(shapes, first):
+            self._numbers[shape._shape] = number
+        return first
+
+    def put_back(self, numbered: Iterable[tuple[int, Collection[pymunk.Shape]]]) -> None:
+        """Add shapes under the numbers that they had: those of the first of each collection."""
+        # As many at once as follow one another, since each call costs as much as two shapes.
+        run: list[pymunk.Shape] = []
+        following = self.following
+        for first, shapes in numbered:
+            if first != following:
+                self.add(run)
+                run, self.following = [], first
+            run += shapes
+            following = first + len(shapes)
+        self.add(run)
+
+    def remove(self, shapes: Iterable[pymunk.Shape]) -> None:
+        """Remove shapes from the space."""
+        for shape in shapes:
+            del self._numbers[shape._shape]
+        self._space.remove(*shapes)
+
+    def contacts(self) -> _Points:
+        """Return the contact points of the last step."""
+        arbiters = self._space._get_arbiters()
+        numbers = [(self._numbers[each.a], self._numbers[each.b]) for each in arbiters]
+        # The lesser one first, whichever way round the engine has a pair.
+        pairs = np.sort(np.array(numbers, dtype=np.int64).reshape(-1, 2), axis=1)
+        blocks = [ffi.buffer(each.contacts, each.count * _POINT.itemsize) for each in arbiters]
+        counts = [each.count for each in arbiters]
+        points = np.frombuffer(bytearray().join(blocks), dtype=_POINT)
+        return _Points(blocks, np.repeat(pairs, counts, axis=0), points)
+
+
+class _Points(NamedTuple):
+    """
+    Contact points, as the engine lists them.
+
+    :param blocks: the engine's own memory of the points of each pair
+    :param pairs: (k, 2) int64: numbers of the two shapes, the lesser first
+    :param points: (k,): a copy of that memory
+    """
+
+    blocks: list[Any]
+    pairs: Ints
+    points: NDArray[Any]
+
+    def scale(self, share: float) -> None:
+        """Make all impulses so many times as great."""
+        for impulse in ('jnAcc', 'jtAcc'):
+            self.points[impulse] *= share
+
+    def forget(self, numbers: Ints) -> None:
+        """Set to nothing what shapes of some numbers give and get."""
+        parted = np.isin(self.pairs, numbers).any(axis=1)
+        for impulse in ('jnAcc', 'jtAcc'):
+            self.points[impulse][parted] = 0.0
+
+    def write(self) -> None:
+        """Hand the points back to the engine."""
+        data, begin = self.points.tobytes(), 0
+        for block in self.blocks:
+            end = begin + len(block)
+            block[:] = data[begin:end]
+            begin = end
+
+
+def weaken(shapes: ShapeIds, share: float) -> None:
+    """Let the engine start its next step from a share of what it remembers."""
+    found = shapes.contacts()
+    found.scale(share)
+    found.write()
+
+
+def forget(shapes: ShapeIds, numbers: Ints) -> None:
+    """Let the engine forget what shapes of some numbers give and get."""
+    found = shapes.contacts()
+    found.forget(numbers)
+    found.write()
+
+
+def recall(shapes: ShapeIds, ids: Sequence[int], walls: int, *, forgotten: Ints) -> ContactMemory:
+    """
+    Return what a space remembers.
+
+    :param shapes: in the space
+    :param ids: number of the first shape of each body, in spawn order
+    :param walls: number of the first wall
+    :param forgotten: numbers of the shapes of which nothing is remembered
+    """
+    found = shapes.contacts()
+    found.forget(forgotten)
+    _, pairs, points = found
+    # The engine lists by address, which is never the same twice.
+    order = np.lexsort((points['hash'], pairs[:, 1], pairs[:, 0]))
+    points = points[order]
+    return ContactMemory(
+        ids=np.array(ids, dtype=np.int64),
+        walls=walls,
+        following=shapes.following,
+        pairs=pairs[order],
+        hashes=points['hash'].copy(),
+        impulses=np.column_stack((points['jnAcc'], points['jtAcc'])),
+    )
+
+
+def remind(space: pymunk.Space, shapes: ShapeIds, memory: ContactMemory, dt: float) -> None:
+    """
+    Give a space that has not stepped yet what another one remembered.
+
+    :param space: its bodies where they were, and without velocities, which are spoiled
+    :param shapes: in it, under the numbers that they had
+    :param dt: of its steps [s]
+    """
+    # A step in which nothing moves and nothing is pushed apart has the engine find the contacts.
+    gravity, iterations, bias = space.gravity, space.iterations, space.collision_bias
+    space.gravity, space.iterations, space.collision_bias = (0.0, 0.0), 1, 1.0
+    space.step(dt)
+    space.gravity, space.iterations, space.collision_bias = gravity, iterations, bias
+    found = shapes.contacts()
+    known, now = _same(memory, found)
+    impulses = np.zeros((len(found.points), 2))
+    impulses[now] = memory.impulses[known]
+    found.points['jnAcc'], found.points['jtAcc'] = impulses.T
+    found.write()
+    shapes.following = memory.following
+
+
+def _same(memory: ContactMemory, found: _Points) -> tuple[Ints, Ints]:
+    """Return the rows of the points that are in both, in the one and in the other."""
+    pairs = np.concatenate((memory.pairs, found.pairs))
+    hashes = np.concatenate((memory.hashes, found.points['hash']))
+    # The same points come to lie side by side, the remembered one first.
+    order = np.lexsort((hashes, pairs[:, 1], pairs[:, 0]))
+    pairs, hashes = pairs[order], hashes[order]
+    one, other, known = order[:-1], order[1:], len(memory.hashes)
+    twin = (pairs[1:] == pairs[:-1]).all(axis=1) & (hashes[1:] == hashes[:-1])
+    twin &= (one < known) & (other >= known)
+    return one[twin], other[twin] - known

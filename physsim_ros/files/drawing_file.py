@@ -1,0 +1,212 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Drawings -> strokes: SVG files as editors write them, and JSON, as a pen would draw them.
+
+Laws: what a browser shows is what is drawn, one stroke for every run of the pen, in the order of
+the file. Corners stay; between them a pen of constant speed is sampled.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+import json
+import math
+from pathlib import Path
+from typing import Any
+from xml.etree.ElementTree import ParseError
+
+import numpy as np
+from numpy.typing import NDArray
+from physsim_ros.files.resources import is_plain, shipped
+from physsim_ros.model.arrays import Floats
+from physsim_ros.model.errors import PhysSimError
+from physsim_ros.model.requests import FARTHEST
+from physsim_ros.model.settings import MOST_SAMPLES
+from svgelements import Curve, Matrix, Shape, SVG
+from svgelements import Path as SvgPath
+
+# Metres for a user unit of SVG: a page of 1600 by 1000 is a world of 16 m by 10 m.
+SVG_SCALE = 0.01
+# A Bézier or an arc is cut into so many straight pieces before it is sampled.
+_PIECES = 64
+# What turns more at a point has a corner there [rad].
+_CORNER = 0.2
+# Small things are drawn more slowly: no stroke has fewer samples.
+_FEWEST = 30
+# No pen takes longer for a stroke [s]: four months.
+_LONGEST = 1e7
+# What svgelements 1.9 raises where an element or an attribute is not as it should be.
+_STUMBLES = (ArithmeticError, AttributeError, LookupError, TypeError)
+
+
+class BadDrawing(PhysSimError):
+    """A drawing that cannot be read."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Pace:
+    """
+    How the pen goes.
+
+    :param speed: [m/s]
+    :param rate: samples a second [Hz]
+    """
+
+    speed: float = 4.0
+    rate: float = 100.0
+
+
+def find(name: str) -> Path:
+    """
+    Return the file that a path, or the plain name of a shipped drawing, means.
+
+    :raises BadDrawing: there is none
+    """
+    paths = [Path(name)]
+    if is_plain(name):
+        paths += [shipped('drawings') / f'{name}{suffix}' for suffix in ('.svg', '.json')]
+    for path in paths:
+        if path.is_file():
+            return path
+    raise BadDrawing(f'there is no drawing {name!r}')
+
+
+def load(path: Path, *, scale: float | None = None, pace: Pace | None = None) -> list[Floats]:
+    """
+    Read the strokes of a drawing.
+
+    :param path: of an SVG file, its page's lower left corner the origin and y turned up; or of
+        JSON, a list of strokes, each a list of [x, y] or of [x, y, t], y up
+    :param scale: metres for a unit of the file; None is 0.01 for SVG and 1 for JSON
+    :param pace: of the pen; strokes that have times keep those
+    :return: (n, 3) float64 each: x, y [m] and time from the first sample [s]
+    :raises BadDrawing: it cannot be read, or holds no stroke
+    """
+    try:
+        if path.suffix == '.json':
+            lines = _from_json(json.loads(path.read_text(encoding='utf-8')))
+            unit = 1.0
+        else:
+            lines = _from_svg(path)
+            unit = SVG_SCALE
+    except (OSError, ValueError, ParseError) as error:
+        raise BadDrawing(f'cannot read {path}: {error}') from error
+    except RecursionError as error:
+        raise BadDrawing(f'cannot read {path}: it is nested too deeply, or in itself') from error
+    factor = unit if scale is None else scale
+    # What overflows is refused.
+    with np.errstate(over='ignore'):
+        drawn = [_drawn(line, factor, pace or Pace()) for line in lines if len(line)]
+    strokes = [stroke for stroke in drawn if len(stroke)]
+    if not strokes:
+        raise BadDrawing(f'{path} holds no stroke')
+    if not all((np.abs(stroke[:, 2]) <= _LONGEST).all() for stroke in strokes):
+        raise BadDrawing(f'a stroke takes longer than {_LONGEST:g} s')
+    return strokes
+
+
+def _from_json(content: Any) -> list[Floats]:
+    """Return (n, 2) or (n, 3) float64: x, y, and time where it is given."""
+    if isinstance(content, dict):
+        content = content.get('strokes')
+    if not isinstance(content, list):
+        raise BadDrawing('the file must hold a list of strokes')
+    lines = []
+    for number, entry in enumerate(content):
+        try:
+            line = np.array(entry, dtype=np.float64)
+        except (OverflowError, TypeError, ValueError) as error:
+            raise BadDrawing(f'stroke {number} is no list of points') from error
+        if line.ndim != 2 or line.shape[1] not in (2, 3) or not np.isfinite(line).all():
+            raise BadDrawing(f'stroke {number} must be a list of [x, y] or of [x, y, t]')
+        if (line[:, :2] == line[0, :2]).all():
+            raise BadDrawing(f'stroke {number} is a single point')
+        lines.append(line)
+    return lines
+
+
+def _from_svg(path: Path) -> list[Floats]:
+    """Return (n, 2) float64 of every subpath: x, y in user units of the page, y up."""
+    try:
+        page = SVG.parse(str(path))
+        if not isinstance(page, SVG):
+            raise BadDrawing(f'{path} is no SVG')
+        return _runs(page)
+    except _STUMBLES as error:
+        raise BadDrawing(f'cannot read {path}: an element is not as it should be') from error
+
+
+def _runs(page: SVG) -> list[Floats]:
+    # To pixels, where a page says how large a user unit is; the scale here is one of those.
+    to_units = ~Matrix(page.viewbox_transform)
+    left, bottom = 0.0, 0.0
+    if page.viewbox is not None:
+        left, bottom = page.viewbox.x, page.viewbox.y + page.viewbox.height
+    elif 'height' in page.values['attributes']:
+        bottom = page.height
+    lines = []
+    for element in page.elements():
+        if isinstance(element, Shape):
+            whole = abs(SvgPath(element) * to_units)
+            for run in whole.as_subpaths():
+                points = np.array(list(_corners(run)), dtype=np.float64).reshape(-1, 2)
+                lines.append(np.column_stack((points[:, 0] - left, bottom - points[:, 1])))
+    return lines
+
+
+def _corners(run: Iterable[Any]) -> Iterable[tuple[float, float]]:
+    """Yield the points of a run of the pen: ends of its segments, and along its curves."""
+    for segment in run:
+        if isinstance(segment, Curve):
+            for piece in range(1, _PIECES):
+                point = segment.point(piece / _PIECES)
+                yield point.x, point.y
+        # What is closed before it has begun ends nowhere.
+        if segment.end is not None:
+            yield segment.end.x, segment.end.y
+
+
+def _drawn(line: Floats, scale: float, pace: Pace) -> Floats:
+    """Return a line as the pen draws it: (n, 3) float64, x, y [m], time [s]."""
+    points = line[:, :2] * scale
+    if not (np.abs(points) <= FARTHEST).all():
+        raise BadDrawing(f'a stroke reaches further than {FARTHEST:g} m')
+    if line.shape[1] == 3:
+        return np.column_stack((points, line[:, 2] - line[0, 2]))
+    steps = np.hypot(*np.diff(points, axis=0).T)
+    kept = np.concatenate(((True,), steps > 0.0))
+    points, steps = points[kept], steps[steps > 0.0]
+    if len(points) < 2:
+        return np.empty((0, 3))
+    reached = np.concatenate(((0.0,), np.cumsum(steps)))
+    length = float(reached[-1])
+    # With the corners they are not more than a stroke may have.
+    count = math.ceil(min(length / pace.speed * pace.rate, MOST_SAMPLES // 2))
+    count = max(count, _FEWEST)
+    corners = reached[_turns(points)][: MOST_SAMPLES // 3]
+    along = np.union1d(np.linspace(0.0, length, count + 1), corners)
+    x = np.interp(along, reached, points[:, 0])
+    y = np.interp(along, reached, points[:, 1])
+    return np.column_stack((x, y, along / pace.speed))
+
+
+def _turns(points: Floats) -> NDArray[np.bool_]:
+    """Return (n,) bool: where a line turns so much that it is a corner, and no part of a curve."""
+    steps = np.diff(points, axis=0)
+    headings = np.arctan2(steps[:, 1], steps[:, 0])
+    turns = np.abs((np.diff(headings) + math.pi) % math.tau - math.pi)
+    return np.concatenate(((False,), turns > _CORNER, (False,)))

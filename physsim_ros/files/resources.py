@@ -1,0 +1,42 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Where the files that come with the package are, in its source tree or installed; their names."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+import sys
+
+
+def shipped(folder: str) -> Path:
+    """
+    Return the directory of what comes with the package.
+
+    :param folder: below its `config`
+    """
+    source = Path(__file__).resolve().parents[2] / 'config' / folder
+    if source.is_dir():
+        return source
+    for prefix in (*os.environ.get('AMENT_PREFIX_PATH', '').split(os.pathsep), sys.prefix):
+        installed = Path(prefix) / 'share' / 'physsim_ros' / 'config' / folder
+        if prefix and installed.is_dir():
+            return installed
+    return source
+
+
+def is_plain(name: str) -> bool:
+    """Tell whether a name is a plain one, which shipped files have, and no path of a file."""
+    return Path(name).name == name and not Path(name).suffix

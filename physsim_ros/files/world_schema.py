@@ -1,0 +1,54 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The keys of world files that are those of the core's own classes."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+
+from physsim_ros.model.body_properties import Properties
+from physsim_ros.model.checkpoint import ContactMemory
+from physsim_ros.model.settings import WorldSettings
+
+FORMAT = 1
+# How many bodies a world may hold is the node's own protection, not the file's to lift.
+SETTINGS = [each.name for each in fields(WorldSettings) if each.name != 'max_bodies']
+PROPERTIES = [each.name for each in fields(Properties)]
+MEMORY = [each.name for each in fields(ContactMemory)]
+# Parameters of the node, and so of no world.
+PARAMETERS = frozenset(
+    {
+        'beautify',
+        'draw_color',
+        'draw_velocity',
+        'fast_speed',
+        'frame_id',
+        'history',
+        'max_bodies',
+        'physics_rate',
+        'publish_clock',
+        'publish_rate',
+        'record_file',
+        'sketch_confidence',
+        'snap',
+        'speed',
+        'tool',
+        'viewer',
+        'viewer_url',
+        'wall_thickness',
+        'world_dir',
+        'world_file',
+    }
+)

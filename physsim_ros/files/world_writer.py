@@ -1,0 +1,150 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""YAML text from the state of a world, with the numbers that only the node writes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from physsim_ros.files.base64_array import pack
+from physsim_ros.files.world_schema import FORMAT, MEMORY, SETTINGS
+from physsim_ros.model.checkpoint import BodyState, ContactMemory, WorldState
+from physsim_ros.model.colors import color_from
+from physsim_ros.model.scene import Joint
+from physsim_ros.model.shapes import (
+    Box,
+    Chain,
+    Color,
+    Compound,
+    Disc,
+    Polygon,
+    Pose,
+    Shape,
+    Triangles,
+)
+from physsim_ros.simulation.joint_requests import drawn_points
+import yaml
+
+
+def text_of(state: WorldState, physics_rate: float) -> str:
+    """
+    Return what a file says of a world, one line a body.
+
+    :param state: of the world
+    :param physics_rate: of it [Hz]
+    """
+    lines = [f'format: {FORMAT}\n']
+    for key in SETTINGS:
+        value = getattr(state.settings, key)
+        lines.append(f'{key}: {_flow(_lists(value) if value is not None else [])}\n')
+    lines.append('bodies:\n' if state.bodies else 'bodies: []\n')
+    lines += [f'  - {_flow(_entry(body, physics_rate))}\n' for body in state.bodies]
+    if state.joints:
+        poses = {body.body.name: body.pose for body in state.bodies}
+        lines.append('joints:\n')
+        lines += [f'  - {_flow(_joint_entry(joint, poses))}\n' for joint in state.joints]
+    if state.memory is not None:
+        lines.append(
+            '# What the engine remembers of contacts: not to be edited, but may be deleted.\n'
+        )
+        lines.append(f'memory: {_flow(_memory_entry(state.memory))}\n')
+    return ''.join(lines)
+
+
+def _flow(value: object) -> str:
+    text: str = yaml.dump(
+        value,
+        Dumper=yaml.CSafeDumper,
+        default_flow_style=True,
+        sort_keys=False,
+        # However long a line is.
+        width=-1,
+        allow_unicode=True,
+    )
+    return text.removesuffix('\n').removesuffix('\n...')
+
+
+def _lists(value: object) -> object:
+    return [_lists(each) for each in value] if isinstance(value, tuple) else value
+
+
+def _entry(state: BodyState, physics_rate: float) -> dict[str, object]:
+    body = state.body
+    entry: dict[str, object] = {
+        'name': body.name,
+        **_shape_entry(body.shape),
+        'at': list(state.pose),
+        'color': _color_entry(body.color),
+    }
+    entry |= {'density': body.density} if body.mass is None else {'mass': body.mass}
+    entry |= {'friction': body.friction, 'elasticity': body.elasticity}
+    if not body.anchored:
+        entry |= {'velocity': list(state.twist[:2]), 'spin': state.twist[2]}
+    for flag in ('anchored', 'kinematic', 'sensor'):
+        if getattr(body, flag):
+            entry[flag] = True
+    if body.group:
+        entry['group'] = body.group
+    if body.expires is not None:
+        entry['lifetime'] = body.expires / physics_rate
+    if state.wrench != (0.0, 0.0, 0.0):
+        steps = state.wrench_steps
+        entry['wrench'] = {
+            'force': list(state.wrench[:2]),
+            'torque': state.wrench[2],
+            'seconds': None if steps is None else steps / physics_rate,
+        }
+    if state.motion is not None:
+        entry['motion'] = [*state.motion[:6], state.motion.free]
+    return entry
+
+
+def _joint_entry(joint: Joint, poses: Mapping[str, Pose]) -> dict[str, object]:
+    points = drawn_points(joint, poses)
+    entry: dict[str, object] = {'name': joint.name, 'kind': str(joint.kind)}
+    entry |= {'a': joint.a, 'b': joint.b, 'points': [list(point) for point in points]}
+    return entry | joint.properties.said() | {'seat': list(joint.seat)}
+
+
+def _memory_entry(memory: ContactMemory) -> dict[str, object]:
+    values = {key: getattr(memory, key) for key in MEMORY}
+    return {
+        key: pack(value) if isinstance(value, np.ndarray) else value
+        for key, value in values.items()
+    }
+
+
+def _shape_entry(shape: Shape) -> dict[str, object]:
+    match shape:
+        case Disc(radius=radius):
+            return {'circle': {'radius': radius}}
+        case Box(width=width, height=height):
+            return {'box': {'width': width, 'height': height}}
+        case Polygon(outline=outline):
+            return {'polygon': _lists(outline)}
+        case Triangles(vertices=vertices):
+            return {'triangles': _lists(vertices)}
+        case Chain(points=points, thickness=thickness):
+            return {'chain': {'points': _lists(points), 'thickness': thickness}}
+        case Compound(element=element, centers=centers):
+            return {'compound': {**_shape_entry(element), 'centers': _lists(centers)}}
+
+
+def _color_entry(color: Color) -> object:
+    """Return '#rrggbb' where that is exact, else the four numbers."""
+    channels = bytes(round(channel * 255) for channel in color)
+    text = '#' + channels[: 3 if channels[3] == 255 else 4].hex()
+    return text if color_from(text) == color else list(color)

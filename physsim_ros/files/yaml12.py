@@ -1,0 +1,149 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""YAML as other people write it: numbers as in YAML 1.2 (1e5 is one), no dates, no tags."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+import re
+from typing import Any, ClassVar
+
+from physsim_ros.model.errors import Malformed
+import yaml
+from yaml.composer import Composer
+
+_TAG = 'tag:yaml.org,2002:'
+
+
+class _Loader(Composer, yaml.CSafeLoader):
+    """
+    The safe loader with the types of the YAML 1.2 core schema, and keys that come once.
+
+    It reads by libyaml, in a quarter of the time, but composes in Python: libyaml's own composer
+    overflows the stack where brackets are nested by tens of thousands.
+
+    PyYAML's own constructors raise whatever Python raises at a tag that does not fit, as in
+    `!!bool maybe`; these raise its own errors, and there are no others.
+    """
+
+    yaml_implicit_resolvers: dict[str, list[tuple[str, re.Pattern[str]]]] = {}  # noqa: RUF012
+    yaml_constructors: ClassVar[dict[Any, Callable[..., Any]]] = {
+        None: yaml.SafeLoader.construct_undefined,
+        _TAG + 'map': yaml.SafeLoader.construct_yaml_map,
+        _TAG + 'seq': yaml.SafeLoader.construct_yaml_seq,
+    }
+
+    def __init__(self, stream: str) -> None:
+        yaml.CSafeLoader.__init__(self, stream)
+        Composer.__init__(self)
+
+    def flatten_mapping(self, node: yaml.MappingNode) -> None:
+        """Merge no mappings: YAML 1.2 knows no such key, and nested merges fill the memory."""
+
+    def construct_mapping(
+        self,
+        node: yaml.MappingNode,
+        deep: bool = False,  # noqa: FBT001, FBT002 - PyYAML's own
+    ) -> dict[Any, Any]:
+        """Return the mapping, unless a key comes twice."""
+        entries = node.value if isinstance(node, yaml.MappingNode) else ()
+        keys = set()
+        for key in (key for key, _ in entries if isinstance(key, yaml.ScalarNode)):
+            if key.value in keys:
+                raise yaml.constructor.ConstructorError(
+                    None, None, f'{key.value} comes twice', key.start_mark
+                )
+            keys.add(key.value)
+        return super().construct_mapping(node, deep)
+
+
+def _bool(text: str) -> bool:
+    if text.lower() not in ('true', 'false'):
+        raise ValueError(f'{text} is not true or false')
+    return text.lower() == 'true'
+
+
+def _float(text: str) -> float:
+    return float(text.replace('.', '') if text.lower().endswith(('.inf', '.nan')) else text)
+
+
+def _scalar(make: Callable[[str], object]) -> Callable[[_Loader, yaml.ScalarNode], object]:
+    def construct(loader: _Loader, node: yaml.ScalarNode) -> object:
+        try:
+            return make(str(loader.construct_scalar(node)))
+        except ValueError as error:
+            raise yaml.constructor.ConstructorError(
+                None, None, str(error), node.start_mark
+            ) from error
+
+    return construct
+
+
+for _name, _make in (
+    ('bool', _bool),
+    ('null', lambda _: None),
+    ('int', int),
+    ('float', _float),
+    ('str', str),
+):
+    _Loader.add_constructor(_TAG + _name, _scalar(_make))
+
+_NUMBER = list('-+0123456789.')
+for _tag, _pattern, _first in (
+    ('bool', r'true|True|TRUE|false|False|FALSE', list('tTfF')),
+    ('null', r'null|Null|NULL|~|', ['n', 'N', '~', '']),
+    ('int', r'[-+]?[0-9]+', list('-+0123456789')),
+    ('float', r'[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?', _NUMBER),
+    ('float', r'[-+]?\.(inf|Inf|INF)|\.(nan|NaN|NAN)', _NUMBER),
+):
+    _Loader.add_implicit_resolver(_TAG + _tag, re.compile(f'^(?:{_pattern})$'), _first)
+
+
+def load_mapping(text: str, *, field: str) -> dict[Any, Any]:
+    """
+    Return a YAML mapping; empty text is an empty one.
+
+    :param text: YAML
+    :param field: what the text is, for the refusal
+    :raises Malformed: the text is not YAML, or not a mapping
+    """
+    try:
+        value = yaml.load(text, Loader=_Loader)  # noqa: S506 - a subclass of SafeLoader
+    except (yaml.YAMLError, ValueError, RecursionError) as error:
+        # What PyYAML says may span lines and repeat the text; its problem, where it has one, does
+        # not.
+        said = getattr(error, 'problem', None) or str(error) or type(error).__name__
+        reason = said.partition('\n')[0][:200] + _place(error, text)
+        raise Malformed(f'{field} is not YAML: {reason}', field=field) from error
+    if value is None:
+        return {}
+    if not isinstance(value, dict):
+        raise Malformed(f'{field} must be a YAML mapping as {{friction: 0.3}}', field=field)
+    return value
+
+
+def _place(error: Exception, text: str) -> str:
+    """Return where in a text an error is; '' where it does not tell, or there is one line."""
+    lines = text.rstrip('\n').count('\n') + 1
+    mark = getattr(error, 'problem_mark', None)
+    if mark is not None:
+        # Where the text ends too early, libyaml counts a line more.
+        line = min(mark.line + 1, lines)
+    elif isinstance(error, yaml.reader.ReaderError):
+        # It counts bytes.
+        line = text.encode()[: error.position].count(b'\n') + 1
+    else:
+        return ''
+    return f', line {line}' if lines > 1 else ''

@@ -1,0 +1,62 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Colours as they are written, and those of bodies that ask for none.
+
+The latter are distinct on white and on black, also for the colour-blind.
+
+They are Vega's scheme `tableau10` (https://vega.github.io/vega/docs/schemes/).
+"""
+
+from __future__ import annotations
+
+import re
+import zlib
+
+from physsim_ros.model.body_properties import shown
+from physsim_ros.model.errors import BadProperty
+from physsim_ros.model.names import split_name
+from physsim_ros.model.shapes import Color
+
+_PALETTE = (
+    '#4c78a8', '#f58518', '#e45756', '#72b7b2', '#54a24b',
+    '#eeca3b', '#b279a2', '#ff9da6', '#9d755d', '#bab0ac',
+)  # fmt: skip
+
+
+def color_from(text: str) -> Color:
+    """
+    Return the colour that '#rrggbb' or '#rrggbbaa' means.
+
+    :raises BadProperty: it is neither
+    """
+    if not re.fullmatch('#([0-9a-fA-F]{2}){3,4}', text):
+        raise BadProperty(
+            f"color must be '#rrggbb' or '#rrggbbaa', not {shown(text)}", field='color'
+        )
+    red, green, blue, alpha = (each / 255 for each in (*bytes.fromhex(text[1:]), 255)[:4])
+    return red, green, blue, alpha
+
+
+def color_of(name: str) -> Color:
+    """
+    Return the colour of a body that asks for none: of its name alone, one after another by id.
+
+    A count of spawns would be a state of the world that nobody sees and no file keeps.
+    """
+    namespace, id_ = split_name(name)
+    number = zlib.crc32(namespace.encode()) + id_
+    red, green, blue = bytes.fromhex(_PALETTE[number % len(_PALETTE)][1:])
+    return red / 255, green / 255, blue / 255, 1.0

@@ -1,0 +1,353 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+What may be asked of the world: frozen values, complete in themselves.
+
+A request says what somebody wants; whether the world can do it is decided when it is applied.
+Poses are (x, y, yaw) in metres and radians, in the world or, where `frame` names a body, relative
+to that body as it is when the request is applied.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+import math
+from typing import Any
+
+from physsim_ros.model.body_properties import (
+    check_finite,
+    check_key,
+    FASTEST,
+    HEAVIEST,
+    Properties,
+    shown,
+)
+from physsim_ros.model.checkpoint import WorldState
+from physsim_ros.model.errors import BadProperty, BadSize, Malformed
+from physsim_ros.model.joint_properties import (
+    JOINT_KEYS,
+    joint_properties_from,
+    JointKind,
+    JointProperties,
+    kind_from,
+)
+from physsim_ros.model.names import check_body_name, check_name, WORLD
+from physsim_ros.model.settings import check_setting
+from physsim_ros.model.shapes import Color, Point, Pose, Shape, SMALLEST
+
+# 10 000 km: beyond it float64 positions are coarser than a nanometre.
+FARTHEST = 1e7
+# 300 years [s]: more than a message's Duration holds, few enough for steps to be counted exactly.
+LONGEST = 1e10
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Spawn:
+    """
+    Add a body, or change the body of that name in place.
+
+    A change takes over the shape, the pose, the colour where one is given, the lifetime where it
+    is not zero, and the properties that are said; all else is kept, motion too.
+
+    :param name: of the body
+    :param shape: what it is made of
+    :param pose: of the body's origin
+    :param frame: '' for the world, or a body's name
+    :param color: red, green, blue, alpha, each 0 .. 1; None chooses one
+    :param lifetime: simulation time after which the body goes [s]; 0 is for ever
+    :param properties: material, motion and role, as far as said
+    :raises Malformed: a number is not finite, or the name is empty or too long
+    :raises BadProperty: a pose, colour or lifetime is out of range
+    """
+
+    name: str
+    shape: Shape
+    pose: Pose = (0.0, 0.0, 0.0)
+    frame: str = ''
+    color: Color | None = None
+    lifetime: float = 0.0
+    properties: Properties = field(default_factory=Properties)
+
+    def __post_init__(self) -> None:
+        check_body_name(self.name)
+        check_pose(self.pose, 'pose')
+        if self.color is not None:
+            check_finite(self.color, 4, 'color')
+            if not all(0.0 <= channel <= 1.0 for channel in self.color):
+                raise BadProperty('each channel of color must lie in 0 .. 1', field='color')
+            object.__setattr__(self, 'color', tuple(map(float, self.color)))
+        check_finite((self.lifetime,), 1, 'lifetime')
+        if not 0.0 <= self.lifetime <= LONGEST:
+            raise BadProperty(
+                f'lifetime is {self.lifetime:g}; it must lie between 0 and {LONGEST:g} s',
+                field='lifetime',
+            )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Delete:
+    """Remove the body of that name, and its joints."""
+
+    name: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DeleteAll:
+    """
+    Remove all bodies, or all of a namespace, and their joints.
+
+    :param namespace: what stands before the last slash of the names; None is every body
+    """
+
+    namespace: str | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Join:
+    """
+    Join two bodies, or a body and the background; or change the joint of that name in place.
+
+    A change takes over the bodies and the points, and the properties that are said; where the
+    kind stays, the others are kept.
+
+    :param name: of the joint
+    :param kind: how it holds them
+    :param points: one or two, as the kind has them [m]
+    :param frame: of the points: '' for the world, or a body's name
+    :param a: a body's name; '' is the topmost under the (first) point
+    :param b: the same, or 'world' for the background; '' is the next body under the point, or the
+        topmost under the second one, or where there is none the background
+    :param properties: as far as said
+    :raises Malformed: a number is not finite, the name is none, or the points are too few or many
+    :raises BadProperty: a body would be joined to itself, or a point is too far away
+    :raises BadSize: the points of a rod or slider lie too close together
+    :raises UnknownProperty: that kind of joint does not have a property
+    """
+
+    name: str
+    kind: JointKind
+    points: tuple[Point, ...]
+    frame: str = ''
+    a: str = ''
+    b: str = ''
+    properties: JointProperties = field(default_factory=JointProperties)
+
+    def __post_init__(self) -> None:
+        check_name(self.name)
+        count = self.kind.points
+        if len(self.points) != count:
+            raise Malformed(
+                f'a {self.kind} has {count} point{"s" * (count - 1)}, not {len(self.points)}',
+                field='points',
+            )
+        for point in self.points:
+            check_point(point, 'points')
+        if self.a == WORLD:
+            raise BadProperty('a is a body; the background can only be b', field='a')
+        if self.a and self.a == self.b:
+            raise BadProperty(f'{self.a} cannot be joined to itself', field='b')
+        self.properties.check_kind(self.kind)
+        if self.kind in (JointKind.ROD, JointKind.SLIDER) and math.dist(*self.points) < SMALLEST:
+            raise BadSize(
+                f'the points of a {self.kind} must be {SMALLEST:g} m apart', field='points'
+            )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Unjoin:
+    """Remove the joint of that name."""
+
+    name: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class UnjoinAll:
+    """
+    Remove all joints, or all of a namespace.
+
+    :param namespace: what stands before the last slash of the names; None is every joint
+    """
+
+    namespace: str | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AtPoint:
+    """A request for what lies under a point [m], the topmost first."""
+
+    point: Point
+    frame: str = ''
+
+    def __post_init__(self) -> None:
+        check_point(self.point, 'point')
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Pin(AtPoint):
+    """Weld the two topmost bodies under a point, or the only one to the background."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Axle(AtPoint):
+    """Let the two topmost bodies under a point turn about it, or the only one by itself."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Anchor(AtPoint):
+    """Fix the topmost body under a point to the background."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Release(AtPoint):
+    """Free the topmost body under a point, and remove the pins and axles there."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Command:
+    """
+    Set poses, twists or wrenches of named bodies; all of it or nothing.
+
+    :param names: the bodies, each once
+    :param poses: (x, y, yaw) for each, or empty
+    :param twists: (vx, vy, spin) for each, world axes [m/s, rad/s], or empty
+    :param wrenches: (fx, fy, torque) for each, world axes [N, N m], or empty; acts at the centre
+        of mass until the next one, at most for the world's `command_timeout`
+    :param frame: of the poses: '' for the world, or a body's name
+    :raises Malformed: lengths do not fit, a name comes twice, a number is not finite
+    :raises BadProperty: a value is out of range
+    """
+
+    names: tuple[str, ...]
+    poses: tuple[Pose, ...] = ()
+    twists: tuple[Pose, ...] = ()
+    wrenches: tuple[Pose, ...] = ()
+    frame: str = ''
+
+    def __post_init__(self) -> None:
+        if not self.names:
+            raise Malformed('the command names no body', field='joint_names')
+        if len(set(self.names)) != len(self.names):
+            raise Malformed('the command names a body twice', field='joint_names')
+        for name, rows in (
+            ('transforms', self.poses),
+            ('twist', self.twists),
+            ('wrench', self.wrenches),
+        ):
+            if rows and len(rows) != len(self.names):
+                raise Malformed(
+                    f'{name} has {len(rows)} entries for {len(self.names)} bodies', field=name
+                )
+        for pose in self.poses:
+            check_pose(pose, 'transforms')
+        for twist in self.twists:
+            check_finite(twist, 3, 'twist')
+            if math.hypot(*twist[:2]) > FASTEST or abs(twist[2]) > FASTEST:
+                raise BadProperty(f'twist is faster than {FASTEST:g} m/s or rad/s', field='twist')
+        for wrench in self.wrenches:
+            check_finite(wrench, 3, 'wrench')
+            if max(map(abs, wrench)) > HEAVIEST:
+                raise BadProperty(f'wrench exceeds {HEAVIEST:g} N or N m', field='wrench')
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Configure:
+    """
+    Change settings of the world.
+
+    :param changes: names of WorldSettings and their new values
+    """
+
+    changes: Mapping[str, Any]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, 'changes', dict(self.changes))
+        for name in self.changes:
+            check_setting(name)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Restore:
+    """Replace the whole world by a saved state."""
+
+    state: WorldState
+
+
+def join_from(
+    mapping: Mapping[Any, Any], *, name: str, points: tuple[Point, ...], frame: str = ''
+) -> Join:
+    """
+    Return the joint that a YAML mapping asks for: `kind`, `a`, `b` and properties.
+
+    Where the mapping names the one body, a `b` that is left out is the background; where it names
+    none, the bodies under the points are meant.
+
+    :param name: of the joint
+    :param points: in the frame [m]
+    :param frame: '' for the world, or a body's name
+    :raises Refusal: a key is not known, or a value not possible
+    """
+    kind, a, b, properties = joined_from(mapping)
+    return Join(name=name, kind=kind, points=points, frame=frame, a=a, b=b, properties=properties)
+
+
+def joined_from(mapping: Mapping[Any, Any]) -> tuple[JointKind, str, str, JointProperties]:
+    """
+    Return what a YAML mapping says of a joint: its kind, the two bodies, its properties.
+
+    :raises Refusal: a key is not known, or a value not possible
+    """
+    for key in mapping:
+        check_key(key, JOINT_KEYS)
+    properties = {key: mapping[key] for key in mapping if key not in {'kind', 'a', 'b'}}
+    a, b = _body_name(mapping, 'a'), _body_name(mapping, 'b')
+    kind = kind_from(mapping.get('kind'))
+    return kind, a, WORLD if a and not b else b, joint_properties_from(properties)
+
+
+def _body_name(mapping: Mapping[Any, Any], key: str) -> str:
+    name = mapping.get(key, '')
+    if not isinstance(name, str):
+        raise BadProperty(f'{key} must be the name of a body, not {shown(name)}', field=key)
+    return name
+
+
+Joining = Join | Unjoin | UnjoinAll | Pin | Axle
+Request = Spawn | Delete | DeleteAll | Joining | Anchor | Release | Command | Configure | Restore
+
+
+def check_point(point: Point, name: str) -> None:
+    """
+    Refuse a point that is not finite or too far away.
+
+    :raises Malformed: it is not finite
+    :raises BadProperty: it is too far away
+    """
+    check_finite(point, 2, name)
+    if max(map(abs, point)) > FARTHEST:
+        raise BadProperty(f'{name} is further away than {FARTHEST:g} m', field=name)
+
+
+def check_pose(pose: Pose, name: str) -> None:
+    """
+    Refuse a pose that is not finite or too far away.
+
+    :raises Malformed: it is not finite
+    :raises BadProperty: it is too far away
+    """
+    check_finite(pose, 3, name)
+    check_point(pose[:2], name)
+    if abs(pose[2]) > FARTHEST:
+        raise BadProperty(f'the yaw of {name} is too large', field=name)

@@ -1,0 +1,133 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""What holds for the whole world, and what bodies are made of when they do not say."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+import math
+
+from physsim_ros.model.body_properties import Checks, HEAVIEST, LIGHTEST, pair, shown, Within
+from physsim_ros.model.errors import BadProperty, Malformed
+from physsim_ros.model.shapes import LARGEST, Point
+
+Bounds = tuple[float, float, float, float]
+
+# A thousand times that of the earth [m/s²]: 40 m/s more with every step.
+STRONGEST = 1e4
+# Samples of a stroke at most: a minute of a pen of 160 Hz; nobody draws a line for that long.
+MOST_SAMPLES = 10_000
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WorldSettings:
+    """
+    The settings of a world.
+
+    :param gravity: [m/s²]
+    :param damping: share of velocity lost to the air each second, 0 .. 1
+    :param iterations: of the solver
+    :param bounds: xmin, ymin, xmax, ymax of the walls around the world [m]; None is no walls
+    :param density: default [kg/m²]
+    :param friction: default
+    :param elasticity: default
+    :param command_timeout: how long a wrench acts [s of simulation time]; 0 means no limit
+    :param max_bodies: the most the world holds
+    :raises Malformed: a number is not finite or an array has the wrong length
+    :raises BadProperty: a value is out of range
+    """
+
+    gravity: tuple[float, float] = (0.0, -9.81)
+    damping: float = 0.0
+    iterations: int = 10
+    bounds: Bounds | None = None
+    density: float = 1.0
+    friction: float = 0.5
+    elasticity: float = 0.5
+    command_timeout: float = 0.5
+    max_bodies: int = 20000
+
+    def __post_init__(self) -> None:
+        for name, check in _CHECKS.items():
+            object.__setattr__(self, name, check(getattr(self, name), name))
+
+
+def _gravity(value: object, name: str) -> Point:
+    gravity = pair(value, name)
+    if math.hypot(*gravity) > STRONGEST:
+        raise BadProperty(f'{name} is stronger than {STRONGEST:g} m/s²', field=name)
+    return gravity
+
+
+def _bounds(value: object, name: str) -> Bounds | None:
+    if value is None:
+        return None
+    if not isinstance(value, list | tuple):
+        raise BadProperty(f'{name} must be a list of four numbers, not {shown(value)}', field=name)
+    if len(value) != 4:
+        raise Malformed(f'{name} needs 4 numbers, not {len(value)}', field=name)
+    left, bottom, right, top = (Within(-LARGEST, LARGEST, 'm')(each, name) for each in value)
+    if not (left < right and bottom < top):
+        raise BadProperty(
+            f'{name} must be [xmin, ymin, xmax, ymax], each min below its max', field=name
+        )
+    return left, bottom, right, top
+
+
+@dataclass(frozen=True, slots=True)
+class Whole:
+    """
+    A check that a number is whole and lies in a closed range.
+
+    :param low: the least
+    :param high: the greatest
+    """
+
+    low: int
+    high: int
+
+    def __call__(self, value: object, name: str) -> int:
+        """
+        Return the number.
+
+        :raises BadProperty: it is not whole, or out of range
+        """
+        low, high = self.low, self.high
+        if isinstance(value, bool) or not isinstance(value, int) or not low <= value <= high:
+            raise BadProperty(f'{name} must be a whole number, {low} to {high}', field=name)
+        return value
+
+
+# Of the settings that are one number each.
+RANGES: dict[str, Within | Whole] = {
+    'damping': Within(0.0, 1.0),
+    'iterations': Whole(1, 1000),
+    'density': Within(LIGHTEST, HEAVIEST, 'kg/m²'),
+    'friction': Within(0.0, 10.0),
+    'elasticity': Within(0.0, 1.0),
+    'command_timeout': Within(0.0, 1e9, 's'),
+    'max_bodies': Whole(0, 1_000_000),
+}
+_CHECKS: Checks = {'gravity': _gravity, 'bounds': _bounds, **RANGES}
+
+
+def check_setting(name: str) -> None:
+    """
+    Refuse a name that is no setting.
+
+    :raises BadProperty: it is not
+    """
+    if name not in _CHECKS:
+        raise BadProperty(f'the world has no setting {name!r}', field=name)

@@ -1,0 +1,49 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Vectors turned counter-clockwise: one, or many at once."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+from physsim_ros.model.shapes import Point
+
+Floats = NDArray[np.float64]
+
+
+def rotated(vector: Point, yaw: float) -> Point:
+    """Return a vector turned counter-clockwise by yaw [rad]."""
+    if vector == (0.0, 0.0):
+        return vector
+    cos, sin = math.cos(yaw), math.sin(yaw)
+    return cos * vector[0] - sin * vector[1], sin * vector[0] + cos * vector[1]
+
+
+def turned(vectors: Floats, yaw: Floats) -> Floats:
+    """
+    Return vectors, each turned counter-clockwise.
+
+    :param vectors: (..., 2)
+    :param yaw: (...), or what goes with that [rad]
+    """
+    cos, sin = np.cos(yaw), np.sin(yaw)
+    x, y = vectors[..., 0], vectors[..., 1]
+    across = cos * x - sin * y
+    result = np.empty((*across.shape, 2))
+    result[..., 0] = across
+    result[..., 1] = sin * x + cos * y
+    return result

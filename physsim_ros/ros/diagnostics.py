@@ -1,0 +1,107 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""How the node is doing, each second: what a frame costs, what is late, what the world holds."""
+
+from __future__ import annotations
+
+from builtin_interfaces.msg import Time
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from physsim_ros.model.snapshot import run_state, Snapshot
+
+# Seconds of wall time over which the real-time factor is smoothed: as fast as a person reads.
+_SMOOTHING = 1.0
+
+
+class Meter:
+    """Measures frames as they are made; steady times are handed in."""
+
+    def __init__(self) -> None:
+        self.real_time_factor = 0.0
+        self._last: tuple[int, int] | None = None
+        self._frames = 0
+        self._step_ns = 0
+        self._frame_ns = 0
+        self._late_told = 0
+
+    def add(self, *, now_ns: int, stamp: int, step_ns: int, frame_ns: int) -> None:
+        """
+        Add a frame.
+
+        :param now_ns: steady time of it [ns]
+        :param stamp: its simulation time [ns]
+        :param step_ns: what its steps cost [ns]
+        :param frame_ns: what all of it cost [ns]
+        """
+        self._frames += 1
+        self._step_ns += step_ns
+        self._frame_ns += frame_ns
+        if self._last is not None and now_ns > self._last[0]:
+            elapsed = now_ns - self._last[0]
+            # The first factor that there is counts in full.
+            share = min(1.0, elapsed * 1e-9 / _SMOOTHING) if self.real_time_factor else 1.0
+            factor = (stamp - self._last[1]) / elapsed
+            self.real_time_factor += share * (factor - self.real_time_factor)
+        self._last = (now_ns, stamp)
+
+    def pause(self) -> None:
+        """Forget the pace: time stands still, or has jumped."""
+        self._last = None
+        self.real_time_factor = 0.0
+
+    def report(
+        self, snapshot: Snapshot, *, node: str, speed: float, late_frames: int, viewer: str
+    ) -> DiagnosticArray:
+        """
+        Return what to publish, and begin the next second.
+
+        :param node: whole name of the node, which tells worlds apart
+        :param speed: simulation seconds a second
+        :param late_frames: since the world began
+        :param viewer: what is shown where
+        """
+        late, self._late_told = late_frames - self._late_told, late_frames
+        count = self._frames
+        frames = max(1, count)
+        px, py = snapshot.momentum
+        values = {
+            'bodies': len(snapshot.scene.bodies),
+            'simulation time [s]': f'{snapshot.stamp * 1e-9:.3f}',
+            'speed': f'{speed:g}',
+            'real-time factor': f'{self.real_time_factor:.3f}',
+            'frames': count,
+            'late frames': late_frames,
+            'step cost [ms]': f'{self._step_ns / frames * 1e-6:.3f}',
+            'frame cost [ms]': f'{self._frame_ns / frames * 1e-6:.3f}',
+            'kinetic energy [J]': f'{snapshot.kinetic_energy:.6g}',
+            'potential energy [J]': f'{snapshot.potential_energy:.6g}',
+            'elastic energy [J]': f'{snapshot.elastic_energy:.6g}',
+            'momentum [kg m/s]': f'{px:.6g}, {py:.6g}',
+            'viewer': viewer,
+        }
+        self._frames = self._step_ns = self._frame_ns = 0
+        message = run_state(speed) if speed <= 0 else f'{count} frames'
+        if late > 0:
+            message = f'{late} frames late: simulation time runs slow'
+        status = DiagnosticStatus(
+            level=DiagnosticStatus.WARN if late > 0 else DiagnosticStatus.OK,
+            name='physsim: world',
+            message=message,
+            hardware_id=node,
+            values=[KeyValue(key=key, value=str(value)) for key, value in values.items()],
+        )
+        array = DiagnosticArray(status=[status])
+        seconds, nanoseconds = divmod(snapshot.stamp, 1_000_000_000)
+        array.header.stamp = Time(sec=seconds, nanosec=nanoseconds)
+        return array

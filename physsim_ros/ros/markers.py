@@ -1,0 +1,212 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+The picture as markers: each body drawn with the marker that would spawn it, and what is on it.
+
+Law: whoever publishes a body's marker again gets the same body, and a joint's the same joint.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+import json
+import math
+
+from physsim_ros.model.joint_properties import JointKind
+from physsim_ros.model.names import (
+    CROSS_PREFIX,
+    JOINT_PREFIX,
+    LINES_PREFIX,
+    split_name,
+    WALLS,
+)
+from physsim_ros.model.scene import Body, Joint
+from physsim_ros.model.settings import Bounds
+from physsim_ros.model.shapes import (
+    Box,
+    Chain,
+    Color,
+    Compound,
+    Disc,
+    Point,
+    Polygon,
+    Shape,
+    Triangles,
+)
+from visualization_msgs.msg import Marker
+
+Size = tuple[float, float, float]
+Key = tuple[str, int]
+
+# How thick flat bodies and how wide outlines are drawn [m]: seen from anywhere, in nobody's way.
+_THIN = 0.02
+# Joints lie on top of bodies and their crosses [m].
+_RAISED = 2 * _THIN
+_LENGTHS = {JointKind.SPRING: 'rest_length', JointKind.ROPE: 'length'}
+_DARK, _LIGHT, _GREY = (0.1, 0.1, 0.1, 1.0), (0.9, 0.9, 0.9, 1.0), (0.5, 0.5, 0.5, 1.0)
+# Luminance from which a dark line shows better than a light one.
+_BRIGHT = 0.35
+
+
+@dataclass(frozen=True, slots=True)
+class Symbol:
+    """
+    A marker save for its pose.
+
+    :param key: namespace and id
+    :param kind: the marker's type
+    :param height: of its points [m]; what lies higher is drawn on top
+    """
+
+    key: Key
+    kind: int = Marker.ARROW
+    scale: Size = (0.0, 0.0, 0.0)
+    points: tuple[Point, ...] = ()
+    height: float = 0.0
+    color: Color = (0.0, 0.0, 0.0, 0.0)
+    text: str = ''
+    action: int = Marker.ADD
+
+
+def symbols(body: Body) -> list[Symbol]:
+    """Return the markers of a body: itself, and the x of an anchored one."""
+    key = split_name(body.name)
+    kind, scale, points = _geometry(body.shape)
+    symbols = [Symbol(key, kind, scale, points, color=body.color, text=_material(body))]
+    if body.anchored:
+        symbols.append(_cross(body, (f'{CROSS_PREFIX}{key[0]}', key[1])))
+    return symbols
+
+
+def joint_symbols(joint: Joint, size: float, corners: int) -> tuple[Symbol, Symbol]:
+    """
+    Return the markers of a joint: its points, which would join it again, and its lines.
+
+    The points are those of a frame, to be filled in.
+
+    :param size: half that of its symbol [m]
+    :param corners: of its lines, two for each segment
+    """
+    namespace, number = split_name(joint.name)
+    if joint.kind.points == 1:
+        kind, scale = Marker.SPHERE_LIST, (size, size, size)
+    else:
+        kind, scale = Marker.LINE_STRIP, (size / 10, 0.0, 0.0)
+    nowhere = ((0.0, 0.0),)
+    return (
+        Symbol(
+            (f'{JOINT_PREFIX}{namespace}', number),
+            kind,
+            scale,
+            nowhere * joint.kind.points,
+            _RAISED,
+            text=_terms(joint),
+        ),
+        Symbol(
+            (f'{LINES_PREFIX}{namespace}', number),
+            Marker.LINE_LIST,
+            (size / 4, 0.0, 0.0),
+            nowhere * corners,
+            _RAISED,
+        ),
+    )
+
+
+def _terms(joint: Joint) -> str:
+    """Return the YAML mapping that gives a joined marker the bodies and properties of a joint."""
+    terms = [f'kind: {joint.kind}', f'a: {_word(joint.a)}', f'b: {_word(joint.b)}']
+    said = joint.properties.said()
+    if joint.kind in (JointKind.SPRING, JointKind.ROPE):
+        # As drawn is as drawn then, not as it will be drawn.
+        said[_LENGTHS[joint.kind]] = joint.rest_length
+    if joint.kind is JointKind.GEAR:
+        said['phase'] = joint.seat.phase
+    for key, value in said.items():
+        shown = str(value).lower() if isinstance(value, bool) else _number(value)
+        terms.append(f'{key}: {shown}')
+    return f'{{{", ".join(terms)}}}'
+
+
+def _word(name: str) -> str:
+    """Return a name as a YAML string."""
+    return json.dumps(name, ensure_ascii=False)
+
+
+def _geometry(shape: Shape) -> tuple[int, Size, tuple[Point, ...]]:
+    """Return type, scale and points of the marker that spawns a shape."""
+    match shape:
+        case Disc():
+            return Marker.CYLINDER, (2 * shape.radius, 2 * shape.radius, _THIN), ()
+        case Box():
+            return Marker.CUBE, (shape.width, shape.height, _THIN), ()
+        case Polygon():
+            return Marker.LINE_STRIP, (_THIN, 0.0, 0.0), (*shape.outline, shape.outline[0])
+        case Chain():
+            return Marker.LINE_STRIP, (shape.thickness, 0.0, 0.0), _open(shape.points)
+        case Triangles():
+            return Marker.TRIANGLE_LIST, (1.0, 1.0, 1.0), shape.vertices
+        case Compound():
+            kind, scale, _ = _geometry(shape.element)
+            kind = Marker.CUBE_LIST if kind == Marker.CUBE else Marker.SPHERE_LIST
+            return kind, scale, shape.centers
+
+
+def _open(points: tuple[Point, ...]) -> tuple[Point, ...]:
+    """Return the points of a chain; a marker whose ends are the same is a polygon."""
+    (x, y), last = points[0], points[-1]
+    return points if last != (x, y) else (*points[:-1], (math.nextafter(x, math.inf), y))
+
+
+def _material(body: Body) -> str:
+    """Return the YAML mapping that gives a spawned marker the properties of a body."""
+    said = {'density': body.density} if body.mass is None else {'mass': body.mass}
+    said |= {'friction': body.friction, 'elasticity': body.elasticity}
+    parts = [f'{key}: {_number(value)}' for key, value in said.items()]
+    parts += [f'{key}: true' for key in ('anchored', 'kinematic', 'sensor') if getattr(body, key)]
+    if body.group:
+        parts.append(f'group: {body.group}')
+    return f'{{{", ".join(parts)}}}'
+
+
+def _number(value: float) -> str:
+    """Return a number as YAML 1.1 reads it: there 1e-09 is a string, and 1.0e-09 is not."""
+    text = repr(float(value))
+    return text if '.' in text else text.replace('e', '.0e')
+
+
+def _cross(body: Body, key: Key) -> Symbol:
+    """Return the small x at a body's centre of mass which says that it is anchored."""
+    form = body.shape.form
+    # Area over the greatest half length is about one and a half smaller sides: a third of one.
+    reach = min(max(form.area / form.outer / 5, 0.06), 0.3) / 2
+    x, y = form.centroid
+    points = (
+        (x - reach, y - reach),
+        (x + reach, y + reach),
+        (x - reach, y + reach),
+        (x + reach, y - reach),
+    )
+    red, green, blue, _ = body.color
+    # Luminance as of ITU-R BT.601.
+    color = _DARK if 0.299 * red + 0.587 * green + 0.114 * blue > _BRIGHT else _LIGHT
+    return Symbol(key, Marker.LINE_LIST, (reach / 4, 0.0, 0.0), points, _THIN, color)
+
+
+def walls(bounds: Bounds) -> Symbol:
+    """Return the marker of the walls around the world."""
+    left, bottom, right, top = bounds
+    corners = ((left, bottom), (right, bottom), (right, top), (left, top), (left, bottom))
+    key = (WALLS, 0)
+    return Symbol(key, Marker.LINE_STRIP, (_THIN, 0.0, 0.0), corners, color=_GREY)

@@ -1,0 +1,358 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Every ROS parameter, declared once: its default, meaning, unit and range.
+
+Law: a value outside its range is refused with a reason and changes nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import asdict, dataclass, fields
+import math
+from typing import Any
+
+from physsim_ros.drawing.clicks.tools import Tool
+from physsim_ros.drawing.settings import DrawingSettings
+from physsim_ros.drawing.settings import RANGES as DRAWING_RANGES
+from physsim_ros.model.body_properties import FASTEST
+from physsim_ros.model.colors import color_from
+from physsim_ros.model.errors import BadProperty, Malformed
+from physsim_ros.model.settings import RANGES as WORLD_RANGES
+from physsim_ros.model.settings import STRONGEST, WorldSettings
+from physsim_ros.model.shapes import Color, LARGEST
+from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
+from rcl_interfaces.msg import Parameter as ParameterMessage
+from rcl_interfaces.srv import SetParameters, SetParametersAtomically
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from rclpy.parameter_service import ParameterService
+
+Type = Parameter.Type
+_TYPES = {each.value for each in Type}
+VIEWERS = ('none', 'spawn', 'web', 'connect', 'auto')
+_WORLD = {each.name for each in fields(WorldSettings)}
+_DRAWING = {each.name for each in fields(DrawingSettings)}
+# Of draw_color: each body gets a colour of its own.
+AUTO = 'auto'
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Spec:
+    """
+    What a parameter is.
+
+    :param default: also tells its type
+    :param meaning: one line, with its unit
+    :param low: least value
+    :param high: greatest value
+    :param choices: allowed values, empty for any
+    :param read_only: fixed once the node runs
+    """
+
+    default: Any
+    meaning: str
+    low: float | None = None
+    high: float | None = None
+    choices: tuple[str, ...] = ()
+    read_only: bool = False
+
+    @property
+    def kind(self) -> Type:
+        """Return the ROS type."""
+        if isinstance(self.default, list):
+            return Type.DOUBLE_ARRAY
+        kind: Type = Type.from_parameter_value(self.default)
+        return kind
+
+    @property
+    def descriptor(self) -> ParameterDescriptor:
+        """Return the description that tools show."""
+        descriptor = ParameterDescriptor(
+            description=self.meaning,
+            read_only=self.read_only,
+            type=int(self.kind.value),
+        )
+        if self.choices:
+            descriptor.additional_constraints = 'one of ' + ', '.join(self.choices)
+        elif self.low is not None and self.high is not None:
+            if self.kind == Type.INTEGER:
+                span = IntegerRange(from_value=int(self.low), to_value=int(self.high))
+                descriptor.integer_range = [span]
+            else:
+                spans = FloatingPointRange(from_value=float(self.low), to_value=float(self.high))
+                descriptor.floating_point_range = [spans]
+        return descriptor
+
+
+_OF_NODE = {
+    'frame_id': Spec(default='world', meaning='name of the world frame', read_only=True),
+    'world_file': Spec(
+        default='',
+        meaning='world loaded at start and by ~/load_world, written by ~/save_world: a path, or '
+        'the name of one in config/worlds',
+    ),
+    'world_dir': Spec(
+        default='.',
+        meaning='after start, worlds are read and written only below this directory',
+        read_only=True,
+    ),
+    'physics_rate': Spec(
+        default=240.0,
+        meaning='fixed step of the physics [Hz]',
+        low=60.0,
+        high=10000.0,
+        read_only=True,
+    ),
+    'publish_rate': Spec(
+        default=60.0,
+        meaning='frames out [Hz]; divides physics_rate',
+        low=1.0,
+        high=10000.0,
+        read_only=True,
+    ),
+    'speed': Spec(
+        default=1.0,
+        meaning='simulation seconds a second; 0 is paused, negative goes back',
+        low=-64.0,
+        high=64.0,
+    ),
+    'fast_speed': Spec(
+        default=4.0, meaning='speed of ~/fast_forward and ~/fast_rewind', low=0.0, high=64.0
+    ),
+    'tool': Spec(
+        default='none',
+        meaning='what a click on clicked_point does; another one drops what is half drawn',
+        choices=tuple(Tool),
+    ),
+    'history': Spec(
+        default=600.0,
+        meaning='how far back the world can be rewound [s]; older steps are dropped',
+        low=0.0,
+        high=86400.0,
+    ),
+    'publish_clock': Spec(default=True, meaning='whether the clock is published'),
+    'viewer': Spec(
+        default='auto',
+        meaning='none, spawn (native Rerun), web (served on localhost), connect (to viewer_url), '
+        'auto (spawn where there is a display, else web)',
+        choices=VIEWERS,
+    ),
+    'viewer_url': Spec(default='', meaning='Rerun server to connect to', read_only=True),
+    'record_file': Spec(default='', meaning='.rrd file written beside any viewer', read_only=True),
+}
+# What is set of the world and of drawing; defaults and ranges are those of the settings.
+_MEANINGS = {
+    'iterations': 'solver iterations',
+    'gravity': f'of a length up to {STRONGEST:g} [m/s²]',
+    'damping': 'share of velocity lost to the air each second',
+    'bounds': '[xmin, ymin, xmax, ymax] of walls around the world, each '
+    f'{-LARGEST:g} .. {LARGEST:g} [m]; [] is none',
+    'density': 'of what is made next without saying [kg/m²]',
+    'friction': 'of what is made next without saying',
+    'elasticity': 'of what is made next without saying',
+    'draw_velocity': f'of what is drawn next, of a length up to {FASTEST:g} [m/s]',
+    'draw_color': f"of what is drawn next: '#rrggbb', '#rrggbbaa', or {AUTO}, one for each",
+    'snap': 'what is drawn as near as this to something is meant to meet it [m]',
+    'sketch_confidence': 'least confidence with which a stroke is taken for something',
+    'beautify': 'how far a stroke may be from regular and still be meant so: angles [rad], '
+    'lengths as a share; 0 keeps it as it was drawn',
+    'wall_thickness': 'of walls that are drawn [m]',
+    'command_timeout': 'of a wrench [s of simulation time]; 0 means no limit',
+    'max_bodies': 'a spawn past it is refused',
+}
+
+
+def _of_settings() -> dict[str, Spec]:
+    defaults = asdict(WorldSettings()) | asdict(DrawingSettings())
+    # In the words of ROS, which has no nothing.
+    defaults |= {'bounds': [], 'draw_color': AUTO}
+    ranges = WORLD_RANGES | DRAWING_RANGES
+    specs = {}
+    for name, meaning in _MEANINGS.items():
+        default, span = defaults[name], ranges.get(name)
+        specs[name] = Spec(
+            default=list(default) if isinstance(default, tuple) else default,
+            meaning=meaning,
+            low=None if span is None else span.low,
+            high=None if span is None else span.high,
+        )
+    return specs
+
+
+SPECS: dict[str, Spec] = _OF_NODE | _of_settings()
+
+
+class ParameterServices(ParameterService):
+    """
+    The services that set a node's parameters; a value of no type is refused, as any other.
+
+    rclpy's own raise over a type that they do not know, which would end the node.
+    """
+
+    def _set_parameters_callback(
+        self, request: SetParameters.Request, response: SetParameters.Response
+    ) -> SetParameters.Response:
+        _know_types(request.parameters)
+        return super()._set_parameters_callback(request, response)
+
+    def _set_parameters_atomically_callback(
+        self,
+        request: SetParametersAtomically.Request,
+        response: SetParametersAtomically.Response,
+    ) -> SetParametersAtomically.Response:
+        _know_types(request.parameters)
+        return super()._set_parameters_atomically_callback(request, response)
+
+
+def _know_types(messages: Iterable[ParameterMessage]) -> None:
+    """Let values of unknown types be not set."""
+    for message in messages:
+        if message.value.type not in _TYPES:
+            message.value.type = Type.NOT_SET.value
+
+
+def declare(node: Node) -> dict[str, Any]:
+    """
+    Declare every parameter on a node and return their values.
+
+    :raises PhysSimError: a value that the node was started with is out of range
+    """
+    values = {}
+    for name, spec in SPECS.items():
+        default = Parameter(name, spec.kind, spec.default).value
+        # At first of any type and range: what was given is put right and checked here, and what
+        # is refused is refused in one way.
+        node.declare_parameter(name, default, ParameterDescriptor(dynamic_typing=True))
+        given = node.get_parameter(name)
+        if given.type_ == Type.NOT_SET:
+            # That is what an empty list on the command line, or in a file, comes as.
+            given = Parameter(name, Type.BYTE_ARRAY, [])
+        parameter = _coerced(given)
+        check(parameter)
+        node.set_parameters([parameter])
+        node.set_descriptor(name, spec.descriptor)
+        values[name] = _plain(parameter.value, spec)
+    world_settings(values)
+    drawing_settings(values)
+    node.add_pre_set_parameters_callback(coerced)
+    return values
+
+
+def coerced(parameters: Iterable[Parameter]) -> list[Parameter]:
+    """Give numbers, whole as the command line writes them or not, the type of their parameter."""
+    return [_coerced(parameter) for parameter in parameters]
+
+
+def check(parameter: Parameter) -> None:
+    """
+    Refuse a parameter whose value is of the wrong type or out of range.
+
+    :raises BadProperty: it is
+    :raises Malformed: a number is not finite
+    """
+    spec = SPECS.get(parameter.name)
+    if spec is None:
+        return
+    name, value = parameter.name, parameter.value
+    if parameter.type_ != spec.kind:
+        raise BadProperty(
+            f'{name} must be of type {spec.kind.name.lower()}, not {parameter.type_.name.lower()}',
+            field=name,
+        )
+    numbers = value if isinstance(value, list) else [value]
+    if any(isinstance(each, float) and not math.isfinite(each) for each in numbers):
+        raise Malformed(f'{name} is not finite', field=name)
+    if spec.low is not None and spec.high is not None and not spec.low <= value <= spec.high:
+        raise BadProperty(
+            f'{name} is {value:g}; it must lie between {spec.low:g} and {spec.high:g}', field=name
+        )
+    if spec.choices and value not in spec.choices:
+        raise BadProperty(f'{name} must be one of {", ".join(spec.choices)}', field=name)
+
+
+def world_changes(parameters: Iterable[Parameter]) -> dict[str, Any]:
+    """Return what the parameters among these that are the world's set, as its settings have it."""
+    return {
+        parameter.name: _setting(parameter.name, parameter.value)
+        for parameter in parameters
+        if parameter.name in _WORLD
+    }
+
+
+def world_settings(values: Mapping[str, Any]) -> WorldSettings:
+    """
+    Return the world's settings among parameter values.
+
+    :raises PhysSimError: they do not fit
+    """
+    return WorldSettings(**{name: _setting(name, values[name]) for name in _WORLD})
+
+
+def drawing_settings(values: Mapping[str, Any]) -> DrawingSettings:
+    """
+    Return the settings of drawing among parameter values.
+
+    :raises PhysSimError: they do not fit
+    """
+    settings = {name: values[name] for name in _DRAWING}
+    settings['draw_velocity'] = tuple(values['draw_velocity'])
+    settings['draw_color'] = _draw_color(values['draw_color'])
+    return DrawingSettings(**settings)
+
+
+def world_parameters(settings: WorldSettings) -> list[Parameter]:
+    """Return the parameters that tell of the world's settings."""
+    parameters = []
+    for name in sorted(_WORLD):
+        value = getattr(settings, name)
+        if isinstance(value, tuple):
+            value = list(value)
+        parameters.append(Parameter(name, SPECS[name].kind, [] if value is None else value))
+    return coerced(parameters)
+
+
+def _coerced(parameter: Parameter) -> Parameter:
+    spec = SPECS.get(parameter.name)
+    if spec is None:
+        return parameter
+    value = parameter.value
+    if spec.kind == Type.DOUBLE and parameter.type_ == Type.INTEGER:
+        return Parameter(parameter.name, Type.DOUBLE, float(value))
+    # An empty list has no type of its own; rclpy takes it for bytes, ros2cli for booleans.
+    empty = parameter.type_.name.endswith('_ARRAY') and len(value) == 0
+    numbers = parameter.type_ in (Type.DOUBLE_ARRAY, Type.INTEGER_ARRAY)
+    if spec.kind == Type.DOUBLE_ARRAY and (empty or numbers):
+        # A list, always: what comes by a message is an array of Python's.
+        return Parameter(parameter.name, Type.DOUBLE_ARRAY, [float(each) for each in value])
+    return parameter
+
+
+def _plain(value: Any, spec: Spec) -> Any:
+    return list(value) if isinstance(spec.default, list) else value
+
+
+def _draw_color(text: str) -> Color | None:
+    try:
+        return None if text == AUTO else color_from(text)
+    except BadProperty as refusal:
+        raise BadProperty(f'draw_color: {refusal}, or {AUTO}', field='draw_color') from refusal
+
+
+def _setting(name: str, value: Any) -> Any:
+    if name == 'bounds' and len(value) == 0:
+        return None
+    return tuple(value) if isinstance(SPECS[name].default, list) else value

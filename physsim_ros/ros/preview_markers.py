@@ -1,0 +1,88 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+The preview as markers: what is half drawn, or how the last stroke was read.
+
+Law: every message is the whole of it, since late subscribers get only the last one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+import math
+
+from builtin_interfaces.msg import Time
+from geometry_msgs.msg import Point as PointMessage
+from physsim_ros.model.preview import Preview
+from physsim_ros.model.shapes import Point
+from std_msgs.msg import ColorRGBA
+from visualization_msgs.msg import Marker, MarkerArray
+
+NAMESPACE = 'preview'
+# Above bodies and the symbols on them [m].
+_HEIGHT = 0.1
+# Sizes as shares of what is drawn, but at least and at most so much [m].
+_LINE, _DOT, _LETTER = (0.01, 0.01, 0.05), (0.03, 0.03, 0.15), (0.1, 0.08, 0.4)
+_COLOR = ColorRGBA(r=0.9, g=0.2, b=0.5, a=0.9)
+_SECOND = 1_000_000_000
+
+
+def markers(preview: Preview, *, frame_id: str, stamp: int) -> MarkerArray:
+    """
+    Return the message that shows a preview and nothing of the one before.
+
+    :param frame_id: name of the world frame
+    :param stamp: simulation time [ns]
+    """
+    extent = _extent([*preview.points, *(point for line in preview.lines for point in line)])
+    made = [Marker(action=Marker.DELETEALL)]
+    width = _sized(_LINE, extent)
+    made += [_marker(Marker.LINE_STRIP, line, width) for line in preview.lines]
+    if preview.points:
+        dot = _sized(_DOT, extent)
+        made.append(_marker(Marker.SPHERE_LIST, preview.points, dot, dot))
+    if preview.label:
+        letter = _sized(_LETTER, extent)
+        label = _marker(Marker.TEXT_VIEW_FACING, (), 0.0)
+        label.text, label.scale.z = preview.label, letter
+        x, y = preview.top
+        label.pose.position = PointMessage(x=x, y=y + letter, z=_HEIGHT)
+        made.append(label)
+    seconds, nanoseconds = divmod(stamp, _SECOND)
+    for number, marker in enumerate(made):
+        marker.header.frame_id = frame_id
+        marker.header.stamp = Time(sec=seconds, nanosec=nanoseconds)
+        marker.ns, marker.id = NAMESPACE, number
+    return MarkerArray(markers=made)
+
+
+def _marker(kind: int, points: Iterable[Point], width: float, depth: float = 0.0) -> Marker:
+    marker = Marker(type=kind, color=_COLOR)
+    marker.pose.orientation.w = 1.0
+    marker.scale.x, marker.scale.y, marker.scale.z = width, depth, depth
+    marker.points = [PointMessage(x=x, y=y, z=_HEIGHT) for x, y in points]
+    return marker
+
+
+def _extent(points: list[Point]) -> float:
+    if not points:
+        return 0.0
+    xs, ys = zip(*points, strict=True)
+    return math.hypot(max(xs) - min(xs), max(ys) - min(ys))
+
+
+def _sized(size: tuple[float, float, float], extent: float) -> float:
+    share, least, most = size
+    return min(max(share * extent, least), most)

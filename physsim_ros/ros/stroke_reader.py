@@ -1,0 +1,115 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Serialised paths -> strokes: nav_msgs/Path to an array, without a message object a sample.
+
+Law: a path costs nothing until it is known to be short enough. rclpy takes 2 s over one of 100,000
+poses, in which the world would stand still; its length is read off in a microsecond.
+"""
+
+from __future__ import annotations
+
+import struct
+
+import numpy as np
+from physsim_ros.model.arrays import Floats
+from physsim_ros.model.errors import Malformed
+from physsim_ros.model.settings import MOST_SAMPLES
+
+# The header of CDR, from whose end on values are aligned to their own size.
+_HEADER = 4
+_POSE = 56
+
+
+def stroke_from(message: bytes, *, frame_id: str) -> tuple[Floats, str]:
+    """
+    Return the samples of a stroke, and the frame that they are given in.
+
+    :param message: a serialised nav_msgs/Path
+    :param frame_id: name of the world's frame
+    :return: (n, 3) float64: x, y [m] and time from the first sample [s]; '' for the world or a
+        name
+    :raises Malformed: there are too many samples, or they are given in different frames, or the
+        message breaks off
+    """
+    try:
+        return _read(message, frame_id)
+    except struct.error as error:
+        raise Malformed('the message of the stroke breaks off', field='poses') from error
+
+
+def _read(message: bytes, frame_id: str) -> tuple[Floats, str]:
+    reader = _Reader(message)
+    _, frame = reader.header()
+    count = reader.number()
+    if count > MOST_SAMPLES:
+        raise Malformed(f'a stroke has at most {MOST_SAMPLES} samples, not {count}', field='poses')
+    frames = {frame}
+    samples = np.empty((count, 3))
+    began: int | None = None
+    for sample in range(count):
+        stamp, frame = reader.header()
+        began = stamp if began is None else began
+        frames.add(frame)
+        samples[sample] = *reader.position(), (stamp - began) * 1e-9
+    # A pose without a frame is in that of the path, and a path without one in that of its poses.
+    said = sorted(frames - {''})
+    if len(said) > 1:
+        raise Malformed(
+            f'a stroke is drawn in one frame, not in {said[0]!r} and {said[1]!r}',
+            field='header.frame_id',
+        )
+    return samples, '' if said in ([], [frame_id]) else said[0]
+
+
+class _Reader:
+    """Reads the values of a serialised message, one after the other."""
+
+    def __init__(self, message: bytes) -> None:
+        self._data = memoryview(message)[_HEADER:]
+        self._at = 0
+        if len(message) < _HEADER:
+            raise struct.error('there is no header')
+        order = '<' if message[1] & 1 else '>'
+        self._stamp = struct.Struct(order + 'iII')
+        self._number = struct.Struct(order + 'I')
+        self._position = struct.Struct(order + '2d')
+
+    def header(self) -> tuple[int, str]:
+        """Return stamp [ns] and frame of a header."""
+        self._at += -self._at % 4
+        seconds, nanoseconds, length = self._stamp.unpack_from(self._data, self._at)
+        begin = self._at + self._stamp.size
+        self._at = begin + length
+        last = self._at - 1
+        # What is no UTF-8 is no frame either, and is refused as such.
+        frame = bytes(self._data[begin:last]).decode(errors='replace')
+        return seconds * 1_000_000_000 + nanoseconds, frame
+
+    def number(self) -> int:
+        """Return how many elements follow."""
+        self._at += -self._at % 4
+        (number,) = self._number.unpack_from(self._data, self._at)
+        self._at += self._number.size
+        return int(number)
+
+    def position(self) -> tuple[float, float]:
+        """Return x, y [m] of a pose, and go past it."""
+        self._at += -self._at % 8
+        x, y = self._position.unpack_from(self._data, self._at)
+        self._at += _POSE
+        if self._at > len(self._data):
+            raise struct.error('a pose is not all there')
+        return x, y

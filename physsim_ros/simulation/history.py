@@ -1,0 +1,279 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+What a world did: the log of its requests, and the keyframes from which it can do it again.
+
+Laws: a moment is a step and the number of requests made until then; the same log from the same
+keyframe leads to the same bits; what is dropped is dropped from one end.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_left, bisect_right
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from physsim_ros.model.checkpoint import Keyframe, WorldState
+from physsim_ros.model.errors import OutOfHistory
+from physsim_ros.model.requests import Request, Restore
+
+
+@dataclass(slots=True, eq=False)
+class Entry:
+    """
+    A request that changed the world.
+
+    :param step: at which it did
+    :param request: it
+    :param gesture: requests of one gesture are undone together
+    :param seen: whether that step has been shown with it; what came to a running world shows only
+        in the next frame
+    """
+
+    step: int
+    request: Request
+    gesture: int
+    seen: bool = False
+
+
+class Mark(NamedTuple):
+    """
+    A keyframe, and where it stands.
+
+    :ivar step: of it
+    :ivar serial: number of requests made until then
+    :ivar key: what the world went on from
+    :ivar digest: of the world then
+    """
+
+    step: int
+    serial: int
+    key: Keyframe
+    digest: str
+
+    @property
+    def moment(self) -> tuple[int, int]:
+        """Return step and serial."""
+        return self.step, self.serial
+
+
+class Tail(NamedTuple):
+    """
+    What has been cut off: how a world went on before something was undone.
+
+    :ivar after: moment of the last keyframe that was left
+    :ivar entries: the requests, the undone ones first
+    :ivar marks: keyframes that know of them
+    :ivar head: the last step that the world had reached
+    :ivar step: at which it was cut off, and
+    :ivar serial: number of requests made until then
+    """
+
+    after: tuple[int, int]
+    entries: tuple[Entry, ...]
+    marks: tuple[Mark, ...]
+    head: int
+    step: int
+    serial: int
+
+
+class History:
+    """
+    The log and the keyframes of one course of events.
+
+    :param first: keyframe of the beginning
+    :param length: steps that are kept, at least
+    :param spacing: steps from one keyframe to the next, at least
+    """
+
+    def __init__(self, first: Mark, *, length: int, spacing: int) -> None:
+        self._spacing = spacing
+        self._length = length
+        self._entries: list[Entry] = []
+        # Requests that are in the log no more.
+        self._dropped = first.serial
+        # What was loaded last before those that are.
+        self._loaded: WorldState | None = None
+        # The number of requests up to the last that loaded anything.
+        self._restored = 0
+        self._marks = [first]
+        # The last step that was reached.
+        self.head = first.step
+
+    # Reading
+
+    @property
+    def length(self) -> int:
+        """Return how many steps are kept."""
+        return self._length
+
+    @length.setter
+    def length(self, length: int) -> None:
+        self._length = length
+        self._forget()
+
+    @property
+    def oldest(self) -> int:
+        """Return the oldest step that can be gone back to."""
+        return max(self._marks[0].step, self.head - self._length)
+
+    @property
+    def keyframes(self) -> list[Mark]:
+        """Return the keyframes, oldest first."""
+        return self._marks
+
+    def made_at(self, step: int) -> int:
+        """Return the number of requests that were made until a step, and at it."""
+        return self._dropped + bisect_right(self._entries, step, key=lambda each: each.step)
+
+    def seen_at(self, step: int) -> int:
+        """Return the number of requests that were made until a step was shown last."""
+        # Of a step those come first that have been seen.
+        unseen = (step, True)
+        place = bisect_left(self._entries, unseen, key=lambda each: (each.step, not each.seen))
+        return self._dropped + place
+
+    def between(self, serial: int, end: int) -> list[Entry]:
+        """Return the requests from one serial to another."""
+        first, last = serial - self._dropped, end - self._dropped
+        return self._entries[first:last]
+
+    def before(self, step: int, serial: int) -> Mark:
+        """Return the last keyframe from which a moment can be reached."""
+        place = bisect_right(self._marks, (step, serial), key=lambda each: each.moment)
+        return self._marks[place - 1]
+
+    def at(self, step: int, serial: int) -> Mark | None:
+        """Return the keyframe of exactly that moment."""
+        mark = self.before(step, serial)
+        return mark if mark.moment == (step, serial) else None
+
+    def segment(self, step: int) -> tuple[Mark, int]:
+        """Return the keyframe after which a step comes, and the step of the next, or the last."""
+        place = bisect_left(self._marks, step, key=lambda each: each.step)
+        first = self._marks[max(0, place - 1)]
+        end = self._marks[place].step if place < len(self._marks) else self.head
+        return first, max(step, end)
+
+    def next_stop(self, step: int, end: int) -> int:
+        """Return the next step at which there is a request or a keyframe, or the end."""
+        entry = bisect_right(self._entries, step, key=lambda each: each.step)
+        mark = bisect_right(self._marks, step, key=lambda each: each.step)
+        stops = [end]
+        if entry < len(self._entries):
+            stops.append(self._entries[entry].step)
+        if mark < len(self._marks):
+            stops.append(self._marks[mark].step)
+        return min(stops)
+
+    def is_due(self, step: int) -> bool:
+        """Whether it is time for the next keyframe; what is loaded begins with one."""
+        last = self._marks[-1]
+        return step - last.step >= self._spacing or self._restored > last.serial
+
+    def last_gesture(self, serial: int) -> list[Entry]:
+        """Return the requests of the last gesture before a serial; none where none is kept."""
+        done = self._entries[: serial - self._dropped]
+        return [entry for entry in done if entry.gesture == done[-1].gesture]
+
+    @property
+    def loaded(self) -> WorldState | None:
+        """Return the state that was loaded last; None where none was."""
+        requests = (entry.request for entry in reversed(self._entries))
+        return next((each.state for each in requests if isinstance(each, Restore)), self._loaded)
+
+    # Changing
+
+    def reach(self, step: int) -> None:
+        """Note that the world has come to a step."""
+        if step > self.head:
+            self.head = step
+            self._forget()
+
+    def note(self, entry: Entry, serial: int) -> bool:
+        """
+        Add a request as the next after a serial; what lay ahead of it is dropped.
+
+        :return: whether anything lay ahead
+        """
+        ahead = self.head > entry.step or serial < self._dropped + len(self._entries)
+        self._cut(entry.step, serial)
+        self._add(entry)
+        return ahead
+
+    def see(self, step: int, serial: int) -> None:
+        """Note that a step has been shown, with the requests up to a serial."""
+        place = serial - self._dropped
+        while place > 0 and self._entries[place - 1].step == step:
+            place -= 1
+            if self._entries[place].seen:
+                break
+            self._entries[place].seen = True
+
+    def add_keyframe(self, mark: Mark) -> None:
+        """Add a keyframe, as the last."""
+        self._marks.append(mark)
+
+    def cut(self, step: int, serial: int, *, now: tuple[int, int]) -> Tail:
+        """
+        Cut off what came after a moment.
+
+        :param now: the moment at which that is asked
+        """
+        head, entries, marks = self.head, tuple(self._entries), tuple(self._marks)
+        self._cut(step, serial)
+        after, done, left = self._marks[-1].moment, len(self._entries), len(self._marks)
+        return Tail(after, entries[done:], marks[left:], head, *now)
+
+    def splice(self, tail: Tail) -> None:
+        """
+        Let things go on again as they did before they were cut off.
+
+        :raises OutOfHistory: that is too long ago
+        """
+        if self._marks[0].moment > tail.after:
+            raise OutOfHistory('what was undone is kept no more', field='history')
+        while self._marks[-1].moment > tail.after:
+            self._marks.pop()
+        for entry in tail.entries:
+            self._add(entry)
+        self._marks += tail.marks
+        self.head = tail.head
+        self._forget()
+
+    def _add(self, entry: Entry) -> None:
+        self._entries.append(entry)
+        if isinstance(entry.request, Restore):
+            self._restored = self._dropped + len(self._entries)
+
+    def _cut(self, step: int, serial: int) -> None:
+        left = serial - self._dropped
+        del self._entries[left:]
+        self._restored = min(self._restored, serial)
+        while self._marks[-1].step > step or self._marks[-1].serial > serial:
+            self._marks.pop()
+        self.head = step
+
+    def _forget(self) -> None:
+        """Drop what is older than is kept, save the keyframe that leads to the oldest step."""
+        old = bisect_right(self._marks, self.head - self._length, key=lambda each: each.step) - 1
+        if old > 0:
+            del self._marks[:old]
+            old = self._marks[0].serial - self._dropped
+            for entry in self._entries[:old]:
+                if isinstance(entry.request, Restore):
+                    self._loaded = entry.request.state
+            del self._entries[:old]
+            self._dropped = self._marks[0].serial

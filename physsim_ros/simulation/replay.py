@@ -1,0 +1,274 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+A world on its course: it goes on, goes back, and goes the same way again.
+
+Law: a world that follows its history makes the same steps, from the same keyframes, with the same
+requests in between, and so the same bits; where it does not, that is told.
+"""
+
+from __future__ import annotations
+
+from physsim_ros.model.errors import OutOfHistory, Refusal
+from physsim_ros.model.requests import Request
+from physsim_ros.model.snapshot import Answer
+from physsim_ros.simulation.history import Entry, History, Mark, Tail
+from physsim_ros.simulation.world import World
+
+# The share of the time between two keyframes in which the bodies for the next one are made ready,
+# so that no frame makes them all.
+_AHEAD = 0.75
+
+
+class Course:
+    """
+    A world that follows a history: it makes no keyframes and takes no new requests.
+
+    :param world: at the moment of one of its keyframes, or to be sent there by `resume`
+    :param history: that it follows
+    """
+
+    def __init__(self, world: World, history: History) -> None:
+        self.world = world
+        self.history = history
+        # Requests of the history that it has carried out.
+        self.serial = history.keyframes[0].serial
+        self._resumed: tuple[int, int] | None = None
+        self._told: list[Answer] = []
+
+    @property
+    def moment(self) -> tuple[int, int]:
+        """Return step and serial."""
+        return self.world.step_count, self.serial
+
+    def take_answers(self) -> list[Answer]:
+        """Return what has happened without a request since the last call."""
+        told, self._told = self._told, []
+        return told
+
+    def resume(self, mark: Mark, *, going_over: bool = False) -> None:
+        """
+        Go to a keyframe.
+
+        :param going_over: whether the world is at that moment now, with the same bits
+        """
+        self.world.resume(mark.key, going_over=going_over)
+        self.serial = mark.serial
+        self._resumed = mark.moment
+
+    def follow(self, step: int, serial: int) -> None:
+        """Go on to a moment of the past, no earlier than now."""
+        while self.world.step_count < step:
+            self._go_to_stop(step)
+        self._carry_out(serial)
+
+    def show(self, step: int) -> None:
+        """Go on to a step of the past, as it was shown."""
+        self.follow(step, self.history.seen_at(step))
+
+    def _go_to_stop(self, end: int) -> None:
+        """Go on to the next step at which the history knows more, or to the end."""
+        self._carry_out(self.history.made_at(self.world.step_count))
+        self._go_over()
+        self._step(end)
+
+    def _step(self, end: int) -> None:
+        step = self.world.step_count
+        stop = self.history.next_stop(step, end)
+        lost, broken = self.world.step(stop - step), self.world.take_broken()
+        # What happens again has been told the first time.
+        if stop > self.history.head:
+            for name in lost:
+                self._tell('divergence', f'{name} left the range of numbers and was removed', name)
+            for name, force in broken:
+                self._tell('joint_broken', f'{name} broke at {force:.3g} N and was removed', name)
+        self._carry_out(self.history.seen_at(stop))
+
+    def _carry_out(self, serial: int) -> None:
+        """Carry out again what was asked at this step, up to a serial."""
+        for entry in self.history.between(self.serial, serial):
+            self._go_over()
+            try:
+                self.world.apply(entry.request)
+            except Refusal as refusal:
+                self._tell('divergence', f'what was done once is refused now: {refusal}')
+            self.serial += 1
+
+    def _go_over(self) -> None:
+        """Go on in the space of a keyframe that was made at this moment, as was done then."""
+        mark = self.history.at(*self.moment)
+        if mark is not None and self._resumed != mark.moment:
+            self.resume(mark, going_over=self.verify())
+
+    def verify(self) -> bool:
+        """Return whether the world is what it was when it was here first; tell where it is not."""
+        mark = self.history.at(*self.moment)
+        same = mark is None or self.world.digest() == mark.digest
+        if not same:
+            seconds = self.world.step_count * self.world.dt
+            self._tell('divergence', f'{seconds:.3f} s was reached with other bits than before')
+        return same
+
+    def _tell(self, code: str, message: str, subject: str = '') -> None:
+        self._told.append(Answer(topic=code, subject=subject, message=message, code=code))
+
+
+class Timeline(Course):
+    """
+    A world that makes history.
+
+    :param world: at its beginning
+    :param length: steps that are kept
+    :param spacing: steps from one keyframe to the next, at least
+    """
+
+    def __init__(self, world: World, *, length: int, spacing: int) -> None:
+        first = Mark(world.step_count, 0, world.renew(), world.digest())
+        super().__init__(world, History(first, length=length, spacing=spacing))
+        self._resumed = first.moment
+        self._spacing = spacing
+
+    def apply(self, request: Request, gesture: int) -> tuple[str, str]:
+        """
+        Carry out a request; what lay ahead is dropped, where it changes anything.
+
+        :return: the body concerned, or '', and a sentence that says what was done
+        :raises Refusal: and nothing is changed
+        """
+        # As it will be carried out again.
+        self._go_over()
+        done = self.world.apply(request)
+        if not self.world.changed:
+            return done
+        step, serial = self.moment
+        if self.history.note(Entry(step, request, gesture), serial):
+            message = f'what lay after {step * self.world.dt:.3f} s is dropped'
+            self._told.append(Answer(topic='branch', message=message))
+        self.serial += 1
+        return done
+
+    def see(self) -> None:
+        """Note that this moment is shown."""
+        self.history.see(*self.moment)
+
+    def go(self, steps: int) -> None:
+        """Go on: as before where that is known, and further."""
+        end = self.world.step_count + steps
+        while self.world.step_count < end:
+            if self.world.step_count < self.history.head:
+                self._go_to_stop(min(end, self.history.head))
+            else:
+                self._carry_out(self.history.made_at(self.world.step_count))
+                self._make_keyframe()
+                self._step(end)
+                self.history.reach(self.world.step_count)
+
+    def seek(self, step: int) -> None:
+        """
+        Go to a step that has been, as it was shown.
+
+        :raises OutOfHistory: it is kept no more, or has not come yet
+        """
+        history, dt = self.history, self.world.dt
+        if not history.oldest <= step <= history.head:
+            raise OutOfHistory(
+                f'{step * dt:.3f} s is not in the history, which reaches from '
+                f'{history.oldest * dt:.3f} to {history.head * dt:.3f} s',
+                field='clock',
+            )
+        self.seek_moment(step, history.seen_at(step))
+
+    def limit(self, length: int) -> bool:
+        """
+        Keep so many steps from now on; a world that is before them goes to the oldest.
+
+        :return: whether it is where it was
+        """
+        history = self.history
+        history.length = length
+        if self.world.step_count >= history.oldest and self.moment >= history.keyframes[0].moment:
+            return True
+        self.seek(history.oldest)
+        return False
+
+    def seek_moment(self, step: int, serial: int) -> None:
+        """Go to a moment of the past, from the nearest keyframe or from here."""
+        history, frame = self.history, self.world.frame_steps
+        # Its contacts are those of one frame, as they were the first time.
+        begin = max(history.oldest, step - (step % frame or frame))
+        first = (step, serial)
+        if self.world.watching:
+            first = min(first, (begin, history.seen_at(begin)))
+        mark = history.before(*first)
+        if not mark.moment <= self.moment <= first:
+            self.resume(mark)
+        if self.world.step_count < begin:
+            self.follow(begin, history.seen_at(begin))
+        self.world.clear_contacts()
+        self.follow(step, serial)
+
+    def renew(self) -> None:
+        """
+        Make a keyframe now, so that whoever goes on from what is saved goes on alike.
+
+        Not in the past: how it went on from there is settled.
+        """
+        if self.world.step_count < self.history.head or self._resumed == self.moment:
+            return
+        self._add_keyframe()
+
+    def undo(self) -> tuple[list[Entry], Tail]:
+        """
+        Go back to the moment before the last gesture.
+
+        :return: what is undone, and what `redo` needs
+        :raises OutOfHistory: there is none
+        """
+        undone = self.history.last_gesture(self.serial)
+        if not undone:
+            raise OutOfHistory('there is nothing to undo', field='history')
+        step, serial = undone[0].step, self.serial - len(undone)
+        tail = self.history.cut(step, serial, now=self.moment)
+        self.seek_moment(step, serial)
+        return undone, tail
+
+    def redo(self, tail: Tail) -> None:
+        """
+        Return to where something was undone, and to how things went on from there.
+
+        :raises OutOfHistory: it is kept no more
+        """
+        self.history.splice(tail)
+        # What has been done since leads nowhere: from a keyframe, not from here.
+        self.resume(self.history.before(tail.step, tail.serial))
+        self.seek_moment(tail.step, tail.serial)
+
+    def _make_keyframe(self) -> None:
+        """Make a keyframe where one is due, or where the world has come from one and changed."""
+        self._go_over()
+        step = self.world.step_count
+        changed = self._resumed is not None and self._resumed[0] == step
+        if self.history.at(*self.moment) is None and (changed or self.history.is_due(step)):
+            self._add_keyframe()
+
+    def _add_keyframe(self) -> None:
+        mark = Mark(*self.moment, self.world.renew(), self.world.digest())
+        self.history.add_keyframe(mark)
+        self._resumed = mark.moment
+
+    def build_ahead(self, steps: int) -> None:
+        """Build ahead for the next keyframe what a share of its time, so many steps, allows."""
+        bodies = len(self.world)
+        self.world.build_spares(-(-bodies * steps // max(1, int(self._spacing * _AHEAD))))

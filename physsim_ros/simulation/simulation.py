@@ -1,0 +1,471 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+The one door to the core: requests and steady time go in, frames come out.
+
+Laws: requests are carried out in the order of their arrival and only between frames; every one is
+answered; a paused world carries them out too, and so does one that is shown in its past, which
+goes on differently from there.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from typing import NamedTuple
+
+from physsim_ros.engine.contact_report import NO_CONTACTS
+from physsim_ros.model.checkpoint import WorldState
+from physsim_ros.model.errors import BadProperty, Refusal
+from physsim_ros.model.requests import Command, Delete, Join, Request, Restore, Spawn, Unjoin
+from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.snapshot import Answer, Frame
+from physsim_ros.simulation.clock import Clock
+from physsim_ros.simulation.frame_cache import Past, Shot
+from physsim_ros.simulation.replay import Timeline
+from physsim_ros.simulation.undo import Undo
+from physsim_ros.simulation.world import World
+
+# Frames in one call: the one that is due, and one to make up for a late one.
+_FRAMES_A_CALL = 2
+# From one keyframe to the next [s]: to reach a step, at most so much is simulated again.
+KEYFRAMES = 3.0
+# What is kept of what was shown, at most [bytes]: three minutes of 100 bodies, 23 s of 1,000.
+MOST_KEPT = 64 * 2**20
+
+
+class _Asked(NamedTuple):
+    """A request that waits, or the refusal of what could not even be one, or an answer."""
+
+    request: Request | Refusal | Answer
+    topic: str
+    subject: str
+    gesture: int
+    field: str = ''
+
+
+class Simulation:
+    """
+    A world and its time.
+
+    :param physics_rate: steps a second of simulation time [Hz], a multiple of publish_rate
+    :param publish_rate: frames a second of simulation time at speed 1 [Hz]
+    :param settings: of the empty world at the start
+    :param speed: simulation seconds a second; 0 is paused, negative goes back
+    :param history: how far back it can go [s of simulation time]
+    :param keyframes: from one keyframe to the next [s]
+    :ivar past: what was shown of it
+    :raises BadProperty: publish_rate does not divide physics_rate
+    """
+
+    def __init__(
+        self,
+        *,
+        physics_rate: float = 240.0,
+        publish_rate: float = 60.0,
+        settings: WorldSettings | None = None,
+        speed: float = 1.0,
+        history: float = 600.0,
+        keyframes: float = KEYFRAMES,
+    ) -> None:
+        steps = physics_rate / publish_rate
+        if steps < 1 or abs(steps - round(steps)) > 1e-9:
+            raise BadProperty(
+                f'publish_rate {publish_rate:g} Hz does not divide physics_rate '
+                f'{physics_rate:g} Hz',
+                field='publish_rate',
+            )
+        self.frame_steps = round(steps)
+        self.physics_rate = physics_rate
+        self._clock = Clock(physics_rate=physics_rate, frame_steps=self.frame_steps, speed=speed)
+        self._requests: deque[_Asked] = deque()
+        self._gesture = 0
+        self._answers: list[Answer] = []
+        self._changed = True
+        self._watching = False
+        self._history = history
+        self._keyframes = keyframes
+        empty = WorldState(settings=settings or WorldSettings())
+        self._undo = Undo(self._timeline_of, empty)
+        self.past = self._no_past()
+        # The step that is shown where the world itself is at another; None where it is there.
+        self._shown: Shot | None = None
+
+    # Reading
+
+    @property
+    def timeline(self) -> Timeline:
+        """Return the world on its course, and its history."""
+        return self._undo.timeline
+
+    @property
+    def world(self) -> World:
+        """Return the world as it is at the moment that is shown."""
+        self._catch_up()
+        return self.timeline.world
+
+    @property
+    def step(self) -> int:
+        """Return the step that is shown."""
+        if self._shown is not None:
+            return self._shown.snapshot.step
+        return self.timeline.world.step_count
+
+    @property
+    def settings(self) -> WorldSettings:
+        """Return what holds for the whole world at the moment that is shown."""
+        if self._shown is not None:
+            return self._shown.snapshot.scene.settings
+        return self.timeline.world.settings
+
+    @property
+    def speed(self) -> float:
+        """Return simulation seconds a second; 0 is paused, negative goes back."""
+        return self._clock.speed
+
+    @speed.setter
+    def speed(self, speed: float) -> None:
+        self._changed |= speed != self._clock.speed
+        self._clock.speed = speed
+
+    @property
+    def history(self) -> float:
+        """Return how far back it can go [s of simulation time]."""
+        return self._history
+
+    @history.setter
+    def history(self, history: float) -> None:
+        self._catch_up()
+        self._history = history
+        if not self.timeline.limit(self._steps(history)):
+            self._moved()
+            self._tell_oldest()
+
+    @property
+    def late_frames(self) -> int:
+        """Count of frames that the machine could not make in time."""
+        return self._clock.late_frames
+
+    def watch_contacts(self, watching: bool) -> None:  # noqa: FBT001 - a state, not a mode
+        """Have the frames tell what touches, or save the cost of it."""
+        self._watching = self.timeline.world.watching = watching
+
+    # Asking
+
+    def submit(
+        self, request: Request, *, topic: str, joined: bool = False, field: str = ''
+    ) -> None:
+        """
+        Queue a request; nothing moves until the next frame, which carries the answer.
+
+        :param topic: where it comes from
+        :param joined: whether it belongs to the one before, and is undone together with it
+        :param field: the one field that it was made of, to be named by a refusal; '' is none
+        """
+        subject = ''
+        match request:
+            case (
+                Spawn(name=subject)
+                | Delete(name=subject)
+                | Join(name=subject)
+                | Unjoin(name=subject)
+                | Command(names=(subject,))
+            ):
+                pass
+        self._queue(request, topic, subject, joined=joined, field=field)
+
+    def tell(self, answer: Answer) -> None:
+        """Queue an answer to what asked nothing of the world, so that answers keep the order."""
+        self._queue(answer, answer.topic, answer.subject, joined=True)
+
+    def refuse(
+        self,
+        refusal: Refusal,
+        *,
+        topic: str,
+        subject: str,
+        joined: bool = False,
+        field: str = '',
+    ) -> None:
+        """Queue the answer to what could not even be a request, so that answers keep the order."""
+        self._queue(refusal, topic, subject, joined=joined, field=field)
+
+    def perform(self, request: Request) -> str:
+        """
+        Carry out a request now, after those that wait, and say what was done.
+
+        :raises Refusal: and nothing is changed
+        """
+        self._apply_all()
+        self._gesture += 1
+        message = self._apply(request, self._gesture)[1]
+        self._changed = True
+        return message
+
+    def begin(self, state: WorldState) -> None:
+        """Begin with a state, at time 0, without a past; `reset` will return to it."""
+        self._undo.begin(state)
+        self.past = self._no_past()
+        self._moved()
+
+    def load(self, state: WorldState) -> str:
+        """Replace the world by a state, to which `reset` will return; time goes on."""
+        return self.perform(Restore(state=state))
+
+    def save(self) -> WorldState:
+        """
+        Return the world as it is; whoever goes on from that goes on as it does itself.
+
+        In the past the state is the same to the bit, but what went on from there may go on
+        otherwise from what is saved, and after a collision very much so: the order in which the
+        engine has found contacts cannot be read, and how the past goes on is settled.
+        """
+        self._apply_all()
+        self._catch_up()
+        self.timeline.renew()
+        return self.timeline.world.save()
+
+    def reset(self) -> str:
+        """Return to the state that was loaded last, at time 0; `undo` comes back from there."""
+        self._apply_all()
+        self._catch_up()
+        if not self._undo.reset():
+            return self._turn('~/reset', 'at the beginning, time 0')
+        self.past = self._no_past()
+        return self._turn('~/reset', 'back at the beginning, time 0')
+
+    def undo(self) -> str:
+        """
+        Go back to the moment before the last request that changed the world, and say so.
+
+        :raises OutOfHistory: there is none in the history
+        """
+        self._apply_all()
+        self._catch_up()
+        undone, step = self._undo.undo()
+        self._follow(step)
+        return self._turn('~/undo', f'undid {undone}, back at {self._time()}')
+
+    def redo(self) -> str:
+        """
+        Return to where the last undo was asked for, and say so.
+
+        :raises OutOfHistory: nothing was undone, or something else was done since
+        """
+        self._apply_all()
+        self._catch_up()
+        self._follow(self._undo.redo())
+        return self._turn('~/redo', f'redid what was undone, at {self._time()}')
+
+    def seek(self, stamp: int) -> str:
+        """
+        Go to a simulation time [ns], and say so.
+
+        :raises OutOfHistory: it is kept no more, or has not come yet
+        """
+        self._apply_all()
+        self._catch_up()
+        # What has just been carried out belongs to this step.
+        self.timeline.see()
+        self.timeline.seek(round(stamp * 1e-9 * self.physics_rate))
+        self._moved()
+        return f'at {self._time()}'
+
+    # Going on
+
+    def advance(self, now_ns: int) -> tuple[Frame, ...]:
+        """
+        Carry out what was asked, and go on, or back, by what is due.
+
+        :param now_ns: steady time, never going back [ns]
+        :return: the frames, in the order in which they are shown; none where nothing is due and
+            nothing has changed
+        """
+        self._apply_all()
+        frames = []
+        for _ in range(_FRAMES_A_CALL):
+            steps = self._clock.due(now_ns, self.step)
+            if steps == 0:
+                break
+            frames.append(self._go(steps) if steps > 0 else self._go_back(-steps))
+            if self.speed == 0:
+                break
+        if not frames and self._changed:
+            frames.append(self._frame(moved=False))
+        return tuple(frames)
+
+    def settle(self) -> Frame | None:
+        """Carry out what was asked without going on; return a frame if there was anything."""
+        self._apply_all()
+        return self._frame(moved=False) if self._changed else None
+
+    def advance_frame(self) -> Frame:
+        """Carry out what was asked, and go on by one publish period, whatever the speed."""
+        self._apply_all()
+        self._clock.restart()
+        return self._go(self.frame_steps - self.step % self.frame_steps)
+
+    def _go(self, steps: int) -> Frame:
+        self._catch_up()
+        self.timeline.go(steps)
+        self.timeline.build_ahead(steps)
+        return self._frame(moved=True)
+
+    def _go_back(self, steps: int) -> Frame:
+        oldest = self.timeline.history.oldest
+        step = max(oldest, self.step - steps)
+        moved = step < self.step
+        if moved:
+            self._shown = self.past.shot(step, watching=self._watching)
+            fine = not self.speed.is_integer()
+            self.past.make_ahead(step, steps, fine=fine, watching=self._watching)
+        if step == oldest:
+            self.speed = 0.0
+            self._tell_oldest('; paused')
+        return self._frame(moved=moved)
+
+    def _catch_up(self) -> None:
+        """Bring the world itself to the moment that is shown."""
+        if self._shown is not None:
+            step, self._shown = self._shown.snapshot.step, None
+            self.timeline.seek(step)
+            # They have been shown.
+            self.timeline.world.clear_contacts()
+
+    def _follow(self, step: int | None) -> None:
+        """
+        Follow a course of events from now on.
+
+        :param step: from which on it is another than before; None is another altogether
+        """
+        if step is not None:
+            self.past.forget(step)
+            return
+        self.past = self._no_past()
+        self.timeline.world.watching = self._watching
+        if self.timeline.limit(self._steps(self._history)):
+            # With the contacts of the frame that was shown.
+            self.timeline.seek_moment(*self.timeline.moment)
+
+    def _moved(self) -> None:
+        """Note that another moment is shown than before."""
+        self._shown = None
+        self.timeline.world.watching = self._watching
+        self._clock.restart()
+        self._changed = True
+
+    def _turn(self, topic: str, message: str) -> str:
+        """Tell that things go on differently from before."""
+        self._moved()
+        self._answers.append(Answer(topic=topic, message=message))
+        return message
+
+    # Inside
+
+    def _queue(
+        self,
+        request: Request | Refusal | Answer,
+        topic: str,
+        subject: str,
+        *,
+        joined: bool,
+        field: str = '',
+    ) -> None:
+        self._gesture += not joined
+        self._requests.append(_Asked(request, topic, subject, self._gesture, field))
+
+    def _apply_all(self) -> None:
+        while self._requests:
+            request, topic, subject, gesture, field = self._requests.popleft()
+            self._changed = True
+            if isinstance(request, Answer):
+                self._answers.append(request)
+                continue
+            try:
+                if isinstance(request, Refusal):
+                    raise request
+                subject, message = self._apply(request, gesture)
+            except Refusal as refusal:
+                answer = Answer.refused(refusal, topic=topic, subject=subject, field=field)
+            else:
+                answer = Answer(topic=topic, subject=subject, message=message)
+            self._answers.append(answer)
+
+    def _apply(self, request: Request, gesture: int) -> tuple[str, str]:
+        self._catch_up()
+        head = self.timeline.history.head
+        done = self.timeline.apply(request, gesture)
+        if self.timeline.world.changed:
+            self._undo.do()
+        if self.timeline.history.head < head:
+            self.past.forget(self.step)
+        return done
+
+    def _frame(self, *, moved: bool) -> Frame:
+        snapshot, contacts = self._shown or self._look(moved=moved)
+        if self._shown is not None and not moved:
+            # They have been shown.
+            contacts = NO_CONTACTS
+        self._answers += self.timeline.take_answers() + self.past.take_answers()
+        frame = Frame(
+            snapshot=snapshot,
+            contacts=contacts if self._watching else None,
+            answers=tuple(self._answers),
+            speed=self.speed,
+            moved=moved,
+        )
+        self._answers.clear()
+        self._changed = False
+        return frame
+
+    def _look(self, *, moved: bool) -> Shot:
+        """Return what there is to see, and keep it for going back."""
+        world = self.timeline.world
+        snapshot = world.snapshot()
+        contacts = world.contacts(snapshot) if world.watching else None
+        shot = Shot(snapshot, contacts)
+        # What touched in this step has been taken by the frame that came with it.
+        self.past.keep(shot if moved else self.past.completed(shot))
+        self.timeline.see()
+        return shot
+
+    def _timeline_of(self, state: WorldState) -> Timeline:
+        """Return a timeline that begins with a state."""
+        world = World(
+            physics_rate=self.physics_rate, frame_steps=self.frame_steps, settings=state.settings
+        )
+        world.apply(Restore(state=state))
+        world.watching = self._watching
+        return Timeline(
+            world, length=self._steps(self._history), spacing=self._steps(self._keyframes)
+        )
+
+    def _no_past(self) -> Past:
+        """Return the past of the timeline, as long as nothing was shown."""
+        return Past(
+            self.timeline.history,
+            physics_rate=self.physics_rate,
+            frame_steps=self.frame_steps,
+            budget=MOST_KEPT,
+        )
+
+    def _tell_oldest(self, more: str = '') -> None:
+        message = f'{self._time()} is the oldest that is kept{more}'
+        self._answers.append(Answer(topic='history', message=message))
+
+    def _steps(self, seconds: float) -> int:
+        return round(seconds * self.physics_rate)
+
+    def _time(self) -> str:
+        return f'{self.step / self.physics_rate:.3f} s'

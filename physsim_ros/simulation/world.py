@@ -1,0 +1,470 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+The world: requests go in, snapshots come out.
+
+Laws: the world changes only between steps and only in `apply`; a refusal changes nothing; the same
+requests at the same steps give the same bits, in another process too.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+import hashlib
+import math
+
+from physsim_ros.engine.body import REST, RigidBody
+from physsim_ros.engine.body_pool import Spares
+from physsim_ros.engine.space import Space
+from physsim_ros.model.body_properties import HEAVIEST, LIGHTEST
+from physsim_ros.model.checkpoint import BodyState, Keyframe, Motion, WorldState
+from physsim_ros.model.colors import color_of
+from physsim_ros.model.errors import (
+    Anchored,
+    BadProperty,
+    NothingThere,
+    UnknownBody,
+    UnknownFrame,
+    WorldFull,
+)
+from physsim_ros.model.joint_properties import JointKind
+from physsim_ros.model.names import split_name
+from physsim_ros.model.requests import (
+    Anchor,
+    Axle,
+    check_pose,
+    Command,
+    Configure,
+    Delete,
+    DeleteAll,
+    Join,
+    Joining,
+    Pin,
+    Release,
+    Request,
+    Restore,
+    Spawn,
+    Unjoin,
+    UnjoinAll,
+)
+from physsim_ros.model.scene import Body
+from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.shapes import Point, Pose
+from physsim_ros.model.snapshot import Contacts, Snapshot
+from physsim_ros.model.transform import rotated
+from physsim_ros.simulation import joint_requests
+
+
+class World:
+    """
+    A world of bodies, stepped at a fixed rate.
+
+    :param physics_rate: steps a second of simulation time [Hz]
+    :param frame_steps: of a frame; at its end, what has left the range of numbers is looked for
+    :param settings: what holds at the start
+    """
+
+    def __init__(
+        self,
+        *,
+        physics_rate: float = 240.0,
+        frame_steps: int = 4,
+        settings: WorldSettings | None = None,
+    ) -> None:
+        self.physics_rate = physics_rate
+        self.frame_steps = frame_steps
+        self.dt = 1.0 / physics_rate
+        self.step_count = 0
+        # Whether contacts are read; reading them costs a tenth of a step.
+        self.watching = False
+        # Whether the last request that was carried out changed anything.
+        self.changed = False
+        self._settings = settings or WorldSettings()
+        self._space = Space(self._settings, self.dt)
+        self._spawned = 0
+        self._spares = Spares()
+
+    # Reading
+
+    def __len__(self) -> int:
+        return len(self._space.bodies)
+
+    def __contains__(self, name: str) -> bool:
+        return name in self._space.bodies
+
+    @property
+    def settings(self) -> WorldSettings:
+        """Return what holds for the whole world."""
+        return self._settings
+
+    @property
+    def stamp(self) -> int:
+        """Return the simulation time [ns]."""
+        return round(self.step_count * 1e9 / self.physics_rate)
+
+    def snapshot(self) -> Snapshot:
+        """Return where everything is."""
+        scene, poses, twists = self._space.rows()
+        return Snapshot(
+            step=self.step_count,
+            stamp=self.stamp,
+            scene=scene,
+            poses=poses,
+            twists=twists,
+            forces=self._space.forces(),
+            springs=self._space.machine.springs(),
+        )
+
+    def contacts(self, snapshot: Snapshot) -> Contacts:
+        """Return what touched since the last call while the world was being watched."""
+        return self._space.contacts(lambda: snapshot.centers)
+
+    def clear_contacts(self) -> None:
+        """Forget what touched since the last call of `contacts`."""
+        self._space.clear_contacts()
+
+    def digest(self) -> str:
+        """Return a hash of all that is known of the world, but for the engine's own memory."""
+        digest = hashlib.blake2b(digest_size=16)
+        digest.update(f'{self.step_count} {self.physics_rate!r}'.encode())
+        for part in self._space.essence():
+            digest.update(part)
+        return digest.hexdigest()
+
+    def body_at(self, point: Point) -> str | None:
+        """Return the topmost body, that spawned last, which covers a point of the world [m]."""
+        return next(iter(self._space.bodies_at(point)), None)
+
+    def save(self) -> WorldState:
+        """Return everything that the world goes on from."""
+        now = self.step_count
+        key, bodies = self._space.keyframe(now), []
+        motions = zip(key.state.tolist(), key.free.tolist(), strict=True)
+        for rigid, (state, free) in zip(self._space.bodies.values(), motions, strict=True):
+            body, until = rigid.body, rigid.wrench_until
+            if body.expires is not None:
+                body = replace(body, expires=body.expires - now)
+            bodies.append(
+                BodyState(
+                    body=body,
+                    pose=rigid.pose,
+                    twist=self._space.twist(rigid),
+                    motion=Motion._make((*state, free)),
+                    wrench=rigid.wrench,
+                    wrench_steps=None if until is None else until - now,
+                )
+            )
+        joints = tuple(held.joint for held in self._space.machine.joints.values())
+        return WorldState(
+            settings=self._settings, bodies=tuple(bodies), joints=joints, memory=key.memory
+        )
+
+    # Changing
+
+    def apply(self, request: Request) -> tuple[str, str]:
+        """
+        Carry out a request.
+
+        :return: the body or joint concerned, or '', and a sentence that says what was done
+        :raises Refusal: and nothing is changed
+        """
+        before = self._space, self._space.changes
+        done = self._carry_out(request)
+        self.changed = before != (self._space, self._space.changes)
+        return done
+
+    def _carry_out(self, request: Request) -> tuple[str, str]:
+        if isinstance(request, Joining):
+            return self._join(request)
+        match request:
+            case Spawn():
+                return self._spawn(request)
+            case Delete(name=name):
+                self._space.remove(self._known(name).body.name)
+                return name, f'deleted {name}'
+            case DeleteAll(namespace=namespace):
+                return '', self._delete_all(namespace)
+            case Anchor(point=point, frame=frame):
+                return self._set_anchored(point, frame, anchored=True)
+            case Release(point=point, frame=frame):
+                return self._set_anchored(point, frame, anchored=False)
+            case Command():
+                return self._command(request)
+            case Configure(changes=changes):
+                self._configure(replace(self._settings, **changes))
+                return '', f'set {", ".join(changes)}'
+            case Restore(state=state):
+                self._restore(state)
+                joints = f' and {len(state.joints)} joints' if state.joints else ''
+                return '', f'loaded {len(state.bodies)} bodies{joints}'
+
+    def take_broken(self) -> list[tuple[str, float]]:
+        """Return the joints that have broken since the last call, and what each gave then [N]."""
+        broken, self._space.broken = self._space.broken, []
+        return broken
+
+    def step(self, count: int) -> tuple[str, ...]:
+        """
+        Go on by a number of steps.
+
+        :return: bodies that left the range of numbers and were removed
+        """
+        lost: list[str] = []
+        for remaining in range(count, 0, -1):
+            # Counted from the beginning, so that it does not depend on who makes how many steps.
+            ends = (self.step_count + 1) % self.frame_steps == 0
+            last = ends or remaining == 1
+            lost += self._space.step(self.step_count, watching=self.watching, last=last)
+            self.step_count += 1
+            if ends:
+                lost += self._space.drop_lost()
+        return tuple(lost)
+
+    # Going on from a keyframe
+
+    def renew(self) -> Keyframe:
+        """
+        Go on in a space built anew from what is so, and return that.
+
+        Whoever resumes the keyframe later goes on with the same bits. The engine itself has a
+        past that cannot be read, as in the order in which it has found contacts; a new space has
+        none.
+        """
+        key = self._space.keyframe(self.step_count)
+        space = Space(
+            self._settings, self.dt, key=key, spares=self._spares.bodies, before=self._space
+        )
+        space.inherit(self._space)
+        self._take(space, Spares(self._space))
+        return key
+
+    def resume(self, key: Keyframe, *, going_over: bool = False) -> None:
+        """
+        Go back, or forward, to a keyframe.
+
+        :param going_over: whether the world is at that moment now, with the same bodies; then
+            what has touched in the frame so far is not forgotten
+        """
+        self.step_count = key.step
+        self._settings = key.scene.settings
+        space = Space(self._settings, self.dt, key=key, before=self._space)
+        if going_over:
+            space.inherit(self._space)
+        self._take(space, Spares())
+
+    def build_spares(self, count: int) -> None:
+        """Make so many bodies ready for the next `renew`."""
+        self._spares.add(self._space.scene, count)
+
+    def _take(self, space: Space, spares: Spares) -> None:
+        self._space, self._spares = space, spares
+        self._spawned = len(space.bodies)
+
+    # Requests
+
+    def _spawn(self, request: Spawn) -> tuple[str, str]:
+        name, said = request.name, request.properties
+        old = self._space.bodies.get(name)
+        count, most = len(self._space.bodies), self._settings.max_bodies
+        if old is None and count >= most:
+            raise WorldFull(f'the world holds {count} bodies; it may hold {most}')
+        pose = self._in_world(request.pose, request.frame)
+        body = self._described(request, old.body if old else None)
+        _check_weight(body)
+        moves = (said.velocity or (0.0, 0.0)) != (0.0, 0.0) or bool(said.spin)
+        if body.anchored and moves:
+            raise Anchored(f'{name} is anchored; it has no velocity', field='velocity')
+        twist = REST if old is None or old.body.anchored else self._space.twist(old)
+        if said.velocity is not None:
+            twist = (*said.velocity, twist[2])
+        if said.spin is not None:
+            twist = (twist[0], twist[1], said.spin)
+        if body.anchored:
+            twist = REST
+        if old is not None:
+            self._space.change(old, body, pose, twist)
+            return name, f'changed {name}'
+        self._space.add(body, self._spawned, pose, twist)
+        self._spawned += 1
+        return name, f'spawned {name}'
+
+    def _described(self, request: Spawn, old: Body | None) -> Body:
+        """Return the body that a spawn asks for: what it says, else what was, else defaults."""
+        said = request.properties
+        if old is None:
+            old = Body(
+                name=request.name,
+                shape=request.shape,
+                color=request.color or color_of(request.name),
+                mass=None,
+                density=self._settings.density,
+                friction=self._settings.friction,
+                elasticity=self._settings.elasticity,
+                anchored=False,
+                kinematic=False,
+                group=0,
+                sensor=False,
+                expires=None,
+            )
+        changes = said.said()
+        for motion in ('velocity', 'spin'):
+            changes.pop(motion, None)
+        if said.density is not None:
+            changes['mass'] = None
+        if request.color is not None:
+            changes['color'] = request.color
+        if request.lifetime > 0:
+            changes['expires'] = self._step_after(request.lifetime)
+        return replace(old, shape=request.shape, **changes)
+
+    def _join(self, request: Joining) -> tuple[str, str]:
+        match request:
+            case Join(points=points, frame=frame):
+                return joint_requests.join(self._space, request, self._points(points, frame))
+            case Unjoin(name=name):
+                return joint_requests.unjoin(self._space, name)
+            case UnjoinAll(namespace=namespace):
+                return '', joint_requests.unjoin_all(self._space, namespace)
+            case Pin(point=point, frame=frame) | Axle(point=point, frame=frame):
+                kind = JointKind.PIN if isinstance(request, Pin) else JointKind.AXLE
+                (point,) = self._points((point,), frame)
+                return joint_requests.pin(self._space, kind, point)
+
+    def _set_anchored(self, point: Point, frame: str, *, anchored: bool) -> tuple[str, str]:
+        ((x, y),) = self._points((point,), frame)
+        name = self.body_at((x, y))
+        if name is None:
+            raise NothingThere(f'there is no body at ({x:g}, {y:g})', field='point')
+        rigid = self._space.bodies[name]
+        if rigid.body.anchored != anchored:
+            body = replace(rigid.body, anchored=anchored)
+            self._space.change(rigid, body, rigid.pose, REST)
+        if anchored:
+            return name, f'anchored {name}'
+        loosened = joint_requests.loosen(self._space, name, (x, y))
+        return name, ' and removed '.join((f'released {name}', *loosened))
+
+    def _delete_all(self, namespace: str | None) -> str:
+        names = [
+            name
+            for name in self._space.bodies
+            if namespace is None or split_name(name)[0] == namespace
+        ]
+        for name in names:
+            self._space.remove(name)
+        return f'deleted {len(names)} bodies'
+
+    def _command(self, request: Command) -> tuple[str, str]:
+        rigids = [self._known(name, 'joint_names') for name in request.names]
+        for rigid in rigids:
+            if rigid.body.anchored and (request.twists or request.wrenches):
+                raise Anchored(
+                    f'{rigid.body.name} is anchored; it takes a pose only', field='joint_names'
+                )
+            if rigid.body.kinematic and request.wrenches:
+                raise BadProperty(
+                    f'{rigid.body.name} is kinematic; forces do not move it', field='wrench'
+                )
+        # Twists and wrenches are of the world, but a frame that there is not is a mistake.
+        self._in_world(REST, request.frame)
+        poses = [self._in_world(pose, request.frame) for pose in request.poses]
+        for rigid, pose in zip(rigids, poses, strict=False):
+            self._space.set_pose(rigid, pose)
+        for rigid, twist in zip(rigids, request.twists, strict=False):
+            self._space.set_twist(rigid, twist)
+        until = self._wrenches_until()
+        for rigid, wrench in zip(rigids, request.wrenches, strict=False):
+            self._space.push(rigid, wrench, until)
+        if len(rigids) == 1:
+            return request.names[0], f'commanded {request.names[0]}'
+        return '', f'commanded {len(rigids)} bodies'
+
+    def _wrenches_until(self) -> int | None:
+        """Return the step until which a wrench acts that is asked for now; None is for ever."""
+        timeout = self._settings.command_timeout
+        return self._step_after(timeout) if timeout > 0 else None
+
+    def _configure(self, settings: WorldSettings) -> None:
+        old, self._settings = self._settings, settings
+        self._space.configure(settings)
+        if settings.command_timeout != old.command_timeout:
+            self._space.limit_wrenches(self._wrenches_until())
+
+    def _restore(self, state: WorldState) -> None:
+        # A space of its own for every state: what was in the old one leaves no trace.
+        space = Space(state.settings, self.dt)
+        now = self.step_count
+        for serial, saved in enumerate(state.bodies):
+            body, steps = saved.body, saved.wrench_steps
+            if body.expires is not None:
+                body = replace(body, expires=body.expires + now)
+            rigid = space.add(body, serial, saved.pose, saved.twist)
+            if saved.wrench != REST:
+                space.push(rigid, saved.wrench, None if steps is None else now + steps)
+            if saved.motion is not None:
+                space.set_motion(rigid, saved.motion)
+        for joint in state.joints:
+            space.join(joint)
+        if state.memory is not None:
+            key = replace(space.keyframe(now), memory=state.memory)
+            space = Space(state.settings, self.dt, key=key)
+        self._settings = state.settings
+        self._take(space, Spares())
+
+    def _points(self, points: tuple[Point, ...], frame: str) -> tuple[Point, ...]:
+        """Return points of a frame as points of the world."""
+        return tuple(self._in_world((*point, 0.0), frame)[:2] for point in points)
+
+    def _known(self, name: str, field: str = 'name') -> RigidBody:
+        if name not in self._space.bodies:
+            raise UnknownBody(f'there is no body {name!r}', field=field)
+        return self._space.bodies[name]
+
+    def _in_world(self, pose: Pose, frame: str) -> Pose:
+        if not frame:
+            return pose
+        if frame not in self._space.bodies:
+            raise UnknownFrame(
+                f'frame {frame!r} is neither the world nor a body', field='header.frame_id'
+            )
+        x, y, yaw = self._space.bodies[frame].pose
+        turned_x, turned_y = rotated((pose[0], pose[1]), yaw)
+        result = (x + turned_x, y + turned_y, yaw + pose[2])
+        check_pose(result, 'pose')
+        return result
+
+    def _step_after(self, seconds: float) -> int:
+        return self.step_count + steps_in(seconds, self.physics_rate)
+
+
+def steps_in(seconds: float, physics_rate: float) -> int:
+    """
+    Return how many steps something takes that goes on for so long, at least one.
+
+    :param physics_rate: of the world [Hz]
+    """
+    # Less a billionth, and a few last bits: 0.1 s at 240 Hz is 24 steps, not 25.
+    return max(1, math.ceil(seconds * physics_rate * (1.0 - 1e-15) - 1e-9))
+
+
+def _check_weight(body: Body) -> None:
+    """Refuse a body whose size and density make it too light or too heavy."""
+    if not LIGHTEST <= body.weight <= HEAVIEST:
+        field = 'density' if body.mass is None else 'mass'
+        raise BadProperty(
+            f'the body would weigh {body.weight:g} kg; {LIGHTEST:g} to {HEAVIEST:g} kg can be '
+            'simulated',
+            field=field,
+        )

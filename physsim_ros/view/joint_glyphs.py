@@ -1,0 +1,292 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Joints as lines, so that a person reads the machine: coils, rods, ropes, axles, motors, tracks.
+
+Laws: what a joint looks like is laid down once a scene, as corners that hang on its two points;
+where they are follows from the poses by arrays alone. A colour tells the force: slate where there
+is none, amber, red where it breaks or holds ten times what hangs on it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+from physsim_ros.model.arrays import Floats
+from physsim_ros.model.joint_properties import JointKind
+from physsim_ros.model.names import WORLD
+from physsim_ros.model.scene import Body, Joint, Scene
+from physsim_ros.model.transform import turned
+
+# The smallest and the largest half size of a symbol [m].
+SMALL, _LARGE = 0.03, 0.15
+# Turns of a coil, and corners of a turn, of a circle, of a rope.
+_COILS, _COIL_STEPS, _CIRCLE, _ROPE = 7, 8, 16, 12
+_TEETH = 8
+# How far the track of a slider without limits is drawn to each side [symbols].
+_TRACK = 8.0
+# Colours without force, with a third of what is much, with much: red, green, blue.
+_SLATE, _AMBER, _RED = (0.25, 0.3, 0.38), (0.93, 0.6, 0.13), (0.84, 0.1, 0.12)
+# Where nothing says what is much: so many times the weight of what hangs there, at least this [N].
+_MUCH, _LEAST = 10.0, 1e-3
+# Standard gravity [m/s²], for worlds without one.
+_WEIGHT = 9.81
+
+
+@dataclass(frozen=True, slots=True)
+class Corner:
+    """
+    A corner of a line, as it hangs on the two points of a joint.
+
+    :param along: share of the way from the first to the second point
+    :param across: to the left of that way [m]
+    :param sag: share of how far a slack rope hangs down
+    :param arm: beside that, in the frame of a body [m]
+    :param on_b: whether that body is b, not a
+    """
+
+    along: float = 0.0
+    across: float = 0.0
+    sag: float = 0.0
+    arm: tuple[float, float] = (0.0, 0.0)
+    on_b: bool = False
+
+
+Strip = list[Corner]
+
+
+class Linework:
+    """
+    The lines of all joints of a scene.
+
+    :param scene: whose joints they are
+    :param least: half the size of the smallest symbol [m]
+
+    :ivar owner: (s,) the joint of each line
+    :ivar lengths: (s,) how many corners each line has
+    """
+
+    def __init__(self, scene: Scene, *, least: float = SMALL) -> None:
+        self._scene = scene
+        bodies = dict(zip(scene.names, scene.bodies, strict=True))
+        corners: list[Corner] = []
+        holders: list[int] = []
+        owner: list[int] = []
+        lengths: list[int] = []
+        for number, joint in enumerate(scene.joints):
+            for strip in strips(joint, size_of(joint, bodies, least=least)):
+                corners += strip
+                holders += [number] * len(strip)
+                owner.append(number)
+                lengths.append(len(strip))
+        self.owner, self.lengths = np.array(owner, np.intp), np.array(lengths, np.intp)
+        self._holders = np.array(holders, np.intp)
+        self._along = np.array([each.along for each in corners])[:, None]
+        self._across = np.array([each.across for each in corners])[:, None]
+        self._sag = np.array([each.sag for each in corners])[:, None]
+        self._arms = np.array([each.arm for each in corners]).reshape(-1, 2)
+        on_b = np.array([each.on_b for each in corners], np.intp)
+        self._rows = scene.joint_rows[self._holders, on_b]
+        self._seats = _drawn_seats(scene)
+        self._much = np.array([_much(joint, scene, bodies) for joint in scene.joints])
+        self._rope_lengths = np.array(
+            [joint.rest_length if joint.kind is JointKind.ROPE else 0.0 for joint in scene.joints]
+        )
+        gravity = np.array(scene.settings.gravity)
+        strength = float(np.hypot(*gravity))
+        self._down = gravity / strength if strength > 0 else np.array((0.0, -1.0))
+
+    def points(self, poses: Floats) -> Floats:
+        """
+        Return the two points of each joint.
+
+        :param poses: (..., n, 3) float64: of the bodies
+        :return: (..., j, 2, 2) float64 [m]
+        """
+        background = np.zeros((*poses.shape[:-2], 1, 3))
+        held = np.concatenate((poses, background), axis=-2)[..., self._scene.joint_rows, :]
+        return held[..., :2] + turned(self._seats, held[..., 2])
+
+    def corners(self, poses: Floats) -> Floats:
+        """
+        Return every corner of every line, one line after the other.
+
+        :param poses: (..., n, 3) float64: of the bodies
+        :return: (..., c, 2) float64 [m]
+        """
+        points = self.points(poses)
+        first, way = points[..., 0, :], points[..., 1, :] - points[..., 0, :]
+        length = np.hypot(way[..., 0], way[..., 1])
+        side = np.stack((-way[..., 1], way[..., 0]), axis=-1)
+        side /= np.maximum(length, 1e-9)[..., None]
+        # A shallow arc of that length: https://en.wikipedia.org/wiki/Parabola#Arc_length.
+        slack = np.maximum(0.0, self._rope_lengths - length)
+        depth = np.sqrt(3 / 8 * slack * self._rope_lengths)[..., None] * self._down
+        holders = self._holders
+        background = np.zeros((*poses.shape[:-2], 1))
+        yaw = np.concatenate((poses[..., 2], background), axis=-1)[..., self._rows]
+        corners: Floats = first[..., holders, :] + self._along * way[..., holders, :]
+        corners += self._across * side[..., holders, :] + self._sag * depth[..., holders, :]
+        return corners + turned(self._arms, yaw)
+
+    def colors(self, forces: Floats) -> NDArray[np.float32]:
+        """
+        Return red, green, blue and alpha of each joint.
+
+        :param forces: (..., j) float64 [N]; empty where they are not known
+        """
+        joints = len(self._scene.joints)
+        if forces.shape[-1] != joints:
+            forces = np.zeros((*forces.shape[:-1], joints))
+        share = np.clip(forces / self._much, 0.0, 1.0)
+        colors = np.ones((*share.shape, 4), dtype=np.float32)
+        for channel, levels in enumerate(zip(_SLATE, _AMBER, _RED, strict=True)):
+            colors[..., channel] = np.interp(share, (0.0, 1 / 3, 1.0), levels)
+        return colors
+
+
+def size_of(joint: Joint, bodies: dict[str, Body], *, least: float = SMALL) -> float:
+    """Return half the size of a joint's symbol [m]: in scale with the smaller of its bodies."""
+    forms = [bodies[name].shape.form for name in (joint.a, joint.b) if name != WORLD]
+    return max(min(min(form.inner for form in forms) / 3, _LARGE), least)
+
+
+def strips(joint: Joint, size: float) -> list[Strip]:
+    """
+    Return the lines that a joint is drawn with.
+
+    :param size: half that of its symbol [m]
+    """
+    match joint.kind:
+        case JointKind.PIN:
+            corners = ((1, 1), (-1, 1), (-1, -1), (1, -1), (1, 1))
+            return [[Corner(arm=(size * x, size * y)) for x, y in corners]]
+        case JointKind.AXLE:
+            return [_circle(size)]
+        case JointKind.MOTOR:
+            return [_circle(size), *_arrow(2 * size, math.copysign(1.0, joint.number('rate')))]
+        case JointKind.SPRING:
+            return [list(_coil(size)), _circle(size / 2), _circle(size / 2, at=1.0)]
+        case JointKind.ROD:
+            sides = [[Corner(0.0, side), Corner(1.0, side)] for side in (-size / 3, size / 3)]
+            return [*sides, _circle(size / 2), _circle(size / 2, at=1.0)]
+        case JointKind.ROPE:
+            shares = np.linspace(0.0, 1.0, _ROPE + 1).tolist()
+            curve = [Corner(share, sag=4 * share * (1 - share)) for share in shares]
+            return [curve, _circle(size / 3), _circle(size / 3, at=1.0)]
+        case JointKind.SLIDER:
+            return _track(joint, size)
+        case JointKind.GEAR:
+            wheels = [_wheel(2 * size), _wheel(2 * size, at=1.0)]
+            return [*wheels, [Corner(0.0), Corner(1.0)]]
+
+
+def _circle(radius: float, at: float = 0.0) -> Strip:
+    angles = np.linspace(0.0, math.tau, _CIRCLE + 1).tolist()
+    return [
+        Corner(at, arm=(radius * math.cos(angle), radius * math.sin(angle)), on_b=at > 0)
+        for angle in angles
+    ]
+
+
+def _wheel(radius: float, at: float = 0.0) -> Strip:
+    """Return a toothed circle that turns with its body."""
+    strip = []
+    for number in range(2 * _TEETH + 1):
+        for half in (-0.4, 0.4):
+            angle = (number + half) * math.pi / _TEETH
+            reach = radius * (1.15 if number % 2 else 0.85)
+            arm = (reach * math.cos(angle), reach * math.sin(angle))
+            strip.append(Corner(at, arm=arm, on_b=at > 0))
+    return strip
+
+
+def _arrow(radius: float, sense: float) -> list[Strip]:
+    """Return an arc with a head, counter-clockwise where the sense is positive."""
+    angles = (sense * np.linspace(0.0, 1.5 * math.pi, _CIRCLE + 1)).tolist()
+    arc = [Corner(arm=(radius * math.cos(each), radius * math.sin(each))) for each in angles]
+    # At the end of the arc straight down, where it goes on to the right or to the left.
+    x, y = 0.0, -radius
+    barb = 0.5 * radius
+    head = [(x - barb, y + barb * 0.8), (x, y), (x - barb, y - barb * 0.8)]
+    return [arc, [Corner(arm=(arm_x, sense * arm_y)) for arm_x, arm_y in head]]
+
+
+def _coil(size: float) -> Iterator[Corner]:
+    yield Corner(0.0)
+    count = _COILS * _COIL_STEPS
+    for number in range(count + 1):
+        angle = math.tau * number / _COIL_STEPS
+        yield Corner(0.1 + 0.8 * number / count, size * math.sin(angle))
+    yield Corner(1.0)
+
+
+def _track(joint: Joint, size: float) -> list[Strip]:
+    """Return a line with stops, in the frame of b, and the block that slides along it."""
+    seat, said = joint.seat, joint.properties
+    least = -_TRACK * size if said.lower is None else said.lower
+    most = _TRACK * size if said.upper is None else said.upper
+
+    def at(along: float, across: float) -> tuple[float, float]:
+        return seat.ux * along - seat.uy * across, seat.uy * along + seat.ux * across
+
+    rail = [Corner(1.0, arm=at(end, 0.0), on_b=True) for end in (least, most)]
+    stops = [
+        [Corner(1.0, arm=at(end, side), on_b=True) for side in (-size, size)]
+        for end, said_so in ((least, said.lower), (most, said.upper))
+        if said_so is not None
+    ]
+    corners = ((1.5, 1), (-1.5, 1), (-1.5, -1), (1.5, -1), (1.5, 1))
+    block = [Corner(arm=at(x * size, y * size * 0.8), on_b=True) for x, y in corners]
+    return [rail, *stops, block]
+
+
+def _drawn_seats(scene: Scene) -> Floats:
+    """Return (j, 2, 2) float64: where each joint is drawn on its bodies; gears at the middle."""
+    seats = scene.seats[:, :4].reshape(-1, 2, 2).copy()
+    for number, joint in enumerate(scene.joints):
+        if joint.kind is JointKind.GEAR:
+            for side, row in enumerate(scene.joint_rows[number].tolist()):
+                if row >= 0:
+                    seats[number, side] = scene.centroids[row]
+    return seats
+
+
+def _much(joint: Joint, scene: Scene, bodies: dict[str, Body]) -> float:
+    """Return the force that is shown as the most [N]."""
+    if joint.properties.break_force:
+        return joint.properties.break_force
+    weights = [
+        bodies[name].weight
+        for name in (joint.a, joint.b)
+        if name != WORLD and not bodies[name].fixed
+    ]
+    pull = math.hypot(*scene.settings.gravity) or _WEIGHT
+    return max(_MUCH * pull * max(weights, default=0.0), _LEAST)
+
+
+def segments(lengths: Sequence[int]) -> NDArray[np.intp]:
+    """Return the corners, two by two, of the segments of lines that have so many corners each."""
+    pairs: list[int] = []
+    first = 0
+    for length in lengths:
+        for number in range(first, first + length - 1):
+            pairs += (number, number + 1)
+        first += length
+    return np.array(pairs, np.intp)

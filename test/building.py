@@ -1,0 +1,165 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Short words for the tests of the core: a world, what is spawned into it, where it is then."""
+
+from itertools import pairwise
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from physsim_ros.model.body_properties import Properties
+from physsim_ros.model.joint_properties import JointKind
+from physsim_ros.model.requests import Join, Spawn
+from physsim_ros.model.scene import Body
+from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.shapes import (
+    Box,
+    Chain,
+    Color,
+    Compound,
+    Disc,
+    Polygon,
+    Pose,
+    Shape,
+    Triangles,
+)
+from physsim_ros.simulation.world import World
+
+G = 9.81
+DT = 1.0 / 240.0
+# Between knots of a net [m].
+MESH = 0.3
+NOWHERE = WorldSettings(gravity=(0.0, 0.0), friction=0.0, elasticity=1.0)
+
+DISC = Disc(radius=0.5)
+BOX = Box(width=1.0, height=1.0)
+# Off-centre and concave: the centroid lies at (5/6, 5/6).
+ELL = Polygon(
+    outline=((0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.0, 1.0), (1.0, 2.0), (0.0, 2.0)),
+)
+# Off-centre: the centroid lies at (1, 2/3).
+TRIANGLE = Polygon(outline=((0.0, 0.0), (3.0, 0.0), (0.0, 2.0)))
+SHAPES: dict[str, Shape] = {
+    'disc': DISC,
+    'box': Box(width=1.0, height=0.5),
+    'triangle': TRIANGLE,
+    'ell': ELL,
+    'chain': Chain(points=((-1.0, 0.0), (0.0, 0.2), (1.0, 0.0)), thickness=0.1),
+    'triangles': Triangles(
+        vertices=((0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))
+    ),
+    'discs': Compound(element=Disc(radius=0.25), centers=((-0.3, 0.0), (0.3, 0.0), (0.0, 0.4))),
+    'boxes': Compound(element=Box(width=0.4, height=0.2), centers=((0.0, 0.0), (1.0, 0.0))),
+}
+# A point that lies in each of them, and not on its edge.
+INSIDE = {
+    'disc': (0.1, 0.2),
+    'box': (0.4, 0.2),
+    'triangle': (0.5, 0.5),
+    'ell': (0.5, 1.5),
+    'chain': (0.5, 0.1),
+    'triangles': (0.8, 0.8),
+    'discs': (-0.3, 0.1),
+    'boxes': (1.0, 0.05),
+}
+
+
+def spawning(
+    name: str,
+    shape: Shape = DISC,
+    pose: Pose = (0.0, 0.0, 0.0),
+    *,
+    frame: str = '',
+    color: Color | None = None,
+    lifetime: float = 0.0,
+    **said: Any,
+) -> Spawn:
+    """Return the request; what is said of material and motion by keyword."""
+    return Spawn(
+        name=name,
+        shape=shape,
+        pose=pose,
+        frame=frame,
+        color=color,
+        lifetime=lifetime,
+        properties=Properties(**said),
+    )
+
+
+def spawn(world: World, name: str, *arguments: Any, **options: Any) -> None:
+    """Spawn a body."""
+    world.apply(spawning(name, *arguments, **options))
+
+
+def body(world: World, name: str) -> Body:
+    """Return what a body is."""
+    scene = world.snapshot().scene
+    return scene.bodies[scene.names.index(name)]
+
+
+def pose(world: World, name: str) -> NDArray[np.float64]:
+    """Return x, y [m] and yaw [rad] of a body."""
+    snapshot = world.snapshot()
+    return snapshot.poses[snapshot.scene.names.index(name)]
+
+
+def twist(world: World, name: str) -> NDArray[np.float64]:
+    """Return vx, vy [m/s] and spin [rad/s] of a body."""
+    snapshot = world.snapshot()
+    return snapshot.twists[snapshot.scene.names.index(name)]
+
+
+def stack(world: World, count: int) -> None:
+    """Stack boxes of 1 m on the floor of the world's bounds."""
+    for number in range(count):
+        spawn(world, f'stack/{number}', BOX, (0.0, 0.5 + number, 0.0))
+
+
+def swing(*, link: float, ball: float, radius: float) -> World:
+    """Return a ball on 20 links of 0.15 m and so many kg each, let go at 45 degrees."""
+    world, count, length, lean = World(), 20, 0.15, math.radians(45.0)
+    way = np.array((math.sin(lean), -math.cos(lean)))
+    shape = Box(width=length, height=0.03)
+    for number in range(count):
+        middle = way * length * (number + 0.5)
+        spawn(world, f'link/{number}', shape, (*middle, lean - math.pi / 2), mass=link)
+    spawn(world, 'ball/0', Disc(radius=radius), (*(way * length * count), 0.0), mass=ball)
+    names = ['world', *(f'link/{number}' for number in range(count)), 'ball/0']
+    for number, (b, a) in enumerate(pairwise(names)):
+        point = tuple(way * length * number)
+        axle = Join(name=f'joint/{number}', kind=JointKind.AXLE, points=(point,), a=a, b=b)
+        world.apply(axle)
+    return world
+
+
+def net(side: int) -> World:
+    """Return a square net of rods that hangs from two corners."""
+    world = World()
+    knots = np.arange(side * side).reshape(side, side)
+    for knot, (row, column) in enumerate(np.ndindex(side, side)):
+        pose = (MESH * column, -MESH * row, 0.0)
+        spawn(world, f'knot/{knot}', Disc(radius=0.1), pose, group=1)
+    down, along = (knots[:-1], knots[1:]), (knots[:, :-1], knots[:, 1:])
+    pairs = [pair for ends in (down, along) for pair in zip(*map(np.ravel, ends), strict=True)]
+    for number, (a, b) in enumerate(pairs):
+        points = tuple((MESH * (knot % side), -MESH * (knot // side)) for knot in (a, b))
+        rod, knotted = JointKind.ROD, {'a': f'knot/{a}', 'b': f'knot/{b}'}
+        world.apply(Join(name=f'rod/{number}', kind=rod, points=points, **knotted))
+    for knot in (0, side - 1):
+        at = ((MESH * knot, 0.0),)
+        axle = JointKind.AXLE
+        world.apply(Join(name=f'nail/{knot}', kind=axle, points=at, a=f'knot/{knot}', b='world'))
+    return world

@@ -1,0 +1,546 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""What strokes mean in a world, each in its own."""
+
+from collections.abc import Sequence
+import itertools
+import math
+from typing import Any
+
+import numpy as np
+from physsim_ros.drawing.scene_query import View
+from physsim_ros.drawing.settings import DrawingSettings
+from physsim_ros.drawing.strokes.interpretation import Meaning, read, Reading
+from physsim_ros.model.arrays import Floats
+from physsim_ros.model.errors import BadProperty, NothingThere, NotRecognised, Refusal
+from physsim_ros.model.joint_properties import JointKind
+from physsim_ros.model.requests import Anchor, Axle, Configure, Delete, Join, Spawn
+from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.shapes import Box, Chain, Disc, Polygon
+from physsim_ros.simulation.world import World
+import pytest
+
+from ...building import NOWHERE, spawn
+
+SETTINGS = DrawingSettings()
+ANGLE = np.linspace(0.0, 2.0 * math.pi, 60)
+Way = Sequence[tuple[float, float]]
+
+
+@pytest.fixture
+def world() -> World:
+    """Return an empty world."""
+    return World()
+
+
+def draw(world: World, way: Way | Floats, **said: Any) -> Reading:
+    """Read a stroke from point to point; what is said are settings of drawing."""
+    points = np.array(way, dtype=np.float64)
+    if len(points) < 40:
+        sides = itertools.pairwise(points)
+        points = np.vstack([np.linspace(a, b, 25, endpoint=False) for a, b in sides])
+        points = np.vstack((points, way[-1]))
+    before = world.digest()
+    try:
+        return read(points, View(world.snapshot()), DrawingSettings(**said))
+    finally:
+        assert world.digest() == before
+
+
+def carry_out(world: World, reading: Reading) -> None:
+    for request in reading.requests:
+        world.apply(request)
+
+
+def circle(x: float, y: float, radius: float) -> Floats:
+    return np.column_stack((x + radius * np.cos(ANGLE), y + radius * np.sin(ANGLE)))
+
+
+def zigzag(start: tuple[float, float], end: tuple[float, float], teeth: int = 8) -> Way:
+    (x0, y0), (x1, y1) = start, end
+    length = math.dist(start, end)
+    ux, uy = (x1 - x0) / length, (y1 - y0) / length
+    ways = [start]
+    for number in range(1, teeth):
+        share, aside = number / teeth, 0.1 * length * (-1) ** number
+        ways.append(
+            (
+                x0 + share * (x1 - x0) - aside * uy,
+                y0 + share * (y1 - y0) + aside * ux,
+            )
+        )
+    return [*ways, end]
+
+
+def cross(x: float, y: float, half: float = 0.2) -> Way:
+    return [
+        (x - half, y + half), (x + half, y - half), (x + half, y + half), (x - half, y - half),
+    ]  # fmt: skip
+
+
+def scribble(x: float, y: float, width: float, height: float) -> Way:
+    return [(x + width * (n / 12 - 0.5), y + height * ((n % 2) - 0.5)) for n in range(13)]
+
+
+def rectangle(x: float, y: float, width: float, height: float, skew: float = 0.0) -> Way:
+    return [(x, y), (x + width, y + skew), (x + width, y + height), (x, y + height), (x, y)]
+
+
+# Bodies
+
+
+def test_a_circle_in_the_open_is_a_disc(world: World) -> None:
+    reading = draw(world, circle(3.0, 4.0, 0.5))
+
+    assert reading.what is Meaning.DISC
+    assert reading.confidence > 0.85
+    (request,) = reading.requests
+    assert isinstance(request, Spawn)
+    assert isinstance(request.shape, Disc)
+    assert request.shape.radius == pytest.approx(0.5, abs=0.01)
+    assert request.pose == pytest.approx((3.0, 4.0, 0.0), abs=0.01)
+    assert reading.subject == request.name == 'drawn/0'
+    assert 'radius 0.49' in reading.message or 'radius 0.5' in reading.message
+
+
+def test_a_crooked_rectangle_is_made_level(world: World) -> None:
+    reading = draw(world, rectangle(0.0, 0.0, 3.0, 1.0, skew=0.1))
+
+    assert reading.what is Meaning.RECTANGLE
+    (request,) = reading.requests
+    assert isinstance(request, Spawn)
+    assert isinstance(request.shape, Box)
+    assert request.pose[2] == 0.0
+    assert request.shape.width == pytest.approx(3.0, abs=0.05)
+    assert request.shape.height == pytest.approx(0.95, abs=0.05)
+
+
+def test_a_tilted_rectangle_stays_tilted(world: World) -> None:
+    cos, sin = math.cos(0.5), math.sin(0.5)
+    way = [(cos * x - sin * y, sin * x + cos * y) for x, y in rectangle(0, 0, 3, 1)]
+
+    (request,) = draw(world, way).requests
+
+    assert isinstance(request, Spawn)
+    assert request.pose[2] == pytest.approx(0.5, abs=0.01)
+
+
+def test_nearly_a_square_is_a_square(world: World) -> None:
+    (request,) = draw(world, rectangle(0.0, 0.0, 1.0, 0.94)).requests
+
+    assert isinstance(request, Spawn)
+    assert isinstance(request.shape, Box)
+    assert request.shape.width == request.shape.height
+
+
+def test_raw_geometry_can_be_asked_for(world: World) -> None:
+    reading = draw(world, rectangle(0.0, 0.0, 3.0, 1.0, skew=0.1), beautify=0.0)
+
+    assert reading.what is Meaning.RECTANGLE
+    (request,) = reading.requests
+    assert isinstance(request, Spawn)
+    assert isinstance(request.shape, Polygon)
+    placed = {
+        (round(x + request.pose[0], 2), round(y + request.pose[1], 2))
+        for x, y in request.shape.outline
+    }
+    assert placed == {(0.0, 0.0), (3.0, 0.1), (3.0, 1.0), (0.0, 1.0)}
+
+
+def test_a_triangle_is_a_polygon_about_its_centre_of_mass(world: World) -> None:
+    reading = draw(world, [(0, 0), (3, 0.05), (0, 2), (0, 0)])
+
+    assert reading.what is Meaning.POLYGON
+    (request,) = reading.requests
+    assert isinstance(request, Spawn)
+    assert isinstance(request.shape, Polygon)
+    assert len(request.shape.outline) == 3
+    assert request.shape.form.centroid == pytest.approx((0.0, 0.0), abs=1e-9)
+    # The right angle is right.
+    assert request.pose[:2] == pytest.approx((1.0, 0.68), abs=0.03)
+
+
+def test_any_closed_outline_is_a_solid(world: World) -> None:
+    kidney = np.column_stack((np.cos(ANGLE) + 0.4 * np.cos(2 * ANGLE), np.sin(ANGLE)))
+
+    reading = draw(world, kidney)
+
+    assert reading.what is Meaning.POLYGON
+    carry_out(world, reading)
+    assert world.body_at((0.5, 0.5)) == 'drawn/0'
+
+
+def test_what_is_drawn_takes_velocity_and_colour_from_the_settings(world: World) -> None:
+    reading = draw(
+        world, circle(0, 0, 1), draw_velocity=(1.0, 2.0), draw_color=(1.0, 0.0, 0.0, 1.0)
+    )
+
+    (request,) = reading.requests
+    assert isinstance(request, Spawn)
+    assert request.properties.velocity == (1.0, 2.0)
+    assert request.color == (1.0, 0.0, 0.0, 1.0)
+
+
+def test_names_go_on_from_the_highest(world: World) -> None:
+    spawn(world, 'drawn/6', pose=(50.0, 0.0, 0.0))
+    spawn(world, 'drawn/2', pose=(60.0, 0.0, 0.0))
+
+    assert draw(world, circle(0, 0, 1)).subject == 'drawn/7'
+
+
+# Walls
+
+
+def test_a_line_in_the_open_is_a_level_wall(world: World) -> None:
+    reading = draw(world, [(0, 0), (5, 0.2)], wall_thickness=0.05)
+
+    assert reading.what is Meaning.WALL
+    (request,) = reading.requests
+    assert isinstance(request, Spawn)
+    assert isinstance(request.shape, Chain)
+    assert request.properties.anchored
+    assert request.shape.thickness == 0.05
+    assert request.pose == pytest.approx((2.5, 0.1, 0.0), abs=0.01)
+
+
+def test_a_steep_line_stays_steep_and_a_bent_one_bent(world: World) -> None:
+    assert draw(world, [(0, 0), (4, 2)]).outline == pytest.approx(
+        np.array([(0, 0), (4, 2)]), abs=0.02
+    )
+    assert draw(world, [(0, 2), (0.05, 0), (3, 0), (5, 1.5)]).outline == pytest.approx(
+        np.array([(0.0, 2), (0.0, 0), (3, 0), (5, 1.5)]), abs=0.06
+    )
+
+
+def test_a_hill_is_a_wall_of_many_sides(world: World) -> None:
+    x = np.linspace(0.0, 8.0, 100)
+    (request,) = draw(world, np.column_stack((x, 2.0 * np.sin(math.pi * x / 8)))).requests
+
+    assert isinstance(request, Spawn)
+    assert isinstance(request.shape, Chain)
+    assert len(request.shape.points) > 6
+
+
+def test_a_wall_begins_where_another_ends(world: World) -> None:
+    carry_out(world, draw(world, [(0, 0), (4, 0)]))
+
+    reading = draw(world, [(4.1, 0.08), (6, 2)])
+
+    assert reading.what is Meaning.WALL
+    assert reading.outline[0] == pytest.approx((4.0, 0.0), abs=1e-9)
+
+
+def test_a_wall_goes_up_to_the_body_that_it_nearly_reaches(world: World) -> None:
+    spawn(world, 'pillar/0', Box(width=1.0, height=4.0), (0.0, 0.0, 0.0), anchored=True)
+
+    reading = draw(world, [(0.6, 1.0), (5.0, 1.0)])
+
+    assert reading.what is Meaning.WALL
+    assert reading.outline[0] == pytest.approx((0.5, 1.0), abs=0.02)
+
+
+def test_stairs_are_a_wall(world: World) -> None:
+    steps = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (3, 2), (3, 3)]
+
+    assert draw(world, steps).what is Meaning.WALL
+
+
+def test_what_is_drawn_is_the_likeliest_and_never_unlikely(world: World) -> None:
+    spawn(world, 'a/0', Box(width=2.0, height=2.0))
+    rng = np.random.default_rng(7)
+    view, settings = View(world.snapshot()), DrawingSettings(sketch_confidence=0.3)
+    readings = []
+    for _ in range(1500):
+        angle = np.linspace(0.0, 2 * math.pi, rng.integers(12, 60))
+        ring = np.column_stack((np.cos(angle), rng.uniform(0.6, 1.0) * np.sin(angle)))
+        ring += rng.normal(0.0, 0.04, ring.shape)
+        try:
+            readings.append(
+                read(rng.uniform(-0.8, 0.8, 2) + rng.uniform(0.1, 0.7) * ring, view, settings)
+            )
+        except Refusal:
+            continue
+    assert len(readings) > 500
+    for reading in readings:
+        assert reading.confidence >= max(0.3, reading.runner_up_confidence)
+
+
+# Joints
+
+
+def test_a_line_from_body_to_body_is_a_rod(world: World) -> None:
+    spawn(world, 'a/0', pose=(0.0, 0.0, 0.0))
+    spawn(world, 'b/0', pose=(4.0, 0.0, 0.0))
+
+    reading = draw(world, [(0.3, 0.1), (3.8, -0.3)])
+
+    assert reading.what is Meaning.ROD
+    assert reading.runner_up is Meaning.WALL
+    (join,) = reading.requests
+    assert isinstance(join, Join)
+    assert (join.kind, join.a, join.b) == (JointKind.ROD, 'a/0', 'b/0')
+    assert join.points[0] == pytest.approx((0.3, 0.1), abs=0.03)
+
+
+def test_the_ends_of_a_rod_go_to_the_middle_of_a_body_or_onto_its_rim(world: World) -> None:
+    spawn(world, 'a/0', pose=(0.0, 0.0, 0.0))
+    spawn(world, 'b/0', pose=(4.0, 0.0, 0.0))
+
+    (join,) = draw(world, [(0.1, 0.05), (3.4, 0.0)]).requests
+
+    assert isinstance(join, Join)
+    assert join.points[0] == (0.0, 0.0)
+    assert join.points[1] == pytest.approx((3.5, 0.0), abs=1e-3)
+
+
+def test_a_line_from_a_body_to_nowhere_hangs_it_up(world: World) -> None:
+    spawn(world, 'bob/0', pose=(0.0, 0.0, 0.0))
+
+    (join,) = draw(world, [(2.0, 3.0), (0.0, 0.0)]).requests
+
+    assert isinstance(join, Join)
+    assert (join.kind, join.a, join.b) == (JointKind.ROD, 'bob/0', 'world')
+    assert join.points[1] == pytest.approx((2.0, 3.0), abs=0.01)
+
+
+def test_a_line_between_two_anchored_bodies_is_a_wall(world: World) -> None:
+    spawn(world, 'a/0', pose=(0.0, 0.0, 0.0), anchored=True)
+    spawn(world, 'b/0', pose=(4.0, 0.0, 0.0), anchored=True)
+
+    assert draw(world, [(0.3, 0.0), (3.7, 0.0)]).what is Meaning.WALL
+
+
+@pytest.mark.parametrize('teeth', [4, 6, 12])
+def test_a_zigzag_from_body_to_body_is_a_spring(world: World, teeth: int) -> None:
+    spawn(world, 'a/0', pose=(0.0, 4.0, 0.0), anchored=True)
+    spawn(world, 'b/0', pose=(0.0, 0.0, 0.0))
+
+    reading = draw(world, zigzag((0.0, 3.7), (0.1, 0.4), teeth))
+
+    assert reading.what is Meaning.SPRING
+    (join,) = reading.requests
+    assert isinstance(join, Join)
+    assert (join.kind, join.a, join.b) == (JointKind.SPRING, 'b/0', 'a/0')
+
+
+def test_a_circle_within_a_body_is_an_axle_to_the_background(world: World) -> None:
+    spawn(world, 'plank/0', Box(width=4.0, height=0.6))
+
+    reading = draw(world, circle(1.0, 0.0, 0.12))
+
+    assert reading.what is Meaning.AXLE
+    (axle,) = reading.requests
+    assert isinstance(axle, Axle)
+    assert axle.point == pytest.approx((1.0, 0.0), abs=0.01)
+    assert 'background' in reading.message
+
+
+def test_a_small_circle_over_two_bodies_is_an_axle_in_the_middle_of_the_wheel(
+    world: World,
+) -> None:
+    spawn(world, 'car/0', Box(width=4.0, height=1.0), (0.0, 0.0, 0.0))
+    spawn(world, 'wheel/0', Disc(radius=0.6), (1.2, -0.4, 0.0))
+
+    reading = draw(world, circle(1.25, -0.35, 0.15))
+
+    assert reading.what is Meaning.AXLE
+    (axle,) = reading.requests
+    assert isinstance(axle, Axle)
+    assert axle.point == pytest.approx((1.2, -0.4), abs=1e-12)
+    assert 'wheel/0 and car/0' in reading.message
+
+
+@pytest.mark.parametrize('wheel', [-0.45, -0.5, -0.55])
+@pytest.mark.parametrize('beside', [-0.1, -0.05, 0.0, 0.05, 0.1])
+def test_a_small_circle_across_the_edge_of_a_car_is_an_axle_in_the_middle_of_its_wheel(
+    world: World, wheel: float, beside: float
+) -> None:
+    spawn(world, 'car/0', Box(width=3.0, height=1.0), (0.0, 0.0, 0.0))
+    spawn(world, 'wheel/0', Disc(radius=0.5), (1.0, wheel, 0.0))
+
+    reading = draw(world, circle(1.0, max(wheel + beside, -0.55), 0.1))
+
+    assert reading.message == 'an axle between wheel/0 and car/0'
+    (request,) = reading.requests
+    world.apply(request)
+    (joint,) = world.snapshot().scene.joints
+    assert {joint.a, joint.b} == {'wheel/0', 'car/0'}
+    assert world.snapshot().ends[0] == pytest.approx(np.array([(1.0, wheel)] * 2), abs=1e-9)
+
+
+def test_a_small_circle_beside_another_body_is_an_axle_to_the_background(world: World) -> None:
+    spawn(world, 'wheel/0', Disc(radius=0.5), (0.0, 0.0, 0.0))
+    spawn(world, 'wall/0', Box(width=1.0, height=4.0), (0.98, 0.0, 0.0))
+
+    assert draw(world, circle(0.4, 0.0, 0.1)).message.endswith('wheel/0 and the background')
+
+
+@pytest.mark.parametrize('radius', [0.5, 0.6, 0.9])
+def test_a_wheel_drawn_over_a_car_is_a_disc(world: World, radius: float) -> None:
+    spawn(world, 'car/0', Box(width=4.0, height=1.0))
+
+    assert draw(world, circle(1.2, -0.4, radius)).what is Meaning.DISC
+
+
+# Signs
+
+
+def test_an_x_on_a_body_anchors_it(world: World) -> None:
+    spawn(world, 'a/0', Box(width=2.0, height=2.0))
+
+    reading = draw(world, cross(0.4, 0.3))
+    carry_out(world, reading)
+
+    assert reading.what is Meaning.ANCHOR
+    assert isinstance(reading.requests[0], Anchor)
+    assert world.snapshot().scene.bodies[0].anchored
+
+
+def test_an_x_across_a_thin_body_anchors_that(world: World) -> None:
+    spawn(world, 'plank/0', Box(width=4.0, height=0.1))
+
+    reading = draw(world, cross(0.0, 0.12))
+    carry_out(world, reading)
+
+    assert reading.subject == 'plank/0'
+    assert world.snapshot().scene.bodies[0].anchored
+
+
+def test_an_x_in_the_open_is_refused(world: World) -> None:
+    with pytest.raises(NothingThere, match='an x anchors the body under it'):
+        draw(world, cross(0.0, 0.0))
+
+
+@pytest.mark.parametrize('angle', [0.3, 2.0, -1.5, 3.1])
+def test_an_arrow_in_the_open_turns_gravity(world: World, angle: float) -> None:
+    cos, sin = math.cos(angle), math.sin(angle)
+    arrow = [(0, 0), (3, 0), (2.5, 0.4), (3, 0), (2.5, -0.4)]
+
+    reading = draw(world, [(cos * x - sin * y, sin * x + cos * y) for x, y in arrow])
+
+    assert reading.what is Meaning.GRAVITY
+    (configure,) = reading.requests
+    assert isinstance(configure, Configure)
+    x, y = configure.changes['gravity']
+    assert math.hypot(x, y) == pytest.approx(9.81, rel=1e-12)
+    # rad: nearly upright and nearly level become so
+    assert math.cos(math.atan2(y, x) - angle) > math.cos(0.11)
+    assert (0.0 in (x, y)) == (angle in {-1.5, 3.1})
+
+
+def test_an_arrow_upon_a_body_is_refused(world: World) -> None:
+    spawn(world, 'a/0', Box(width=2.0, height=2.0))
+
+    with pytest.raises(NotRecognised, match='begins on a/0'):
+        draw(world, [(0, 0), (3, 0), (2.5, 0.4), (3, 0), (2.5, -0.4)])
+
+
+def test_without_gravity_there_is_none_to_turn() -> None:
+    with pytest.raises(BadProperty, match='no gravity'):
+        draw(World(settings=NOWHERE), [(0, 0), (3, 0), (2.5, 0.4), (3, 0), (2.5, -0.4)])
+
+
+def test_gravity_keeps_its_strength() -> None:
+    world = World(settings=WorldSettings(gravity=(3.0, -4.0)))
+
+    carry_out(world, draw(world, [(0, 0), (0, 3), (0.4, 2.5), (0, 3), (-0.4, 2.5)]))
+
+    assert world.settings.gravity == pytest.approx((0.0, 5.0), abs=1e-9)
+
+
+def test_a_scribble_deletes_what_it_covers_and_nothing_that_it_touches(world: World) -> None:
+    spawn(world, 'floor/0', Box(width=20.0, height=1.0), (0.0, -1.0, 0.0), anchored=True)
+    spawn(world, 'box/0', Box(width=1.0, height=1.0), (0.0, 0.0, 0.0))
+    spawn(world, 'box/1', Box(width=1.0, height=1.0), (1.4, 0.0, 0.0))
+
+    reading = draw(world, scribble(0.0, 0.0, 1.3, 1.3))
+
+    assert reading.what is Meaning.DELETION
+    assert reading.requests == (Delete(name='box/0'),)
+    assert reading.subject == 'box/0'
+
+
+def test_a_scribble_deletes_several_bodies_and_a_long_wall(world: World) -> None:
+    spawn(world, 'wall/0', Box(width=20.0, height=0.2), (0.0, -5.0, 0.0), anchored=True)
+    for number in range(3):
+        spawn(world, f'ball/{number}', Disc(radius=0.2), (0.7 * number, 0.0, 0.0))
+
+    several = draw(world, scribble(0.7, 0.0, 2.2, 1.0))
+    long = draw(world, scribble(3.0, -5.0, 1.0, 1.0))
+
+    assert [request.name for request in several.requests if isinstance(request, Delete)] == [
+        'ball/0', 'ball/1', 'ball/2',
+    ]  # fmt: skip
+    assert long.requests == (Delete(name='wall/0'),)
+
+
+def test_a_scribble_from_body_to_body_deletes_both(world: World) -> None:
+    spawn(world, 'a/0', Disc(radius=0.4), (-0.5, 0.0, 0.0))
+    spawn(world, 'a/1', Disc(radius=0.4), (0.5, 0.0, 0.0))
+
+    reading = draw(world, scribble(0.0, 0.0, 1.6, 0.7))
+
+    assert reading.requests == (Delete(name='a/0'), Delete(name='a/1'))
+
+
+def test_a_scribble_in_the_open_is_refused(world: World) -> None:
+    with pytest.raises(NothingThere, match='there are none'):
+        draw(world, scribble(0.0, 0.0, 1.0, 1.0))
+
+
+# Doubt
+
+
+def test_below_the_confidence_asked_for_nothing_is_built_and_what_it_might_be_is_said(
+    world: World,
+) -> None:
+    with pytest.raises(NotRecognised, match='disc') as caught:
+        draw(world, circle(0.0, 0.0, 1.0), sketch_confidence=0.99)
+
+    assert caught.value.field == 'poses'
+
+
+@pytest.mark.parametrize(
+    'way',
+    [
+        np.column_stack((np.sin(ANGLE), np.sin(2 * ANGLE))),
+        np.column_stack((ANGLE * np.cos(2.5 * ANGLE), ANGLE * np.sin(2.5 * ANGLE))),
+    ],
+    ids=['an eight', 'a spiral'],
+)
+def test_what_is_no_figure_is_not_recognised(world: World, way: Floats) -> None:
+    with pytest.raises(NotRecognised):
+        draw(world, way)
+
+
+@pytest.mark.parametrize(
+    'way', [[], [(1, 1)], [(0, 0), (math.nan, 1), (1, 1)], [(1, 1)] * 100, [(0, 0), (1e8, 0)]]
+)
+def test_what_is_no_stroke_is_refused(world: World, way: Way) -> None:
+    samples = np.array(way, dtype=np.float64).reshape(-1, 2)
+
+    with pytest.raises(Refusal) as caught:
+        read(samples, View(world.snapshot()), SETTINGS)
+
+    assert caught.value.code in {'malformed', 'bad_size'}
+
+
+def test_a_stroke_of_a_hundred_thousand_samples_is_read(world: World) -> None:
+    angle = np.linspace(0.0, 2.0 * math.pi, 100_000)
+    trembling = np.random.default_rng(0).normal(0.0, 0.005, (100_000, 2))
+
+    reading = draw(world, np.column_stack((np.cos(angle), np.sin(angle))) + trembling)
+
+    assert reading.what is Meaning.DISC

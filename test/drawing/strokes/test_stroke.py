@@ -1,0 +1,160 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""A stroke is the same geometry, however it was sampled."""
+
+import math
+
+import numpy as np
+from physsim_ros.drawing.strokes.corner_detection import bends_of, corners, vertices
+from physsim_ros.drawing.strokes.fitting import simplified
+from physsim_ros.drawing.strokes.polyline import COUNT, widened
+from physsim_ros.drawing.strokes.stroke import stroke
+from physsim_ros.model.arrays import Floats
+from physsim_ros.model.errors import BadSize, Malformed
+import pytest
+
+SQUARE = np.array([(0, 0), (2, 0), (2, 2), (0, 2), (0, 0)], dtype=np.float64)
+
+
+def along(way: Floats, count: int) -> Floats:
+    """Return that many samples along a way, corners not among them."""
+    length = np.concatenate(([0.0], np.cumsum(np.hypot(*np.diff(way, axis=0).T))))
+    at = np.linspace(0.0, length[-1], count)
+    return np.column_stack([np.interp(at, length, axis) for axis in way.T])
+
+
+def found(samples: Floats) -> Floats:
+    """Return the corners of a closed stroke, from the lowest left one on, counter-clockwise."""
+    drawn = stroke(samples)
+    assert drawn.outline is not None
+    outline, narrow = widened(drawn.outline)
+    at = corners(outline, closed=True, gap=drawn.gap)
+    made = vertices(outline, at, closed=True) @ narrow
+    middle = made.mean(axis=0)
+    angle = np.arctan2(*(made - middle).T[::-1])
+    return made[np.argsort(angle)]
+
+
+@pytest.mark.parametrize('count', [5, 21, 60, 1003, 100_000])
+def test_the_corners_of_a_square_do_not_depend_on_how_often_it_was_sampled(count: int) -> None:
+    samples = SQUARE if count == 5 else along(SQUARE, count)
+
+    made = found(samples)
+
+    # m: 21 samples are 0.4 m apart and miss the corners
+    assert made == pytest.approx(np.array([(0, 0), (2, 0), (2, 2), (0, 2)]), abs=0.06)
+
+
+def test_a_stroke_of_clicks_has_the_corners_that_were_clicked() -> None:
+    assert found(SQUARE * 0.01) == pytest.approx(
+        np.array([(0, 0), (2, 0), (2, 2), (0, 2)]) * 0.01, abs=1e-4
+    )
+
+
+def test_far_from_the_origin_a_stroke_is_the_same() -> None:
+    assert found(along(SQUARE, 200) + 1e5) - 1e5 == pytest.approx(
+        found(along(SQUARE, 200)), abs=1e-6
+    )
+
+
+def test_an_end_that_was_drawn_twice_is_cut_off() -> None:
+    twice = np.vstack((SQUARE, [(0.7, 0.02)]))
+
+    assert found(along(twice, 150)) == pytest.approx(
+        np.array([(0, 0), (2, 0), (2, 2), (0, 2)]), abs=0.05
+    )
+
+
+def test_ends_that_do_not_meet_are_joined_where_the_sides_would() -> None:
+    unclosed = np.array([(0.3, 0), (2, 0), (2, 2), (0, 2), (0, 0.3)])
+
+    assert found(along(unclosed, 150)) == pytest.approx(
+        np.array([(0, 0), (2, 0), (2, 2), (0, 2)]), abs=0.05
+    )
+
+
+def test_hooks_of_the_pen_are_cut_off() -> None:
+    hooked = np.array([(0.05, 0.12), (0, 0), (3, 0), (2.95, -0.1)])
+
+    drawn = stroke(along(hooked, 200))
+
+    assert bends_of(drawn.points) == pytest.approx(np.array([(0, 0), (3, 0)]), abs=0.06)
+
+
+def test_a_line_that_goes_back_upon_itself_has_a_corner_there() -> None:
+    arrow = np.array([(0, 0), (3, 0), (2.3, 0.5), (3, 0), (2.3, -0.5)])
+    drawn = stroke(along(arrow, 200))
+
+    assert len(corners(drawn.points, closed=False)) == 5
+
+
+def test_a_curve_is_kept_as_points_near_to_it_and_a_bow_of_a_line_is_not() -> None:
+    x = np.linspace(0.0, 4.0, 150)
+    hill, bow = (np.column_stack((x, high * np.sin(math.pi * x / 4))) for high in (1.0, 0.05))
+
+    curve = simplified(stroke(hill).points, bends_of(stroke(hill).points))
+
+    assert curve is not None
+    assert 6 <= len(curve) <= 30
+    # m: 0.6 % of its size, and what smoothing takes
+    assert curve[:, 1] == pytest.approx(np.sin(math.pi * curve[:, 0] / 4), abs=0.03)
+    assert simplified(stroke(bow).points, bends_of(stroke(bow).points)) is None
+
+
+def test_points_are_evenly_spaced_and_of_one_count() -> None:
+    uneven = along(SQUARE, 300)[np.r_[0:40, 40:300:7]]
+
+    points = stroke(uneven).points
+
+    assert points.shape == (COUNT, 2)
+    steps = np.hypot(*np.diff(points, axis=0).T)
+    # Around a corner the way between two points is longer than their distance.
+    assert steps.max() <= steps.mean() * 1.01
+
+
+def test_times_are_not_needed() -> None:
+    samples = along(SQUARE, 90)
+    timed = np.column_stack((samples, np.linspace(0.0, 3.0, 90) ** 2))
+
+    assert (stroke(timed).points == stroke(samples).points).all()
+
+
+def test_samples_that_came_in_another_order_are_put_in_that_of_their_times() -> None:
+    samples = np.column_stack((along(SQUARE, 90), np.arange(90) / 60.0))
+    shuffled = np.random.default_rng(0).permutation(samples)
+
+    assert (stroke(shuffled).points == stroke(samples).points).all()
+
+
+@pytest.mark.parametrize(
+    ('samples', 'refusal'),
+    [
+        ([], Malformed),
+        ([(1.0, 1.0)], BadSize),
+        ([(1.0, 1.0)] * 50, BadSize),
+        ([(0.0, 0.0), (1e-5, 0.0)], BadSize),
+        ([(0.0, 0.0), (math.nan, 1.0)], Malformed),
+        ([(0.0, 0.0), (math.inf, 1.0)], Malformed),
+        ([(0.0, 0.0), (1e8, 1.0)], BadSize),
+        ([(0.0, 0.0), (1e300, 1.0)], BadSize),
+    ],
+)
+def test_what_is_no_stroke_is_refused(
+    samples: list[tuple[float, float]], refusal: type[Exception]
+) -> None:
+    with pytest.raises(refusal) as caught:
+        stroke(np.array(samples, dtype=np.float64).reshape(-1, 2))
+
+    assert caught.value.field == 'poses'

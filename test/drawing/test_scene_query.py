@@ -1,0 +1,105 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""A view of a snapshot tells of the world what the world itself would tell."""
+
+from __future__ import annotations
+
+import itertools
+import math
+
+import numpy as np
+from physsim_ros.drawing.scene_query import View
+from physsim_ros.model.errors import UnknownFrame
+from physsim_ros.model.joint_properties import JointKind
+from physsim_ros.model.requests import Join
+from physsim_ros.simulation.world import World
+import pytest
+
+from ..building import INSIDE, NOWHERE, SHAPES, spawn
+
+AT = (3.0, -2.0, 0.7)
+
+
+def crowded() -> World:
+    """Return a world of bodies of every shape, turned and on top of one another."""
+    world = World(settings=NOWHERE)
+    places = itertools.product((0.0, 0.9, 1.8), (0.0, 0.8, 1.6))
+    for number, (shape, (x, y)) in enumerate(zip(SHAPES.values(), places, strict=False)):
+        spawn(world, f'a/{number}', shape, (x, y, 0.7 * number))
+    return world
+
+
+def test_the_topmost_body_under_a_point_is_the_worlds() -> None:
+    world = crowded()
+    view = View(world.snapshot())
+    points = np.random.default_rng(3).uniform((-1.0, -1.0), (3.0, 3.0), (2000, 2)).tolist()
+    hits = 0
+    for x, y in points:
+        found = world.body_at((x, y))
+        assert next(iter(view.bodies_at((x, y))), None) == found
+        hits += found is not None
+    assert hits > 500
+
+
+def test_all_bodies_under_a_point_are_found_topmost_first() -> None:
+    world = World(settings=NOWHERE)
+    for number in (3, 1, 2):
+        spawn(world, f'a/{number}', pose=(0.1 * number, 0.0, 0.0))
+    spawn(world, 'a/0', pose=(5.0, 0.0, 0.0))
+    assert View(world.snapshot()).bodies_at((0.0, 0.0)) == ('a/2', 'a/1', 'a/3')
+
+
+@pytest.mark.parametrize('kind', SHAPES)
+def test_a_body_that_is_near_enough_counts(kind: str) -> None:
+    world = World(settings=NOWHERE)
+    spawn(world, 'a/0', SHAPES[kind], AT)
+    view = View(world.snapshot())
+    inside = view.in_world('a/0', INSIDE[kind])
+    assert view.bodies_at(inside) == ('a/0',)
+    # Right of all of it, but for the slack.
+    reach = 1e-6
+    while view.bodies_at((inside[0] + reach, inside[1])):
+        reach += 0.01
+    outside = inside[0] + reach, inside[1]
+    assert view.bodies_at(outside, 0.02) == ('a/0',)
+    assert view.bodies_at((outside[0] + 10.0, outside[1]), 0.02) == ()
+
+
+def test_points_go_from_the_world_to_a_body_and_back() -> None:
+    world = World(settings=NOWHERE)
+    spawn(world, 'a/0', pose=AT)
+    view = View(world.snapshot())
+    ahead = 3.0 + 2 * math.cos(0.7), -2.0 + 2 * math.sin(0.7)
+    assert view.in_world('a/0', (2.0, 0.0)) == pytest.approx(ahead)
+    assert view.local('a/0', ahead) == pytest.approx((2.0, 0.0))
+    assert view.placed((2.0, 0.0), 'a/0') == view.in_world('a/0', (2.0, 0.0))
+    assert view.placed((2.0, 0.0), '') == (2.0, 0.0)
+    with pytest.raises(UnknownFrame):
+        view.placed((2.0, 0.0), 'b/0')
+
+
+def test_numbers_lie_above_all_of_their_kind_and_above_those_remembered() -> None:
+    world = World(settings=NOWHERE)
+    for name in ('drawn/7', 'drawn/2', 'other/99', 'drawn/a/50'):
+        spawn(world, name)
+    world.apply(
+        Join(name='drawn/4', kind=JointKind.ROD, points=((0, 0), (1, 0)), a='drawn/7', b='drawn/2')
+    )
+    snapshot = world.snapshot()
+    assert (View(snapshot).next_body(), View(snapshot).next_joint()) == ('drawn/8', 'drawn/5')
+    remembering = View(snapshot, first=20, first_joint=30)
+    assert (remembering.next_body(), remembering.next_joint()) == ('drawn/20', 'drawn/30')
+    empty = View(World().snapshot())
+    assert (empty.next_body(), empty.next_joint()) == ('drawn/0', 'drawn/0')

@@ -1,0 +1,141 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Hundreds of joints that hang together are held as exactly as two, and found out about once."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from physsim_ros.engine.articulation import solver
+from physsim_ros.engine.articulation.solver import Linkage
+from physsim_ros.model.joint_properties import JointKind
+from physsim_ros.model.requests import Join
+from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.shapes import Box, Disc
+from physsim_ros.simulation.world import World
+import pytest
+
+from ..building import G, MESH, net, spawn, swing
+
+
+def stretched(world: World) -> float:
+    """Return by how much the worst rod of a net is too long or too short [m]."""
+    snapshot = world.snapshot()
+    places = dict(zip(snapshot.scene.names, snapshot.poses[:, :2], strict=True))
+    rods = [joint for joint in snapshot.scene.joints if joint.kind is JointKind.ROD]
+    return max(abs(math.dist(places[rod.a], places[rod.b]) - MESH) for rod in rods)
+
+
+@pytest.mark.parametrize('side', [5, 20])
+def test_a_net_is_as_long_as_its_rods(side: int) -> None:
+    world = net(side)
+    for _ in range(10):
+        world.step(12)
+        assert stretched(world) < 2e-4
+
+
+def test_a_net_is_held_part_by_part_where_even_its_work_is_not_looked_at(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    # The last of its rods lie side by side, and hang together only by those of the part before.
+    monkeypatch.setattr(solver, '_MOST_PAIRS', 0)
+    world = net(20)
+    world.step(120)
+    assert 2e-4 < stretched(world) < MESH / 4
+
+
+def test_a_heavy_ball_swings_on_a_light_chain() -> None:
+    world = swing(link=0.5, ball=70.0, radius=0.1)
+    start = world.snapshot()
+    fall = 70.0 * G * 3.0 * (1.0 - math.cos(math.radians(45.0)))
+    for _ in range(72):
+        world.step(20)
+        now = world.snapshot()
+        gained = now.kinetic_energy + now.potential_energy
+        gained -= start.kinetic_energy + start.potential_energy
+        assert abs(gained) < 0.02 * fall
+        # Its links weigh something, so that it is bent a little as it turns back.
+        assert math.hypot(*now.poses[-1, :2]) == pytest.approx(3.0, abs=5e-3)
+
+
+def wheel(spokes: int) -> World:
+    """Return a hub with so many bars welded to it, and as many that hang from these."""
+    world = World(settings=WorldSettings(gravity=(0.0, 0.0)))
+    spawn(world, 'hub/0', Disc(radius=1.0), mass=1000.0, spin=1.0, group=1)
+    for ring, kind in enumerate((JointKind.PIN, JointKind.AXLE)):
+        for number in range(spokes):
+            angle = math.tau * number / spokes
+            x, y = math.cos(angle), math.sin(angle)
+            far = 1.5 + ring
+            bar = Box(width=1.0, height=0.01)
+            spawn(world, f'bar{ring}/{number}', bar, (far * x, far * y, angle), group=1)
+            inner = f'bar{ring - 1}/{number}' if ring else 'hub/0'
+            at = (((far - 0.5) * x, (far - 0.5) * y),)
+            name, outer = f'joint{ring}/{number}', f'bar{ring}/{number}'
+            world.apply(Join(name=name, kind=kind, points=at, a=outer, b=inner))
+    return world
+
+
+def test_what_is_too_much_to_be_solved_at_once_is_held_part_by_part() -> None:
+    # Three rows of each of 220 pins meet on the hub, and the bars beyond them hang together only
+    # by what is in other parts.
+    world = wheel(220)
+    world.step(24)
+    snapshot = world.snapshot()
+    # It turns as one: the hub by itself would keep its spin of 1 rad/s.
+    assert 0.0 < snapshot.twists[0, 2] < 1.0
+    assert snapshot.momentum == pytest.approx((0.0, 0.0), abs=1e-6)
+    inner = snapshot.poses[1:221, :2]
+    assert np.hypot(*inner.T) == pytest.approx(np.full(220, 1.5), abs=0.02)
+
+
+def linkage(world: World) -> Linkage:
+    machine = world._space.machine  # noqa: SLF001 - what it has found out
+    assert machine.known is not None
+    return machine.known.linkage
+
+
+def test_what_has_been_found_out_of_joints_is_known_until_they_change() -> None:
+    world = net(5)
+    world.step(1)
+    first = linkage(world)
+    world.renew()
+    world.step(1)
+    spawn(world, 'stone/0', Disc(radius=0.1), (9.0, 9.0, 0.0))
+    world.step(1)
+    key = world.renew()
+    world.step(4)
+    world.resume(key)
+    world.step(1)
+    assert linkage(world) is first
+    spawn(world, 'knot/7', Disc(radius=0.1), (0.6, -0.3, 0.0), group=1, mass=2.0)
+    world.step(1)
+    assert linkage(world) is not first
+
+
+def test_a_machine_among_bodies_that_come_goes_on_as_one_that_knows_nothing() -> None:
+    known, fresh = net(5), net(5)
+    for world in (known, fresh):
+        world.step(3)
+    key = known.renew()
+    known.step(5)
+    known.resume(key)
+    fresh.renew()
+    for world in (known, fresh):
+        world.step(20)
+        spawn(world, 'stone/0', Disc(radius=0.1), (0.6, 0.0, 0.0))
+        world.step(60)
+    assert known.digest() == fresh.digest()

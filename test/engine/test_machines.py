@@ -1,0 +1,271 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Machines at random: no number leaves the range, nothing raises, and no energy comes from nowhere.
+
+`PHYSSIM_MACHINES` sets how many; a few hundred take some minutes.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+import math
+import os
+import random
+from typing import Any
+
+from hypothesis import given, Phase, settings, strategies
+import numpy as np
+from physsim_ros.model.errors import Anchored
+from physsim_ros.model.joint_properties import JointKind, JointProperties
+from physsim_ros.model.names import WORLD
+from physsim_ros.model.requests import (
+    Anchor,
+    Command,
+    Configure,
+    Join,
+    Pin,
+    Release,
+    Request,
+    Spawn,
+    Unjoin,
+    UnjoinAll,
+)
+from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.shapes import Box, Disc, Polygon, Shape
+from physsim_ros.model.snapshot import Snapshot
+from physsim_ros.simulation.world import World
+import pytest
+
+from ..building import BOX, G, spawn
+
+COUNT = int(os.environ.get('PHYSSIM_MACHINES', '12'))
+# Share of all the energy that the bodies can fall through which may be added in ten seconds.
+GROWTH = 0.05
+
+
+def energy(snapshot: Snapshot) -> float:
+    """Return the energy [J]."""
+    return snapshot.kinetic_energy + snapshot.potential_energy + snapshot.elastic_energy
+
+
+def properties(pick: random.Random, kind: JointKind) -> dict[str, Any]:
+    said: dict[str, Any] = {}
+    if kind is JointKind.SPRING:
+        # No stiffer than steps can follow, so that what is in it is known.
+        said = {'stiffness': 10 ** pick.uniform(0.0, 2.3), 'damping': pick.choice([0.0, 1.0])}
+    elif kind in (JointKind.AXLE, JointKind.SLIDER) and pick.random() < 0.4:
+        said = {'lower': pick.uniform(-1.0, 0.0), 'upper': pick.uniform(0.0, 1.0)}
+    elif kind is JointKind.GEAR:
+        said = {'ratio': pick.choice([-2.0, -1.0, 0.5, 3.0])}
+    if kind is not JointKind.SPRING and pick.random() < 0.1:
+        said['max_force'] = 10 ** pick.uniform(0.0, 3.0)
+    if pick.random() < 0.1:
+        said['break_force'] = 10 ** pick.uniform(1.0, 3.0)
+    if pick.random() < 0.2:
+        said['collide'] = True
+    return said
+
+
+def machine(pick: random.Random, *, sensors: bool) -> World:
+    """Return a world of bodies and joints anyhow, without motors."""
+    world = World(settings=WorldSettings(elasticity=pick.choice([0.0, 0.5])))
+    names = [f'body/{number}' for number in range(pick.randint(2, 9))]
+    for name in names:
+        shapes: list[Shape] = [
+            Disc(radius=pick.uniform(0.1, 0.5)),
+            Box(width=pick.uniform(0.1, 1.5), height=pick.uniform(0.1, 0.6)),
+            Polygon(outline=((0.0, 0.0), (1.0, 0.0), (0.3, 0.8))),
+        ]
+        place = (pick.uniform(-3.0, 3.0), pick.uniform(0.0, 4.0), pick.uniform(-3.0, 3.0))
+        said: dict[str, Any] = {'mass': 10 ** pick.uniform(-0.5, 1.0), 'sensor': sensors}
+        said['anchored'] = pick.random() < 0.15
+        spawn(world, name, pick.choice(shapes), place, **said)
+    spawn(world, 'ground/0', Box(width=40.0, height=1.0), (0.0, -3.0, 0.0), anchored=True)
+    kinds = [kind for kind in JointKind if kind is not JointKind.MOTOR]
+    for number in range(pick.randint(1, 2 * len(names))):
+        kind, a = pick.choice(kinds), pick.choice(names)
+        b = pick.choice(['world', *(name for name in names if name != a)])
+        # The first point on its body, as people draw it.
+        here = world.snapshot().poses[names.index(a)]
+        near = (float(here[0]) + pick.uniform(-0.3, 0.3), float(here[1]) + pick.uniform(-0.3, 0.3))
+        points = (near, (pick.uniform(-3.0, 3.0), pick.uniform(0.0, 5.0)))
+        try:
+            world.apply(
+                Join(
+                    name=f'joint/{number}',
+                    kind=kind,
+                    points=points[: kind.points],
+                    a=a,
+                    b=b,
+                    properties=JointProperties(**properties(pick, kind)),
+                )
+            )
+        except Anchored:
+            continue
+    return world
+
+
+# A smaller seed is no simpler machine: none is looked for.
+@settings(max_examples=COUNT, deadline=None, derandomize=True, phases=[Phase.generate])
+@given(seed=strategies.integers(0, 2**32), sensors=strategies.booleans())
+def test_any_machine_runs_for_ten_seconds(seed: int, sensors: bool) -> None:
+    world = machine(random.Random(seed), sensors=sensors)
+    before = world.snapshot()
+    began = energy(before)
+    mass = float(before.scene.inertia[:, 0].sum())
+    for _ in range(100):
+        world.step(24)
+        now = world.snapshot()
+        assert np.isfinite(now.poses).all()
+        assert np.isfinite(now.twists).all()
+        fallen = max(0.0, -float(now.poses[:, 1].min()))
+        most = max(1.0, mass * G * (4.0 + fallen))
+        assert energy(now) - began < GROWTH * most
+
+
+@pytest.mark.parametrize('kind', [JointKind.AXLE, JointKind.ROD])
+def test_a_joint_against_a_contact_moves_no_free_machine(kind: JointKind) -> None:
+    world = World(settings=WorldSettings(gravity=(0.0, 0.0)))
+    # Drawn into each other, and yet to collide.
+    spawn(world, 'a/0', BOX, (0.0, 0.0, 0.0), velocity=(1.0, 0.0))
+    spawn(world, 'a/1', BOX, (0.98, 0.3, 0.0), velocity=(1.0, 0.0))
+    points = ((0.5, 0.15),) if kind is JointKind.AXLE else ((0.0, 0.0), (0.98, 0.3))
+    said = JointProperties(collide=True)
+    world.apply(Join(name='j/0', kind=kind, points=points, a='a/0', b='a/1', properties=said))
+    before = world.snapshot().momentum
+    world.step(480)
+    assert world.snapshot().momentum == pytest.approx(before, abs=1e-9)
+
+
+def hanging() -> World:
+    """Return two bars that hang from each other, and swing, and a disc beside them."""
+    world = World()
+    for number in range(2):
+        spawn(world, f'bar/{number}', Box(width=1.0, height=0.2), (0.5 + number, 5.0, 0.0))
+        axle = JointKind.AXLE
+        other = f'bar/{number - 1}' if number else 'world'
+        at = ((float(number), 5.0),)
+        world.apply(Join(name=f'axle/{number}', kind=axle, points=at, a=f'bar/{number}', b=other))
+    spawn(world, 'disc/0', pose=(9.0, 9.0, 0.0))
+    world.step(100)
+    return world
+
+
+def test_what_joints_gave_stays_where_others_come_and_go() -> None:
+    world = hanging()
+    forces = world.snapshot().forces
+    assert (forces > 1.0).all()
+    spawn(world, 'disc/0', pose=(9.0, 9.0, 0.0), color=(1.0, 0.0, 0.0, 1.0))
+    assert world.snapshot().forces.tolist() == forces.tolist()
+    rod = Join(name='rod/0', kind=JointKind.ROD, points=((9.0, 9.0), (9.0, 12.0)), a='disc/0')
+    world.apply(rod)
+    assert world.snapshot().forces.tolist() == [*forces.tolist(), 0.0]
+    world.renew()
+    world.apply(Unjoin(name='axle/0'))
+    assert world.snapshot().forces.tolist() == [forces[1], 0.0]
+
+
+def test_joints_come_and_go_in_a_world_that_stands() -> None:
+    world = hanging()
+    x, y, _ = world.snapshot().poses[2].tolist()
+    for _ in range(3):
+        for number in range(2):
+            world.apply(Pin(point=(x, y)))
+            world.snapshot()
+            if number:
+                world.apply(UnjoinAll(namespace='joint'))
+                world.snapshot()
+    world.step(10)
+    assert np.isfinite(world.snapshot().poses).all()
+
+
+def weighted(
+    stiffness: float, *, stretched: float = 0.0, physics_rate: float = 240.0, mass: float = 1.0
+) -> World:
+    """Return a weight on a spring, so far below where 1 kg would hang at rest, which is y = 0."""
+    world = World(physics_rate=physics_rate)
+    spawn(world, 'weight/0', Disc(radius=0.1), (0.0, -stretched, 0.0), mass=mass)
+    ends = ((0.0, -stretched), (0.0, 1.0 + G / stiffness))
+    said = JointProperties(stiffness=stiffness, rest_length=1.0)
+    spring = Join(name='spring/0', kind=JointKind.SPRING, points=ends, a='weight/0', b=WORLD)
+    world.apply(replace(spring, properties=said))
+    return world
+
+
+def total_energy(snapshot: Snapshot) -> float:
+    return snapshot.kinetic_energy + snapshot.potential_energy + snapshot.elastic_energy
+
+
+@pytest.mark.parametrize('physics_rate', [60.0, 240.0])
+@pytest.mark.parametrize('stiffness', [4.0, 40.0])
+def test_a_weight_at_balance_on_its_spring_stays(stiffness: float, physics_rate: float) -> None:
+    world = weighted(stiffness, physics_rate=physics_rate)
+    for _ in range(240):
+        world.step(10)
+        assert world.snapshot().poses[0] == pytest.approx((0.0, 0.0, 0.0), abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    'again',
+    [
+        (Anchor(point=(0.0, 0.0)), Release(point=(0.0, 0.0))),
+        (Command(names=('weight/0',), twists=((0.0, 0.0, 0.0),)),),
+        (Command(names=('weight/0',), poses=((0.0, 0.0, 0.0),)),),
+        (Configure(changes={'gravity': (0.0, 0.0)}), Configure(changes={'gravity': (0.0, -G)})),
+        (Spawn(name='weight/0', shape=Disc(radius=0.2), pose=(0.0, 0.0, 0.0)),),
+    ],
+    ids=['released', 'stopped', 'put', 'gravity', 'changed'],
+)
+def test_it_stays_where_it_is_let_go_again(again: tuple[Request, ...]) -> None:
+    world = weighted(10.0)
+    world.step(60)
+    for request in again:
+        world.apply(request)
+    world.step(120)
+    assert world.snapshot().poses[0] == pytest.approx((0.0, 0.0, 0.0), abs=1e-9)
+
+
+def test_what_hangs_on_a_weight_by_a_rod_stays_with_it() -> None:
+    world = weighted(20.0, mass=0.5)
+    spawn(world, 'weight/1', Disc(radius=0.1), (0.0, -1.0, 0.0), mass=0.5)
+    below = ((0.0, 0.0), (0.0, -1.0))
+    world.apply(Join(name='rod/0', kind=JointKind.ROD, points=below, a='weight/0', b='weight/1'))
+    for _ in range(24):
+        world.step(10)
+        assert np.abs(world.snapshot().twists).max() < 1e-3
+
+
+def test_a_weight_on_a_stretched_spring_swings_as_far_as_it_was_pulled() -> None:
+    world = weighted(10.0, stretched=0.2)
+    omega, start = math.sqrt(10.0), world.snapshot()
+    for _ in range(480):
+        world.step(1)
+        now = world.snapshot()
+        exact = -0.2 * math.cos(omega * world.step_count / 240.0)
+        # Half a step of the fastest that it goes.
+        assert now.poses[0, 1] == pytest.approx(exact, abs=0.2 * omega / 480.0 * 1.01)
+        assert total_energy(now) == pytest.approx(total_energy(start), abs=0.01 * 0.2)
+
+
+def test_two_bodies_that_a_spring_joins_fly_together_exactly() -> None:
+    world = World()
+    for number in range(2):
+        spawn(world, f'weight/{number}', Disc(radius=0.1), (float(number), 0.0, 0.0))
+    said = JointProperties(stiffness=10.0, rest_length=0.8)
+    ends = {'points': ((0.0, 0.0), (1.0, 0.0)), 'a': 'weight/0', 'b': 'weight/1'}
+    world.apply(Join(name='spring/0', kind=JointKind.SPRING, properties=said, **ends))
+    world.step(480)
+    assert world.snapshot().poses[:, 1] == pytest.approx(-2.0 * G, abs=1e-9)

@@ -1,0 +1,163 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""A world renewed from its own state goes on as if nothing had been, and always alike."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from physsim_ros.model.requests import Command, Delete, Restore
+from physsim_ros.model.settings import WorldSettings
+from physsim_ros.simulation.world import World
+import pytest
+
+from ..building import BOX, SHAPES, spawn, stack, twist
+
+FLOOR = WorldSettings(bounds=(-10.0, 0.0, 10.0, 20.0))
+
+
+def settled(count: int = 10) -> World:
+    world = World(settings=FLOOR)
+    stack(world, count)
+    world.step(2400)
+    return world
+
+
+def fastest(world: World) -> float:
+    return float(np.abs(world.snapshot().twists).max())
+
+
+def test_a_resting_stack_does_not_stir_where_it_is_renewed() -> None:
+    world = settled()
+    before = world.snapshot()
+    stirred = []
+    for _ in range(5):
+        world.renew()
+        for _ in range(60):
+            world.step(1)
+            stirred.append(fastest(world))
+    # The contract allows 0.01 m/s.
+    assert max(stirred) < 1e-3
+    np.testing.assert_allclose(world.snapshot().poses, before.poses, atol=1e-4)
+
+
+def test_without_the_memory_it_would_stir() -> None:
+    world = settled()
+    key = world.renew()
+    nothing = replace(
+        key.memory,
+        pairs=key.memory.pairs[:0],
+        hashes=key.memory.hashes[:0],
+        impulses=key.memory.impulses[:0],
+    )
+    world.resume(replace(key, memory=nothing))
+    world.step(2)
+    assert fastest(world) > 1e-2
+
+
+def test_renewing_changes_nothing_that_is_seen() -> None:
+    world = settled(3)
+    before, digest = world.snapshot(), world.digest()
+    world.renew()
+    after = world.snapshot()
+    assert world.digest() == digest
+    assert after.scene is before.scene
+    np.testing.assert_array_equal(after.poses, before.poses)
+    np.testing.assert_array_equal(after.twists, before.twists)
+
+
+@pytest.mark.parametrize('shape', SHAPES.values(), ids=SHAPES)
+def test_who_resumes_a_keyframe_goes_on_like_who_made_it(shape: object) -> None:
+    world = World(settings=FLOOR)
+    for number in range(6):
+        spawn(world, f'a/{number}', shape, (0.3 * number, 1.0 + 1.5 * number, 0.4 * number))
+    spawn(world, 'b/0', BOX, (-3.0, 0.5, 0.0), anchored=True)
+    world.step(300)
+    key = world.renew()
+    elsewhere = World(settings=FLOOR)
+    elsewhere.resume(key)
+    for _ in range(5):
+        world.step(60)
+        elsewhere.step(60)
+        assert elsewhere.digest() == world.digest()
+
+
+def test_who_resumes_at_a_letting_go_goes_on_alike() -> None:
+    world, saved, resumed = settled(6), World(), World()
+    world.apply(Delete(name='stack/2'))
+    before, digest = world.snapshot(), world.digest()
+    state, key = world.save(), world.renew()
+    assert world.digest() == digest
+    np.testing.assert_array_equal(world.snapshot().twists, before.twists)
+    resumed.resume(key)
+    saved.apply(Restore(state=state))
+    for each in (world, saved, resumed):
+        each.step(60)
+    assert resumed.digest() == world.digest()
+    np.testing.assert_array_equal(saved.snapshot().poses, world.snapshot().poses)
+
+
+def test_bodies_of_the_space_before_last_are_as_good_as_new() -> None:
+    one, other = settled(5), settled(5)
+    for _ in range(4):
+        one.step(100)
+        other.step(100)
+        one.build_spares(100)
+        one.renew()
+        other.renew()
+        assert one.digest() == other.digest()
+
+
+def test_what_has_changed_since_is_not_taken_from_before() -> None:
+    one, other = settled(4), settled(4)
+    for world in (one, other):
+        world.renew()
+        spawn(world, 'stack/1', BOX, (3.0, 0.5, 0.0), density=7.0)
+        spawn(world, 'new/0', BOX, (5.0, 0.5, 0.0))
+        world.step(50)
+    one.build_spares(100)
+    one.renew()
+    other.renew()
+    one.step(200)
+    other.step(200)
+    assert one.digest() == other.digest()
+
+
+def test_a_wrench_and_a_lifetime_go_on() -> None:
+    world = World(settings=WorldSettings(gravity=(0.0, 0.0), command_timeout=1.0))
+    spawn(world, 'a/0', BOX, lifetime=2.0)
+    world.apply(Command(names=('a/0',), wrenches=((1.0, 0.0, 0.0),)))
+    world.step(120)
+    world.renew()
+    world.step(240)
+    assert twist(world, 'a/0')[0] == pytest.approx(1.0, abs=1e-9)
+    world.step(120)
+    assert len(world) == 0
+
+
+def test_impulses_of_the_frame_are_taken_over() -> None:
+    one, other = settled(2), settled(2)
+    for world in (one, other):
+        world.watching = True
+        world.step(4)
+        world.contacts(world.snapshot())
+        world.step(2)
+    one.renew()
+    one.step(2)
+    other.step(2)
+    got, expected = (world.contacts(world.snapshot()) for world in (one, other))
+    np.testing.assert_array_equal(got.pairs, expected.pairs)
+    np.testing.assert_allclose(got.impulses, expected.impulses, rtol=1e-6, atol=1e-9)

@@ -1,0 +1,233 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Requests are checked as far as they alone can tell; the world does not see the others."""
+
+from dataclasses import fields, FrozenInstanceError
+import math
+
+from physsim_ros.model.body_properties import FASTEST, HEAVIEST, Properties
+from physsim_ros.model.errors import BadProperty, Malformed, Refusal
+from physsim_ros.model.requests import (
+    Anchor,
+    check_point,
+    check_pose,
+    Command,
+    Configure,
+    Delete,
+    DeleteAll,
+    FARTHEST,
+    LONGEST,
+    Release,
+    Spawn,
+)
+from physsim_ros.model.shapes import Disc
+import pytest
+
+DISC = Disc(radius=0.5)
+REST = (0.0, 0.0, 0.0)
+NOT_FINITE = [math.nan, math.inf, -math.inf]
+
+
+def test_a_spawn_needs_a_name_and_a_shape_only() -> None:
+    request = Spawn(name='a/0', shape=DISC)
+
+    assert (request.pose, request.frame, request.color, request.lifetime) == (REST, '', None, 0.0)
+    assert request.properties == Properties()
+
+
+@pytest.mark.parametrize('name', ['', 'a', '/1', 'a/x', 'a' * 2000 + '/1'])
+def test_a_spawn_under_no_name_is_malformed(name: str) -> None:
+    with pytest.raises(Malformed) as refused:
+        Spawn(name=name, shape=DISC)
+    assert refused.value.field == 'name'
+
+
+@pytest.mark.parametrize('value', NOT_FINITE)
+@pytest.mark.parametrize('place', range(3))
+def test_a_pose_that_is_not_finite_is_malformed(value: float, place: int) -> None:
+    pose = tuple(value if k == place else 0.0 for k in range(3))
+
+    for make in (
+        lambda: Spawn(name='a/0', shape=DISC, pose=pose),
+        lambda: Command(names=('a/0',), poses=(pose,)),
+        lambda: check_pose(pose, 'pose'),
+    ):
+        with pytest.raises(Malformed):
+            make()
+
+
+@pytest.mark.parametrize('pose', [(), (0.0,), (0.0, 0.0), (0.0, 0.0, 0.0, 0.0)])
+def test_a_pose_has_three_numbers(pose: tuple[float, ...]) -> None:
+    with pytest.raises(Malformed):
+        Spawn(name='a/0', shape=DISC, pose=pose)
+
+
+@pytest.mark.parametrize('sign', [1.0, -1.0])
+@pytest.mark.parametrize('place', range(3))
+def test_a_pose_is_taken_as_far_as_can_be_and_no_further(sign: float, place: int) -> None:
+    far = [0.0, 0.0, 0.0]
+    far[place] = sign * FARTHEST
+    too_far = [0.0, 0.0, 0.0]
+    too_far[place] = sign * math.nextafter(FARTHEST, math.inf)
+
+    assert Spawn(name='a/0', shape=DISC, pose=tuple(far)).pose == tuple(far)
+    with pytest.raises(BadProperty):
+        Spawn(name='a/0', shape=DISC, pose=tuple(too_far))
+    with pytest.raises(BadProperty):
+        Command(names=('a/0',), poses=(tuple(too_far),))
+
+
+@pytest.mark.parametrize(
+    ('color', 'error'),
+    [((0.0, 0.0, 0.0), Malformed), ((0.0,) * 5, Malformed), ((0.0, 0.0, math.nan, 1.0), Malformed),
+     ((0.0, 0.0, 1.1, 1.0), BadProperty), ((-0.1, 0.0, 0.0, 1.0), BadProperty)],
+)  # fmt: skip
+def test_a_colour_has_four_channels_of_0_to_1(
+    color: tuple[float, ...], error: type[Refusal]
+) -> None:
+    with pytest.raises(error) as refused:
+        Spawn(name='a/0', shape=DISC, color=color)
+    assert refused.value.field == 'color'
+
+
+def test_a_colour_of_whole_numbers_is_the_same_colour() -> None:
+    assert repr(Spawn(name='a/0', shape=DISC, color=(0, 1, 0, 1)).color) == '(0.0, 1.0, 0.0, 1.0)'
+
+
+@pytest.mark.parametrize(
+    ('lifetime', 'error'),
+    [(math.nan, Malformed), (math.inf, Malformed), (-1e-9, BadProperty), (-1.0, BadProperty),
+     (math.nextafter(LONGEST, math.inf), BadProperty), (1e308, BadProperty)],
+)  # fmt: skip
+def test_a_lifetime_is_a_time(lifetime: float, error: type[Refusal]) -> None:
+    with pytest.raises(error) as refused:
+        Spawn(name='a/0', shape=DISC, lifetime=lifetime)
+    assert refused.value.field == 'lifetime'
+    assert Spawn(name='a/0', shape=DISC, lifetime=LONGEST).lifetime == LONGEST
+
+
+@pytest.mark.parametrize('kind', [Anchor, Release])
+def test_a_point_is_finite_and_not_too_far(kind: type[Anchor] | type[Release]) -> None:
+    assert kind(point=(FARTHEST, -FARTHEST)).frame == ''
+    for value in NOT_FINITE:
+        for point in ((value, 0.0), (0.0, value)):
+            with pytest.raises(Malformed):
+                kind(point=point)
+    for point in ((), (1.0,), (1.0, 2.0, 3.0)):
+        with pytest.raises(Malformed):
+            kind(point=point)
+    with pytest.raises(BadProperty):
+        kind(point=(2 * FARTHEST, 0.0))
+    with pytest.raises(BadProperty):
+        check_point((0.0, -2 * FARTHEST), 'point')
+
+
+def test_a_command_may_leave_any_array_empty() -> None:
+    for poses in ((), (REST,)):
+        for twists in ((), (REST,)):
+            for wrenches in ((), (REST,)):
+                command = Command(names=('a/0',), poses=poses, twists=twists, wrenches=wrenches)
+                assert (command.poses, command.twists, command.wrenches) == (
+                    poses,
+                    twists,
+                    wrenches,
+                )
+
+
+def test_a_command_names_bodies_each_once() -> None:
+    for names in ((), ('a/0', 'a/0'), ('a/0', 'b/0', 'a/0')):
+        with pytest.raises(Malformed) as refused:
+            Command(names=names)
+        assert refused.value.field == 'joint_names'
+
+
+@pytest.mark.parametrize('array', ['poses', 'twists', 'wrenches'])
+@pytest.mark.parametrize('count', [1, 3])
+def test_a_command_has_as_many_rows_as_names(array: str, count: int) -> None:
+    with pytest.raises(Malformed) as refused:
+        Command(names=('a/0', 'a/1'), **{array: (REST,) * count})
+    fields = {'poses': 'transforms', 'twists': 'twist', 'wrenches': 'wrench'}
+    assert refused.value.field == fields[array]
+
+
+@pytest.mark.parametrize('value', NOT_FINITE)
+@pytest.mark.parametrize('place', range(3))
+@pytest.mark.parametrize(('array', 'field'), [('twists', 'twist'), ('wrenches', 'wrench')])
+def test_a_twist_or_wrench_that_is_not_finite_is_malformed(
+    value: float, place: int, array: str, field: str
+) -> None:
+    row = tuple(value if k == place else 0.0 for k in range(3))
+
+    with pytest.raises(Malformed) as refused:
+        Command(names=('a/0', 'a/1'), **{array: (REST, row)})
+    assert refused.value.field == field
+
+
+@pytest.mark.parametrize('row', [(), (1.0, 2.0), (1.0, 2.0, 3.0, 4.0)])
+def test_a_twist_or_wrench_has_three_numbers(row: tuple[float, ...]) -> None:
+    with pytest.raises(Malformed):
+        Command(names=('a/0',), twists=(row,))
+    with pytest.raises(Malformed):
+        Command(names=('a/0',), wrenches=(row,))
+
+
+def test_a_twist_is_taken_up_to_the_fastest() -> None:
+    command = Command(names=('a/0',), twists=((0.6 * FASTEST, -0.8 * FASTEST, -FASTEST),))
+
+    assert command.twists[0][2] == -FASTEST
+    for twist in ((0.8 * FASTEST,) * 2 + (0.0,), (0.0, 0.0, 1.1 * FASTEST), (1e308, 1e308, 0.0)):
+        with pytest.raises(BadProperty) as refused:
+            Command(names=('a/0',), twists=(twist,))
+        assert refused.value.field == 'twist'
+
+
+@pytest.mark.parametrize('place', range(3))
+def test_a_wrench_is_taken_up_to_the_strongest(place: int) -> None:
+    strong, stronger = [0.0] * 3, [0.0] * 3
+    strong[place], stronger[place] = -HEAVIEST, -1.1 * HEAVIEST
+
+    assert Command(names=('a/0',), wrenches=(tuple(strong),)).wrenches == (tuple(strong),)
+    with pytest.raises(BadProperty) as refused:
+        Command(names=('a/0',), wrenches=(tuple(stronger),))
+    assert refused.value.field == 'wrench'
+
+
+def test_a_change_of_settings_names_settings() -> None:
+    assert Configure(changes={'damping': 0.5}).changes == {'damping': 0.5}
+    with pytest.raises(BadProperty) as refused:
+        Configure(changes={'damping': 0.5, 'speed': 1.0})
+    assert refused.value.field == 'speed'
+
+
+def test_a_change_of_settings_is_not_changed_by_who_asked_for_it() -> None:
+    changes = {'damping': 0.5}
+    request = Configure(changes=changes)
+
+    changes['speed'] = 2.0
+
+    assert request.changes == {'damping': 0.5}
+
+
+def test_requests_are_frozen() -> None:
+    for request in (
+        Spawn(name='a/0', shape=DISC),
+        Delete(name='a/0'),
+        DeleteAll(),
+        Anchor(point=(0.0, 0.0)),
+        Command(names=('a/0',)),
+        Configure(changes={}),
+    ):
+        with pytest.raises(FrozenInstanceError):
+            setattr(request, fields(request)[0].name, 'b/0')

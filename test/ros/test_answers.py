@@ -1,0 +1,107 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Answers wait where listeners have not kept up, so that no burst pushes one out."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from physsim_ros.model.snapshot import Answer
+from physsim_ros.ros import publishers
+from physsim_ros.ros.publishers import KEPT_ANSWERS, PATIENCE, Streams
+from physsim_ros.testing import PhysSim
+import pytest
+
+
+class Slow:
+    """A publisher whose listener takes what it was sent when the test says so."""
+
+    def __init__(self) -> None:
+        self.sent: list[bytes] = []
+        self.taken = True
+        self.asked = 0
+
+    def get_subscription_count(self) -> int:
+        return 1
+
+    def publish(self, message: bytes) -> None:
+        self.sent.append(message)
+
+    def wait_for_all_acked(self, _: Any) -> bool:
+        self.asked += 1
+        return self.taken
+
+
+class Bench:
+    """The streams of a world, their listener, and the time on the wall."""
+
+    def __init__(self, streams: Streams) -> None:
+        self.streams = streams
+        self.slow = Slow()
+        self.now = 1000.0
+        streams._events = self.slow  # noqa: SLF001 - a listener is not slow on command
+
+    def report(self, count: int) -> None:
+        for number in range(count):
+            self.streams.report(Answer(topic='~/spawn', subject=f'a/{number}'))
+
+
+@pytest.fixture
+def bench(physsim: PhysSim, monkeypatch: pytest.MonkeyPatch) -> Bench:
+    bench = Bench(physsim.node._streams)  # noqa: SLF001
+    monkeypatch.setattr(publishers.time, 'monotonic', lambda: bench.now)
+    return bench
+
+
+def test_answers_go_out_at_once_while_listeners_keep_up(bench: Bench) -> None:
+    bench.report(3 * KEPT_ANSWERS)
+    assert len(bench.slow.sent) == 3 * KEPT_ANSWERS
+
+
+def test_a_burst_waits_for_a_listener_that_has_not_taken_the_last(bench: Bench) -> None:
+    bench.slow.taken = False
+    bench.report(2 * KEPT_ANSWERS + 7)
+    assert len(bench.slow.sent) == KEPT_ANSWERS
+    # Asking costs a fifth of a millisecond: once a tick, not once an answer.
+    assert bench.slow.asked == 1
+    bench.streams.flush()
+    assert len(bench.slow.sent) == KEPT_ANSWERS
+    bench.slow.taken = True
+    bench.streams.welcome()
+    assert len(bench.slow.sent) == 2 * KEPT_ANSWERS + 7
+    names = [f'a/{number}'.encode() for number in range(2 * KEPT_ANSWERS + 7)]
+    assert all(name in message for name, message in zip(names, bench.slow.sent, strict=True))
+
+
+def test_a_listener_that_has_stopped_holds_nobody_up_for_long(bench: Bench) -> None:
+    bench.slow.taken = False
+    bench.report(3 * KEPT_ANSWERS)
+    bench.now += PATIENCE - 0.1
+    bench.streams.flush()
+    assert len(bench.slow.sent) == KEPT_ANSWERS
+    bench.now += 0.2
+    bench.streams.flush()
+    assert len(bench.slow.sent) == 2 * KEPT_ANSWERS
+    bench.now += PATIENCE + 0.1
+    bench.streams.flush()
+    assert len(bench.slow.sent) == 3 * KEPT_ANSWERS
+
+
+def test_an_answer_goes_out_before_the_frame_that_shows_it(bench: Bench, physsim: PhysSim) -> None:
+    bench.slow.taken = False
+    bench.report(KEPT_ANSWERS + 1)
+    bench.slow.taken = True
+    physsim.node.advance_frame()
+    assert len(bench.slow.sent) == KEPT_ANSWERS + 1

@@ -1,0 +1,373 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Clicks on `clicked_point` make and change bodies, while the world runs and while it stands."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from geometry_msgs.msg import PointStamped
+from physsim_ros.testing import PhysSim
+import pytest
+from rclpy.parameter import Parameter
+from visualization_msgs.msg import Marker, MarkerArray
+
+from ..client import Client, Event, KEPT
+from ..messages import box, delete_all, disc, point
+
+UP = math.pi / 2
+
+
+class Hand:
+    """Somebody who clicks, while the world stands or while it runs."""
+
+    def __init__(self, client: Client, frames: int) -> None:
+        self.client = client
+        self.physsim = client.physsim
+        self._frames = frames
+
+    def take(self, tool: str, **values: object) -> None:
+        parameters = [Parameter(name, value=value) for name, value in values.items()]
+        results = self.physsim.node.set_parameters([Parameter('tool', value=tool), *parameters])
+        assert all(result.successful for result in results), results
+
+    def click(self, x: float, y: float, frame: str = '') -> Event:
+        """Click, and return the one answer."""
+        events = self.client.ask('/clicked_point', point(x, y, frame))
+        # What lay ahead of the first change in the past is dropped, and that is told too.
+        (event,) = (each for each in events if each.name == 'clicked_point')
+        self.physsim.step(self._frames)
+        return event
+
+    def draw(self, tool: str, *points: tuple[float, float], **values: object) -> Event:
+        """Click the points of a whole gesture with a tool, and return the last answer."""
+        self.take(tool, **values)
+        *earlier, last = points
+        for each in earlier:
+            event = self.click(*each)
+            assert (event.level, event.code) == (0, 'ok'), event
+            assert 'next: ' in event.message
+        return self.click(*last)
+
+
+@pytest.fixture(params=['paused', 'running', 'past'])
+def hand(client: Client, request: pytest.FixtureRequest) -> Hand:
+    """Give a hand that clicks in a world without gravity, once a frame where it runs."""
+    physsim = client.physsim
+    (result,) = physsim.node.set_parameters([Parameter('gravity', value=[0.0, 0.0])])
+    assert result.successful
+    if request.param == 'past':
+        # What is done in the first second has not been done yet at half of it.
+        physsim.step(60)
+        physsim.spawn(disc('later/0', at=(1.0, 1.0)))
+        physsim.step(60)
+        physsim.seek(0.5)
+        client.spin_until(lambda: physsim.names == ())
+    return Hand(client, int(request.param == 'running'))
+
+
+def accepted(event: Event, name: str) -> None:
+    assert event == Event(0, 'clicked_point', name, event.message, 'ok', '')
+
+
+def refused(event: Event, code: str) -> None:
+    assert (event.level, event.code) == (2, code), event
+    assert event.message
+
+
+def markers_of(physsim: PhysSim, client: Client) -> dict[str, Marker]:
+    """Return what is drawn of the bodies now, by name."""
+    pictures = client.listen(MarkerArray, '~/markers', KEPT)
+    client.spin_until(lambda: pictures)
+    return {f'{marker.ns}/{marker.id}': marker for marker in pictures[-1].markers}
+
+
+# Each tool
+
+
+@pytest.mark.parametrize(
+    ('tool', 'points', 'kind', 'scale', 'pose'),
+    [
+        ('circle', [(1, 1), (1, 3)], Marker.CYLINDER, (4.0, 4.0), (1.0, 1.0, 0.0)),
+        ('circle_diameter', [(1, 1), (1, 3)], Marker.CYLINDER, (2.0, 2.0), (1.0, 2.0, 0.0)),
+        ('rectangle', [(0, 0), (0, 2), (-1, 9)], Marker.CUBE, (2.0, 1.0), (-0.5, 1.0, UP)),
+        ('polygon', [(0, 0), (3, 0), (0, 3), (0.1, 0)], Marker.LINE_STRIP, (0.02, 0.0), (1, 1, 0)),
+        ('wall', [(0, 0), (4, 0)], Marker.LINE_STRIP, (0.1, 0.0), (2.0, 0.0, 0.0)),
+    ],
+)  # fmt: skip
+def test_a_body_is_drawn(
+    hand: Hand, tool: str, points: Any, kind: int, scale: Any, pose: Any
+) -> None:
+    accepted(hand.draw(tool, *points), 'drawn/0')
+    assert hand.physsim.pose('drawn/0') == pytest.approx(pose, abs=1e-12)
+    marker = markers_of(hand.physsim, hand.client)['drawn/0']
+    assert marker.type == kind
+    assert (marker.scale.x, marker.scale.y) == pytest.approx(scale)
+
+
+def test_bodies_are_anchored_released_and_deleted_by_a_click(hand: Hand) -> None:
+    hand.physsim.spawn(disc('a/0', text='{velocity: [0.1, 0]}'))
+    accepted(hand.draw('anchor', (0, 0)), 'a/0')
+    hand.physsim.step()
+    assert hand.physsim.twist('a/0') == (0.0, 0.0, 0.0)
+    accepted(hand.draw('release', (0, 0)), 'a/0')
+    accepted(hand.draw('delete', (0, 0)), 'a/0')
+    assert hand.physsim.names == ()
+    for tool in ('anchor', 'release', 'delete'):
+        refused(hand.draw(tool, (0, 0)), 'nothing_there')
+
+
+def test_a_velocity_is_given_by_an_arrow(hand: Hand) -> None:
+    hand.physsim.spawn(disc('a/0', text='{spin: 2}'))
+    accepted(hand.draw('velocity', (0.2, 0.0), (3.2, -4.0)), 'a/0')
+    assert hand.physsim.twist('a/0') == pytest.approx((3.0, -4.0, 2.0), abs=1e-12)
+
+
+def test_gravity_is_turned_by_an_arrow_and_the_parameter_tells(hand: Hand) -> None:
+    node = hand.physsim.node
+    node.set_parameters([Parameter('gravity', value=[0.0, -2.0])])
+    accepted(hand.draw('gravity', (0, 0), (3, 0)), '')
+    assert list(node.get_parameter('gravity').value) == pytest.approx([2.0, 0.0])
+    assert hand.physsim.node.simulation.world.settings.gravity == pytest.approx((2.0, 0.0))
+
+
+@pytest.mark.parametrize('tool', ['spring', 'rod', 'rope'])
+def test_two_bodies_are_joined_by_a_line(hand: Hand, tool: str) -> None:
+    hand.physsim.spawn(disc('a/0'))
+    hand.physsim.spawn(disc('a/1', at=(3, 0)))
+    accepted(hand.draw(tool, (0.2, 0), (2.8, 0)), 'drawn/0')
+    (joint,) = hand.physsim.node.simulation.world.snapshot().scene.joints
+    assert (joint.kind, joint.a, joint.b) == (tool, 'a/0', 'a/1')
+    # Another one, to the background.
+    accepted(hand.draw(tool, (0.0, 3.0), (0.0, 0.2)), 'drawn/1')
+
+
+@pytest.mark.parametrize('tool', ['pin', 'axle'])
+def test_bodies_are_held_by_a_click_on_them_and_let_go_by_another(hand: Hand, tool: str) -> None:
+    hand.physsim.spawn(disc('a/0'))
+    accepted(hand.draw(tool, (0.2, 0.1)), f'{tool}/0')
+    hand.physsim.spawn(disc('a/1', at=(0.4, 0)))
+    accepted(hand.draw(tool, (0.2, 0.1)), f'{tool}/1')
+    joints = hand.physsim.node.simulation.world.snapshot().scene.joints
+    assert {(joint.kind, joint.a, joint.b) for joint in joints} == {
+        (tool, 'a/0', 'world'),
+        (tool, 'a/1', 'a/0'),
+    }
+    accepted(hand.draw('release', (0.2, 0.1)), 'a/1')
+    joints = hand.physsim.node.simulation.world.snapshot().scene.joints
+    assert f'{tool}/1' not in {joint.name for joint in joints}
+    refused(hand.draw(tool, (9, 9)), 'nothing_there')
+
+
+def test_without_a_tool_clicks_are_ignored(hand: Hand) -> None:
+    hand.physsim.spawn(disc('a/0'))
+    before = hand.physsim.node.simulation.world.save()
+    event = hand.draw('none', (0, 0))
+    accepted(event, '')
+    assert 'ignored' in event.message
+    assert hand.physsim.node.simulation.world.save() == before
+
+
+def test_what_is_drawn_is_as_the_parameters_say(hand: Hand) -> None:
+    made = {'density': 3.0, 'friction': 0.25, 'elasticity': 0.75}
+    event = hand.draw(
+        'circle', (0, 0), (1, 0), draw_velocity=[2.0, 1.0], draw_color='#ff8000', **made
+    )
+    accepted(event, 'drawn/0')
+    assert hand.physsim.twist('drawn/0') == pytest.approx((2.0, 1.0, 0.0), abs=1e-12)
+    marker = markers_of(hand.physsim, hand.client)['drawn/0']
+    assert marker.text == '{density: 3.0, friction: 0.25, elasticity: 0.75}'
+    assert marker.color.g == pytest.approx(128 / 255)
+
+
+# Refusals
+
+
+@pytest.mark.parametrize(
+    ('tool', 'points', 'code'),
+    [
+        ('circle', [(5, 5), (5, 5.001)], 'bad_size'),
+        ('circle_diameter', [(5, 5), (5, 5)], 'bad_size'),
+        ('rectangle', [(5, 5), (6, 5), (9, 5)], 'bad_size'),
+        ('polygon', [(5, 5), (6, 5), (5, 5)], 'bad_outline'),
+        ('polygon', [(5, 5), (7, 7), (7, 5), (5, 7), (5, 5)], 'bad_outline'),
+        ('wall', [(5, 5), (5, 5)], 'bad_size'),
+        ('velocity', [(0, 0), (0, 0)], 'bad_size'),
+        ('velocity', [(3, 0)], 'anchored'),
+        ('velocity', [(9, 9)], 'nothing_there'),
+        ('delete', [(9, 9)], 'nothing_there'),
+        ('spring', [(8, 8), (9, 9)], 'nothing_there'),
+        ('rod', [(0, 0), (0.3, 0)], 'bad_property'),
+        ('rope', [(3, 0), (9, 9)], 'anchored'),
+        ('pin', [(9, 9)], 'nothing_there'),
+        ('axle', [(3, 0)], 'anchored'),
+        ('gravity', [(0, 0)], 'bad_property'),
+        ('circle', [(math.nan, 0)], 'malformed'),
+        ('anchor', [(0, math.inf)], 'malformed'),
+        ('wall', [(1e9, 0)], 'bad_property'),
+    ],
+)
+def test_what_cannot_be_drawn_is_refused_with_a_code_and_changes_nothing(
+    client: Client, tool: str, points: Any, code: str
+) -> None:
+    client.physsim.node.set_parameters([Parameter('gravity', value=[0.0, 0.0])])
+    client.physsim.spawn(disc('a/0'))
+    client.physsim.spawn(box('a/1', at=(3, 0), text='{anchored: true}'))
+    before = client.physsim.digest()
+    refused(Hand(client, 0).draw(tool, *points), code)
+    assert client.physsim.digest() == before
+
+
+def test_what_a_full_world_does_not_take_is_refused_and_its_name_is_not_given_again(
+    hand: Hand,
+) -> None:
+    hand.take('wall', max_bodies=0)
+    hand.click(0, 0)
+    refused(hand.click(1, 0), 'world_full')
+    hand.take('wall', max_bodies=10)
+    accepted(hand.draw('wall', (0, 0), (1, 0)), 'drawn/1')
+
+
+def test_an_unknown_frame_is_refused_and_the_gesture_goes_on(hand: Hand) -> None:
+    hand.take('circle')
+    hand.click(0, 0)
+    event = hand.click(1, 0, 'nobody/0')
+    assert (event.code, event.field) == ('unknown_frame', 'header.frame_id')
+    accepted(hand.click(1, 0, 'world'), 'drawn/0')
+
+
+def test_a_tool_starts_afresh_after_a_refusal(hand: Hand) -> None:
+    refused(hand.draw('circle', (0, 0), (0, 0)), 'bad_size')
+    hand.click(5, 5)
+    accepted(hand.click(6, 5), 'drawn/0')
+    assert hand.physsim.pose('drawn/0') == (5.0, 5.0, 0.0)
+
+
+@pytest.mark.parametrize(
+    ('name', 'value'),
+    [
+        ('tool', 'crayon'),
+        ('snap', -0.1),
+        ('snap', math.nan),
+        ('draw_color', 'red'),
+        ('draw_color', '#12345'),
+        ('draw_velocity', [1.0]),
+        ('draw_velocity', [1e5, 1e5]),
+        ('draw_velocity', [math.nan, 0.0]),
+        ('sketch_confidence', 1.1),
+    ],
+)
+def test_a_parameter_of_drawing_that_is_wrong_is_refused_and_the_gesture_goes_on(
+    client: Client, name: str, value: object
+) -> None:
+    hand = Hand(client, 0)
+    hand.take('circle')
+    hand.click(0, 0)
+    (result,) = client.physsim.node.set_parameters([Parameter(name, value=value)])
+    assert not result.successful
+    assert result.reason
+    accepted(hand.click(1, 0), 'drawn/0')
+
+
+# Frames and order
+
+
+def test_a_point_of_a_body_is_fixed_to_the_world_at_the_click(hand: Hand) -> None:
+    hand.physsim.spawn(disc('a/0', at=(1.0, 2.0), text='{velocity: [6, 0]}'))
+    hand.take('circle')
+    hand.click(1, 0, 'a/0')
+    hand.physsim.step(30)
+    accepted(hand.click(2, 2.5), 'drawn/0')
+    assert hand.physsim.pose('drawn/0') == pytest.approx((2.0, 2.0, 0.0), abs=1e-12)
+
+
+def test_a_click_sees_what_was_asked_just_before(client: Client) -> None:
+    hand = Hand(client, 0)
+    hand.take('delete')
+    client.publish('~/spawn', disc('a/0'))
+    events = client.ask('/clicked_point', point(0.0, 0.0))
+    assert [(event.name, event.hardware_id, event.code) for event in events] == [
+        ('~/spawn', 'a/0', 'ok'),
+        ('clicked_point', 'a/0', 'ok'),
+    ]
+
+
+def test_many_clicks_at_once_are_all_answered_in_order(client: Client) -> None:
+    hand = Hand(client, 0)
+    hand.take('circle')
+    publisher = client.node.create_publisher(PointStamped, '/clicked_point', client.qos)
+    client.spin_until(publisher.get_subscription_count)
+    for number in range(100):
+        publisher.publish(point(3.0 * number, 0.0))
+        publisher.publish(point(3.0 * number + 1.0, 0.0))
+    client.physsim.settle()
+    client.physsim.node.apply()
+    client.physsim.settle()
+    done = [event.hardware_id for event in client.events if event.hardware_id]
+    assert done == [f'drawn/{number}' for number in range(100)]
+    assert len(client.events) == 200
+
+
+def test_numbers_are_not_given_again_after_a_world_is_cleared(client: Client) -> None:
+    hand = Hand(client, 0)
+    hand.draw('wall', (0, 0), (1, 0))
+    client.ask('~/spawn', delete_all())
+    accepted(hand.draw('wall', (0, 0), (1, 0)), 'drawn/1')
+
+
+# Preview
+
+
+def shown(pictures: list[MarkerArray]) -> list[int]:
+    """Return the types of what is shown, in the last message, which begins by clearing all."""
+    clearing, *markers = pictures[-1].markers
+    assert clearing.action == Marker.DELETEALL
+    assert len({(marker.ns, marker.id) for marker in markers}) == len(markers)
+    return [marker.type for marker in markers]
+
+
+def test_a_half_drawn_shape_is_shown_until_it_is_done_or_dropped(hand: Hand) -> None:
+    hand.take('rectangle')
+    pictures = hand.client.listen(MarkerArray, '~/preview', KEPT)
+    hand.click(0, 0)
+    assert shown(pictures) == [Marker.SPHERE_LIST, Marker.TEXT_VIEW_FACING]
+    assert pictures[-1].markers[-1].text == 'rectangle'
+    hand.click(1, 0)
+    assert shown(pictures) == [Marker.LINE_STRIP, Marker.SPHERE_LIST, Marker.TEXT_VIEW_FACING]
+    line = pictures[-1].markers[1]
+    assert [(each.x, each.y) for each in line.points] == [(0.0, 0.0), (1.0, 0.0)]
+    assert line.header.frame_id == 'world'
+    hand.click(1, 1)
+    assert shown(pictures) == []
+    hand.click(0, 0)
+    hand.click(0, 0)
+    assert shown(pictures) == []
+    hand.click(0, 0)
+    hand.take('circle')
+    hand.client.spin_until(lambda: shown(pictures) == [])
+
+
+def test_who_comes_late_sees_what_is_half_drawn(client: Client) -> None:
+    hand = Hand(client, 0)
+    hand.take('polygon')
+    for x, y in ((0, 0), (1, 0), (1, 1)):
+        hand.click(x, y)
+    pictures = client.listen(MarkerArray, '~/preview', KEPT)
+    client.spin_until(lambda: pictures)
+    lines = [marker for marker in pictures[-1].markers if marker.type == Marker.LINE_STRIP]
+    assert len(lines[0].points) == 3
+    # The ring about the first corner.
+    assert len(lines[1].points) > 8

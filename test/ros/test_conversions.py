@@ -1,0 +1,647 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Messages become requests that mean the same, or are refused with the code and field at fault."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from geometry_msgs.msg import Pose, Quaternion, Transform
+from physsim_ros.model.body_properties import Properties
+from physsim_ros.model.errors import (
+    BadOutline,
+    BadProperty,
+    BadSize,
+    Malformed,
+    NotPlanar,
+    Refusal,
+    UnknownProperty,
+    UnknownShape,
+)
+from physsim_ros.model.requests import Anchor, Axle, Delete, DeleteAll, Pin, Release, Spawn
+from physsim_ros.model.shapes import Box, Chain, Compound, Disc, MOST_POINTS, Polygon, Triangles
+from physsim_ros.ros.conversions import (
+    body_request,
+    command_request,
+    LONGEST_TEXT,
+    name_of,
+    point_request,
+)
+import pytest
+from visualization_msgs.msg import Marker
+
+from ..messages import box, command, delete, delete_all, ELL, marker, point, polygon
+
+NAN, INF = math.nan, math.inf
+SQUARE = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))
+
+
+def spawn_of(message: Marker) -> Spawn:
+    request = body_request(message, frame_id='map')
+    assert isinstance(request, Spawn)
+    return request
+
+
+def yaw_of(x: float, y: float, z: float, w: float) -> float:
+    message = box()
+    message.pose.orientation = Quaternion(x=x, y=y, z=z, w=w)
+    return spawn_of(message).pose[2]
+
+
+def properties_of(text: str) -> Properties:
+    return spawn_of(box(text=text)).properties
+
+
+def refusal_of(message: Marker) -> Refusal:
+    with pytest.raises(Refusal) as caught:
+        body_request(message, frame_id='map')
+    return caught.value
+
+
+# Names, frames, actions
+
+
+def test_a_marker_without_a_namespace_is_a_body_of_the_default_one() -> None:
+    assert name_of(Marker(id=7)) == 'body/7'
+    assert name_of(Marker(ns='a/b', id=-7)) == 'a/b/-7'
+    assert spawn_of(Marker(type=Marker.CUBE, scale=box().scale)).name == 'body/0'
+
+
+@pytest.mark.parametrize(('frame', 'meant'), [('', ''), ('map', ''), ('a/0', 'a/0')])
+def test_the_world_frame_has_two_spellings(frame: str, meant: str) -> None:
+    assert spawn_of(box(frame=frame)).frame == meant
+    assert point_request(Anchor, point(1, 2, frame), frame_id='map').frame == meant
+    assert point_request(Release, point(1, 2, frame), frame_id='map').frame == meant
+    assert command_request(command('a/0', frame=frame), frame_id='map').frame == meant
+
+
+@pytest.mark.parametrize('namespace', ['physsim:bounds', 'anchor:a', 'joint:j', 'lines:j'])
+def test_what_the_picture_draws_itself_is_no_body(namespace: str) -> None:
+    message = box(f'{namespace}/0')
+    refusal = refusal_of(message)
+    assert (refusal.code, refusal.field) == ('malformed', 'name')
+
+
+def test_stamps_and_z_are_ignored() -> None:
+    plain, odd = box(at=(1, 2, 0.3)), box(at=(1, 2, 0.3))
+    odd.header.stamp.sec = 1_700_000_000
+    odd.pose.position.z = NAN
+    odd.scale.z = -1.0
+    assert spawn_of(odd) == spawn_of(plain)
+
+
+def test_actions_add_delete_and_delete_all() -> None:
+    assert body_request(delete('a/3'), frame_id='map') == Delete(name='a/3')
+    assert body_request(delete_all(), frame_id='map') == DeleteAll(namespace=None)
+    assert body_request(delete_all('a/b'), frame_id='map') == DeleteAll(namespace='a/b')
+
+
+def test_a_deletion_needs_nothing_but_the_name() -> None:
+    message = marker(99, 'a/0', action=Marker.DELETE, scale=(NAN, -1.0), text='{')
+    message.pose.orientation = Quaternion(x=1.0)
+    assert body_request(message, frame_id='map') == Delete(name='a/0')
+
+
+@pytest.mark.parametrize('action', [1, 4, -1, 2**31 - 1])
+def test_any_other_action_is_refused(action: int) -> None:
+    refusal = refusal_of(marker(Marker.CUBE, action=action))
+    assert (type(refusal), refusal.field) == (BadProperty, 'action')
+
+
+@pytest.mark.parametrize('namespace', ['a\nb', 'a\0b', 'x' * 1001, '\ud800'])
+def test_a_name_that_no_message_can_carry_is_refused(namespace: str) -> None:
+    message = box()
+    # rclpy cannot send all of these, but others may.
+    message._ns = namespace  # noqa: SLF001
+    assert isinstance(refusal_of(message), Malformed)
+
+
+# Rotations
+
+
+@pytest.mark.parametrize('yaw', [0.0, 1e-9, 0.7, -0.7, 1.5707963, 3.0, -3.1])
+def test_a_yaw_comes_back(yaw: float) -> None:
+    # rad; sin, cos and atan2 round once each
+    assert yaw_of(0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2)) == pytest.approx(yaw, abs=1e-15)
+
+
+def test_a_rotation_of_all_zeros_is_the_identity() -> None:
+    assert yaw_of(0.0, 0.0, 0.0, 0.0) == 0.0
+
+
+@pytest.mark.parametrize('scale', [1e-320, 1e-200, 1e-3, 2.0, 1e200, 1e308])
+def test_a_rotation_of_any_length_is_normalised(scale: float) -> None:
+    z, w = math.sin(0.35) * scale, math.cos(0.35) * scale
+    # rad; the smallest numbers of all, 1e-320, have but three digits
+    assert yaw_of(0.0, 0.0, z, w) == pytest.approx(0.7, abs=1e-3 if scale < 1e-300 else 1e-15)
+
+
+def test_a_rotation_and_its_negative_are_the_same() -> None:
+    assert yaw_of(0.0, 0.0, -math.sin(0.35), -math.cos(0.35)) == pytest.approx(0.7)
+
+
+@pytest.mark.parametrize('axis', ['x', 'y'])
+@pytest.mark.parametrize('yaw', [0.0, 2.5])
+def test_a_tilt_of_less_than_a_milliradian_counts_as_none(axis: str, yaw: float) -> None:
+    # Tilted first, then turned: roll and pitch are those of the fixed order x, y, z.
+    def tilted(tilt: float) -> float:
+        half, turn = tilt / 2, yaw / 2
+        tip, w = math.sin(half), math.cos(half)
+        z, c = math.sin(turn), math.cos(turn)
+        if axis == 'x':
+            return yaw_of(c * tip, z * tip, z * w, c * w)
+        return yaw_of(-z * tip, c * tip, z * w, c * w)
+
+    # rad; the tilt itself moves the yaw by at most its square
+    assert tilted(0.9e-3) == pytest.approx(yaw, abs=1e-6)
+    assert tilted(-0.9e-3) == pytest.approx(yaw, abs=1e-6)
+    for tilt in (1.1e-3, -1.1e-3, 0.5, math.pi):
+        with pytest.raises(NotPlanar) as caught:
+            tilted(tilt)
+        assert caught.value.field == 'pose.orientation'
+
+
+@pytest.mark.parametrize('upside_down', [(1.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0)])
+def test_a_body_that_is_upside_down_is_refused(upside_down: Any) -> None:
+    with pytest.raises(NotPlanar):
+        yaw_of(*upside_down)
+
+
+@pytest.mark.parametrize('field', ['x', 'y', 'z', 'w'])
+@pytest.mark.parametrize('number', [NAN, INF, -INF])
+def test_a_rotation_that_is_not_finite_is_refused(field: str, number: float) -> None:
+    message = box()
+    setattr(message.pose.orientation, field, number)
+    refusal = refusal_of(message)
+    assert (type(refusal), refusal.field) == (Malformed, 'pose.orientation')
+
+
+@pytest.mark.parametrize('number', [NAN, INF, -INF])
+@pytest.mark.parametrize('axis', ['x', 'y'])
+def test_a_position_that_is_not_finite_is_refused(axis: str, number: float) -> None:
+    message = box()
+    setattr(message.pose.position, axis, number)
+    assert isinstance(refusal_of(message), Malformed)
+    message = point(0, 0)
+    setattr(message.point, axis, number)
+    for kind in (Anchor, Release, Pin, Axle):
+        with pytest.raises(Malformed):
+            point_request(kind, message, frame_id='map')
+
+
+# Colour, lifetime
+
+
+def test_a_colour_of_alpha_0_asks_for_one() -> None:
+    assert spawn_of(box(color=(1.0, 0.5, 0.25, 0.0))).color is None
+    assert spawn_of(box(color=(1.0, 0.5, 0.25, 1.0))).color == (1.0, 0.5, 0.25, 1.0)
+    assert spawn_of(box(color=(0.0, 0.0, 0.0, 0.5))).color == (0.0, 0.0, 0.0, 0.5)
+
+
+@pytest.mark.parametrize(
+    ('color', 'error'),
+    [
+        ((1.5, 0.0, 0.0, 1.0), BadProperty),
+        ((0.0, -0.5, 0.0, 1.0), BadProperty),
+        ((0.0, 0.0, 0.0, 2.0), BadProperty),
+        ((0.0, 0.0, 0.0, -1.0), BadProperty),
+        ((NAN, 0.0, 0.0, 1.0), Malformed),
+        ((0.0, 0.0, INF, 1.0), Malformed),
+        ((0.0, 0.0, 0.0, NAN), Malformed),
+    ],
+)
+def test_a_channel_outside_0_to_1_is_refused(color: Any, error: type) -> None:
+    refusal = refusal_of(box(color=color))
+    assert (type(refusal), refusal.field) == (error, 'color')
+
+
+def test_a_lifetime_is_in_seconds() -> None:
+    assert spawn_of(box(lifetime=2.25)).lifetime == 2.25
+    assert spawn_of(box()).lifetime == 0.0
+
+
+def test_a_negative_lifetime_is_refused() -> None:
+    refusal = refusal_of(box(lifetime=-1.5))
+    assert (type(refusal), refusal.field) == (BadProperty, 'lifetime')
+
+
+# Shapes
+
+
+def test_a_cube_is_a_box_and_a_sphere_or_cylinder_a_disc() -> None:
+    assert spawn_of(box(size=(3.0, 2.0))).shape == Box(width=3.0, height=2.0)
+    for kind in (Marker.SPHERE, Marker.CYLINDER):
+        assert spawn_of(marker(kind, scale=(3.0, 3.0))).shape == Disc(radius=1.5)
+
+
+@pytest.mark.parametrize('kind', [Marker.SPHERE, Marker.CYLINDER, Marker.SPHERE_LIST])
+def test_an_oval_is_refused(kind: int) -> None:
+    refusal = refusal_of(marker(kind, scale=(1.0, 1.0000001), points=[(0, 0)]))
+    assert (type(refusal), refusal.field) == (BadSize, 'scale.y')
+
+
+def test_a_line_strip_that_ends_where_it_began_is_solid() -> None:
+    shape = spawn_of(polygon(outline=ELL)).shape
+    assert isinstance(shape, Polygon)
+    assert shape.outline == ELL[:-1]
+    # m²
+    assert shape.form.area == pytest.approx(3.0)
+
+
+def test_a_line_strip_that_does_not_is_a_chain() -> None:
+    message = marker(Marker.LINE_STRIP, points=ELL[:-1], scale=(0.2, 9.0, 9.0))
+    assert spawn_of(message).shape == Chain(points=ELL[:-1], thickness=0.2)
+
+
+def test_the_thickness_of_a_solid_outline_does_not_count() -> None:
+    message = marker(Marker.LINE_STRIP, points=ELL, scale=(0.0, 0.0, 0.0))
+    assert isinstance(spawn_of(message).shape, Polygon)
+
+
+def test_two_points_there_and_back_enclose_nothing() -> None:
+    refusal = refusal_of(polygon(outline=[(0, 0), (1, 0), (0, 0)]))
+    assert (type(refusal), refusal.field) == (BadOutline, 'points')
+
+
+def test_one_line_there_is_a_chain() -> None:
+    message = marker(Marker.LINE_STRIP, points=[(0, 0), (1, 0)], scale=(0.1, 0.0))
+    assert spawn_of(message).shape == Chain(points=((0.0, 0.0), (1.0, 0.0)), thickness=0.1)
+
+
+def test_triangles_come_by_threes_and_are_scaled() -> None:
+    corners = [(0, 0), (1, 0), (0, 1)]
+    message = marker(Marker.TRIANGLE_LIST, points=corners, scale=(2.0, 3.0, 1.0))
+    assert spawn_of(message).shape == Triangles(vertices=((0, 0), (2, 0), (0, 3)))
+    message = marker(Marker.TRIANGLE_LIST, points=corners, scale=(0.0, 0.0, 0.0))
+    assert spawn_of(message).shape == Triangles(vertices=((0, 0), (1, 0), (0, 1)))
+
+
+def test_lists_are_one_compound_body() -> None:
+    centers = ((0.0, 0.0), (2.0, 1.0))
+    message = marker(Marker.CUBE_LIST, points=centers, scale=(1.0, 0.5))
+    expected = Compound(element=Box(width=1.0, height=0.5), centers=centers)
+    assert spawn_of(message).shape == expected
+    message = marker(Marker.SPHERE_LIST, points=centers, scale=(1.0, 1.0))
+    assert spawn_of(message).shape == Compound(element=Disc(radius=0.5), centers=centers)
+
+
+@pytest.mark.parametrize('kind', [0, 5, 8, 9, 10, 12, -1, 99])
+def test_a_type_that_is_no_body_is_refused(kind: int) -> None:
+    refusal = refusal_of(marker(kind, points=SQUARE))
+    assert (type(refusal), refusal.field) == (UnknownShape, 'type')
+
+
+@pytest.mark.parametrize(
+    ('kind', 'scale', 'error', 'field'),
+    [
+        (Marker.CUBE, (0.0, 1.0), BadSize, 'scale.x'),
+        (Marker.CUBE, (1.0, -1.0), BadSize, 'scale.y'),
+        (Marker.CUBE, (1e6, 1.0), BadSize, 'scale.x'),
+        (Marker.CUBE, (1e-4, 1.0), BadSize, 'scale.x'),
+        (Marker.CUBE, (NAN, 1.0), Malformed, 'scale.x'),
+        (Marker.CUBE, (1.0, INF), Malformed, 'scale.y'),
+        (Marker.CYLINDER, (0.0, 0.0), BadSize, 'scale.x'),
+        (Marker.SPHERE, (-1.0, -1.0), BadSize, 'scale.x'),
+        (Marker.SPHERE, (NAN, NAN), Malformed, 'scale.x'),
+        (Marker.SPHERE, (1.0, NAN), Malformed, 'scale.y'),
+        (Marker.LINE_STRIP, (0.0, 0.0), BadSize, 'scale.x'),
+        (Marker.LINE_STRIP, (INF, 0.0), Malformed, 'scale.x'),
+        (Marker.CUBE_LIST, (1.0, 0.0), BadSize, 'scale.y'),
+        (Marker.SPHERE_LIST, (0.0, 0.0), BadSize, 'scale.x'),
+        (Marker.TRIANGLE_LIST, (-1.0, 1.0), BadSize, 'scale'),
+        (Marker.TRIANGLE_LIST, (NAN, 1.0), Malformed, 'scale'),
+        (Marker.TRIANGLE_LIST, (1.0, INF), Malformed, 'scale'),
+    ],
+)
+def test_a_bad_scale_is_refused_by_its_name(
+    kind: int, scale: tuple[float, float], error: type, field: str
+) -> None:
+    refusal = refusal_of(marker(kind, scale=scale, points=[(0, 0), (1, 0), (0, 1)]))
+    assert (type(refusal), refusal.field) == (error, field)
+
+
+@pytest.mark.parametrize(
+    ('kind', 'points', 'error'),
+    [
+        (Marker.LINE_STRIP, [], BadOutline),
+        (Marker.LINE_STRIP, [(0, 0)], BadOutline),
+        (Marker.LINE_STRIP, [(0, 0), (0, 0)], BadOutline),
+        (Marker.LINE_STRIP, [(0, 0), (1, 1), (1, 0), (0, 1), (0, 0)], BadOutline),
+        (Marker.LINE_STRIP, [(0, 0), (1, 0), (2, 0), (0, 0)], BadOutline),
+        (Marker.LINE_STRIP, [(0, 0), (NAN, 0), (1, 1)], Malformed),
+        (Marker.LINE_STRIP, [(0, 0), (1, INF), (1, 1), (0, 0)], Malformed),
+        (Marker.TRIANGLE_LIST, [], BadOutline),
+        (Marker.TRIANGLE_LIST, [(0, 0), (1, 0)], BadOutline),
+        (Marker.TRIANGLE_LIST, [(0, 0), (1, 0), (0, 1), (1, 1)], BadOutline),
+        (Marker.TRIANGLE_LIST, [(0, 0), (1, 0), (2, 0)], BadOutline),
+        (Marker.TRIANGLE_LIST, [(0, 0), (1, 0), (0, NAN)], Malformed),
+        (Marker.CUBE_LIST, [], BadOutline),
+        (Marker.SPHERE_LIST, [], BadOutline),
+        (Marker.SPHERE_LIST, [(NAN, 0)], Malformed),
+        (Marker.CUBE_LIST, [(1e6, 0)], BadSize),
+    ],
+)
+def test_bad_points_are_refused(kind: int, points: Any, error: type) -> None:
+    refusal = refusal_of(marker(kind, points=points))
+    assert (type(refusal), refusal.field) == (error, 'points')
+
+
+@pytest.mark.parametrize(
+    'kind', [Marker.LINE_STRIP, Marker.TRIANGLE_LIST, Marker.CUBE_LIST, Marker.SPHERE_LIST]
+)
+def test_more_points_than_may_be_are_refused_at_once(kind: int) -> None:
+    many = [(float(number), float(number % 7)) for number in range(100_000)]
+    # Not looked at: what is too much is refused before it is read.
+    many[-1] = (math.nan, 0.0)
+    refusal = refusal_of(marker(kind, points=many))
+    assert (type(refusal), refusal.field) == (BadOutline, 'points')
+    assert str(MOST_POINTS) in str(refusal)
+
+
+# Text
+
+
+def test_no_text_says_nothing() -> None:
+    for text in ('', '  \n', '{}', '# a remark', '---'):
+        assert properties_of(text) == Properties()
+
+
+def test_text_names_every_property() -> None:
+    text = (
+        '{mass: 2, friction: 0.25, elasticity: 1, velocity: [3, -4.5], spin: -2, '
+        'anchored: false, kinematic: true, group: -3, sensor: true}'
+    )
+    assert properties_of(text) == Properties(
+        mass=2.0,
+        friction=0.25,
+        elasticity=1.0,
+        velocity=(3.0, -4.5),
+        spin=-2.0,
+        anchored=False,
+        kinematic=True,
+        group=-3,
+        sensor=True,
+    )
+    assert properties_of('density: 7').density == 7.0
+    assert properties_of('anchored: true\nfriction: 0').anchored is True
+
+
+@pytest.mark.parametrize(
+    ('text', 'value'),
+    [
+        ('1e5', 1e5),
+        ('1E5', 1e5),
+        ('1.e+5', 1e5),
+        ('1e-5', 1e-5),
+        ('.5', 0.5),
+        ('5', 5.0),
+        ('+5', 5.0),
+        ('010', 10.0),
+        ('0.1', 0.1),
+    ],
+)
+def test_numbers_are_those_of_yaml_1_2(text: str, value: float) -> None:
+    assert properties_of(f'{{density: {text}}}').density == value
+
+
+@pytest.mark.parametrize('number', ['.nan', '.NaN', '.inf', '-.inf', '1e999', '[.inf, 0]'])
+def test_a_number_that_is_not_finite_is_refused(number: str) -> None:
+    key = 'velocity' if number.startswith('[') else 'density'
+    refusal = refusal_of(box(text=f'{{{key}: {number}}}'))
+    assert (type(refusal), refusal.field) == (Malformed, key)
+
+
+@pytest.mark.parametrize(
+    ('text', 'field'),
+    [
+        ('{density: heavy}', 'density'),
+        ('{density: "2"}', 'density'),
+        ('{density: true}', 'density'),
+        ('{density: 0}', 'density'),
+        ('{density: -1}', 'density'),
+        ('{mass: 0}', 'mass'),
+        ('{density: ~}', 'density'),
+        ('{density: }', 'density'),
+        ('{mass: [1]}', 'mass'),
+        ('{mass: {a: 1}}', 'mass'),
+        ('{friction: -0.1}', 'friction'),
+        ('{friction: 10.1}', 'friction'),
+        ('{elasticity: 1.1}', 'elasticity'),
+        ('{elasticity: -1}', 'elasticity'),
+        ('{velocity: 3}', 'velocity'),
+        ('{velocity: [a, b]}', 'velocity'),
+        ('{velocity: [1e9, 0]}', 'velocity'),
+        ('{spin: [1]}', 'spin'),
+        ('{spin: 1e9}', 'spin'),
+        ('{anchored: 1}', 'anchored'),
+        ('{anchored: yes}', 'anchored'),
+        ('{anchored: "true"}', 'anchored'),
+        ('{kinematic: no}', 'kinematic'),
+        ('{sensor: 0.0}', 'sensor'),
+        ('{group: 1.0}', 'group'),
+        ('{group: true}', 'group'),
+        ('{group: 4294967296}', 'group'),
+        ('{mass: 1, density: 1}', 'mass'),
+        ('{mass: 2001-01-01}', 'mass'),
+        ('{mass: 1_000}', 'mass'),
+        ('{mass: 0x10}', 'mass'),
+        ('{mass: 1:30}', 'mass'),
+    ],
+)
+def test_a_bad_value_is_refused_by_its_key(text: str, field: str) -> None:
+    refusal = refusal_of(box(text=text))
+    assert (type(refusal), refusal.field) == (BadProperty, field)
+
+
+@pytest.mark.parametrize('text', ['{velocity: []}', '{velocity: [1]}', '{velocity: [1, 2, 3]}'])
+def test_a_velocity_of_the_wrong_length_is_refused(text: str) -> None:
+    refusal = refusal_of(box(text=text))
+    assert (type(refusal), refusal.field) == (Malformed, 'velocity')
+
+
+@pytest.mark.parametrize(
+    ('key', 'nearest'),
+    [('frcition', 'friction'), ('Elasticity', 'elasticity'), ('anchor', 'anchored'), ('z', '')],
+)
+def test_an_unknown_key_is_refused_and_the_nearest_known_one_named(key: str, nearest: str) -> None:
+    refusal = refusal_of(box(text=f'{{{key}: 1}}'))
+    assert (type(refusal), refusal.field) == (UnknownProperty, key)
+    assert nearest in str(refusal)
+
+
+@pytest.mark.parametrize('key', ['1', '1.5', 'true', '~', '[a]', '""'])
+def test_a_key_that_is_no_word_is_refused(key: str) -> None:
+    assert isinstance(refusal_of(box(text=f'{{{key}: 1}}')), UnknownProperty | Malformed)
+
+
+@pytest.mark.parametrize(
+    'text',
+    [
+        'friction',
+        '3',
+        '[friction, 3]',
+        'friction 3',
+        '{friction: 3',
+        '{friction: 3}}',
+        'friction: 1\n friction: 2',
+        '{friction: 1}\n---\n{friction: 2}',
+        '\t{friction: 1}',
+        '!!python/object/apply:os.system ["false"]',
+        '{friction: !!python/name:os.system }',
+        '{anchored: !!bool maybe}',
+        '{group: !!int ""}',
+        '{mass: !!int x}',
+        '{mass: !!float ""}',
+        '{mass: !!timestamp x}',
+        '{mass: !!binary x}',
+        '{mass: !!omap [x]}',
+        '{mass: !!null [x]}',
+        '{mass: !!int [x]}',
+        '{velocity: !!seq x}',
+        '!!map [x]',
+        '!!set {x}',
+        '{!!merge x: y}',
+        '{mass: !!int 0x%s}' % ('f' * 9000),
+        '!x {friction: 1}',
+        '{friction: *unknown}',
+        '{? {a: 1} : 1}',
+        'friction: \x07',
+        '\ud800',
+        '"',
+        '%YAML 9.9\n--- {}',
+    ],
+)
+def test_text_that_is_no_mapping_is_refused(text: str) -> None:
+    refusal = refusal_of(box(text=text))
+    assert (type(refusal), refusal.field) == (Malformed, 'text')
+
+
+def test_a_key_that_comes_twice_is_refused() -> None:
+    refusal = refusal_of(box(text='{friction: 0.1, friction: 0.9}'))
+    assert (type(refusal), refusal.field) == (Malformed, 'text')
+    assert 'friction' in str(refusal)
+
+
+def test_text_that_is_too_long_is_refused_unread() -> None:
+    fits = '{friction: 0.25}'.ljust(LONGEST_TEXT)
+    assert properties_of(fits).friction == 0.25
+    refusal = refusal_of(box(text=fits + ' '))
+    assert (type(refusal), refusal.field) == (Malformed, 'text')
+
+
+@pytest.mark.parametrize('key', ['a', 'mass', 'velocity', 'anchored', 'group', '? [*j] : 1 #'])
+def test_aliases_that_would_unfold_to_a_billion_are_refused_at_once(key: str) -> None:
+    value = '&a [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]'
+    for before, name in zip('abcdefghi', 'bcdefghij', strict=True):
+        value = f'&{name} [{value}{f", *{before}" * 9}]'
+    # Unfolded it would fill the memory.
+    refusal = refusal_of(box(text=f'{key}: {value}'))
+    assert isinstance(refusal, UnknownProperty | BadProperty | Malformed)
+    assert len(str(refusal)) < 500
+
+
+@pytest.mark.parametrize('text', ['&a {mass: *a}', '{velocity: &a [*a, 1]}', '{mass: &a [[*a]]}'])
+def test_text_that_holds_itself_is_refused(text: str) -> None:
+    assert isinstance(refusal_of(box(text=text)), BadProperty | Malformed)
+
+
+@pytest.mark.parametrize(
+    'text',
+    [
+        '[' * 5000 + ']' * 5000,
+        '{mass: ' * 1400,
+        '[' * 9000,
+        '- ' * 5000,
+        '? ' * 5000,
+        ''.join(f'{" " * depth}a:\n' for depth in range(130)),
+    ],
+)
+def test_deeply_nested_text_is_refused(text: str) -> None:
+    refusal = refusal_of(box(text=text))
+    assert isinstance(refusal, Malformed | UnknownProperty)
+
+
+def test_what_a_refusal_says_stays_short_and_on_one_line() -> None:
+    long = 'x' * 4000
+    for text in (
+        f'{{? {long} : 1}}',
+        f'{{mass: {long}}}',
+        f'{{velocity: [{long}, 1]}}',
+        f'"{long}',
+        f'{{group: {"9" * 4000}}}',
+        f'{{mass: {"9" * 4000}}}',
+        f'{{mass: "{long}"}}',
+        f'{{? {long} : 1, ? {long} : 1}}',
+    ):
+        refusal = refusal_of(box(text=text))
+        assert len(str(refusal)) < 300
+        assert '\n' not in str(refusal)
+        assert len(refusal.field) < 300
+
+
+# Commands
+
+
+def test_a_command_takes_what_lies_in_the_plane() -> None:
+    message = command('a/0', 'a/1', twists=[(1, 2, 3), (4, 5, 6)], wrenches=[(7, 8, 9), (0, 0, 0)])
+    message.twist[0].linear.z = message.twist[0].angular.x = NAN
+    message.wrench[0].force.z = message.wrench[0].torque.y = NAN
+    request = command_request(message, frame_id='map')
+    assert request.names == ('a/0', 'a/1')
+    assert request.poses == ()
+    assert request.twists == ((1, 2, 3), (4, 5, 6))
+    assert request.wrenches == ((7, 8, 9), (0, 0, 0))
+
+
+def test_a_commanded_pose_is_read_as_a_markers_pose_is() -> None:
+    message = command('a/0', poses=[(1, 2, 0.7)])
+    (pose,) = command_request(message, frame_id='map').poses
+    assert pose == spawn_of(box(at=(1, 2, 0.7))).pose
+    message.transforms[0].rotation = Quaternion(x=0.0, y=0.0, z=0.0, w=0.0)
+    assert command_request(message, frame_id='map').poses == ((1.0, 2.0, 0.0),)
+    message.transforms[0].rotation = Quaternion(x=1.0)
+    with pytest.raises(NotPlanar) as caught:
+        command_request(message, frame_id='map')
+    assert caught.value.field == 'transforms'
+
+
+@pytest.mark.parametrize(
+    ('message', 'field'),
+    [
+        (command(), 'joint_names'),
+        (command('a/0', 'a/0'), 'joint_names'),
+        (command('a/0', poses=[(0, 0, 0)] * 2), 'transforms'),
+        (command('a/0', 'a/1', twists=[(0, 0, 0)]), 'twist'),
+        (command('a/0', 'a/1', wrenches=[(0, 0, 0)] * 3), 'wrench'),
+        (command(poses=[(0, 0, 0)]), 'joint_names'),
+        (command('a/0', poses=[(NAN, 0, 0)]), 'transforms'),
+        (command('a/0', twists=[(0, INF, 0)]), 'twist'),
+        (command('a/0', twists=[(0, 0, NAN)]), 'twist'),
+        (command('a/0', wrenches=[(-INF, 0, 0)]), 'wrench'),
+        (command('a/0', wrenches=[(0, 0, NAN)]), 'wrench'),
+    ],
+)
+def test_a_command_that_does_not_fit_is_malformed(message: Any, field: str) -> None:
+    with pytest.raises(Malformed) as caught:
+        command_request(message, frame_id='map')
+    assert caught.value.field == field
+
+
+def test_messages_as_they_are_made_are_understood() -> None:
+    # Every field at its default: a marker's pose is the identity, and its scale is nothing.
+    assert isinstance(refusal_of(Marker(type=Marker.CUBE)), BadSize)
+    assert Marker().pose == Pose()
+    assert Transform().rotation.w == 1.0

@@ -1,0 +1,520 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""What the encoders write is what rclpy writes for the same message built of objects."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from builtin_interfaces.msg import Time
+from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
+from geometry_msgs.msg import (
+    Point,
+    Pose,
+    PoseArray,
+    Quaternion,
+    Transform,
+    Twist,
+    Vector3,
+    Wrench,
+)
+from hypothesis import given, settings
+from hypothesis import strategies as st
+import numpy as np
+from physsim_ros.model.scene import Body, Scene
+from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon, Triangles
+from physsim_ros.model.snapshot import Answer, Contacts, Snapshot
+from physsim_ros.ros import encoders
+from physsim_ros.ros.conversions import body_request
+import pytest
+from rclpy.serialization import deserialize_message, serialize_message
+from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import MultiDOFJointState
+from std_msgs.msg import ColorRGBA, Header
+from visualization_msgs.msg import Marker, MarkerArray
+import yaml
+
+# Every shape, and the type, scale and points of the marker that spawns it.
+CORNERS = ((0.0, 0.0), (2.0, 0.0), (0.5, 0.5), (0.0, 2.0))
+SHAPES = (
+    (Disc(radius=0.35), Marker.CYLINDER, (0.7, 0.7, 0.02), ()),
+    (Box(width=1.5, height=0.25), Marker.CUBE, (1.5, 0.25, 0.02), ()),
+    (Polygon(outline=CORNERS), Marker.LINE_STRIP, (0.02, 0, 0), (*CORNERS, CORNERS[0])),
+    (Chain(points=CORNERS, thickness=0.1), Marker.LINE_STRIP, (0.1, 0, 0), CORNERS),
+    (Triangles(vertices=CORNERS[:3]), Marker.TRIANGLE_LIST, (1, 1, 1), CORNERS[:3]),
+    (
+        Compound(element=Disc(radius=0.5), centers=CORNERS),
+        Marker.SPHERE_LIST,
+        (1, 1, 0.02),
+        CORNERS,
+    ),
+    (
+        Compound(element=Box(width=0.5, height=0.25), centers=CORNERS[1:2]),
+        Marker.CUBE_LIST,
+        (0.5, 0.25, 0.02),
+        CORNERS[1:2],
+    ),
+)
+PLAIN = Body(
+    name='body/0',
+    shape=SHAPES[0][0],
+    color=(0.3, 0.5, 0.7, 1.0),
+    mass=None,
+    density=1.0,
+    friction=0.5,
+    elasticity=0.25,
+    anchored=False,
+    kinematic=False,
+    group=0,
+    sensor=False,
+    expires=None,
+)
+PLAIN_TEXT = '{density: 1.0, friction: 0.5, elasticity: 0.25}'
+
+# Every padding, in bytes too: characters of one to four bytes each.
+names = st.text('aß€😀', min_size=1, max_size=40)
+
+
+def bodies_named(*namespaces):
+    return tuple(
+        replace(PLAIN, name=f'{namespace}/{row}', shape=SHAPES[row % len(SHAPES)][0])
+        for row, namespace in enumerate(namespaces)
+    )
+
+
+def snapshot_of(bodies, seed=0, stamp=12_345_678_901, bounds=None):
+    rng = np.random.default_rng(seed)
+    scene = Scene(bodies=tuple(bodies), settings=WorldSettings(bounds=bounds))
+    return moved(scene, rng, stamp)
+
+
+def moved(scene, rng, stamp=12_345_678_901):
+    shape = (len(scene.bodies), 3)
+    poses, twists = rng.normal(scale=5, size=shape), rng.normal(scale=5, size=shape)
+    return Snapshot(step=1, stamp=stamp, scene=scene, poses=poses, twists=twists)
+
+
+def contacts_of(pairs, seed=0):
+    rng = np.random.default_rng(seed)
+    shape = (len(pairs), 2)
+    angles = rng.uniform(-np.pi, np.pi, len(pairs))
+    return Contacts(
+        pairs=np.array(pairs, np.int64).reshape(shape),
+        points=rng.normal(size=shape),
+        normals=np.column_stack((np.cos(angles), np.sin(angles))),
+        impulses=rng.normal(size=shape),
+    )
+
+
+def decoded(data, kind):
+    return deserialize_message(data, kind)
+
+
+def check_same(data, expected):
+    """Compare with a message built of objects, in bytes that rclpy itself made of it."""
+    wanted = serialize_message(expected)
+    assert decoded(data, type(expected)) == decoded(wanted, type(expected))
+    assert len(data) == len(wanted)
+
+
+def header(snapshot, frame_id='world'):
+    sec, nanosec = divmod(snapshot.stamp, 1_000_000_000)
+    return Header(stamp=Time(sec=sec, nanosec=nanosec), frame_id=frame_id)
+
+
+def turns_of(snapshot):
+    half = snapshot.poses[:, 2] / 2
+    pairs = zip(np.sin(half).tolist(), np.cos(half).tolist(), strict=True)
+    return [Quaternion(z=z, w=w) for z, w in pairs]
+
+
+def poses_of(snapshot):
+    return [
+        Pose(position=Point(x=x, y=y), orientation=turn)
+        for (x, y, _), turn in zip(snapshot.poses.tolist(), turns_of(snapshot), strict=True)
+    ]
+
+
+def pose_array(snapshot, frame_id='world'):
+    return PoseArray(header=header(snapshot, frame_id), poses=poses_of(snapshot))
+
+
+def body_states(snapshot, frame_id='world'):
+    return MultiDOFJointState(
+        header=header(snapshot, frame_id),
+        joint_names=list(snapshot.scene.names),
+        transforms=[
+            Transform(translation=Vector3(x=x, y=y), rotation=turn)
+            for (x, y, _), turn in zip(snapshot.poses.tolist(), turns_of(snapshot), strict=True)
+        ],
+        twist=[
+            Twist(linear=Vector3(x=x, y=y), angular=Vector3(z=spin))
+            for x, y, spin in snapshot.twists.tolist()
+        ],
+    )
+
+
+def contact_states(snapshot, contacts, turns, frame_id='world'):
+    bodies = (*snapshot.scene.names, 'world')
+    return MultiDOFJointState(
+        header=header(snapshot, frame_id),
+        joint_names=[f'{bodies[a]}|{bodies[b]}' for a, b in contacts.pairs.tolist()],
+        transforms=[
+            Transform(translation=Vector3(x=x, y=y), rotation=turn)
+            for (x, y), turn in zip(contacts.points.tolist(), turns, strict=True)
+        ],
+        wrench=[Wrench(force=Vector3(x=x, y=y)) for x, y in contacts.impulses.tolist()],
+    )
+
+
+def check_contacts(data, snapshot, contacts, frame_id='world'):
+    turns = [each.rotation for each in decoded(data, MultiDOFJointState).transforms]
+    # Half the angle is the square root, where a turn is a complex number; a few roundings off.
+    roots = np.sqrt(contacts.normals @ (1, 1j))
+    assert np.array([turn.w + 1j * turn.z for turn in turns]) == pytest.approx(roots, abs=1e-15)
+    assert all(turn.x == turn.y == 0 for turn in turns)
+    check_same(data, contact_states(snapshot, contacts, turns, frame_id))
+
+
+def marker_array(snapshot, frame_id='world', text=PLAIN_TEXT):
+    looks = {shape: look for shape, *look in SHAPES}
+    markers = []
+    for body, pose in zip(snapshot.scene.bodies, poses_of(snapshot), strict=True):
+        namespace, _, number = body.name.rpartition('/')
+        kind, scale, points = looks[body.shape]
+        markers.append(
+            Marker(
+                header=header(snapshot, frame_id),
+                ns=namespace,
+                id=int(number),
+                type=kind,
+                action=Marker.ADD,
+                pose=pose,
+                scale=Vector3(**dict(zip('xyz', map(float, scale), strict=True))),
+                color=ColorRGBA(**dict(zip('rgba', body.color, strict=True))),
+                points=[Point(x=x, y=y) for x, y in points],
+                text=text,
+            )
+        )
+    return MarkerArray(markers=markers)
+
+
+def picture(encoder, snapshot):
+    return decoded(encoder.encode(snapshot), MarkerArray).markers
+
+
+def drawn(markers, action=Marker.ADD):
+    return [f'{marker.ns}/{marker.id}' for marker in markers if marker.action == action]
+
+
+@pytest.mark.parametrize('count', [0, 1, 2, 500])
+def test_any_number_of_bodies_is_encoded_as_rclpy_does(count):
+    snapshot = snapshot_of(bodies_named(*['body'] * count))
+    check_same(encoders.PosesEncoder('world').encode(snapshot), pose_array(snapshot))
+    check_same(encoders.StatesEncoder('world').encode(snapshot), body_states(snapshot))
+    check_same(encoders.MarkersEncoder('world').encode(snapshot), marker_array(snapshot))
+
+
+@settings(deadline=None)
+@given(namespaces=st.lists(names, max_size=8), frame_id=st.one_of(st.just(''), names))
+def test_names_of_any_length_are_encoded_as_rclpy_does(namespaces, frame_id):
+    snapshot = snapshot_of(bodies_named(*namespaces))
+    count = len(namespaces)
+    contacts = contacts_of([(a, b) for a in range(count) for b in range(-1, count) if a != b])
+    check_same(encoders.PosesEncoder(frame_id).encode(snapshot), pose_array(snapshot, frame_id))
+    check_same(encoders.StatesEncoder(frame_id).encode(snapshot), body_states(snapshot, frame_id))
+    check_same(
+        encoders.MarkersEncoder(frame_id).encode(snapshot), marker_array(snapshot, frame_id)
+    )
+    check_contacts(
+        encoders.ContactsEncoder(frame_id).encode(snapshot, contacts), snapshot, contacts, frame_id
+    )
+
+
+def test_a_name_of_every_length_is_encoded_as_rclpy_does():
+    for length in range(1, 41):
+        snapshot = snapshot_of(bodies_named('n' * length, 'm'))
+        contacts = contacts_of([(0, 1)])
+        check_same(encoders.StatesEncoder('world').encode(snapshot), body_states(snapshot))
+        check_same(encoders.MarkersEncoder('world').encode(snapshot), marker_array(snapshot))
+        check_contacts(
+            encoders.ContactsEncoder('world').encode(snapshot, contacts), snapshot, contacts
+        )
+
+
+def test_what_was_returned_stays_as_it_was_when_the_next_frame_is_written():
+    first = snapshot_of(bodies_named('a', 'b', 'c'))
+    second = moved(first.scene, np.random.default_rng(7), stamp=98_000_000_007)
+    for encoder, expected in (
+        (encoders.PosesEncoder('world'), pose_array),
+        (encoders.StatesEncoder('world'), body_states),
+        (encoders.MarkersEncoder('world'), marker_array),
+    ):
+        messages = [encoder.encode(first), encoder.encode(second)]
+        check_same(messages[0], expected(first))
+        check_same(messages[1], expected(second))
+
+
+def test_a_changed_scene_is_encoded_anew():
+    few, many = bodies_named('a', 'bb'), bodies_named('ccc', 'a', 'bb', 'dddd')
+    for encoder, expected in (
+        (encoders.PosesEncoder('world'), pose_array),
+        (encoders.StatesEncoder('world'), body_states),
+    ):
+        for bodies in (few, many, (), few):
+            snapshot = snapshot_of(bodies)
+            check_same(encoder.encode(snapshot), expected(snapshot))
+
+
+def test_contacts_follow_their_pairs_and_their_scene():
+    encoder = encoders.ContactsEncoder('world')
+    first, second = snapshot_of(bodies_named('a', 'b', 'c')), snapshot_of(bodies_named('d', 'e'))
+    steps = [
+        (first, contacts_of([])),
+        (first, contacts_of([(0, 1), (1, -1)], seed=1)),
+        (first, contacts_of([(0, 1), (1, -1)], seed=2)),
+        (first, contacts_of([(0, 2), (1, -1)], seed=3)),
+        (second, contacts_of([(0, 1), (1, -1)], seed=4)),
+        (first, contacts_of([(0, 1), (1, -1)], seed=5)),
+        (second, contacts_of([])),
+    ]
+    for snapshot, contacts in steps:
+        check_contacts(encoder.encode(snapshot, contacts), snapshot, contacts)
+
+
+def test_a_contact_turns_the_x_axis_onto_its_normal():
+    snapshot, contacts = snapshot_of(bodies_named('a', 'b')), contacts_of([(0, 1)] * 50)
+    contacts.normals[:6] = [(1, 0), (0, 1), (-1, 0), (0, -1), (1, 1e-9), (-1, -1e-9)]
+    data = encoders.ContactsEncoder('world').encode(snapshot, contacts)
+    for transform, normal in zip(
+        decoded(data, MultiDOFJointState).transforms, contacts.normals, strict=True
+    ):
+        z, w = transform.rotation.z, transform.rotation.w
+        # A few roundings of numbers up to 1.
+        assert (w * w - z * z, 2 * w * z) == pytest.approx(tuple(normal), abs=1e-15)
+
+
+def test_names_of_pairs_stay_right_when_the_store_of_them_is_full(monkeypatch):
+    monkeypatch.setattr(encoders, '_MOST_PAIRS', 3)
+    encoder = encoders.ContactsEncoder('world')
+    snapshot = snapshot_of(bodies_named('a', 'b', 'c'))
+    for pairs in ([(0, 1), (0, 2)], [(1, 2), (0, -1)], [(0, 1), (2, -1)]):
+        contacts = contacts_of(pairs)
+        check_contacts(encoder.encode(snapshot, contacts), snapshot, contacts)
+    # Emptied once: what is left is what has touched since.
+    assert len(encoder._names) == 2  # noqa: SLF001  (its size is what the test is about)
+
+
+@pytest.mark.parametrize('shape', [shape for shape, *_ in SHAPES], ids=repr)
+def test_a_marker_spawns_the_body_that_it_draws(shape):
+    body = replace(PLAIN, name='a/b/-7', shape=shape, color=(0.25, 0.5, 1.0, 0.75))
+    snapshot = snapshot_of([body])
+    (marker,) = picture(encoders.MarkersEncoder('world'), snapshot)
+    spawn = body_request(marker, frame_id='world')
+    assert (spawn.name, spawn.frame, spawn.lifetime) == ('a/b/-7', '', 0)
+    assert (spawn.shape, spawn.color) == (body.shape, body.color)
+    x, y, yaw = snapshot.poses[0]
+    assert spawn.pose[:2] == (x, y)
+    # A whole turn more or less, and some roundings of an angle below 100.
+    assert np.exp(1j * spawn.pose[2]) == pytest.approx(np.exp(1j * yaw), abs=1e-13)
+
+
+def test_the_marker_of_a_chain_whose_ends_meet_is_no_polygon():
+    shape = Chain(points=((0.0, 0.0), (2.0, 0.0), (1.0, 1.0), (0.0, 0.0)), thickness=0.1)
+    body = replace(PLAIN, name='ring/0', shape=shape)
+    (marker,) = picture(encoders.MarkersEncoder('world'), snapshot_of([body]))
+    again = body_request(marker, frame_id='world').shape
+    assert isinstance(again, Chain)
+    assert np.array(again.points) == pytest.approx(np.array(shape.points), abs=1e-300)
+
+
+numbers = st.floats(1e-9, 1e12)
+
+
+bodies = st.builds(
+    replace,
+    st.just(PLAIN),
+    mass=st.none() | numbers,
+    density=numbers,
+    friction=st.floats(0, 10),
+    elasticity=st.floats(0, 1),
+    group=st.integers(-(2**31), 2**31 - 1),
+    sensor=st.booleans(),
+)
+
+
+@settings(deadline=None)
+@given(body=bodies, role=st.sampled_from(['', 'anchored', 'kinematic']))
+def test_the_text_of_a_marker_gives_back_the_properties_of_its_body(body, role):
+    expected = {'friction': body.friction, 'elasticity': body.elasticity}
+    expected |= {'density': body.density} if body.mass is None else {'mass': body.mass}
+    expected |= {'group': body.group} if body.group else {}
+    expected |= {'sensor': True} if body.sensor else {}
+    if role:
+        body = replace(body, **{role: True})
+        expected[role] = True
+    marker, *_ = picture(encoders.MarkersEncoder('world'), snapshot_of([body]))
+    assert body_request(marker, frame_id='world').properties.said() == expected
+    # PyYAML by itself reads YAML 1.1, in which 1e-09 is a string.
+    assert yaml.safe_load(marker.text) == expected
+
+
+def test_the_text_of_a_marker_reads_as_the_contract_shows_it():
+    marker, _ = picture(
+        encoders.MarkersEncoder('world'), snapshot_of([replace(PLAIN, anchored=True)])
+    )
+    assert marker.text == '{density: 1.0, friction: 0.5, elasticity: 0.25, anchored: true}'
+
+
+def test_an_anchored_body_carries_a_symbol_at_its_centre_of_mass():
+    body = replace(PLAIN, name='walls/7', shape=SHAPES[2][0], anchored=True)
+    snapshot = snapshot_of([PLAIN, body])
+    symbol = picture(encoders.MarkersEncoder('world'), snapshot)[2]
+    assert (symbol.ns, symbol.id, symbol.type) == ('anchor:walls', 7, Marker.LINE_LIST)
+    assert symbol.pose == poses_of(snapshot)[1]
+    assert symbol.header == header(snapshot)
+    points = np.array([(point.x, point.y) for point in symbol.points])
+    assert points.mean(axis=0) == pytest.approx(body.shape.form.centroid, abs=1e-12)
+    # Two strokes of one length that cross at right angles, above the body.
+    first, second = points[1] - points[0], points[3] - points[2]
+    assert np.linalg.norm(first) == pytest.approx(np.linalg.norm(second))
+    assert first @ second == pytest.approx(0)
+    assert all(point.z > 0.01 for point in symbol.points)
+
+
+@pytest.mark.parametrize(
+    ('shape', 'size'),
+    [
+        (Box(width=0.02, height=0.02), 0.06),
+        (Box(width=10, height=0.5), 0.5 / 3),
+        (Box(width=0.6, height=0.6), 0.2),
+        (Disc(radius=0.3), 0.2),
+        (Disc(radius=30), 0.3),
+    ],
+    ids=repr,
+)
+def test_an_anchor_symbol_is_about_a_third_of_the_smaller_side(shape, size):
+    body = replace(PLAIN, shape=shape, anchored=True)
+    _, symbol = picture(encoders.MarkersEncoder('world'), snapshot_of([body]))
+    assert np.ptp([point.x for point in symbol.points]) == pytest.approx(size, rel=0.25)
+
+
+@pytest.mark.parametrize('color', [(0.0, 0.0, 0.1, 1.0), (1.0, 1.0, 0.8, 1.0)])
+def test_an_anchor_symbol_stands_out_from_its_body(color):
+    body = replace(PLAIN, color=color, anchored=True)
+    marker, symbol = picture(encoders.MarkersEncoder('world'), snapshot_of([body]))
+    assert abs(symbol.color.g - marker.color.g) > 0.7
+
+
+def test_the_walls_are_drawn_where_the_bounds_are():
+    encoder = encoders.MarkersEncoder('world')
+    _, walls = picture(encoder, snapshot_of([PLAIN], bounds=(-1, 0, 4, 3)))
+    assert (walls.ns, walls.id, walls.type) == ('physsim:bounds', 0, Marker.LINE_STRIP)
+    assert walls.pose == Pose()
+    corners = [(-1, 0), (4, 0), (4, 3), (-1, 3), (-1, 0)]
+    assert [(point.x, point.y) for point in walls.points] == corners
+    assert drawn(picture(encoder, snapshot_of([PLAIN])), Marker.DELETE) == ['physsim:bounds/0']
+
+
+def test_what_has_gone_is_deleted_in_sixty_messages_and_then_no_more():
+    encoder = encoders.MarkersEncoder('world')
+    before = snapshot_of([replace(PLAIN, anchored=True), *bodies_named('a', 'b')])
+    after = snapshot_of(bodies_named('a', 'b'))
+    encoder.encode(before)
+    for _ in range(60):
+        markers = picture(encoder, after)
+        assert drawn(markers) == ['a/0', 'b/1']
+        assert drawn(markers, Marker.DELETE) == ['body/0', 'anchor:body/0']
+        assert all(marker.header == header(after) for marker in markers)
+    check_same(encoder.encode(after), marker_array(after))
+
+
+def test_deletions_run_out_one_after_the_other():
+    encoder = encoders.MarkersEncoder('world')
+    bodies = bodies_named('a', 'b', 'c')
+    encoder.encode(snapshot_of(bodies))
+    encoder.encode(snapshot_of(bodies[1:]))
+    last = snapshot_of(bodies[2:])
+    expected = [['a/0', 'b/1']] * (encoders.DELETE_REPEATS - 1) + [['b/1'], [], []]
+    assert [drawn(picture(encoder, last), Marker.DELETE) for _ in expected] == expected
+
+
+def test_what_comes_back_is_deleted_no_more():
+    encoder = encoders.MarkersEncoder('world')
+    bodies = bodies_named('a', 'b')
+    encoder.encode(snapshot_of(bodies))
+    assert drawn(picture(encoder, snapshot_of(bodies[:1])), Marker.DELETE) == ['b/1']
+    both = snapshot_of(bodies)
+    for _ in range(encoders.DELETE_REPEATS + 1):
+        check_same(encoder.encode(both), marker_array(both))
+
+
+def test_a_released_body_loses_only_its_symbol():
+    encoder = encoders.MarkersEncoder('world')
+    encoder.encode(snapshot_of([replace(PLAIN, anchored=True)]))
+    markers = picture(encoder, snapshot_of([PLAIN]))
+    assert drawn(markers) == ['body/0']
+    assert drawn(markers, Marker.DELETE) == ['anchor:body/0']
+
+
+def test_only_bodies_that_are_new_or_different_are_drawn_again(monkeypatch):
+    asked = []
+    symbols = encoders.symbols
+    monkeypatch.setattr(encoders, 'symbols', lambda body: asked.append(body.name) or symbols(body))
+    encoder = encoders.MarkersEncoder('world')
+    first, second = bodies_named('a', 'b')
+    encoder.encode(snapshot_of([first, second]))
+    asked.clear()
+    same, red = replace(first), replace(second, color=(1.0, 0.0, 0.0, 1.0))
+    snapshot = snapshot_of([same, red, replace(PLAIN, name='c/2')])
+    check_same(encoder.encode(snapshot), marker_array(snapshot))
+    assert asked == ['b/1', 'c/2']
+
+
+@pytest.mark.parametrize('stamp', [1, 999_999_999, 1_000_000_000, 86_400_000_000_001])
+def test_a_clock_is_encoded_as_rclpy_does(stamp):
+    sec, nanosec = divmod(stamp, 1_000_000_000)
+    check_same(encoders.encode_clock(stamp), Clock(clock=Time(sec=sec, nanosec=nanosec)))
+
+
+@settings(deadline=None)
+@given(
+    answer=st.builds(
+        Answer,
+        topic=names,
+        subject=names,
+        message=names,
+        code=st.just('') | names,
+        field=st.just('') | names,
+    )
+)
+def test_an_event_is_encoded_as_rclpy_does(answer):
+    values = [KeyValue(key='code', value=answer.code or 'ok')]
+    values += [KeyValue(key='field', value=answer.field)] if answer.field else []
+    expected = DiagnosticStatus(
+        level=DiagnosticStatus.ERROR if answer.code else DiagnosticStatus.OK,
+        name=answer.topic,
+        hardware_id=answer.subject,
+        message=answer.message,
+        values=values,
+    )
+    check_same(encoders.encode_event(answer), expected)
+
+
+def test_an_event_can_tell_of_a_file_name_that_is_no_text():
+    answer = Answer(topic='~/load_world', message='no file \udcff.yaml', code='bad_world_file')
+    event = decoded(encoders.encode_event(answer), DiagnosticStatus)
+    assert event.message == 'no file ?.yaml'

@@ -1,0 +1,207 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The program `physsim`, as people start, interrupt and mistype it."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+import re
+import signal
+import sys
+from typing import Any
+
+import pytest
+
+from ..outside import Outside, ROOT
+
+SHAPES = ('circle: {radius: 0.3}', 'box: {width: 0.5, height: 0.5}')
+# A grid of discs and boxes, which fall apart over each other.
+THOUSAND = 'format: 1\nbodies:\n' + ''.join(
+    f'  - {{name: a/{each}, {SHAPES[each % 2]}, at: [{each % 40}, {each // 40}]}}\n'
+    for each in range(1000)
+)
+
+# The program with a bug, which shows when there is a viewer.
+BUG = """
+import psutil
+from physsim_ros.ros.node import main, PhysSimNode
+
+
+def fail(*_):
+    print('CHILDREN', *(each.pid for each in psutil.Process().children()), flush=True)
+    raise ZeroDivisionError
+
+
+PhysSimNode._report = fail
+main()
+"""
+
+
+def start_with_world(outside: Outside, content: str) -> Any:
+    path = outside.directory / 'given.yaml'
+    path.write_text(content)
+    return outside.start_world(world_file=path)
+
+
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
+def test_it_says_that_it_is_ready_and_ends_with_0_when_told_to(
+    outside: Outside, number: int
+) -> None:
+    with outside.start_world(world_file='demo') as world:
+        line = world.wait_for('ready')
+        bodies = (ROOT / 'config' / 'worlds' / 'demo.yaml').read_text().count('name: ')
+        assert f'{bodies} bodies' in line
+        assert world.interrupt(number) == 0
+        assert 'Traceback' not in ''.join(world.lines)
+
+
+def test_it_ends_with_0_when_told_to_again_and_again(outside: Outside) -> None:
+    with outside.start_world() as world:
+        world.wait_for('ready')
+        for _ in range(20):
+            world.process.send_signal(signal.SIGINT)
+            world.process.send_signal(signal.SIGTERM)
+        assert world.finish() == 0
+        assert 'Traceback' not in ''.join(world.lines)
+
+
+def test_a_bug_ends_it_loudly_and_leaves_no_viewer_running(outside: Outside) -> None:
+    psutil = pytest.importorskip('psutil')
+    words = ('--ros-args', '-p', 'viewer:=web')
+    with outside.start(sys.executable, '-c', BUG, *words) as world:
+        _, page = world.wait_for('CHILDREN').split()
+        assert world.finish() == 1
+    left = psutil.pid_exists(int(page))
+    if left:
+        psutil.Process(int(page)).kill()
+    assert 'ZeroDivisionError' in ''.join(world.lines)
+    assert not left
+
+
+def test_its_first_pose_is_seen_by_another_process(outside: Outside) -> None:
+    path = ROOT / 'test' / 'elsewhere' / 'look.py'
+    with outside.start(sys.executable, path) as watcher:
+        watcher.wait_for('LOOKING')
+        with outside.start_world(world_file='demo') as world:
+            line = watcher.wait_for('RESULT')
+            seen = json.loads(line.partition(' ')[2])
+            assert watcher.finish() == 0
+            text = (
+                f'{seen["first"] - world.started:.2f} s from the start to the first pose elsewhere'
+            )
+            print(text)  # noqa: T201 - for who reads the log
+            assert seen['bodies'] > 0
+            assert world.interrupt() == 0
+
+
+def test_a_thousand_bodies_without_a_viewer_fit_into_memory(outside: Outside) -> None:
+    with start_with_world(outside, THOUSAND) as world:
+        assert '1000 bodies' in world.wait_for('ready')
+        # Somebody looks, so that everything has been made that is ever sent.
+        seen = outside.run_program('look')
+        assert seen['bodies'] == 1000
+        status = Path(f'/proc/{world.process.pid}/status').read_text()
+        found = re.search(r'^VmRSS:\s+(\d+) kB$', status, re.MULTILINE)
+        assert found
+        megabytes = int(found[1]) / 1024
+        print(f'{megabytes:.0f} MB with 1000 bodies')  # noqa: T201 - for who reads the log
+        assert megabytes < 250
+        assert world.interrupt() == 0
+
+
+@pytest.mark.parametrize(
+    ('parameters', 'words'),
+    [
+        ({'speed': '99'}, ['speed', '64']),
+        ({'speed': '99.0'}, ['speed', '64']),
+        ({'speed': 'fast'}, ['speed', 'double']),
+        ({'speed': '.nan'}, ['speed', 'finite']),
+        ({'iterations': '0'}, ['iterations', '1000']),
+        ({'viewer': 'window'}, ['viewer', 'connect']),
+        ({'publish_rate': '7'}, ['publish_rate', 'divide']),
+        ({'gravity': '[1.0]'}, ['gravity', 'two']),
+        ({'gravity': '[0, -9.81]'}, ['gravity', 'same type']),
+        ({'bounds': '[1, 0, 0, 1]'}, ['bounds']),
+        ({'world_file': 'nowhere'}, ['nowhere']),
+        ({'world_file': '/etc'}, ['/etc']),
+    ],
+    ids=lambda value: '-'.join(value) if isinstance(value, dict) else '',
+)
+def test_a_bad_parameter_ends_it_with_a_sentence(
+    outside: Outside, parameters: dict[str, str], words: list[str]
+) -> None:
+    with outside.start_world(**parameters) as world:
+        assert world.finish() == 1
+        said = ''.join(world.lines)
+        assert 'Traceback' not in said
+        *_, last = world.lines
+        assert last.startswith('physsim: ')
+        assert all(word in last for word in words), last
+
+
+@pytest.mark.parametrize(
+    ('content', 'words'),
+    [
+        ('bodies: [', ['given.yaml', 'YAML']),
+        ('format: 2', ['given.yaml', 'format']),
+        (
+            'format: 1\nbodies: [{name: a/0, circle: {radius: -1}}]',
+            ['given.yaml', 'a/0', 'radius'],
+        ),
+    ],
+)
+def test_a_bad_world_file_ends_it_with_a_sentence(
+    outside: Outside, content: str, words: list[str]
+) -> None:
+    with start_with_world(outside, content) as world:
+        assert world.finish() == 1
+        said = ''.join(world.lines)
+        assert 'Traceback' not in said
+        *_, last = world.lines
+        assert last.startswith('physsim: ')
+        assert all(word in last for word in words), last
+
+
+def test_it_takes_whole_numbers_and_empty_lists_from_the_command_line(outside: Outside) -> None:
+    with outside.start_world(
+        speed='2', gravity='[0, -9]', bounds='[]', physics_rate='480', density='3'
+    ) as world:
+        world.wait_for('ready')
+        assert world.interrupt() == 0
+
+
+def test_it_starts_with_the_parameter_file_that_comes_with_it(outside: Outside) -> None:
+    path = ROOT / 'config' / 'physsim.yaml'
+    # The later one counts.
+    given = ['--params-file', str(path), '-p', 'viewer:=none']
+    with outside.start_world(*given) as world:
+        world.wait_for('ready')
+        assert world.interrupt() == 0
+
+
+def test_it_can_be_started_in_a_namespace_under_another_name(outside: Outside) -> None:
+    with outside.start_world('-r', '__ns:=/lab', '-r', '__node:=world') as world:
+        assert '[lab.world]' in world.wait_for('ready')
+        assert world.interrupt() == 0
+
+
+@pytest.mark.parametrize(
+    ('words', 'code'), [(['--help'], 0), (['demo'], 2), (['--viewer', 'none'], 2)]
+)
+def test_it_says_how_it_is_told_things(outside: Outside, words: list[str], code: int) -> None:
+    with outside.start_installed('physsim', *words) as program:
+        assert program.finish() == code
+    assert 'usage: physsim' in ''.join(program.lines)

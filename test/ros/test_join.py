@@ -1,0 +1,172 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Joints over topics: markers on `~/join`, points on `~/pin` and `~/axle`, what comes back."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from physsim_ros.testing import PhysSim, Refused
+import pytest
+from rclpy.parameter import Parameter
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from visualization_msgs.msg import Marker, MarkerArray
+
+from ..client import Client, Event
+from ..messages import box, disc, marker, point
+
+PICTURE = QoSProfile(
+    depth=1, reliability=ReliabilityPolicy.RELIABLE, durability=DurabilityPolicy.TRANSIENT_LOCAL
+)
+
+KINDS = {
+    'pin': ([(0.4, 0.0)], ''),
+    'axle': ([(0.4, 0.0)], ', lower: -1, upper: 1'),
+    'motor': ([(0.4, 0.0)], ', rate: 2, max_torque: 5'),
+    'spring': ([(0.4, 0.0), (1.0, 0.0)], ', stiffness: 40, damping: 0.1'),
+    'rod': ([(0.4, 0.0), (1.0, 0.0)], ''),
+    'rope': ([(0.4, 0.0), (1.0, 0.0)], ', length: 2'),
+    'slider': ([(0.4, 0.0), (1.0, 0.0)], ', lower: -0.5, upper: 0.5'),
+    'gear': ([(0.4, 0.0)], ', ratio: -2'),
+}
+
+
+def joint(text: str, points: list[tuple[float, float]], **options: Any) -> Marker:
+    """Return the marker of a joint."""
+    return marker(Marker.LINE_LIST, name='joint/0', points=points, text=text, **options)
+
+
+def pair(physsim: PhysSim) -> None:
+    physsim.spawn(box('a/0', at=(0.0, 0.0, 0.0)))
+    physsim.spawn(box('a/1', at=(0.8, 0.0, 0.0)))
+
+
+@pytest.mark.parametrize('kind', KINDS)
+def test_a_marker_joins_and_its_picture_joins_again_to_the_bit(
+    physsim: PhysSim, client: Client, kind: str
+) -> None:
+    points, properties = KINDS[kind]
+    pair(physsim)
+    pictures = client.listen(MarkerArray, '~/markers', PICTURE)
+    (event,) = client.ask('~/join', joint(f'{{kind: {kind}{properties}}}', points))
+    assert event == Event(0, '~/join', 'joint/0', event.message, 'ok', '')
+    physsim.run(0.5)
+    drawn = {each.ns: each for each in pictures[-1].markers}
+    assert f'kind: {kind}' in drawn['joint:joint'].text
+    assert drawn['lines:joint'].points
+    # Once, so that what is as drawn is said; and from then on nothing changes.
+    physsim.join(drawn['joint:joint'])
+    before = physsim.digest()
+    physsim.step(0)
+    (event,) = client.ask('~/join', drawn['joint:joint'])
+    assert event.code == 'ok'
+    assert physsim.digest() == before
+
+
+def test_a_point_pins_and_another_one_lets_go(physsim: PhysSim, client: Client) -> None:
+    pair(physsim)
+    (event,) = client.ask('~/pin', point(0.4, 0.0))
+    assert event == Event(0, '~/pin', 'pin/0', event.message, 'ok', '')
+    assert physsim.axle((0.4, 0.0)) == 'axle/0'
+    assert physsim.joints == ('pin/0', 'axle/0')
+    physsim.release((0.4, 0.0))
+    assert physsim.joints == ()
+
+
+def test_a_disc_on_an_axle_stays_where_it_is(physsim: PhysSim) -> None:
+    physsim.spawn(disc('wheel/0', at=(0.0, 2.0, 0.0)))
+    physsim.axle((0.0, 2.0))
+    physsim.run(1.0)
+    assert physsim.pose('wheel/0').y == pytest.approx(2.0, abs=1e-4)
+    assert physsim.force('axle/0') > 0.0
+
+
+def test_a_joint_is_deleted_by_marker_and_leaves_the_picture(
+    physsim: PhysSim, client: Client
+) -> None:
+    pair(physsim)
+    pictures = client.listen(MarkerArray, '~/markers', PICTURE)
+    physsim.axle((0.4, 0.0))
+    physsim.step()
+    gone = marker(Marker.CUBE, name='axle/0')
+    gone.action = Marker.DELETE
+    (event,) = client.ask('~/join', gone)
+    assert (event.hardware_id, event.code) == ('axle/0', 'ok')
+    physsim.step()
+    actions = {each.ns: each.action for each in pictures[-1].markers}
+    assert actions['joint:axle'] == actions['lines:axle'] == Marker.DELETE
+    (event,) = client.ask('~/join', gone)
+    assert event.code == 'unknown_joint'
+
+
+def test_a_joint_that_breaks_is_told(
+    physsim: PhysSim, client: Client, capfd: pytest.CaptureFixture[str]
+) -> None:
+    physsim.spawn(box('a/0', text='{mass: 1}'))
+    physsim.join(joint('{kind: axle, break_force: 5}', [(0.0, 0.0)]))
+    before = len(client.events)
+    physsim.step(3)
+    (event,) = client.events[before:]
+    assert (event.level, event.name, event.hardware_id) == (2, 'joint_broken', 'joint/0')
+    assert event.code == 'joint_broken'
+    assert ']: joint_broken: joint/0 broke at' in capfd.readouterr().err
+
+
+def test_clear_deletes_joints_too(physsim: PhysSim, client: Client) -> None:
+    pair(physsim)
+    physsim.pin((0.4, 0.0))
+    assert client.call('~/clear').success
+    physsim.step()
+    assert physsim.joints == physsim.names == ()
+
+
+@pytest.mark.parametrize(
+    ('text', 'code', 'field'),
+    [
+        ('{}', 'bad_property', 'kind'),
+        ('{kind: glue}', 'bad_property', 'kind'),
+        ('{kind: axle, stifness: 3}', 'unknown_property', 'stifness'),
+        ('{kind: axle, a: 7}', 'bad_property', 'a'),
+        ('{kind: axle, a: x/0}', 'unknown_body', 'a'),
+        ('{kind: axle, lower: }', 'bad_property', 'lower'),
+        ('{kind: spring}', 'malformed', 'points'),
+        ('kind: [', 'malformed', 'text'),
+    ],
+)
+def test_what_cannot_be_a_joint_is_refused_and_changes_nothing(
+    physsim: PhysSim, text: str, code: str, field: str
+) -> None:
+    pair(physsim)
+    before = physsim.digest()
+    with pytest.raises(Refused) as caught:
+        physsim.join(joint(text, [(0.4, 0.0)]))
+    assert (caught.value.code, caught.value.field) == (code, field)
+    assert physsim.digest() == before
+
+
+def test_a_saved_machine_loads_to_the_bit(physsim: PhysSim, client: Client) -> None:
+    pair(physsim)
+    physsim.join(joint('{kind: spring, stiffness: 3}', [(0.4, 0.0), (3.0, 2.0)]))
+    physsim.axle((0.4, 0.0))
+    physsim.run(0.7)
+    physsim.node.set_parameters([Parameter('world_file', value='machine')])
+    assert client.call('~/save_world').success
+    saved = physsim.digest()
+    physsim.run(0.5)
+    later = physsim.digest()
+    assert client.call('~/load_world').success
+    physsim.run(0.5)
+    assert saved != later
+    assert physsim.joints == ('joint/0', 'axle/0')

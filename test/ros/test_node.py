@@ -1,0 +1,375 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""What the node sends: seen from another process, which knows nothing of this package."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from geometry_msgs.msg import PoseArray
+from physsim_ros.ros.node import PhysSimNode
+from physsim_ros.testing import PhysSim
+import pytest
+import rclpy
+from rclpy.context import Context
+from rclpy.parameter import Parameter
+from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
+from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import MultiDOFJointState
+from visualization_msgs.msg import MarkerArray
+
+from ..client import Client
+from ..messages import box, delete, disc
+from ..outside import Outside
+
+G = 9.81
+# One frame at 60 Hz; stamps are whole nanoseconds [ns].
+PERIOD = 1e9 / 60.0
+TYPES = {
+    '/physsim/poses': 'geometry_msgs/msg/PoseArray',
+    '/physsim/states': 'sensor_msgs/msg/MultiDOFJointState',
+    '/physsim/contacts': 'sensor_msgs/msg/MultiDOFJointState',
+    '/physsim/markers': 'visualization_msgs/msg/MarkerArray',
+    '/physsim/preview': 'visualization_msgs/msg/MarkerArray',
+    '/physsim/events': 'diagnostic_msgs/msg/DiagnosticStatus',
+    '/clock': 'rosgraph_msgs/msg/Clock',
+    '/diagnostics': 'diagnostic_msgs/msg/DiagnosticArray',
+}
+DEPTHS = {
+    '/physsim/poses': 5,
+    '/physsim/states': 5,
+    '/physsim/contacts': 5,
+    '/physsim/markers': 1,
+    '/physsim/preview': 1,
+    '/physsim/events': 1000,
+    '/clock': 10,
+    '/diagnostics': 10,
+}
+KEPT = ('/physsim/markers', '/physsim/preview')
+REQUESTS = {
+    '/physsim/spawn': 'visualization_msgs/msg/Marker',
+    '/physsim/spawn_array': 'visualization_msgs/msg/MarkerArray',
+    '/physsim/join': 'visualization_msgs/msg/Marker',
+    '/physsim/pin': 'geometry_msgs/msg/PointStamped',
+    '/physsim/axle': 'geometry_msgs/msg/PointStamped',
+    '/physsim/anchor': 'geometry_msgs/msg/PointStamped',
+    '/physsim/release': 'geometry_msgs/msg/PointStamped',
+    '/physsim/command': 'sensor_msgs/msg/MultiDOFJointState',
+    '/clicked_point': 'geometry_msgs/msg/PointStamped',
+    '/physsim/stroke': 'nav_msgs/msg/Path',
+    '/physsim/speed': 'std_msgs/msg/Float64',
+    '/physsim/seek': 'rosgraph_msgs/msg/Clock',
+}
+SERVICES = {
+    f'/physsim/{name}'
+    for name in (
+        'play', 'pause', 'rewind', 'fast_forward', 'fast_rewind', 'step', 'reset', 'clear',
+        'undo', 'redo', 'save_world', 'load_world',
+    )
+}  # fmt: skip
+# In the order in which the program outside spawns them.
+NAMES = ['floor/0', 'ball/7', 'ball/6', 'ball/5']
+
+
+@pytest.fixture(scope='module')
+def seen(outside: Outside) -> dict[str, Any]:
+    """Return all that a program outside saw of a running world."""
+    with outside.start_world() as world:
+        world.wait_for('ready')
+        seen = outside.run_program('observe', *REQUESTS)
+        assert world.interrupt() == 0
+        return seen
+
+
+@pytest.fixture(scope='module')
+def fallen(outside: Outside) -> list[Any]:
+    """Return stamp, names, places and twists of all states while a disc of theirs fell."""
+    with outside.start_world() as world:
+        world.wait_for('ready')
+        seen = outside.run_program('fall')
+        assert world.interrupt() == 0
+        return list(seen['frames'])
+
+
+def frames_of(stamps: list[int]) -> list[int]:
+    """Return the numbers of frames, each of whose stamps is a multiple of the publish period."""
+    frames = [round(stamp / PERIOD) for stamp in stamps]
+    # ns: rounded to a whole one
+    assert stamps == pytest.approx([frame * PERIOD for frame in frames], abs=0.51, rel=0)
+    return frames
+
+
+# What it offers
+
+
+def test_topics_have_the_types_and_qos_of_the_contract(seen: dict[str, Any]) -> None:
+    for topic, type_ in TYPES.items():
+        durability = 'TRANSIENT_LOCAL' if topic in KEPT else 'VOLATILE'
+        assert seen['publishers'][topic] == [[type_, 'RELIABLE', durability]], topic
+    for topic, type_ in REQUESTS.items():
+        assert seen['subscriptions'][topic] == [[type_, 'RELIABLE', 'VOLATILE']], topic
+
+
+def test_topics_have_the_depths_of_the_contract(physsim: PhysSim) -> None:
+    # Discovery does not tell them, so they are looked at from inside.
+    profiles = {each.topic_name: each.qos_profile for each in physsim.node.publishers}
+    for topic, depth in DEPTHS.items():
+        assert (profiles[topic].history, profiles[topic].depth) == (HistoryPolicy.KEEP_LAST, depth)
+    profiles = {each.topic_name: each.qos_profile for each in physsim.node.subscriptions}
+    # It hears nothing else.
+    assert set(profiles) == set(REQUESTS)
+    for topic in REQUESTS:
+        assert profiles[topic].history == HistoryPolicy.KEEP_ALL
+
+
+def test_services_are_triggers(seen: dict[str, Any]) -> None:
+    triggers = {name for name, (type_, *_) in seen['services'].items() if 'Trigger' in type_}
+    assert triggers == SERVICES
+    assert all(seen['services'][name] == ['std_srvs/srv/Trigger'] for name in SERVICES)
+
+
+def test_services_answer_another_process(seen: dict[str, Any]) -> None:
+    assert [success for success, _ in seen['calls']] == [True] * 4
+    assert all(message for _, message in seen['calls'])
+
+
+# What it answers
+
+
+def test_each_request_from_outside_is_answered_once(seen: dict[str, Any]) -> None:
+    answers = [(level, name, who, values) for level, name, who, _, *values in seen['events']]
+    good = [(0, '~/spawn', name, [['code', 'ok']]) for name in NAMES]
+    bad = (2, '~/spawn', 'bad/0', [['code', 'unknown_shape'], ['field', 'type']])
+    assert answers == [*good, bad]
+    assert all(message for _, _, _, message, *_ in seen['events'])
+
+
+# What it sends
+
+
+def test_bodies_are_listed_in_spawn_order(seen: dict[str, Any]) -> None:
+    assert seen['names']
+    assert all(names == NAMES for names in seen['names'])
+
+
+def test_poses_and_states_tell_the_same(seen: dict[str, Any]) -> None:
+    places = dict(zip(seen['stamps']['states'], seen['places'], strict=True))
+    poses = dict(zip(seen['stamps']['poses'], seen['poses'], strict=True))
+    both = set(places) & set(poses)
+    assert len(both) > 50
+    assert all(places[stamp] == poses[stamp] for stamp in both)
+
+
+def test_everything_is_in_the_world_frame(seen: dict[str, Any]) -> None:
+    assert seen['frames'] == ['world']
+    assert seen['marker_frames'] == ['world']
+
+
+def test_stamps_at_speed_1_are_successive_multiples_of_the_publish_period(
+    seen: dict[str, Any],
+) -> None:
+    for stamps in seen['stamps'].values():
+        frames = frames_of(stamps)
+        assert len(frames) >= 50
+        assert frames == list(range(frames[0], frames[0] + len(frames)))
+
+
+def test_the_clock_is_never_0_and_tells_each_frame(seen: dict[str, Any]) -> None:
+    clocks = seen['clocks']
+    assert 0 not in clocks
+    frames = frames_of(clocks)
+    assert frames == sorted(frames)
+    # None is left out; a paused world tells its time again to who comes late.
+    assert sorted(set(frames)) == list(range(frames[0], frames[-1] + 1))
+    assert set(seen['stamps']['states']) <= set(clocks)
+
+
+def test_contacts_tell_who_touches_whom_where_and_how_hard(seen: dict[str, Any]) -> None:
+    assert len(seen['contacts']) >= 50
+    names, pushes, places = seen['contacts'][-1]
+    # The pair is named in spawn order, and so are the pairs.
+    assert names == ['floor/0|ball/7', 'floor/0|ball/6', 'floor/0|ball/5']
+    mass = math.pi * 0.25**2
+    for number, (push, place) in enumerate(zip(pushes, places, strict=True)):
+        # N s: what carries a disc of 1 kg/m² for a sixtieth of a second
+        assert push == pytest.approx([0.0, mass * G / 60.0], abs=2e-4)
+        # m: below the middle of the disc, on the ground
+        assert place == pytest.approx([2.0 * number, 0.0], abs=0.006)
+
+
+def test_the_picture_holds_every_body(seen: dict[str, Any]) -> None:
+    assert set(NAMES) < set(seen['pictures'][-1])
+    assert seen['pictures'][-1]['ball/6'] == pytest.approx([2.0, 0.25], abs=0.006)
+
+
+def test_who_comes_late_sees_the_whole_picture(seen: dict[str, Any]) -> None:
+    assert set(NAMES) < set(seen['late_running'])
+    assert set(NAMES) < set(seen['late_picture'])
+
+
+def test_a_paused_world_shows_to_who_comes_late(seen: dict[str, Any]) -> None:
+    assert seen['late_poses'] == len(NAMES)
+    for name, place in zip(NAMES, seen['late_places'], strict=True):
+        assert seen['late_picture'][name] == place
+
+
+def test_a_step_of_a_paused_world_is_one_publish_period(seen: dict[str, Any]) -> None:
+    stopped, stepped = frames_of([seen['stopped'], seen['after_step']])
+    assert stepped == stopped + 1
+
+
+def test_diagnostics_tell_how_the_world_does(seen: dict[str, Any]) -> None:
+    stamp, level, name, *pairs = seen['diagnostics'][-1]
+    values = dict(pairs)
+    assert name.startswith('physsim')
+    assert level in (0, 1)
+    assert values['bodies'] == '4'
+    assert float(values['speed']) in (0.0, 1.0)
+    expected = ['bodies', 'real-time factor', 'step cost', 'frame cost', 'late frames']
+    for key in (*expected, 'kinetic energy', 'potential energy', 'momentum', 'viewer'):
+        assert any(each.startswith(key) for each in values), key
+    # Simulation time, as on all that is sent.
+    assert 0 < stamp <= max(seen['clocks'])
+
+
+# How it moves
+
+
+def test_a_disc_from_another_process_falls_as_galileo_says(fallen: list[Any]) -> None:
+    with_disc = [frame for frame in fallen if frame[1]]
+    # It began to fall at the frame before the first that lists it, at 5 m.
+    began = max(stamp for stamp, names, *_ in fallen if not names)
+    assert with_disc[0][0] - began == pytest.approx(PERIOD, abs=1.1)
+    seconds = [(stamp - began) * 1e-9 for stamp, *_ in with_disc]
+    # m: all of a fall of ten metres
+    heights = [places[0][1] for _, _, places, _ in with_disc]
+    assert heights == pytest.approx([5.0 - G * t**2 / 2 for t in seconds], abs=1e-6, rel=0)
+    assert [places[0][0] for _, _, places, _ in with_disc] == pytest.approx(
+        [1.0 + 0.5 * t for t in seconds], abs=1e-6, rel=0
+    )
+    # m/s
+    speeds = [twists[0] for *_, twists in with_disc]
+    assert [vy for _, vy in speeds] == pytest.approx([-G * t for t in seconds], abs=1e-6, rel=0)
+    assert [vx for vx, _ in speeds] == pytest.approx([0.5] * len(speeds), abs=1e-6, rel=0)
+
+
+def test_no_frame_of_the_fall_is_missing(fallen: list[Any]) -> None:
+    frames = frames_of([stamp for stamp, *_ in fallen])
+    assert frames == list(range(frames[0], frames[0] + len(frames)))
+    # frames: 10 m take 1.43 s
+    assert len([names for _, names, *_ in fallen if names]) >= 85
+
+
+# In this process, where time is in the test's hand
+
+
+def test_a_world_at_time_0_tells_no_time(physsim: PhysSim, client: Client) -> None:
+    clocks = client.listen(Clock, '/clock')
+    physsim.spawn(box())
+    assert clocks == []
+    physsim.step(2)
+    stamps = [each.clock.sec * 10**9 + each.clock.nanosec for each in clocks]
+    assert frames_of(stamps) == [1, 2]
+
+
+def test_the_clock_follows_the_world_back(physsim: PhysSim, client: Client) -> None:
+    clocks = client.listen(Clock, '/clock')
+    physsim.step(3)
+    client.call('~/reset')
+    physsim.step(2)
+    stamps = [each.clock.sec * 10**9 + each.clock.nanosec for each in clocks]
+    assert frames_of(stamps) == [1, 2, 3, 1, 2]
+
+
+@pytest.mark.parametrize('speed', [2.0, 5.0])
+def test_at_whole_speeds_stamps_are_multiples_of_the_publish_period(
+    physsim: PhysSim, client: Client, speed: float
+) -> None:
+    states = client.listen(MultiDOFJointState, '~/states')
+    physsim.node.simulation.speed = speed
+    # ns: a timer's jitter of a few milliseconds
+    for tick, jitter in enumerate([0, 3e6, -2e6, 5e6, 1e6, -4e6, 0, 2e6] * 5):
+        physsim.node.tick(round(1e12 + tick * PERIOD + jitter))
+        physsim.settle()
+    stamps = [each.header.stamp.sec * 10**9 + each.header.stamp.nanosec for each in states]
+    frames = frames_of(stamps)
+    # frames: the first and last ticks may fall on either side
+    assert frames[-1] == pytest.approx(39 * speed, abs=speed)
+
+
+def test_a_second_pass_over_the_same_time_gives_the_same_stamps(
+    physsim: PhysSim, client: Client
+) -> None:
+    states = client.listen(MultiDOFJointState, '~/states')
+    physsim.spawn(disc())
+    passes = []
+    for _ in range(2):
+        states.clear()
+        physsim.step(30)
+        passes.append([(each.header.stamp.sec, each.header.stamp.nanosec) for each in states])
+        client.call('~/reset')
+    assert passes[0] == passes[1]
+
+
+def test_streams_tell_of_a_request_while_time_stands_still(
+    physsim: PhysSim, client: Client
+) -> None:
+    poses = client.listen(PoseArray, '~/poses')
+    kept = QoSProfile(
+        depth=1,
+        reliability=ReliabilityPolicy.RELIABLE,
+        durability=DurabilityPolicy.TRANSIENT_LOCAL,
+    )
+    pictures = client.listen(MarkerArray, '~/markers', kept)
+    physsim.spawn(box('a/0', at=(1.0, 2.0)))
+    assert len(poses[-1].poses) == 1
+    assert [each.ns for each in pictures[-1].markers] == ['a']
+    physsim.spawn(delete('a/0'))
+    assert len(poses[-1].poses) == 0
+
+
+def test_a_body_with_a_name_in_any_language_is_listed_by_it(
+    physsim: PhysSim, client: Client
+) -> None:
+    states = client.listen(MultiDOFJointState, '~/states')
+    for name in ('Kiste Ü/1', '箱/2', 'a b|c:d/e/-3', '🎱/8'):
+        assert physsim.spawn(box(name)) == name
+    physsim.step()
+    assert list(states[-1].joint_names) == ['Kiste Ü/1', '箱/2', 'a b|c:d/e/-3', '🎱/8']
+
+
+def test_a_world_in_a_namespace_has_its_topics_there(physsim: PhysSim) -> None:
+    context = Context()
+    words = ['--ros-args', '-r', '__ns:=/b']
+    rclpy.init(context=context, args=words, domain_id=physsim.context.get_domain_id())
+    node = PhysSimNode(context=context, parameter_overrides=[Parameter('viewer', value='none')])
+    published = {each.topic_name for each in node.publishers}
+    heard = {each.topic_name for each in node.subscriptions}
+    node.destroy_node()
+    rclpy.shutdown(context=context)
+    assert published - {'/rosout', '/parameter_events'} == {
+        topic if topic == '/diagnostics' else f'/b{topic}' for topic in TYPES
+    }
+    assert heard >= {f'/b{topic}' for topic in REQUESTS}
+
+
+def test_a_bug_in_the_world_is_loud(physsim: PhysSim, monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(*_: object, **__: object) -> None:
+        raise ZeroDivisionError
+
+    monkeypatch.setattr(PhysSimNode, 'deliver', fail)
+    with pytest.raises(ZeroDivisionError):
+        physsim.step()

@@ -1,0 +1,518 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Every parameter is what the contract says, takes effect at once, and refuses what is wrong."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+import math
+from typing import Any
+
+from physsim_ros.model.errors import BadProperty, Malformed, PhysSimError
+from physsim_ros.ros import parameters
+from physsim_ros.ros.node import PhysSimNode
+from physsim_ros.testing import own_context, PhysSim
+import pytest
+from rcl_interfaces.msg import Parameter as ParameterMessage
+from rcl_interfaces.msg import ParameterType, ParameterValue, SetParametersResult
+from rcl_interfaces.srv import DescribeParameters, SetParameters, SetParametersAtomically
+from rclpy.context import Context
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from rosgraph_msgs.msg import Clock
+
+from ..client import Client
+from ..messages import box, disc
+
+# The contract's table, as far as it is built: default, and whether it is fixed once running.
+CONTRACT: dict[str, tuple[Any, str]] = {
+    'frame_id': ('world', 'read-only'),
+    'world_file': ('', 'live'),
+    'world_dir': ('.', 'read-only'),
+    'physics_rate': (240.0, 'read-only'),
+    'publish_rate': (60.0, 'read-only'),
+    'iterations': (10, 'live'),
+    'speed': (1.0, 'live'),
+    'fast_speed': (4.0, 'live'),
+    'gravity': ([0.0, -9.81], 'live'),
+    'damping': (0.0, 'live'),
+    'bounds': ([], 'live'),
+    'density': (1.0, 'live'),
+    'friction': (0.5, 'live'),
+    'elasticity': (0.5, 'live'),
+    'draw_velocity': ([0.0, 0.0], 'live'),
+    'draw_color': ('auto', 'live'),
+    'tool': ('none', 'live'),
+    'snap': (0.15, 'live'),
+    'sketch_confidence': (0.6, 'live'),
+    'beautify': (0.12, 'live'),
+    'wall_thickness': (0.1, 'live'),
+    'command_timeout': (0.5, 'live'),
+    'history': (600.0, 'live'),
+    'publish_clock': (True, 'live'),
+    'viewer': ('auto', 'live'),
+    'viewer_url': ('', 'read-only'),
+    'record_file': ('', 'read-only'),
+    'max_bodies': (20000, 'live'),
+}
+# The contract's ranges: the ends are good, what lies just beyond is not.
+RANGES: dict[str, tuple[Any, Any]] = {
+    'speed': (-64.0, 64.0),
+    'fast_speed': (0.0, 64.0),
+    'history': (0.0, None),
+    'damping': (0.0, 1.0),
+    'friction': (0.0, 10.0),
+    'elasticity': (0.0, 1.0),
+    'iterations': (1, None),
+    'sketch_confidence': (0.0, 1.0),
+    'snap': (0.0, None),
+    'command_timeout': (0.0, None),
+    'max_bodies': (0, None),
+}
+LIVE = [name for name, (_, kind) in CONTRACT.items() if kind == 'live']
+FIXED = [name for name, (_, kind) in CONTRACT.items() if kind == 'read-only']
+DOUBLES = [name for name, (value, _) in CONTRACT.items() if isinstance(value, float)]
+
+
+def parameter(name: str, value: object) -> Parameter:
+    if value == []:
+        return Parameter(name, Parameter.Type.DOUBLE_ARRAY, [])
+    return Parameter(name, value=value)
+
+
+def value_of(physsim: PhysSim, name: str) -> Any:
+    value = physsim.node.get_parameter(name).value
+    return value if isinstance(value, str | float | int) else list(value)
+
+
+def take(physsim: PhysSim, name: str, value: object) -> None:
+    (result,) = physsim.node.set_parameters([parameter(name, value)])
+    assert result.successful, result.reason
+
+
+def refuse(physsim: PhysSim, name: str, value: object) -> str:
+    """Check that a value is refused with a reason and changes nothing."""
+    before = [value_of(physsim, each) for each in CONTRACT], physsim.digest()
+    described = repr(physsim.node.describe_parameter(name))
+    (result,) = physsim.node.set_parameters([parameter(name, value)])
+    assert not result.successful
+    assert result.reason
+    assert ([value_of(physsim, each) for each in CONTRACT], physsim.digest()) == before
+    assert repr(physsim.node.describe_parameter(name)) == described
+    return str(result.reason)
+
+
+@pytest.fixture
+def context(monkeypatch: pytest.MonkeyPatch) -> Iterator[Context]:
+    """Give a context in which a test starts nodes of its own."""
+    with own_context(monkeypatch) as context:
+        yield context
+
+
+def started(context: Context, **values: object) -> dict[str, Any]:
+    """Start a node with parameters, as the command line would, and return what it has."""
+    overrides = [parameter(name, value) for name, value in values.items()]
+    node = PhysSimNode(context=context, parameter_overrides=overrides)
+    try:
+        return {name: node.get_parameter(name).value for name in CONTRACT}
+    finally:
+        node.destroy_node()
+
+
+# Declarations
+
+
+def test_every_parameter_of_the_contract_is_there_and_no_other() -> None:
+    assert set(parameters.SPECS) == set(CONTRACT)
+
+
+def test_every_default_is_the_contracts(context: Context) -> None:
+    values = started(context)
+    assert {name: values[name] for name in CONTRACT if type(CONTRACT[name][0]) is not list} == {
+        name: value for name, (value, _) in CONTRACT.items() if type(value) is not list
+    }
+    assert list(values['gravity']) == [0.0, -9.81]
+    assert list(values['bounds']) == []
+    assert list(values['draw_velocity']) == [0.0, 0.0]
+    for name, (value, _) in CONTRACT.items():
+        assert isinstance(values[name], type(value)) or isinstance(value, list), name
+
+
+def test_every_parameter_is_described_with_its_unit_and_range(physsim: PhysSim) -> None:
+    for name, (value, kind) in CONTRACT.items():
+        descriptor = physsim.node.describe_parameter(name)
+        assert descriptor.description, name
+        assert descriptor.read_only is (kind == 'read-only'), name
+        assert descriptor.type == Parameter(name, parameters.SPECS[name].kind, value).type_.value
+        if isinstance(value, bool | str):
+            continue
+        limited = descriptor.floating_point_range or descriptor.integer_range
+        assert limited or name in ('gravity', 'bounds', 'draw_velocity'), name
+        if name in RANGES:
+            low, high = RANGES[name]
+            assert limited[0].from_value == low, name
+            assert high is None or limited[0].to_value == high, name
+    for name, unit in {'physics_rate': 'Hz', 'publish_rate': 'Hz', 'gravity': 'm/s²'}.items():
+        assert unit in physsim.node.describe_parameter(name).description
+    assert 'connect' in physsim.node.describe_parameter('viewer').additional_constraints
+
+
+def test_the_description_is_there_over_ros_too(client: Client) -> None:
+    names = list(CONTRACT)
+    request = DescribeParameters.Request(names=names)
+    response = client.request(DescribeParameters, '~/describe_parameters', request)
+    assert [descriptor.name for descriptor in response.descriptors] == names
+    assert all(descriptor.description for descriptor in response.descriptors)
+
+
+# What is refused
+
+
+@pytest.mark.parametrize('name', FIXED)
+def test_a_read_only_parameter_is_fixed(physsim: PhysSim, name: str) -> None:
+    value = CONTRACT[name][0]
+    other = 120.0 if isinstance(value, float) else 'other'
+    assert 'read-only' in refuse(physsim, name, other)
+
+
+@pytest.mark.parametrize('name', RANGES)
+def test_the_ends_of_a_range_are_taken_and_what_lies_beyond_is_refused(
+    physsim: PhysSim, name: str
+) -> None:
+    spec = parameters.SPECS[name]
+    kind = type(CONTRACT[name][0])
+    assert spec.low is not None
+    assert spec.high is not None
+    for end in (kind(spec.low), kind(spec.high)):
+        take(physsim, name, end)
+        assert value_of(physsim, name) == end
+        assert type(value_of(physsim, name)) is kind
+    if kind is int:
+        beyond = [int(spec.low) - 1, int(spec.high) + 1, -(2**63), 2**63 - 1]
+    else:
+        beyond = [
+            math.nextafter(spec.low, -math.inf),
+            math.nextafter(spec.high, math.inf),
+            -1e300,
+            1e300,
+        ]
+    for value in beyond:
+        assert name in refuse(physsim, name, value)
+
+
+@pytest.mark.parametrize('name', [name for name in DOUBLES if name in LIVE])
+@pytest.mark.parametrize('value', [math.nan, math.inf, -math.inf])
+def test_a_number_that_is_not_finite_is_refused(physsim: PhysSim, name: str, value: float) -> None:
+    refuse(physsim, name, value)
+
+
+@pytest.mark.parametrize('name', LIVE)
+def test_a_value_of_another_type_is_refused(physsim: PhysSim, name: str) -> None:
+    default = CONTRACT[name][0]
+    for value in (True, 3, 3.5, 'three', ['three'], [True], [b'3']):
+        if type(value) is type(default) and not isinstance(value, list):
+            continue
+        if isinstance(default, float) and type(value) is int:
+            continue
+        refuse(physsim, name, value)
+
+
+@pytest.mark.parametrize('name', CONTRACT)
+def test_a_parameter_cannot_be_deleted(physsim: PhysSim, name: str) -> None:
+    before = value_of(physsim, name)
+    (result,) = physsim.node.set_parameters([Parameter(name, Parameter.Type.NOT_SET, None)])
+    assert not result.successful
+    assert result.reason
+    assert value_of(physsim, name) == before
+
+
+@pytest.mark.parametrize(
+    ('name', 'value'),
+    [
+        ('gravity', []),
+        ('gravity', [1.0]),
+        ('gravity', [1.0, 2.0, 3.0]),
+        ('gravity', [math.nan, 0.0]),
+        ('gravity', [0.0, -math.inf]),
+        ('gravity', [1e9, 0.0]),
+        ('bounds', [1.0]),
+        ('bounds', [0.0, 0.0, 1.0]),
+        ('bounds', [0.0, 0.0, 1.0, 1.0, 1.0]),
+        ('bounds', [1.0, 0.0, 0.0, 1.0]),
+        ('bounds', [0.0, 1.0, 1.0, 0.0]),
+        ('bounds', [0.0, 0.0, 0.0, 1.0]),
+        ('bounds', [0.0, 0.0, math.nan, 1.0]),
+        ('bounds', [-1e9, 0.0, 1.0, 1.0]),
+        ('viewer', 'window'),
+        ('viewer', ''),
+    ],
+)
+def test_a_bad_value_is_refused_with_its_code(physsim: PhysSim, name: str, value: Any) -> None:
+    take(physsim, 'bounds', [-5.0, -5.0, 5.0, 5.0])
+    code = refuse(physsim, name, value).partition(':')[0]
+    assert code in ('malformed', 'bad_property')
+
+
+def test_many_are_taken_together_or_not_at_all(physsim: PhysSim, client: Client) -> None:
+    def double(name: str, number: float) -> ParameterMessage:
+        kind = ParameterType.PARAMETER_DOUBLE
+        return ParameterMessage(name=name, value=ParameterValue(type=kind, double_value=number))
+
+    request = SetParametersAtomically.Request(
+        parameters=[double('density', 2.0), double('friction', 99.0)]
+    )
+    response = client.request(SetParametersAtomically, '~/set_parameters_atomically', request)
+    assert not response.result.successful
+    assert value_of(physsim, 'density') == 1.0
+    assert physsim.node.simulation.world.settings.density == 1.0
+    request = SetParameters.Request(parameters=request.parameters)
+    response = client.request(SetParameters, '~/set_parameters', request)
+    assert [result.successful for result in response.results] == [True, False]
+    assert response.results[1].reason
+    assert physsim.node.simulation.world.settings.density == 2.0
+    assert physsim.node.simulation.world.settings.friction == 0.5
+
+
+# What is coerced
+
+
+# 1 is beyond what `beautify` may be.
+@pytest.mark.parametrize('name', [name for name in DOUBLES if name in LIVE and name != 'beautify'])
+def test_a_whole_number_is_taken_for_a_double_over_ros(
+    physsim: PhysSim, client: Client, name: str
+) -> None:
+    value = ParameterValue(type=ParameterType.PARAMETER_INTEGER, integer_value=1)
+    request = SetParameters.Request(parameters=[ParameterMessage(name=name, value=value)])
+    response = client.request(SetParameters, '~/set_parameters', request)
+    assert response.results[0].successful, response.results[0].reason
+    assert value_of(physsim, name) == 1.0
+    assert isinstance(value_of(physsim, name), float)
+
+
+@pytest.mark.parametrize(
+    ('name', 'numbers', 'beyond'),
+    [
+        ('gravity', [1.5, -2.0], [math.nan, 0.0]),
+        ('bounds', [-9.0, 0.0, 9.5, 9.0], [-9.0, 0.0, math.inf, 9.0]),
+        ('draw_velocity', [1.0, 2.5], [2e5, 0.0]),
+    ],
+)
+def test_lists_of_doubles_are_taken_and_checked_over_ros(
+    physsim: PhysSim, client: Client, name: str, numbers: list[float], beyond: list[float]
+) -> None:
+    def set_(numbers: list[float]) -> SetParametersResult:
+        kind = ParameterType.PARAMETER_DOUBLE_ARRAY
+        value = ParameterValue(type=kind, double_array_value=numbers)
+        request = SetParameters.Request(parameters=[ParameterMessage(name=name, value=value)])
+        (result,) = client.request(SetParameters, '~/set_parameters', request).results
+        return result
+
+    result = set_(numbers)
+    assert result.successful, result.reason
+    assert value_of(physsim, name) == numbers
+    result = set_(beyond)
+    assert not result.successful
+    assert result.reason.partition(':')[0] in ('malformed', 'bad_property')
+    assert value_of(physsim, name) == numbers
+
+
+@pytest.mark.parametrize('name', ['speed', 'gravity', 'use_sim_time', 'nobody'])
+@pytest.mark.parametrize('kind', [10, 255])
+def test_a_value_of_no_type_is_refused(
+    physsim: PhysSim, client: Client, name: str, kind: int
+) -> None:
+    values = {each: value_of(physsim, each) for each in CONTRACT}
+    message = ParameterMessage(name=name, value=ParameterValue(type=kind))
+    request = SetParameters.Request(parameters=[message])
+    (result,) = client.request(SetParameters, '~/set_parameters', request).results
+    assert not result.successful
+    together = SetParametersAtomically.Request(parameters=[message])
+    response = client.request(SetParametersAtomically, '~/set_parameters_atomically', together)
+    assert not response.result.successful
+    assert {each: value_of(physsim, each) for each in CONTRACT} == values
+
+
+def test_lists_of_whole_numbers_and_empty_ones_are_taken(physsim: PhysSim, client: Client) -> None:
+    def set_(name: str, value: ParameterValue) -> None:
+        request = SetParameters.Request(parameters=[ParameterMessage(name=name, value=value)])
+        response = client.request(SetParameters, '~/set_parameters', request)
+        assert response.results[0].successful, response.results[0].reason
+
+    whole = ParameterType.PARAMETER_INTEGER_ARRAY
+    set_('bounds', ParameterValue(type=whole, integer_array_value=[-9, 0, 9, 9]))
+    assert value_of(physsim, 'bounds') == [-9.0, 0.0, 9.0, 9.0]
+    set_('gravity', ParameterValue(type=whole, integer_array_value=[1, -2]))
+    assert value_of(physsim, 'gravity') == [1.0, -2.0]
+    # What an empty list comes as depends on who sends it.
+    for kind in range(
+        ParameterType.PARAMETER_BYTE_ARRAY, ParameterType.PARAMETER_STRING_ARRAY + 1
+    ):
+        set_('bounds', ParameterValue(type=whole, integer_array_value=[-9, 0, 9, 9]))
+        set_('bounds', ParameterValue(type=kind))
+        assert value_of(physsim, 'bounds') == []
+        assert physsim.node.simulation.world.settings.bounds is None
+
+
+def test_whole_numbers_are_taken_for_doubles_at_the_start(context: Context) -> None:
+    values = started(
+        context,
+        physics_rate=480,
+        publish_rate=120,
+        speed=2,
+        gravity=[0, -9],
+        bounds=[-1, -2, 3, 4],
+        density=3,
+    )
+    assert values['physics_rate'] == 480.0
+    assert values['speed'] == 2.0
+    assert all(isinstance(values[name], float) for name in ('physics_rate', 'speed', 'density'))
+    assert list(values['gravity']) == [0.0, -9.0]
+    assert list(values['bounds']) == [-1.0, -2.0, 3.0, 4.0]
+
+
+@pytest.mark.parametrize(
+    ('values', 'error'),
+    [
+        ({'speed': 65.0}, BadProperty),
+        ({'speed': -65}, BadProperty),
+        ({'speed': math.nan}, Malformed),
+        ({'speed': 'fast'}, BadProperty),
+        ({'iterations': 0}, BadProperty),
+        ({'iterations': 2.5}, BadProperty),
+        ({'physics_rate': 59.0}, BadProperty),
+        ({'physics_rate': 10001.0}, BadProperty),
+        ({'publish_rate': 7.0}, BadProperty),
+        ({'publish_rate': 480.0}, BadProperty),
+        ({'publish_rate': 0.0}, BadProperty),
+        ({'physics_rate': 100.0}, BadProperty),
+        ({'gravity': [0.0]}, Malformed),
+        ({'gravity': [0.0, math.nan]}, Malformed),
+        ({'bounds': [1.0, 0.0, 0.0, 1.0]}, BadProperty),
+        ({'viewer': 'window'}, BadProperty),
+        ({'publish_clock': 1}, BadProperty),
+        ({'frame_id': 3}, BadProperty),
+        ({'world_file': 'nowhere'}, PhysSimError),
+    ],
+)
+def test_a_node_does_not_start_with_a_bad_value(
+    context: Context, values: dict[str, Any], error: type
+) -> None:
+    with pytest.raises(error) as caught:
+        started(context, **values)
+    assert str(caught.value)
+    other = Node('other', context=context)
+    assert other.get_node_names() == ['other']
+    other.destroy_node()
+
+
+@pytest.mark.parametrize(('physics', 'publish'), [(240.0, 240.0), (1000.0, 50.0), (60.0, 1.0)])
+def test_any_publish_rate_that_divides_the_physics_rate_is_good(
+    context: Context, physics: float, publish: float
+) -> None:
+    values = started(context, physics_rate=physics, publish_rate=publish)
+    assert (values['physics_rate'], values['publish_rate']) == (physics, publish)
+
+
+# What takes effect
+
+
+def test_gravity_takes_effect_at_once(physsim: PhysSim) -> None:
+    physsim.spawn(disc('a/0'))
+    physsim.run(0.5)
+    before, twist = physsim.pose('a/0'), physsim.twist('a/0')
+    take(physsim, 'gravity', [3.0, 0.0])
+    physsim.run(0.5)
+    # m: from where it was and as it flew, now to the right
+    assert physsim.pose('a/0').x == pytest.approx(3.0 * 0.5**2 / 2, abs=1e-9)
+    assert physsim.pose('a/0').y == pytest.approx(before.y + twist.vy * 0.5, abs=1e-9)
+
+
+def test_damping_takes_effect_at_once(physsim: PhysSim) -> None:
+    take(physsim, 'gravity', [0.0, 0.0])
+    physsim.spawn(disc('a/0', text='{velocity: [8, 0]}'))
+    take(physsim, 'damping', 0.5)
+    physsim.run(1.0)
+    # m/s: half of it is lost in a second
+    assert physsim.twist('a/0').vx == pytest.approx(4.0)
+
+
+def test_bounds_take_effect_at_once(physsim: PhysSim) -> None:
+    take(physsim, 'bounds', [-5.0, -2.0, 5.0, 9.0])
+    physsim.spawn(disc('a/0', text='{elasticity: 0}'))
+    physsim.run(2.0)
+    # m: on the floor, less the engine's slop of 5 mm
+    assert physsim.pose('a/0').y == pytest.approx(-1.5, abs=0.007)
+    take(physsim, 'bounds', [])
+    physsim.run(1.0)
+    assert physsim.pose('a/0').y < -5.0
+
+
+def test_iterations_take_effect(physsim: PhysSim) -> None:
+    take(physsim, 'iterations', 50)
+    assert physsim.node.simulation.world.settings.iterations == 50
+
+
+def test_setting_what_is_set_changes_nothing(physsim: PhysSim) -> None:
+    physsim.spawn(disc('a/0'))
+    physsim.step(3)
+    before = physsim.digest()
+    for name in LIVE:
+        if name != 'viewer':
+            take(physsim, name, value_of(physsim, name))
+    assert physsim.digest() == before
+
+
+def test_the_clock_can_be_switched_off_and_on_again(physsim: PhysSim, client: Client) -> None:
+    clocks = client.listen(Clock, '/clock')
+    physsim.step(3)
+    assert len(clocks) == 3
+    take(physsim, 'publish_clock', value=False)
+    physsim.step(3)
+    assert len(clocks) == 3
+    take(physsim, 'publish_clock', value=True)
+    physsim.step(3)
+    assert len(clocks) == 6
+
+
+def test_parameters_tell_what_a_loaded_world_has_set(physsim: PhysSim, tmp_path: Any) -> None:
+    (tmp_path / 'moon.yaml').write_text(
+        'format: 1\ngravity: [0, -1.6]\nbounds: [-1, -1, 1, 1]\niterations: 20\nfriction: 0.25\n'
+    )
+    take(physsim, 'density', 7.0)
+    physsim.load('moon')
+    assert value_of(physsim, 'gravity') == [0.0, -1.6]
+    assert value_of(physsim, 'bounds') == [-1.0, -1.0, 1.0, 1.0]
+    assert value_of(physsim, 'iterations') == 20
+    assert value_of(physsim, 'friction') == 0.25
+    # What the file does not name stays.
+    assert value_of(physsim, 'density') == 7.0
+
+
+def test_the_world_frame_is_named_by_a_parameter(context: Context) -> None:
+    with PhysSim(context, frame_id='map') as world:
+        world.spawn(box('a/0', at=(1.0, 2.0), frame='map'))
+        assert world.pose('a/0') == (1.0, 2.0, 0.0)
+
+
+def test_a_world_may_be_loaded_at_the_start(context: Context, tmp_path: Any) -> None:
+    path = tmp_path / 'one.yaml'
+    path.write_text('format: 1\ngravity: [0, -1]\nbodies: [{name: a/0, circle: {radius: 1}}]\n')
+    with PhysSim(context, world_file=str(path)) as world:
+        assert world.names == ('a/0',)
+        assert value_of(world, 'gravity') == [0.0, -1.0]
+        world.spawn(box('a/1', at=(5.0, 0.0)))
+        world.step()
+        world.node.simulation.reset()
+        assert world.names == ('a/0',)

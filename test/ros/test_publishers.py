@@ -1,0 +1,360 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Streams go where somebody listens, with the QoS of the contract, and late listeners see all."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+import random
+import time
+
+from diagnostic_msgs.msg import DiagnosticStatus
+from geometry_msgs.msg import PoseArray
+import numpy as np
+from physsim_ros.model.scene import Body, Scene
+from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.shapes import Disc
+from physsim_ros.model.snapshot import Answer, Contacts, Frame, Snapshot
+from physsim_ros.ros import encoders
+from physsim_ros.ros.publishers import QUIET, Streams
+import pytest
+import rclpy
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import MultiDOFJointState
+from visualization_msgs.msg import Marker, MarkerArray
+
+ALL = {
+    '/physsim/poses': PoseArray,
+    '/physsim/states': MultiDOFJointState,
+    '/physsim/contacts': MultiDOFJointState,
+    '/physsim/markers': MarkerArray,
+    '/physsim/events': DiagnosticStatus,
+    '/clock': Clock,
+}
+
+
+class Bench:
+    """A world's streams and a listener, two nodes in a context of their own."""
+
+    def __init__(self, context):
+        self.executor = SingleThreadedExecutor(context=context)
+        self.world = Node('physsim', context=context)
+        self.listener = Node('listener', context=context)
+        self.executor.add_node(self.world)
+        self.executor.add_node(self.listener)
+        self.streams = Streams(self.world, frame_id='map', publish_clock=True)
+        self.publishers = {publisher.topic_name: publisher for publisher in self.world.publishers}
+
+    def listen(self, topic, durability=DurabilityPolicy.VOLATILE):
+        """Return the list that the messages of a topic come into, once both ends have met."""
+        received = []
+        qos = QoSProfile(depth=1000, reliability=ReliabilityPolicy.RELIABLE, durability=durability)
+        before = self.publishers[topic].get_subscription_count()
+        subscription = self.listener.create_subscription(ALL[topic], topic, received.append, qos)
+        self.spin_until(lambda: self.publishers[topic].get_subscription_count() > before)
+        self.spin_until(lambda: subscription.get_publisher_count() > 0)
+        return received
+
+    def spin_until(self, predicate, timeout=25.0):
+        # Ten times the 2.5 s that discovery takes where it loses its first message.
+        deadline = time.monotonic() + timeout
+        while not predicate():
+            assert time.monotonic() < deadline, 'it did not come about in time'
+            self.executor.spin_once(timeout_sec=0.05)
+
+    def settle(self):
+        """Spin until all that was published before has arrived."""
+        # In each round an executor takes one message of each subscription, and no test has more
+        # than ten on the way.
+        arrived = []
+        probe = self.world.create_publisher(Clock, 'probe', 10)
+        subscription = self.listener.create_subscription(Clock, 'probe', arrived.append, 10)
+        self.spin_until(
+            lambda: probe.get_subscription_count() and subscription.get_publisher_count()
+        )
+        for _ in range(10):
+            probe.publish(Clock())
+        self.spin_until(lambda: len(arrived) == 10)
+        self.world.destroy_publisher(probe)
+        self.listener.destroy_subscription(subscription)
+
+
+@pytest.fixture
+def bench():
+    context = Context()
+    rclpy.init(context=context, domain_id=random.randint(1, 200))
+    bench = Bench(context)
+    yield bench
+    bench.executor.shutdown()
+    bench.listener.destroy_node()
+    bench.world.destroy_node()
+    rclpy.shutdown(context=context)
+
+
+def scene_of(*names):
+    bodies = tuple(
+        Body(
+            name=name,
+            shape=Disc(radius=0.5),
+            color=(1.0, 0.0, 0.0, 1.0),
+            mass=None,
+            density=1.0,
+            friction=0.5,
+            elasticity=0.5,
+            anchored=False,
+            kinematic=False,
+            group=0,
+            sensor=False,
+            expires=None,
+        )
+        for name in names
+    )
+    return Scene(bodies=bodies, settings=WorldSettings())
+
+
+def frame_of(scene, step=1, contacts=None):
+    """Return a frame in which every body is at x = step."""
+    poses = np.zeros((len(scene.bodies), 3))
+    poses[:, 0] = step
+    snapshot = Snapshot(
+        step=step, stamp=step * 1_000_000, scene=scene, poses=poses, twists=np.zeros_like(poses)
+    )
+    return Frame(snapshot=snapshot, contacts=contacts)
+
+
+def touching():
+    return Contacts(
+        pairs=np.array([[0, 1]]),
+        points=np.zeros((1, 2)),
+        normals=np.array([[1.0, 0.0]]),
+        impulses=np.ones((1, 2)),
+    )
+
+
+@pytest.fixture
+def encoded(monkeypatch):
+    """Names of what is encoded, as it is encoded."""
+    calls = []
+
+    def spy(owner, name, label):
+        original = getattr(owner, name)
+
+        def wrapper(*args):
+            calls.append(label)
+            return original(*args)
+
+        monkeypatch.setattr(owner, name, wrapper)
+
+    spy(encoders.PosesEncoder, 'encode', 'poses')
+    spy(encoders.StatesEncoder, 'encode', 'states')
+    spy(encoders.ContactsEncoder, 'encode', 'contacts')
+    spy(encoders.MarkersEncoder, 'encode', 'markers')
+    spy(encoders, 'encode_clock', 'clock')
+    spy(encoders, 'encode_event', 'event')
+    return calls
+
+
+@pytest.mark.parametrize(
+    ('topic', 'durability', 'depth'),
+    [
+        ('/physsim/poses', DurabilityPolicy.VOLATILE, 5),
+        ('/physsim/states', DurabilityPolicy.VOLATILE, 5),
+        ('/physsim/contacts', DurabilityPolicy.VOLATILE, 5),
+        ('/physsim/markers', DurabilityPolicy.TRANSIENT_LOCAL, 1),
+        ('/physsim/events', DurabilityPolicy.VOLATILE, 1000),
+        ('/clock', DurabilityPolicy.VOLATILE, 10),
+    ],
+)
+def test_each_stream_has_the_type_and_qos_of_the_contract(bench, topic, durability, depth):
+    bench.spin_until(lambda: bench.listener.get_publishers_info_by_topic(topic))
+    (info,) = bench.listener.get_publishers_info_by_topic(topic)
+    assert info.topic_type.split('/')[-1] == ALL[topic].__name__
+    assert info.qos_profile.reliability == ReliabilityPolicy.RELIABLE
+    assert info.qos_profile.durability == durability
+    # Discovery does not tell the depth.
+    assert bench.publishers[topic].qos_profile.depth == depth
+
+
+def test_who_listens_gets_every_stream_of_a_frame(bench):
+    received = {topic: bench.listen(topic) for topic in ALL}
+    frame = frame_of(scene_of('a/0', 'b/1'), step=3, contacts=touching())
+    bench.streams.publish(frame)
+    bench.streams.report(Answer(topic='~/spawn', subject='a/0', message='a/0 is there'))
+    bench.spin_until(lambda: all(received.values()))
+    assert [pose.position.x for pose in received['/physsim/poses'][0].poses] == [3.0, 3.0]
+    assert received['/physsim/states'][0].joint_names == ['a/0', 'b/1']
+    assert received['/physsim/contacts'][0].joint_names == ['a/0|b/1']
+    assert [marker.ns for marker in received['/physsim/markers'][0].markers] == ['a', 'b']
+    assert received['/physsim/events'][0].message == 'a/0 is there'
+    assert received['/clock'][0].clock.nanosec == 3_000_000
+    for topic in ('/physsim/poses', '/physsim/states', '/physsim/contacts'):
+        assert received[topic][0].header.frame_id == 'map'
+        assert received[topic][0].header.stamp.nanosec == 3_000_000
+
+
+def test_where_nobody_listens_nothing_is_built_but_a_rare_picture(bench, encoded):
+    scene = scene_of('a/0', 'b/1')
+    for step in range(1, 2 * QUIET + 1):
+        bench.streams.publish(frame_of(scene, step, touching()))
+        bench.streams.report(Answer(topic='~/spawn'))
+    assert encoded == ['markers'] * 2
+
+
+def test_only_what_somebody_listens_to_is_built(bench, encoded):
+    bench.listen('/physsim/states')
+    scene = scene_of('a/0', 'b/1')
+    for step in range(1, 11):
+        bench.streams.publish(frame_of(scene, step, touching()))
+    assert encoded.count('states') == 10
+    assert set(encoded) == {'states', 'markers'}
+
+
+def test_an_unseen_picture_is_kept_up_with_a_changing_scene(bench, encoded):
+    for step in range(1, 6):
+        bench.streams.publish(frame_of(scene_of(f'a/{step}'), step))
+    assert encoded == ['markers'] * 5
+
+
+def test_a_late_listener_gets_the_whole_picture_of_the_last_scene(bench):
+    scene = scene_of('a/0')
+    bench.streams.publish(frame_of(scene_of()))
+    bench.streams.publish(frame_of(scene))
+    pictures = bench.listen('/physsim/markers', DurabilityPolicy.TRANSIENT_LOCAL)
+    bench.spin_until(lambda: pictures)
+    assert [marker.ns for marker in pictures[0].markers] == ['a']
+
+
+def test_a_listener_that_comes_late_to_a_running_world_gets_the_next_picture(bench):
+    scene = scene_of('a/0')
+    bench.streams.publish(frame_of(scene, 1))
+    pictures = bench.listen('/physsim/markers', DurabilityPolicy.TRANSIENT_LOCAL)
+    # The picture that was kept comes first, unless the next one has overtaken it.
+    bench.streams.publish(frame_of(scene, 2))
+    bench.spin_until(lambda: pictures and pictures[-1].markers[0].pose.position.x == 2.0)
+
+
+def test_a_world_that_stands_still_keeps_the_right_picture_for_late_listeners(bench, encoded):
+    scene = scene_of('a/0')
+    for step in (1, 2, 3):
+        bench.streams.publish(frame_of(scene, step))
+    for _ in range(100):
+        bench.streams.welcome()
+    assert encoded == ['markers'] * 2
+    pictures = bench.listen('/physsim/markers', DurabilityPolicy.TRANSIENT_LOCAL)
+    bench.spin_until(lambda: pictures)
+    assert pictures[0].markers[0].pose.position.x == 3.0
+
+
+@pytest.mark.parametrize(
+    'topic', ['/physsim/poses', '/physsim/states', '/physsim/markers', '/clock']
+)
+def test_a_listener_that_comes_late_to_a_paused_world_is_welcomed_once(bench, topic):
+    bench.streams.publish(frame_of(scene_of('a/0'), 2))
+    bench.streams.welcome()
+    received = bench.listen(topic)
+    for _ in range(5):
+        bench.streams.welcome()
+    bench.settle()
+    assert len(received) == 1
+
+
+def test_contacts_are_not_told_twice(bench):
+    frame = frame_of(scene_of('a/0', 'b/1'), contacts=touching())
+    early = bench.listen('/physsim/contacts')
+    bench.streams.publish(frame)
+    late = bench.listen('/physsim/contacts')
+    bench.streams.welcome()
+    bench.settle()
+    assert (len(early), len(late)) == (1, 0)
+
+
+def test_contacts_are_wanted_while_somebody_listens(bench):
+    assert not bench.streams.wants_contacts
+    bench.listen('/physsim/contacts')
+    assert bench.streams.wants_contacts
+
+
+def test_a_frame_without_contacts_gives_no_message_of_them(bench, encoded):
+    bench.listen('/physsim/contacts')
+    bench.streams.publish(frame_of(scene_of('a/0')))
+    assert 'contacts' not in encoded
+
+
+def test_the_clock_is_never_0_and_follows_the_world_back(bench):
+    clocks = bench.listen('/clock')
+    scene = scene_of()
+    for step in (0, 5, 4, 0, 1):
+        bench.streams.publish(frame_of(scene, step))
+    bench.settle()
+    stamps = [message.clock.nanosec for message in clocks]
+    assert stamps[2] == 1
+    assert [stamp // 1_000_000 for stamp in stamps] == [5, 4, 0, 1]
+
+
+def test_the_clock_can_be_switched_off_and_on(bench):
+    clocks = bench.listen('/clock')
+    scene = scene_of()
+    assert bench.streams.publish_clock
+    bench.streams.publish_clock = False
+    bench.streams.publish(frame_of(scene, 1))
+    bench.streams.publish(frame_of(scene, 2))
+    bench.streams.welcome()
+    bench.streams.publish_clock = True
+    bench.streams.welcome()
+    bench.streams.publish(frame_of(scene, 3))
+    bench.settle()
+    assert [message.clock.nanosec // 1_000_000 for message in clocks] == [2, 3]
+
+
+def test_the_clock_may_be_off_from_the_start(bench):
+    streams = Streams(bench.listener, frame_id='map', publish_clock=False)
+    assert not streams.publish_clock
+
+
+def test_a_refusal_is_reported_with_its_code_and_field(bench):
+    events = bench.listen('/physsim/events')
+    answer = Answer(topic='~/spawn', subject='a/0', message='too small')
+    bench.streams.report(answer)
+    bench.streams.report(replace(answer, code='bad_size', field='scale'))
+    bench.spin_until(lambda: len(events) == 2)
+    good, bad = events
+    assert good.level == DiagnosticStatus.OK
+    assert {each.key: each.value for each in good.values} == {'code': 'ok'}
+    assert bad.level == DiagnosticStatus.ERROR
+    assert (bad.name, bad.hardware_id, bad.message) == ('~/spawn', 'a/0', 'too small')
+    assert {each.key: each.value for each in bad.values} == {'code': 'bad_size', 'field': 'scale'}
+
+
+def test_a_burst_of_answers_arrives_whole_and_in_order(bench):
+    events = bench.listen('/physsim/events')
+    for number in range(500):
+        bench.streams.report(Answer(topic='~/spawn', message=str(number)))
+    bench.spin_until(lambda: len(events) == 500)
+    assert [event.message for event in events] == [str(number) for number in range(500)]
+
+
+def test_what_has_gone_reaches_the_listener_as_a_deletion(bench):
+    pictures = bench.listen('/physsim/markers')
+    bench.streams.publish(frame_of(scene_of('a/0', 'b/1'), 1))
+    bench.streams.publish(frame_of(scene_of('a/0'), 2))
+    # The keeper of one message may drop the first picture; the last one always comes.
+    bench.spin_until(lambda: pictures and pictures[-1].markers[0].pose.position.x == 2.0)
+    kept, gone = pictures[-1].markers
+    assert (kept.ns, kept.action) == ('a', Marker.ADD)
+    assert (gone.ns, gone.id, gone.action) == ('b', 1, Marker.DELETE)

@@ -1,0 +1,260 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""What cannot be done is refused once, by its stable code, and changes nothing."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from geometry_msgs.msg import Quaternion
+from physsim_ros.testing import PhysSim
+import pytest
+from rclpy.parameter import Parameter
+from std_msgs.msg import Float64
+from visualization_msgs.msg import Marker, MarkerArray
+
+from ..client import Client, Event
+from ..messages import box, command, delete, disc, marker, point, polygon
+
+NAN = math.nan
+BOWTIE = [(0, 0), (1, 1), (1, 0), (0, 1), (0, 0)]
+FLAT = [(0, 0), (1, 0), (2, 0), (0, 0)]
+
+
+def tilted() -> Marker:
+    message = box('new/0')
+    message.pose.orientation = Quaternion(x=math.sin(0.05), w=math.cos(0.05))
+    return message
+
+
+def tipped() -> Any:
+    message = command('a/0', poses=[(0, 0, 0)])
+    message.transforms[0].rotation = Quaternion(y=1.0)
+    return message
+
+
+def nan_at() -> Marker:
+    return box('new/0', at=(NAN, 0.0))
+
+
+def of_type(kind: int) -> Marker:
+    return marker(kind, 'new/0', points=[(0, 0), (1, 0)])
+
+
+SPAWNS: list[tuple[Marker, str, str]] = [
+    (nan_at(), 'malformed', 'pose'),
+    (box('new/0', size=(math.inf, 1.0)), 'malformed', 'scale.x'),
+    (disc('new/0', diameter=NAN), 'malformed', 'scale.x'),
+    (polygon('new/0', outline=[(0, 0), (NAN, 0), (0, 1), (0, 0)]), 'malformed', 'points'),
+    (box('new/0', color=(NAN, 0, 0, 1)), 'malformed', 'color'),
+    (box('new/0', text='{velocity: [1]}'), 'malformed', 'velocity'),
+    (box('new/0', text='{spin: .nan}'), 'malformed', 'spin'),
+    (box('new/0', text='friction 0.1'), 'malformed', 'text'),
+    (box('new/0', text=r'{"\ud800": 1, "\ud800": 2}'), 'malformed', 'text'),
+    (box('new/0', text=r'{"\ud800": 1}'), 'malformed', 'text'),
+    (of_type(Marker.ARROW), 'unknown_shape', 'type'),
+    (of_type(Marker.LINE_LIST), 'unknown_shape', 'type'),
+    (of_type(Marker.POINTS), 'unknown_shape', 'type'),
+    (of_type(Marker.TEXT_VIEW_FACING), 'unknown_shape', 'type'),
+    (of_type(Marker.MESH_RESOURCE), 'unknown_shape', 'type'),
+    (box('new/0', size=(0.0, 1.0)), 'bad_size', 'scale.x'),
+    (box('new/0', size=(1.0, -1.0)), 'bad_size', 'scale.y'),
+    (marker(Marker.SPHERE, 'new/0', scale=(1.0, 2.0)), 'bad_size', 'scale.y'),
+    (polygon('new/0', outline=BOWTIE), 'bad_outline', 'points'),
+    (polygon('new/0', outline=FLAT), 'bad_outline', 'points'),
+    (tilted(), 'not_planar', 'pose.orientation'),
+    (box('new/0', frame='map'), 'unknown_frame', 'header.frame_id'),
+    (box('new/0', frame='new/0'), 'unknown_frame', 'header.frame_id'),
+    (box('new/0', text='{colour: red}'), 'unknown_property', 'colour'),
+    (box('new/0', text='{friction: 11}'), 'bad_property', 'friction'),
+    (box('new/0', text='{mass: 0}'), 'bad_property', 'mass'),
+    (box('new/0', text='{anchored: 1}'), 'bad_property', 'anchored'),
+    (box('new/0', color=(2, 0, 0, 1)), 'bad_property', 'color'),
+    (box('new/0', lifetime=-1.0), 'bad_property', 'lifetime'),
+    (marker(Marker.CUBE, 'new/0', action=7), 'bad_property', 'action'),
+    (box('new/0', at=(1e9, 0.0)), 'bad_property', 'pose'),
+    (delete('new/0'), 'unknown_body', 'name'),
+    (box('new/0', text='{anchored: true, velocity: [1, 0]}'), 'anchored', 'velocity'),
+    (box('held/0', text='{velocity: [1, 0]}'), 'anchored', 'velocity'),
+]
+
+# topic, message, hardware_id, code, field
+REQUESTS: list[tuple[str, Any, str, str, str]] = [
+    *(('~/spawn', message, f'{message.ns}/{message.id}', *rest) for message, *rest in SPAWNS),
+    ('~/anchor', point(NAN, 0), '', 'malformed', 'point'),
+    ('~/anchor', point(0, math.inf), '', 'malformed', 'point'),
+    ('~/anchor', point(0, 0, 'map'), '', 'unknown_frame', 'header.frame_id'),
+    ('~/anchor', point(50, 50), '', 'nothing_there', 'point'),
+    ('~/release', point(0, NAN), '', 'malformed', 'point'),
+    ('~/release', point(0, 0, 'map'), '', 'unknown_frame', 'header.frame_id'),
+    ('~/release', point(50, 50), '', 'nothing_there', 'point'),
+    ('~/pin', point(50, 50), '', 'nothing_there', 'point'),
+    ('~/axle', point(50, 50), '', 'nothing_there', 'point'),
+    ('~/pin', point(5, 0), '', 'anchored', 'point'),
+    ('~/axle', point(0, 0, 'map'), '', 'unknown_frame', 'header.frame_id'),
+    ('clicked_point', point(50, 50), '', 'nothing_there', 'point'),
+    ('clicked_point', point(5, 0), '', 'anchored', 'point'),
+    ('clicked_point', point(0, 0, 'map'), '', 'unknown_frame', 'header.frame_id'),
+    ('~/spawn', box('anchor:a/0'), 'anchor:a/0', 'malformed', 'name'),
+    ('~/command', command(), '', 'malformed', 'joint_names'),
+    ('~/command', command('a/0', 'a/0'), '', 'malformed', 'joint_names'),
+    ('~/command', command('a/0', twists=[(0, 0, 0)] * 2), 'a/0', 'malformed', 'twist'),
+    ('~/command', command('a/0', wrenches=[(0, 0, NAN)]), 'a/0', 'malformed', 'wrench'),
+    ('~/command', command('a/0', poses=[(0, 0, 0)] * 2), 'a/0', 'malformed', 'transforms'),
+    ('~/command', tipped(), 'a/0', 'not_planar', 'transforms'),
+    (
+        '~/command',
+        command('a/0', poses=[(0, 0, 0)], frame='map'),
+        'a/0',
+        'unknown_frame',
+        'header.frame_id',
+    ),
+    (
+        '~/command',
+        command('a/0', twists=[(0, 0, 0)], frame='map'),
+        'a/0',
+        'unknown_frame',
+        'header.frame_id',
+    ),
+    ('~/command', command('a/0', twists=[(1e9, 0, 0)]), 'a/0', 'bad_property', 'twist'),
+    ('~/command', command('a/0', wrenches=[(1e19, 0, 0)]), 'a/0', 'bad_property', 'wrench'),
+    ('~/command', command('new/0', poses=[(0, 0, 0)]), 'new/0', 'unknown_body', 'joint_names'),
+    ('~/command', command('held/0', twists=[(0, 0, 0)]), 'held/0', 'anchored', 'joint_names'),
+    ('~/command', command('held/0', wrenches=[(0, 0, 0)]), 'held/0', 'anchored', 'joint_names'),
+    ('~/speed', Float64(data=NAN), '', 'malformed', 'speed'),
+    ('~/speed', Float64(data=math.inf), '', 'malformed', 'speed'),
+    ('~/speed', Float64(data=65.0), '', 'bad_property', 'speed'),
+    ('~/speed', Float64(data=-65.0), '', 'bad_property', 'speed'),
+]
+
+
+@pytest.fixture
+def inhabited(physsim: PhysSim) -> PhysSim:
+    """Give a world in which something moves and something is held."""
+    physsim.spawn(box('a/0', text='{velocity: [1, 2], spin: 3}', lifetime=9.0))
+    physsim.spawn(box('held/0', at=(5.0, 0.0), text='{anchored: true}'))
+    physsim.command(command('a/0', wrenches=[(1.0, 0.0, 0.0)]))
+    physsim.node.set_parameters([Parameter('tool', value='axle')])
+    physsim.step(3)
+    return physsim
+
+
+@pytest.mark.parametrize(
+    ('topic', 'message', 'subject', 'code', 'field'),
+    REQUESTS,
+    ids=[f'{number}-{each[0]}-{each[3]}' for number, each in enumerate(REQUESTS)],
+)
+def test_a_bad_request_is_refused_once_by_its_code_and_changes_nothing(
+    inhabited: PhysSim,
+    client: Client,
+    topic: str,
+    message: Any,
+    subject: str,
+    code: str,
+    field: str,
+) -> None:
+    before = inhabited.digest()
+    (event,) = client.ask(topic, message)
+    assert event == Event(2, topic, subject, event.message, code, field)
+    assert event.message
+    assert '\n' not in event.message
+    assert inhabited.digest() == before
+
+
+@pytest.mark.parametrize(
+    ('message', 'code', 'field'),
+    SPAWNS,
+    ids=[f'{number}-{each[1]}' for number, each in enumerate(SPAWNS)],
+)
+def test_a_marker_of_an_array_is_refused_as_if_it_came_alone(
+    inhabited: PhysSim, client: Client, message: Marker, code: str, field: str
+) -> None:
+    before = inhabited.digest()
+    (event,) = client.ask('~/spawn_array', MarkerArray(markers=[message]))
+    name = f'{message.ns}/{message.id}'
+    assert event == Event(2, '~/spawn_array', name, event.message, code, field)
+    assert inhabited.digest() == before
+
+
+def test_a_refused_request_is_forgotten_when_the_world_goes_on(physsim: PhysSim) -> None:
+    # The same world, with and without refusals, goes on to the same bits.
+    def digests(client: Client | None) -> list[str]:
+        physsim.spawn(box('held/0', size=(9.0, 1.0), text='{anchored: true}'))
+        for number in range(5):
+            physsim.spawn(disc(f'a/{number}', at=(0.1 * number, 1.0 + number)))
+        found = []
+        for topic, message, *_ in REQUESTS:
+            if client is not None and topic != '~/speed':
+                client.ask(topic, message)
+            physsim.step()
+            found.append(physsim.digest())
+        return found
+
+    first = digests(None)
+    assert len(set(first)) == len(first)
+    physsim.node.simulation.reset()
+    assert digests(Client(physsim)) == first
+
+
+def test_the_nearest_known_property_is_named(physsim: PhysSim, client: Client) -> None:
+    (event,) = client.ask('~/spawn', box(text='{elastisity: 1}'))
+    assert 'elasticity' in event.message
+
+
+def test_a_spawn_past_the_most_bodies_is_refused(physsim: PhysSim, client: Client) -> None:
+    physsim.node.set_parameters([Parameter('max_bodies', value=2)])
+    physsim.spawn(box('a/0'))
+    physsim.spawn(box('a/1', at=(3.0, 0.0)))
+    before = physsim.digest()
+    (event,) = client.ask('~/spawn', box('a/2', at=(6.0, 0.0)))
+    assert event == Event(2, '~/spawn', 'a/2', event.message, 'world_full', '')
+    assert event.message == 'the world holds 2 bodies; it may hold 2'
+    assert physsim.digest() == before
+    # A change in place is no spawn, and a deletion makes room.
+    physsim.spawn(disc('a/1', at=(3.0, 0.0)))
+    physsim.spawn(delete('a/0'))
+    physsim.spawn(box('a/2', at=(6.0, 0.0)))
+    assert physsim.names == ('a/1', 'a/2')
+
+
+def test_a_pose_that_lands_too_far_away_is_refused(physsim: PhysSim, client: Client) -> None:
+    physsim.spawn(box('a/0', at=(9e6, 0.0)))
+    before = physsim.digest()
+    (event,) = client.ask('~/spawn', box('a/1', at=(9e6, 0.0), frame='a/0'))
+    assert (event.code, event.hardware_id) == ('bad_property', 'a/1')
+    (event,) = client.ask('~/command', command('a/0', poses=[(9e6, 0, 0)], frame='a/0'))
+    assert (event.code, event.hardware_id) == ('bad_property', 'a/0')
+    assert physsim.digest() == before
+
+
+def test_a_body_too_light_or_too_heavy_is_refused(physsim: PhysSim, client: Client) -> None:
+    for size, density in (((0.001, 0.001), 1e-9), ((1e5, 1e5), 1e12)):
+        (event,) = client.ask('~/spawn', box('a/0', size=size, text=f'{{density: {density}}}'))
+        assert (event.code, event.field) == ('bad_property', 'density')
+    assert physsim.names == ()
+
+
+def test_refusals_are_answered_in_turn_with_all_else(physsim: PhysSim, client: Client) -> None:
+    expected = []
+    for number in range(60):
+        good = number % 3 == 0
+        late = number % 3 == 1
+        message = box(f'a/{number}', at=(2.0 * number, 0.0), frame='map' if late else '')
+        message.scale.x = 1.0 if good or late else -1.0
+        client.publish('~/spawn', message)
+        expected.append((f'a/{number}', 0 if good else 2))
+    physsim.step()
+    assert [(event.hardware_id, event.level) for event in client.events] == expected

@@ -1,0 +1,443 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Services do what their names say, say what they did, and do nothing twice."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from pathlib import Path
+
+from physsim_ros.testing import PhysSim
+import pytest
+from rclpy.parameter import Parameter
+from std_msgs.msg import Float64
+from std_srvs.srv import Trigger
+
+from ..client import Client, Event
+from ..messages import box, command, delete, disc, ELL, marker, polygon
+
+# One frame at speed 1 [ns]
+PERIOD = 1e9 / 60.0
+
+
+def set_parameter(physsim: PhysSim, name: str, value: object) -> None:
+    (result,) = physsim.node.set_parameters([Parameter(name, value=value)])
+    assert result.successful, result.reason
+
+
+def parameter(physsim: PhysSim, name: str) -> object:
+    return physsim.node.get_parameter(name).value
+
+
+def succeeded(response: Trigger.Response) -> str:
+    assert response.success, response.message
+    assert response.message
+    return str(response.message)
+
+
+def failed(response: Trigger.Response) -> str:
+    assert not response.success
+    assert response.message
+    return str(response.message)
+
+
+class Wall:
+    """A clock on the wall that the test turns, and the world that looks at it."""
+
+    def __init__(self, physsim: PhysSim) -> None:
+        self.physsim = physsim
+        self.now = 1e12
+
+    def pass_(self, frames: int) -> list[int]:
+        """Let frames go by, and return the stamps of the world's time after each [steps]."""
+        steps = []
+        for _ in range(frames):
+            self.now += PERIOD
+            self.physsim.node.tick(round(self.now))
+            self.physsim.settle()
+            steps.append(self.physsim.node.simulation.world.step_count)
+        return steps
+
+
+@pytest.fixture
+def wall(physsim: PhysSim) -> Wall:
+    """Let time pass at the speed that is set."""
+    wall = Wall(physsim)
+    wall.pass_(1)
+    return wall
+
+
+def fill(physsim: PhysSim) -> None:
+    """Put some of everything into the world, in motion."""
+    set_parameter(physsim, 'bounds', [-20.0, -5.0, 20.0, 20.0])
+    physsim.spawn(box('floor/0', size=(20.0, 1.0), at=(0.0, -0.5), text='{anchored: true}'))
+    for number in range(6):
+        text = f'{{velocity: [{0.3 * number}, 0], elasticity: 0.{number}, friction: 0.{number}}}'
+        physsim.spawn(disc(f'a/{number}', at=(0.1 * number, 1.0 + number), text=text))
+        physsim.spawn(box(f'b/{number}', at=(3.0 + 0.1 * number, 1.0 + number, 0.3 * number)))
+    physsim.spawn(polygon('c/0', outline=ELL, at=(-3.0, 2.0, 0.7), lifetime=30.0))
+    physsim.spawn(marker(4, 'c/1', points=[(0, 0), (1, 0), (2, 1)], scale=(0.2,), at=(6.0, 3.0)))
+    physsim.spawn(marker(11, 'c/2', points=[(0, 0), (1, 0), (0, 1)], at=(-6.0, 3.0)))
+    physsim.spawn(marker(7, 'c/3', points=[(0, 0), (2, 0)], at=(-6.0, 6.0)))
+    physsim.spawn(box('k/0', at=(9.0, 0.5), text='{kinematic: true, velocity: [-0.5, 0]}'))
+    physsim.spawn(box('k/1', at=(12.0, 3.0), text='{kinematic: true}'))
+    physsim.anchor((12.0, 3.0))
+    physsim.run(1.0)
+    physsim.command(command('a/0', wrenches=[(0.5, 0.0, 0.1)]))
+    physsim.step(3)
+
+
+# Play, pause, step
+
+
+def test_pause_stops_time_and_play_lets_it_run_at_speed_1(wall: Wall, client: Client) -> None:
+    set_parameter(wall.physsim, 'speed', 4.0)
+    assert wall.pass_(3)[-1] > 0
+    succeeded(client.call('~/pause'))
+    assert parameter(wall.physsim, 'speed') == 0.0
+    assert len(set(wall.pass_(10))) == 1
+    succeeded(client.call('~/play'))
+    assert parameter(wall.physsim, 'speed') == 1.0
+    wall.pass_(1)
+    steps = wall.pass_(10)
+    assert [after - before for before, after in pairwise(steps)] == [4] * 9
+
+
+@pytest.mark.parametrize('service', ['~/pause', '~/play', '~/clear', '~/reset'])
+def test_asking_twice_succeeds_twice(physsim: PhysSim, client: Client, service: str) -> None:
+    physsim.spawn(box())
+    succeeded(client.call(service))
+    before = physsim.digest()
+    succeeded(client.call(service))
+    assert physsim.digest() == before
+
+
+def test_a_step_is_one_publish_period(physsim: PhysSim, client: Client) -> None:
+    physsim.spawn(disc(at=(0.0, 5.0)))
+    succeeded(client.call('~/pause'))
+    for number in range(1, 4):
+        succeeded(client.call('~/step'))
+        assert physsim.time == pytest.approx(number / 60.0, abs=1e-9)
+        # m
+        fallen = 9.81 * (number / 60.0) ** 2 / 2
+        assert physsim.pose('body/0').y == pytest.approx(5.0 - fallen, abs=1e-9)
+
+
+def test_a_step_is_refused_while_time_runs(physsim: PhysSim, client: Client) -> None:
+    physsim.spawn(box())
+    before = physsim.digest()
+    assert 'pause' in failed(client.call('~/step'))
+    assert physsim.digest() == before
+    assert physsim.time == 0.0
+
+
+def test_stepping_and_running_reach_the_same_bits(physsim: PhysSim, client: Client) -> None:
+    fill(physsim)
+    succeeded(client.call('~/pause'))
+    for _ in range(20):
+        succeeded(client.call('~/step'))
+    stepped = physsim.digest()
+    succeeded(client.call('~/reset'))
+    fill(physsim)
+    physsim.step(20)
+    assert physsim.digest() == stepped
+
+
+def test_a_paused_world_takes_and_answers_requests(wall: Wall, client: Client) -> None:
+    succeeded(client.call('~/pause'))
+    client.publish('~/spawn', box('a/0', at=(1.0, 2.0)))
+    wall.physsim.settle()
+    wall.pass_(2)
+    assert [event.code for event in client.events] == ['ok']
+    assert wall.physsim.pose('a/0') == (1.0, 2.0, 0.0)
+    wall.pass_(5)
+    assert wall.physsim.pose('a/0') == (1.0, 2.0, 0.0)
+
+
+# Speed
+
+
+@pytest.mark.parametrize('speed', [0.25, 0.5, 1.0, 2.0, 3.0, 10.0, 64.0])
+def test_time_runs_at_the_speed_that_is_set(wall: Wall, client: Client, speed: float) -> None:
+    (event,) = client.ask('~/speed', Float64(data=speed))
+    assert event == Event(0, '~/speed', '', event.message, 'ok', '')
+    assert parameter(wall.physsim, 'speed') == speed
+    wall.pass_(1)
+    steps = wall.pass_(60)
+    # steps: a second of wall time, to a frame
+    assert steps[-1] - steps[0] == pytest.approx(59 * 4 * speed, abs=4 * max(1.0, speed))
+    if speed.is_integer():
+        assert all(step % 4 == 0 for step in steps)
+
+
+def test_speed_0_is_a_pause(wall: Wall, client: Client) -> None:
+    client.ask('~/speed', Float64(data=0.0))
+    assert len(set(wall.pass_(10))) == 1
+    succeeded(client.call('~/step'))
+
+
+def test_a_change_of_speed_does_not_change_where_the_world_gets_to(
+    wall: Wall, client: Client
+) -> None:
+    physsim = wall.physsim
+    physsim.spawn(disc(at=(0.0, 5.0)))
+    began = physsim.time
+    for speed in (1.0, 3.0, 0.5, 2.0):
+        client.ask('~/speed', Float64(data=speed))
+        wall.pass_(10)
+    elapsed = physsim.time - began
+    assert elapsed > 0.5
+    # m: free fall, whatever the pace; the time is rounded to a nanosecond
+    fallen = 9.81 * elapsed**2 / 2
+    assert physsim.pose('body/0').y == pytest.approx(5.0 - fallen, abs=1e-7)
+
+
+def test_what_the_machine_cannot_do_in_time_slows_time_down(wall: Wall) -> None:
+    wall.pass_(5)
+    before = wall.physsim.node.simulation.world.step_count
+    wall.now += 10e9
+    (after,) = wall.pass_(1)
+    # frames: it does not try to make up for ten seconds at once
+    assert (after - before) / 4 <= 6
+    assert wall.physsim.node.simulation.late_frames > 500
+    steps = wall.pass_(60)
+    assert steps[-1] - steps[0] == pytest.approx(59 * 4, abs=8)
+
+
+# Clear, reset
+
+
+def test_clear_deletes_all_bodies_and_time_goes_on(physsim: PhysSim, client: Client) -> None:
+    fill(physsim)
+    time = physsim.time
+    bodies = len(physsim.names)
+    assert str(bodies) in succeeded(client.call('~/clear'))
+    assert physsim.names == ()
+    assert physsim.time == time
+    assert parameter(physsim, 'bounds') == [-20.0, -5.0, 20.0, 20.0]
+    physsim.spawn(disc())
+    physsim.step()
+    assert physsim.time > time
+
+
+def test_reset_returns_to_an_empty_world_where_none_was_loaded(
+    physsim: PhysSim, client: Client
+) -> None:
+    fill(physsim)
+    succeeded(client.call('~/reset'))
+    assert physsim.names == ()
+    assert physsim.time == 0.0
+    assert list(parameter(physsim, 'bounds')) == []
+
+
+def test_reset_returns_to_the_loaded_world_at_time_0(physsim: PhysSim, client: Client) -> None:
+    physsim.load('demo')
+    began = physsim.digest()
+    names, gravity = physsim.names, parameter(physsim, 'gravity')
+    physsim.run(0.5)
+    physsim.spawn(delete(names[0]))
+    physsim.spawn(box('new/0'))
+    set_parameter(physsim, 'gravity', [1.0, 2.0])
+    succeeded(client.call('~/reset'))
+    assert physsim.time == 0.0
+    assert physsim.names == names
+    assert parameter(physsim, 'gravity') == gravity
+    assert physsim.digest() == began
+
+
+def test_a_second_run_after_reset_is_the_first_to_the_bit(
+    physsim: PhysSim, client: Client
+) -> None:
+    physsim.load('demo')
+    digests = []
+    for _ in range(2):
+        physsim.run(3.0)
+        digests.append(physsim.digest())
+        succeeded(client.call('~/reset'))
+    assert digests[0] == digests[1]
+
+
+def test_what_was_asked_before_a_reset_is_answered(physsim: PhysSim, client: Client) -> None:
+    client.publish('~/spawn', box('a/0'))
+    succeeded(client.call('~/reset'))
+    physsim.step()
+    assert [(event.name, event.code) for event in client.events] == [
+        ('~/spawn', 'ok'),
+        ('~/reset', 'ok'),
+    ]
+    assert physsim.names == ()
+
+
+# Save, load
+
+
+def test_what_is_saved_loads_again_to_the_bit_motion_included(
+    physsim: PhysSim, client: Client, tmp_path: Path
+) -> None:
+    fill(physsim)
+    set_parameter(physsim, 'world_file', 'mine')
+    message = succeeded(client.call('~/save_world'))
+    assert 'mine' in message
+    assert (tmp_path / 'mine.yaml').is_file()
+    saved = physsim.node.simulation.world.save()
+    physsim.run(0.5)
+    succeeded(client.call('~/load_world'))
+    assert physsim.node.simulation.world.save() == saved
+    # Two loads of one file go on alike, to the bit.
+    first = [physsim.node.simulation.world.save() for _ in range(30) if not physsim.step()]
+    succeeded(client.call('~/load_world'))
+    second = [physsim.node.simulation.world.save() for _ in range(30) if not physsim.step()]
+    assert first == second
+
+
+def test_time_goes_on_over_a_load(physsim: PhysSim, client: Client) -> None:
+    physsim.run(0.5)
+    set_parameter(physsim, 'world_file', 'demo')
+    message = succeeded(client.call('~/load_world'))
+    assert 'demo' in message
+    assert physsim.time == pytest.approx(0.5)
+    assert 'ramp/0' in physsim.names
+    assert list(parameter(physsim, 'bounds')) == [-10.0, 0.0, 10.0, 12.0]
+
+
+def test_a_world_is_loaded_by_the_path_of_its_file(
+    physsim: PhysSim, client: Client, tmp_path: Path
+) -> None:
+    (tmp_path / 'below').mkdir()
+    path = tmp_path / 'below' / 'one.yaml'
+    path.write_text('format: 1\nbodies: [{name: a/0, circle: {radius: 1}}]\n')
+    for name in ('below/one.yaml', str(path)):
+        set_parameter(physsim, 'world_file', name)
+        succeeded(client.call('~/load_world'))
+        assert physsim.names == ('a/0',)
+        succeeded(client.call('~/clear'))
+
+
+BAD = {
+    'no YAML': 'bodies: [',
+    'no mapping': '- 1',
+    'no format': 'bodies: []',
+    'another format': 'format: 2',
+    'an unknown key': 'format: 1\nbodys: []',
+    'a bad setting': 'format: 1\ngravity: [0]',
+    'no list': 'format: 1\nbodies: 3',
+    'no name': 'format: 1\nbodies: [{circle: {radius: 1}}]',
+    'a bad name': 'format: 1\nbodies: [{name: a, circle: {radius: 1}}]',
+    'a name twice': 'format: 1\nbodies: [&a {name: a/0, circle: {radius: 1}}, *a]',
+    'no shape': 'format: 1\nbodies: [{name: a/0}]',
+    'two shapes': 'format: 1\nbodies: [{name: a/0, circle: {radius: 1}, chain: {}}]',
+    'a bad size': 'format: 1\nbodies: [{name: a/0, circle: {radius: 0}}]',
+    'a bad outline': 'format: 1\nbodies: [{name: a/0, polygon: [[0, 0], [1, 1], [1, 0], [0, 1]]}]',
+    'a bad place': 'format: 1\nbodies: [{name: a/0, circle: {radius: 1}, at: [.nan, 0]}]',
+    'a bad colour': 'format: 1\nbodies: [{name: a/0, circle: {radius: 1}, color: red}]',
+    'an unknown property': 'format: 1\nbodies: [{name: a/0, circle: {radius: 1}, fricton: 1}]',
+    'a good one first': 'format: 1\nbodies: [{name: a/0, circle: {radius: 1}}, {name: b/0}]',
+    'bytes': '\x00\x01',
+}
+
+
+@pytest.mark.parametrize('what', BAD)
+def test_a_bad_world_file_is_refused_and_changes_nothing(
+    physsim: PhysSim, client: Client, tmp_path: Path, what: str
+) -> None:
+    fill(physsim)
+    (tmp_path / 'bad.yaml').write_text(BAD[what])
+    set_parameter(physsim, 'world_file', 'bad')
+    before = physsim.digest()
+    message = failed(client.call('~/load_world'))
+    assert message.startswith('bad_world_file: ')
+    assert 'bad.yaml' in message
+    assert '\n' not in message
+    assert physsim.digest() == before
+
+
+def test_a_world_that_is_not_there_is_refused(
+    physsim: PhysSim, client: Client, tmp_path: Path
+) -> None:
+    (tmp_path / 'directory.yaml').mkdir()
+    (tmp_path / 'latin.yaml').write_bytes(b'format: 1 # \xe9\xff')
+    before = physsim.digest()
+    for name in (
+        '',
+        'nowhere',
+        'nowhere.yaml',
+        '.',
+        '..',
+        'directory',
+        'latin',
+        'a\0b',
+        'x' * 5000,
+    ):
+        set_parameter(physsim, 'world_file', name)
+        assert failed(client.call('~/load_world')).startswith('bad_world_file: ')
+    assert physsim.digest() == before
+
+
+def test_worlds_are_read_and_written_only_below_the_world_directory(
+    physsim: PhysSim, client: Client, tmp_path: Path, tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    outside = tmp_path_factory.mktemp('outside')
+    (outside / 'one.yaml').write_text('format: 1')
+    (tmp_path / 'link').symlink_to(outside)
+    (tmp_path / 'link.yaml').symlink_to(outside / 'one.yaml')
+    physsim.spawn(box())
+    before = physsim.digest()
+    for name in (
+        str(outside / 'one.yaml'),
+        f'../{outside.name}/one.yaml',
+        'link/one.yaml',
+        'link.yaml',
+        'link',
+        '/etc/passwd',
+    ):
+        set_parameter(physsim, 'world_file', name)
+        assert failed(client.call('~/load_world')).startswith('bad_world_file: '), name
+        assert failed(client.call('~/save_world')).startswith('bad_world_file: '), name
+    assert physsim.digest() == before
+    assert (outside / 'one.yaml').read_text() == 'format: 1'
+    assert [path.name for path in outside.iterdir()] == ['one.yaml']
+
+
+def test_a_world_that_cannot_be_written_is_refused(
+    physsim: PhysSim, client: Client, tmp_path: Path
+) -> None:
+    (tmp_path / 'directory.yaml').mkdir()
+    (tmp_path / 'circle.yaml').symlink_to(tmp_path / 'circle.yaml')
+    for name in ('', 'no/such/place.yaml', 'directory', 'circle', 'x' * 5000, 'a\0b'):
+        set_parameter(physsim, 'world_file', name)
+        assert failed(client.call('~/save_world')).startswith('bad_world_file: ')
+    assert sorted(path.name for path in tmp_path.iterdir()) == ['circle.yaml', 'directory.yaml']
+
+
+def test_saving_tells_whether_a_shipped_world_is_hidden_by_it(
+    physsim: PhysSim, client: Client, tmp_path: Path
+) -> None:
+    (tmp_path / 'sub').mkdir()
+    for name, hides in (('demo', True), ('sub/demo.yaml', False)):
+        set_parameter(physsim, 'world_file', name)
+        message = succeeded(client.call('~/save_world'))
+        assert ('before the shipped world' in message) is hides
+
+
+def test_saving_over_a_file_replaces_it_whole(
+    physsim: PhysSim, client: Client, tmp_path: Path
+) -> None:
+    set_parameter(physsim, 'world_file', 'mine.yaml')
+    physsim.spawn(box('a/0'))
+    succeeded(client.call('~/save_world'))
+    physsim.spawn(delete('a/0'))
+    succeeded(client.call('~/save_world'))
+    assert 'a/0' not in (tmp_path / 'mine.yaml').read_text()
+    assert [path.name for path in tmp_path.iterdir()] == ['mine.yaml']

@@ -1,0 +1,283 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Steps follow a steady time that is handed in; none is skipped, and what is late is counted."""
+
+import random
+
+from physsim_ros.simulation.clock import Clock, MOST_BEHIND
+import pytest
+
+SECOND = 1_000_000_000
+# Steps a frame at 240 Hz of physics and 60 Hz of frames.
+FRAME = 4
+
+
+class Run:
+    """A clock, and a world that makes the steps that are due, at times that the test chooses."""
+
+    def __init__(self, speed: float, *, step: int = 0) -> None:
+        self.clock = Clock(physics_rate=240.0, frame_steps=FRAME, speed=speed)
+        self.step = step
+        self.now = 7 * SECOND
+        self.frames: list[int] = []
+
+    def at(self, now: float) -> int:
+        """Ask once at a time [s] and make the steps; return how many they were."""
+        self.now = 7 * SECOND + round(now * SECOND)
+        due = self.clock.due(self.now, self.step)
+        self.step += due
+        if due:
+            self.frames.append(self.step)
+        return due
+
+    def periods(self, count: int, *, since: float = 0.0, jitter: float = 0.0) -> None:
+        """Ask once a publish period, now and then early or late by a share of it."""
+        rng = random.Random(1)
+        for number in range(1, count + 1):
+            self.at(since + (number + rng.uniform(-jitter, jitter)) / 60.0)
+
+
+def test_nothing_is_due_at_first() -> None:
+    assert Run(1.0).at(0.0) == 0
+
+
+def test_a_frame_is_due_each_period() -> None:
+    run = Run(1.0)
+    run.at(0.0)
+
+    run.periods(60)
+
+    assert run.frames == list(range(FRAME, 240 + FRAME, FRAME))
+    assert run.clock.late_frames == 0
+
+
+@pytest.mark.parametrize('speed', [1.0, 2.0, 4.0, 16.0, 64.0])
+def test_whole_speeds_end_each_frame_on_the_same_multiples(speed: float) -> None:
+    run = Run(speed)
+    run.at(0.0)
+
+    run.periods(120)
+
+    quota = round(FRAME * speed)
+    assert run.frames == list(range(quota, 120 * quota + 1, quota))
+
+
+@pytest.mark.parametrize('speed', [1.0, 2.0, 4.0, 64.0])
+@pytest.mark.parametrize('jitter', [0.1, 0.49])
+def test_jitter_of_less_than_half_a_period_changes_nothing(speed: float, jitter: float) -> None:
+    run = Run(speed)
+    run.at(0.0)
+
+    run.periods(600, jitter=jitter)
+
+    quota = round(FRAME * speed)
+    assert run.frames == list(range(quota, 600 * quota + 1, quota))
+    assert run.clock.late_frames == 0
+
+
+def test_asking_more_often_gives_no_more_steps() -> None:
+    run = Run(1.0)
+    for number in range(601):
+        run.at(number / 600.0)
+
+    assert run.step == pytest.approx(240, abs=FRAME)
+    assert all(step % FRAME == 0 for step in run.frames)
+
+
+@pytest.mark.parametrize('speed', [0.001, 0.01, 0.04, 0.1, 0.25, 0.5, 0.9, 1.5, 2.5, 63.7])
+def test_fractional_speeds_keep_time_to_a_step(speed: float) -> None:
+    run = Run(speed)
+    run.at(0.0)
+
+    for number in range(1, 3001):
+        run.at(number / 60.0)
+        # Never ahead, and behind by less than a step but for the last bit of a product.
+        exact = number * FRAME * speed
+        assert exact - 1.001 <= run.step <= exact + 1e-6
+
+    assert run.clock.late_frames == 0
+
+
+def test_a_slow_speed_makes_one_step_now_and_then() -> None:
+    run = Run(0.1)
+    run.at(0.0)
+
+    due = [run.at(number / 60.0) for number in range(1, 11)]
+
+    assert sum(due) in (3, 4)
+    assert set(due) == {0, 1}
+
+
+def test_a_paused_world_takes_no_steps_and_goes_on_without_a_jump() -> None:
+    run = Run(1.0)
+    run.at(0.0)
+    run.periods(10)
+
+    run.clock.speed = 0.0
+    assert [run.at(10 / 60 + second) for second in range(1, 100)] == [0] * 99
+    run.clock.speed = 1.0
+    # The first call nails the time line down; nothing of the pause is made up for.
+    assert run.at(200.0) == 0
+    run.periods(10, since=200.0)
+
+    assert run.step == 20 * FRAME
+    assert run.clock.late_frames == 0
+
+
+@pytest.mark.parametrize(('before', 'after'), [(1.0, 4.0), (4.0, 1.0), (0.5, 2.0), (1.0, 0.5)])
+def test_a_change_of_speed_counts_from_then_on(before: float, after: float) -> None:
+    run = Run(before)
+    run.at(0.0)
+    run.periods(60)
+    at_change = run.step
+
+    run.clock.speed = after
+    run.at(1.0)
+    run.periods(60, since=1.0)
+
+    assert at_change == pytest.approx(240 * before, abs=1)
+    # Within a frame: whole speeds first go on to a multiple.
+    assert run.step - at_change == pytest.approx(240 * after, abs=FRAME)
+    assert run.clock.late_frames == 0
+
+
+@pytest.mark.parametrize('step', [1, 2, 3])
+def test_a_whole_speed_goes_on_to_a_multiple_and_stays_there(step: int) -> None:
+    run = Run(1.0, step=step)
+    run.at(0.0)
+
+    run.periods(100, jitter=0.4)
+
+    assert run.frames == list(range(FRAME, 100 * FRAME + 1, FRAME))
+
+
+def test_setting_the_same_speed_again_starts_the_time_line_anew() -> None:
+    run = Run(1.0)
+    run.at(0.0)
+    run.at(0.9 / 60)
+
+    run.clock.speed = 1.0
+
+    assert run.at(1.0 / 60) == 0
+    assert run.at(2.0 / 60) == FRAME
+
+
+def test_a_restart_forgets_what_was_due() -> None:
+    run = Run(1.0)
+    run.at(0.0)
+
+    run.clock.restart()
+
+    assert run.at(0.05) == 0
+    assert run.at(0.05 + 1 / 60) == FRAME
+    assert run.clock.late_frames == 0
+
+
+def test_a_hiccup_is_made_up_for_frame_by_frame() -> None:
+    run = Run(1.0)
+    run.at(0.0)
+    # Five periods without a call, then two calls a period, as a simulation does.
+    for number in range(6, 12):
+        run.at(number / 60.0)
+        run.at(number / 60.0)
+
+    assert run.step == 11 * FRAME
+    assert run.frames == list(range(FRAME, 11 * FRAME + 1, FRAME))
+    assert run.clock.late_frames == 0
+
+
+def test_a_call_makes_a_frame_at_most_however_late_it_is() -> None:
+    for behind in (2, MOST_BEHIND, MOST_BEHIND + 1, 1000):
+        run = Run(1.0)
+        run.at(0.0)
+        assert run.at(behind / 60.0) == FRAME
+
+
+@pytest.mark.parametrize('speed', [1.0, 4.0, 0.5, 2.5])
+@pytest.mark.parametrize('gap', [7, 10, 60, 1000])
+def test_what_is_too_late_is_counted_and_time_slows_down(speed: float, gap: int) -> None:
+    run = Run(speed)
+    run.at(0.0)
+    run.periods(4)
+
+    # A bit more than that many periods pass, and then all is well again.
+    late = 4.01 + gap
+    run.at(late / 60.0)
+    run.at(late / 60.0)
+    for number in range(1, 61):
+        run.at((late + number) / 60.0)
+
+    # Each period that has passed has a frame, or is counted as late; none is both, none neither.
+    assert run.clock.late_frames == gap - 1
+    made = (4 + 1 + 60) * FRAME * speed
+    # At fractional speeds what is due is rounded down to steps, before the gap and after it.
+    assert run.step == pytest.approx(made, abs=0 if speed.is_integer() else 2)
+
+
+def test_up_to_the_limit_nothing_is_late() -> None:
+    run = Run(1.0)
+    run.at(0.0)
+
+    for _ in range(MOST_BEHIND):
+        run.at(MOST_BEHIND / 60.0)
+
+    assert run.clock.late_frames == 0
+    assert run.step == MOST_BEHIND * FRAME
+
+
+def test_a_machine_that_is_too_slow_for_good_gives_all_steps_later() -> None:
+    run = Run(1.0)
+    run.at(0.0)
+    now = 0.0
+    # Each frame takes two periods.
+    for _ in range(500):
+        now += 2.0 / 60.0
+        run.at(now)
+
+    # Steps are all there, one frame after the other; half of the frames could not be made.
+    assert run.frames == list(range(FRAME, 500 * FRAME + 1, FRAME))
+    assert run.clock.late_frames == pytest.approx(500, abs=MOST_BEHIND + 1)
+
+
+def test_speed_can_be_read_back() -> None:
+    clock = Clock(physics_rate=240.0, frame_steps=FRAME)
+    assert clock.speed == 1.0
+    clock.speed = 2.5
+    assert clock.speed == 2.5
+
+
+# Going back
+
+
+@pytest.mark.parametrize('speed', [1.0, 4.0, 0.5, 64.0, 2.5])
+def test_going_back_is_going_on_in_a_mirror(speed: float) -> None:
+    onward = Clock(physics_rate=240.0, frame_steps=4, speed=speed)
+    backward = Clock(physics_rate=240.0, frame_steps=4, speed=-speed)
+    ahead, behind = 0, 0
+    for tick in range(200):
+        ahead += onward.due(tick * 16_666_667, ahead)
+        behind += backward.due(tick * 16_666_667, behind)
+        assert behind == -ahead
+    assert ahead == pytest.approx(199 / 60 * 240 * speed, abs=8 * speed)
+
+
+def test_at_whole_speeds_going_back_ends_on_multiples_of_the_publish_period() -> None:
+    clock = Clock(physics_rate=240.0, frame_steps=4, speed=-1.0)
+    step, steps = 1003, []
+    for tick in range(30):
+        step += clock.due(tick * 16_666_667, step)
+        steps.append(step)
+    assert steps[1:4] == [1000, 996, 992]
+    assert all(each % 4 == 0 for each in steps[1:])

@@ -1,0 +1,457 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Requests go in and are answered, in order, one each; frames come out, at their time."""
+
+import numpy as np
+from physsim_ros.model.errors import BadProperty, Malformed, NothingThere, UnknownBody
+from physsim_ros.model.requests import Anchor, Command, Configure, Delete, DeleteAll
+from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.snapshot import Answer, Frame
+from physsim_ros.simulation.simulation import Simulation
+from physsim_ros.simulation.world import World
+import pytest
+
+from ..building import BOX, DISC, NOWHERE, spawn, spawning
+
+SECOND = 1_000_000_000
+PERIOD = SECOND / 60
+FRAME = 4
+
+
+def simulation(speed: float = 1.0, settings: WorldSettings = NOWHERE) -> Simulation:
+    return Simulation(settings=settings, speed=speed)
+
+
+def periods(simulation: Simulation, count: int, *, since: int = 0) -> list[Frame]:
+    """Advance once a period; return all frames."""
+    frames: list[Frame] = []
+    for number in range(count):
+        frames += simulation.advance(round((since + number) * PERIOD))
+    return frames
+
+
+def answers(frames: list[Frame]) -> list[Answer]:
+    return [answer for frame in frames for answer in frame.answers]
+
+
+def test_a_publish_rate_has_to_divide_the_physics_rate() -> None:
+    assert Simulation(physics_rate=240.0, publish_rate=60.0).frame_steps == 4
+    assert Simulation(physics_rate=60.0, publish_rate=60.0).frame_steps == 1
+    assert Simulation(physics_rate=100.0, publish_rate=33.0 + 1.0 / 3.0).frame_steps == 3
+    for physics_rate, publish_rate in ((240.0, 50.0), (60.0, 120.0), (240.0, 59.9)):
+        with pytest.raises(BadProperty) as refused:
+            Simulation(physics_rate=physics_rate, publish_rate=publish_rate)
+        assert refused.value.field == 'publish_rate'
+
+
+def test_requests_are_answered_in_order_and_one_each() -> None:
+    sim = simulation()
+    sim.submit(spawning('a/0'), topic='~/spawn')
+    sim.submit(Delete(name='a/1'), topic='~/spawn')
+    sim.submit(spawning('a/1', DISC, (5.0, 0.0, 0.0)), topic='~/spawn_array')
+    sim.submit(Command(names=('a/1',), twists=((1.0, 0.0, 0.0),)), topic='~/command')
+    sim.submit(Anchor(point=(9.0, 9.0)), topic='~/anchor')
+    sim.submit(Anchor(point=(0.0, 0.0)), topic='~/anchor')
+    sim.submit(DeleteAll(namespace='b'), topic='~/spawn')
+
+    frames = periods(sim, 3)
+
+    assert answers(frames) == [
+        Answer(topic='~/spawn', subject='a/0', message='spawned a/0'),
+        Answer(
+            topic='~/spawn',
+            subject='a/1',
+            message="there is no body 'a/1'",
+            code='unknown_body',
+            field='name',
+        ),
+        Answer(topic='~/spawn_array', subject='a/1', message='spawned a/1'),
+        Answer(topic='~/command', subject='a/1', message='commanded a/1'),
+        Answer(
+            topic='~/anchor',
+            message='there is no body at (9, 9)',
+            code='nothing_there',
+            field='point',
+        ),
+        Answer(topic='~/anchor', subject='a/0', message='anchored a/0'),
+        Answer(topic='~/spawn', message='deleted 0 bodies'),
+    ]
+    assert frames[0].answers == tuple(answers(frames))
+
+
+def test_what_could_not_be_a_request_is_answered_in_its_place() -> None:
+    sim = simulation()
+    sim.submit(spawning('a/0'), topic='~/spawn')
+    sim.refuse(Malformed('no number', field='pose'), topic='~/spawn', subject='a/1')
+    sim.submit(spawning('a/2'), topic='~/spawn')
+
+    told = [(answer.subject, answer.code) for answer in answers(periods(sim, 1))]
+
+    assert told == [('a/0', ''), ('a/1', 'malformed'), ('a/2', '')]
+
+
+@pytest.mark.parametrize(
+    ('request_', 'subject'),
+    [(spawning('b/9', frame='nobody/0'), 'b/9'), (Delete(name='b/9'), 'b/9'),
+     (Command(names=('b/9',)), 'b/9'), (Command(names=('b/8', 'b/9')), ''),
+     (Anchor(point=(9.0, 9.0)), ''), (Configure(changes={'damping': 7.0}), '')],
+)  # fmt: skip
+def test_a_refusal_names_the_body_that_it_is_about(request_: object, subject: str) -> None:
+    sim = simulation()
+    sim.submit(request_, topic='~/topic')
+
+    (answer,) = answers(periods(sim, 1))
+
+    assert (answer.topic, answer.subject) == ('~/topic', subject)
+    assert answer.code
+
+
+def test_nothing_moves_before_the_next_frame() -> None:
+    sim = simulation()
+    sim.submit(spawning('a/0'), topic='~/spawn')
+
+    assert len(sim.world) == 0
+    periods(sim, 1)
+    assert len(sim.world) == 1
+
+
+def test_the_first_frame_shows_the_beginning() -> None:
+    sim = simulation()
+
+    (frame,) = sim.advance(0)
+
+    assert (frame.moved, frame.speed, frame.answers) == (False, 1.0, ())
+    assert (frame.snapshot.step, frame.snapshot.stamp) == (0, 0)
+
+
+def test_frames_come_at_multiples_of_the_publish_period() -> None:
+    sim = simulation()
+
+    frames = periods(sim, 61)
+
+    assert [frame.snapshot.step for frame in frames] == list(range(0, 241, FRAME))
+    assert [frame.moved for frame in frames] == [False, *[True] * 60]
+    assert frames[-1].snapshot.stamp == SECOND
+
+
+def test_a_paused_world_carries_out_requests_and_shows_them() -> None:
+    sim = simulation(speed=0.0)
+    periods(sim, 1)
+    assert periods(sim, 60, since=1) == []
+
+    sim.submit(spawning('a/0', DISC, velocity=(1.0, 0.0)), topic='~/spawn')
+    (frame,) = periods(sim, 60, since=61)
+
+    assert (frame.moved, frame.speed) == (False, 0.0)
+    assert frame.snapshot.step == 0
+    assert frame.snapshot.scene.names == ('a/0',)
+    assert [answer.message for answer in frame.answers] == ['spawned a/0']
+
+
+def test_a_refused_request_is_answered_while_paused() -> None:
+    sim = simulation(speed=0.0)
+    periods(sim, 1)
+
+    sim.submit(Delete(name='a/0'), topic='~/spawn')
+
+    (frame,) = periods(sim, 5, since=1)
+    assert [answer.code for answer in frame.answers] == ['unknown_body']
+
+
+def test_play_and_pause_go_on_where_they_were() -> None:
+    sim = simulation()
+    periods(sim, 11)
+
+    sim.speed = 0.0
+    periods(sim, 600, since=11)
+    assert sim.world.step_count == 10 * FRAME
+    sim.speed = 2.0
+    frames = periods(sim, 11, since=611)
+
+    assert sim.world.step_count == 30 * FRAME
+    assert {frame.speed for frame in frames} == {2.0}
+    assert sim.late_frames == 0
+
+
+def test_two_frames_a_call_make_up_for_a_hiccup() -> None:
+    sim = simulation()
+    sim.advance(0)
+
+    frames = [sim.advance(round(number * PERIOD)) for number in (4, 5, 6, 7, 8)]
+
+    assert [len(each) for each in frames] == [2, 2, 2, 1, 1]
+    steps = [frame.snapshot.step for each in frames for frame in each]
+    assert steps == list(range(FRAME, 8 * FRAME + 1, FRAME))
+    assert sim.late_frames == 0
+
+
+def test_late_frames_are_counted_and_no_step_is_skipped() -> None:
+    sim = simulation()
+    sim.advance(0)
+
+    frames = [*sim.advance(round(100.2 * PERIOD)), *sim.advance(round(101.2 * PERIOD))]
+
+    assert [frame.snapshot.step for frame in frames] == [FRAME, 2 * FRAME]
+    assert sim.late_frames == 99
+
+
+def test_an_answer_is_told_once() -> None:
+    sim = simulation()
+    sim.submit(spawning('a/0'), topic='~/spawn')
+    sim.advance(0)
+
+    frames = sim.advance(round(3 * PERIOD))
+
+    assert len(frames) == 2
+    assert answers(list(frames)) == []
+
+
+def test_advance_frame_goes_on_by_a_period_whatever_the_speed() -> None:
+    sim = simulation(speed=0.0)
+    sim.submit(spawning('a/0'), topic='~/spawn')
+
+    frame = sim.advance_frame()
+
+    assert (frame.snapshot.step, frame.moved, frame.speed) == (FRAME, True, 0.0)
+    assert [answer.message for answer in frame.answers] == ['spawned a/0']
+    assert sim.advance_frame().snapshot.step == 2 * FRAME
+
+
+def test_advance_frame_ends_on_a_multiple() -> None:
+    sim = simulation(speed=0.5)
+    sim.advance(0)
+    sim.advance(round(PERIOD * 1.6))
+    assert sim.world.step_count % FRAME
+
+    assert sim.advance_frame().snapshot.step == FRAME
+
+
+def test_settle_carries_out_what_was_asked_and_goes_nowhere() -> None:
+    sim = simulation()
+    sim.advance(0)
+    assert sim.settle() is None
+    sim.submit(spawning('a/0'), topic='~/spawn')
+
+    frame = sim.settle()
+
+    assert frame is not None
+    assert (frame.moved, frame.snapshot.step) == (False, 0)
+    assert [answer.subject for answer in frame.answers] == ['a/0']
+    assert sim.settle() is None
+
+
+def test_perform_is_at_once_after_those_that_wait() -> None:
+    sim = simulation()
+    sim.submit(spawning('a/0'), topic='~/spawn')
+
+    assert sim.perform(Delete(name='a/0')) == 'deleted a/0'
+
+    assert len(sim.world) == 0
+    # Who waited is answered with the next frame, who performs has the answer already.
+    assert [answer.message for answer in answers(periods(sim, 1))] == ['spawned a/0']
+
+
+def test_perform_raises_what_is_refused_and_changes_nothing() -> None:
+    sim = simulation()
+    before = sim.world.digest()
+
+    with pytest.raises(UnknownBody):
+        sim.perform(Delete(name='a/0'))
+    with pytest.raises(NothingThere):
+        sim.perform(Anchor(point=(0.0, 0.0)))
+
+    assert sim.world.digest() == before
+
+
+def test_what_was_performed_while_paused_is_shown() -> None:
+    sim = simulation(speed=0.0)
+    sim.advance(0)
+
+    sim.perform(spawning('a/0'))
+
+    (frame,) = sim.advance(SECOND)
+    assert frame.snapshot.scene.names == ('a/0',)
+    assert not frame.moved
+
+
+def saved(settings: WorldSettings) -> World:
+    """Return a world that has been going on for a while."""
+    world = World(settings=settings)
+    spawn(world, 'a/0', DISC, (1.0, 2.0, 0.3), velocity=(3.0, 4.0), spin=5.0, lifetime=10.0)
+    spawn(world, 'a/1', BOX, (5.0, 2.0, 0.3), anchored=True)
+    world.apply(Command(names=('a/0',), wrenches=((0.1, 0.0, 0.0),)))
+    world.step(24)
+    return world
+
+
+def test_load_replaces_the_world_and_time_goes_on() -> None:
+    sim = simulation()
+    sim.submit(spawning('b/0'), topic='~/spawn')
+    periods(sim, 11)
+    world = saved(WorldSettings(gravity=(0.0, -1.0)))
+
+    message = sim.load(world.save())
+
+    assert message == 'loaded 2 bodies'
+    assert sim.world.settings.gravity == (0.0, -1.0)
+    assert sim.world.step_count == 10 * FRAME
+    snapshot = sim.world.snapshot()
+    assert snapshot.scene.names == ('a/0', 'a/1')
+    assert np.array_equal(snapshot.poses, world.snapshot().poses)
+    assert np.array_equal(snapshot.twists, world.snapshot().twists)
+    # What is left of a lifetime counts from here.
+    assert snapshot.scene.bodies[0].expires == 10 * FRAME + 2400 - 24
+
+
+def test_reset_returns_to_what_was_loaded_at_time_0() -> None:
+    sim = simulation()
+    periods(sim, 11)
+    state = saved(WorldSettings(gravity=(0.0, -1.0))).save()
+    sim.load(state)
+    other = Simulation()
+    other.load(state)
+    first = other.world.digest()
+
+    for _ in range(2):
+        periods(sim, 7)
+        sim.submit(spawning('b/0'), topic='~/spawn')
+        sim.perform(Configure(changes={'damping': 0.5, 'gravity': (1.0, 1.0)}))
+        sim.watch_contacts(True)
+        message = sim.reset()
+
+        assert message == 'back at the beginning, time 0'
+        assert sim.world.step_count == 0
+        assert sim.world.digest() == first
+        assert sim.world.save() == state
+        assert sim.world.watching
+
+
+def test_reset_without_a_load_empties_the_world() -> None:
+    sim = simulation()
+    sim.submit(spawning('a/0'), topic='~/spawn')
+    periods(sim, 5)
+    sim.perform(Configure(changes={'gravity': (0.0, -9.0)}))
+
+    sim.reset()
+
+    assert len(sim.world) == 0
+    assert sim.world.settings == NOWHERE
+    assert sim.world.step_count == 0
+
+
+def test_reset_answers_those_that_wait_first() -> None:
+    sim = simulation()
+    sim.advance(0)
+    sim.submit(spawning('a/0'), topic='~/spawn')
+
+    sim.reset()
+
+    (frame,) = sim.advance(1)
+    assert [answer.topic for answer in frame.answers] == ['~/spawn', '~/reset']
+    assert frame.snapshot.scene.names == ()
+
+
+def test_time_after_a_reset_begins_without_a_jump() -> None:
+    sim = simulation()
+    periods(sim, 601)
+
+    sim.reset()
+    frames = periods(sim, 4, since=10_000)
+
+    assert [frame.snapshot.step for frame in frames] == [0, FRAME, 2 * FRAME, 3 * FRAME]
+    assert sim.late_frames == 0
+
+
+def test_the_world_after_a_reset_goes_the_same_way() -> None:
+    settings = WorldSettings(bounds=(-5.0, 0.0, 5.0, 9.0))
+    world = World(settings=settings)
+    for number in range(6):
+        spawn(world, f'a/{number}', BOX, (0.2 * number, 0.6 + 1.1 * number, 0.1))
+    sim = simulation()
+    sim.load(world.save())
+    sim.reset()
+    digests = []
+
+    for _ in range(2):
+        periods(sim, 61)
+        digests.append(sim.world.digest())
+        sim.reset()
+
+    assert digests[0] == digests[1]
+
+
+def test_what_is_loaded_goes_the_same_way_whenever_that_is() -> None:
+    world = World(settings=WorldSettings(bounds=(-5.0, 0.0, 5.0, 9.0)))
+    for number in range(8):
+        spawn(world, f'a/{number}', BOX, (0.3 * number - 1.0, 0.6 + 1.1 * number, 0.1 * number))
+    state = world.save()
+    sim = simulation()
+    ways = []
+    for before in (0, 7, 500):
+        for _ in range(before):
+            sim.advance_frame()
+        sim.load(state)
+        ways.append([sim.advance_frame().snapshot.poses.tolist() for _ in range(420)])
+    assert ways[0] == ways[1] == ways[2]
+
+
+def test_contacts_come_where_somebody_watches() -> None:
+    sim = simulation(settings=WorldSettings(bounds=(-5.0, 0.0, 5.0, 9.0)))
+    sim.submit(spawning('a/0', BOX, (0.0, 0.5, 0.0)), topic='~/spawn')
+    assert {frame.contacts for frame in periods(sim, 30)} == {None}
+
+    sim.watch_contacts(True)
+    frames = periods(sim, 30, since=30)
+
+    told = [frame.contacts.pairs.tolist() for frame in frames if frame.contacts is not None]
+    assert told == [[[0, -1]]] * len(frames)
+    sim.watch_contacts(False)
+    assert {frame.contacts for frame in periods(sim, 3, since=60)} == {None}
+
+
+def test_a_lost_body_is_told_of() -> None:
+    sim = simulation(settings=WorldSettings(gravity=(0.0, 0.0), command_timeout=0.0))
+    sim.submit(spawning('a/0', DISC, mass=1e-9), topic='~/spawn')
+    sim.submit(Command(names=('a/0',), wrenches=((1e12, 0.0, 0.0),)), topic='~/command')
+
+    told = answers(periods(sim, 5))
+
+    assert [(answer.topic, answer.subject, answer.code) for answer in told] == [
+        ('~/spawn', 'a/0', ''),
+        ('~/command', 'a/0', ''),
+        ('divergence', 'a/0', 'divergence'),
+    ]
+    assert len(sim.world) == 0
+
+
+def test_speed_changes_nothing_but_when_frames_come() -> None:
+    settings = WorldSettings(bounds=(-5.0, 0.0, 5.0, 9.0))
+    digests = []
+    for speed in (1.0, 2.0, 8.0, 0.5, 1.6):
+        sim = simulation(speed, settings)
+        for number in range(6):
+            box = spawning(f'a/{number}', BOX, (0.2 * number, 0.6 + 1.1 * number, 0.1))
+            sim.submit(box, topic='~/spawn')
+        sim.submit(Command(names=('a/5',), wrenches=((1.0, 2.0, 0.1),)), topic='~/command')
+        calls = 0
+        # So often that a fractional speed makes no more than a step at a time.
+        while sim.world.step_count < 32 * FRAME:
+            sim.advance(round(calls * PERIOD / 8))
+            calls += 1
+        assert sim.world.step_count == 32 * FRAME
+        assert calls == pytest.approx(8 * 32 / speed, abs=8)
+        digests.append(sim.world.digest())
+
+    assert len(set(digests)) == 1

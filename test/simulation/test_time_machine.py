@@ -1,0 +1,319 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Whatever is asked in whatever order, every step of the past is what it was, to the bit."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from hypothesis import HealthCheck, Phase, settings
+from hypothesis import strategies as st
+from hypothesis.stateful import initialize, invariant, rule, RuleBasedStateMachine
+import numpy as np
+from physsim_ros.model.body_properties import Properties
+from physsim_ros.model.joint_properties import JointKind, JointProperties
+from physsim_ros.model.requests import (
+    Anchor,
+    Axle,
+    Command,
+    Configure,
+    Delete,
+    DeleteAll,
+    Join,
+    Pin,
+    Release,
+    Request,
+    Restore,
+    Spawn,
+    Unjoin,
+    UnjoinAll,
+)
+from physsim_ros.model.shapes import Box, Compound, Disc, Polygon, Shape
+from physsim_ros.model.snapshot import Frame
+from physsim_ros.simulation.simulation import Simulation
+
+FRAME = 4
+PERIOD = 1e9 / 60
+SHAPES: list[Shape] = [
+    Disc(radius=0.3),
+    Box(width=0.8, height=0.4),
+    Polygon(outline=((0.0, 0.0), (1.0, 0.0), (0.2, 0.3), (0.0, 1.0))),
+    Compound(element=Box(width=0.3, height=0.3), centers=((-0.3, 0.0), (0.0, 0.0), (0.0, 0.3))),
+]
+
+names = st.sampled_from([f'a/{number}' for number in range(6)])
+joint_names = st.sampled_from([f'j/{number}' for number in range(2)])
+coordinates = st.integers(-30, 30).map(lambda tenths: tenths / 10)
+points = st.tuples(coordinates, coordinates.map(lambda y: y + 3.0))
+changes = st.one_of(
+    st.tuples(coordinates, coordinates).map(lambda value: {'gravity': value}),
+    st.sampled_from([0.0, 0.2, 0.9]).map(lambda value: {'damping': value}),
+    st.sampled_from([3, 10, 25]).map(lambda value: {'iterations': value}),
+    st.sampled_from([None, (-4.0, 0.0, 4.0, 9.0)]).map(lambda value: {'bounds': value}),
+)
+
+
+@st.composite
+def spawns(draw: Any) -> Spawn:
+    anchored = draw(st.integers(0, 3)) == 0
+    velocity = None if anchored else draw(st.tuples(coordinates, coordinates))
+    return Spawn(
+        name=draw(names),
+        shape=draw(st.sampled_from(SHAPES)),
+        pose=(*draw(points), draw(coordinates)),
+        lifetime=draw(st.sampled_from([0.0, 0.0, 0.4])),
+        properties=Properties(
+            velocity=velocity,
+            anchored=anchored,
+            elasticity=draw(st.sampled_from([None, 0.9])),
+            sensor=draw(st.sampled_from([None, None, True])),
+            group=draw(st.sampled_from([None, None, 1])),
+        ),
+    )
+
+
+@st.composite
+def commands(draw: Any) -> Command:
+    three = st.tuples(coordinates, coordinates, coordinates)
+    return Command(
+        names=(draw(names),),
+        poses=draw(st.sampled_from([(), ((0.5, 4.0, 1.0),)])),
+        twists=draw(st.one_of(st.just(()), st.tuples(three))),
+        wrenches=draw(st.one_of(st.just(()), st.tuples(three))),
+    )
+
+
+@st.composite
+def joins(draw: Any) -> Join:
+    kind = draw(st.sampled_from(list(JointKind)))
+    ends = draw(st.lists(points, min_size=kind.points, max_size=kind.points, unique=True))
+    first, second = draw(st.lists(names, min_size=2, max_size=2, unique=True))
+    return Join(
+        name=draw(joint_names),
+        kind=kind,
+        points=tuple(ends),
+        a=first,
+        b=draw(st.sampled_from([second, 'world'])),
+        properties=JointProperties(break_force=draw(st.sampled_from([None, None, 30.0]))),
+    )
+
+
+requests: st.SearchStrategy[Request] = st.one_of(
+    spawns(),
+    spawns(),
+    commands(),
+    changes.map(lambda value: Configure(changes=value)),
+    names.map(lambda name: Delete(name=name)),
+    st.builds(DeleteAll),
+    points.map(lambda point: Anchor(point=point)),
+    points.map(lambda point: Release(point=point)),
+    points.map(lambda point: Pin(point=point)),
+    points.map(lambda point: Axle(point=point)),
+    joins(),
+    joins(),
+    joint_names.map(lambda name: Unjoin(name=name)),
+    st.builds(UnjoinAll),
+)
+
+
+class TimeMachine(RuleBasedStateMachine):
+    """
+    Drives a simulation, and remembers what it showed of each step.
+
+    `seen` is what the one course of events that is now has shown; what a branch drops is dropped.
+    """
+
+    @initialize(
+        several=st.lists(spawns(), min_size=3, max_size=6), keyframes=st.sampled_from([0.25, 0.17])
+    )
+    def begin(self, several: list[Spawn], keyframes: float) -> None:
+        self.keyframes = keyframes
+        self.simulation = self.new()
+        self.simulation.watch_contacts(True)
+        self.now = 0
+        self.seen: dict[int, Frame] = {}
+        self.simulation.submit(Configure(changes={'bounds': (-4.0, 0.0, 4.0, 9.0)}), topic='')
+        for spawn in several:
+            self.simulation.submit(spawn, topic='')
+        self.look(self.simulation.settle())
+
+    def new(self) -> Simulation:
+        # Keyframes come every 3 s; here time is short.
+        return Simulation(history=5.0, keyframes=self.keyframes)
+
+    # What is asked
+
+    @rule(request=requests)
+    def ask_while_it_stands(self, request: Request) -> None:
+        step, digest = self.simulation.step, self.simulation.world.digest()
+        made = self.simulation.timeline.serial
+        self.simulation.submit(request, topic='')
+        frame = self.simulation.settle()
+        assert frame is not None
+        # What has changed anything will be done again.
+        changed = self.simulation.world.digest() != digest
+        assert not changed or self.simulation.timeline.serial == made + 1
+        self.after_request(frame, step, accepted=not frame.answers[0].code)
+
+    @rule(request=requests)
+    def ask_while_it_runs(self, request: Request) -> None:
+        step = self.simulation.step
+        self.simulation.submit(request, topic='')
+        frame = self.simulation.advance_frame()
+        accepted = not next(each for each in frame.answers if each.topic == '').code
+        if accepted:
+            self.drop_after(step)
+        self.look(frame)
+
+    @rule(request=requests)
+    def ask_while_it_goes_back(self, request: Request) -> None:
+        self.run(-1.0, 3)
+        step = self.simulation.step
+        self.simulation.submit(request, topic='')
+        frame = self.simulation.settle()
+        assert frame is not None
+        self.after_request(frame, step, accepted=not frame.answers[0].code)
+
+    def after_request(self, frame: Frame, step: int, *, accepted: bool) -> None:
+        assert frame.snapshot.step == step
+        if accepted:
+            self.drop_after(step)
+            self.seen[step] = frame
+        else:
+            self.look(frame)
+
+    # Time
+
+    @rule(
+        speed=st.sampled_from([-64.0, -4.0, -1.0, -0.3, 0.3, 1.0, 1.0, 4.0]),
+        frames=st.integers(1, 50),
+    )
+    def run(self, speed: float, frames: int) -> None:
+        self.simulation.speed = speed
+        for _ in range(frames):
+            self.now += round(PERIOD)
+            for frame in self.simulation.advance(self.now):
+                self.look(frame)
+        self.simulation.speed = 0.0
+
+    @rule(share=st.floats(0.0, 1.0))
+    def seek(self, share: float) -> None:
+        history = self.simulation.timeline.history
+        step = round(history.oldest + share * (history.head - history.oldest))
+        self.simulation.seek(round(step * 1e9 / 240))
+        assert self.simulation.step == step
+        self.look(self.simulation.settle())
+
+    @rule()
+    def undo_and_redo(self) -> None:
+        step, digest = self.simulation.step, self.simulation.world.digest()
+        if not self.simulation.timeline.history.last_gesture(self.simulation.timeline.serial):
+            return
+        self.simulation.undo()
+        assert self.simulation.step <= step
+        self.simulation.redo()
+        assert (self.simulation.step, self.simulation.world.digest()) == (step, digest)
+
+    @rule(frames=st.integers(0, 20))
+    def undo_and_go_on_and_redo(self, frames: int) -> None:
+        step, digest = self.simulation.step, self.simulation.world.digest()
+        if not self.simulation.timeline.history.last_gesture(self.simulation.timeline.serial):
+            return
+        self.simulation.undo()
+        for _ in range(frames):
+            self.simulation.advance_frame()
+        self.simulation.redo()
+        assert (self.simulation.step, self.simulation.world.digest()) == (step, digest)
+
+    @rule()
+    def undo(self) -> None:
+        # What is undone is what came before the moment that is shown.
+        self.simulation.world.digest()
+        timeline = self.simulation.timeline
+        undone = timeline.history.last_gesture(timeline.serial)
+        if undone:
+            self.simulation.undo()
+            assert self.simulation.step == undone[0].step
+            self.drop_after(undone[0].step - 1)
+
+    @rule(frames=st.integers(1, 40))
+    def save_and_go_on_elsewhere(self, frames: int) -> None:
+        simulation = self.simulation
+        history = simulation.timeline.history
+        simulation.seek(round(history.head * 1e9 / 240))
+        self.look(simulation.settle())
+        other = self.new()
+        other.begin(simulation.save())
+        first = simulation.step
+        for _ in range(frames):
+            frame = simulation.advance_frame()
+            self.look(frame)
+            # Its steps are counted from another beginning.
+            other.timeline.go(simulation.step - first - other.step)
+            there = other.world.snapshot()
+            np.testing.assert_array_equal(frame.snapshot.poses, there.poses)
+            np.testing.assert_array_equal(frame.snapshot.twists, there.twists)
+
+    # What must hold
+
+    def look(self, frame: Frame | None) -> None:
+        assert frame is not None
+        assert not [each for each in frame.answers if each.code == 'divergence'], frame.answers
+        step, snapshot = frame.snapshot.step, frame.snapshot
+        before = self.seen.setdefault(step, frame).snapshot
+        assert snapshot.scene.names == before.scene.names
+        assert snapshot.scene.settings == before.scene.settings
+        assert snapshot.scene.joints == before.scene.joints
+        np.testing.assert_array_equal(snapshot.poses, before.poses)
+        np.testing.assert_array_equal(snapshot.twists, before.twists)
+        np.testing.assert_array_equal(snapshot.forces, before.forces)
+
+    def drop_after(self, step: int) -> None:
+        for number in [number for number in self.seen if number > step]:
+            del self.seen[number]
+
+    @invariant()
+    def the_history_is_no_longer_than_asked(self) -> None:
+        if hasattr(self, 'simulation'):
+            history = self.simulation.timeline.history
+            assert history.head - history.oldest <= history.length
+
+
+TestTimeMachine = TimeMachine.TestCase
+TestTimeMachine.settings = settings(
+    max_examples=200,
+    stateful_step_count=20,
+    deadline=None,
+    # What fails is long, and to make it shorter takes minutes.
+    phases=[Phase.explicit, Phase.reuse, Phase.generate],
+    suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large],
+)
+
+
+def test_a_restored_world_is_one_of_the_requests() -> None:
+    first, second = Simulation(), Simulation()
+    first.submit(Spawn(name='a/0', shape=SHAPES[0], pose=(0.0, 3.0, 0.0)), topic='')
+    for _ in range(30):
+        first.advance_frame()
+    second.perform(Restore(state=first.save()))
+    shown = {}
+    for _ in range(60):
+        frame = second.advance_frame()
+        shown[frame.snapshot.step] = replace(frame.snapshot)
+    second.seek(0)
+    for _ in range(60):
+        snapshot = second.advance_frame().snapshot
+        np.testing.assert_array_equal(snapshot.poses, shown[snapshot.step].poses)

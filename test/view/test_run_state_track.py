@@ -1,0 +1,128 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The band under the picture: one state for each way that time runs, one for each course."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from physsim_ros.model.scene import Scene
+from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.snapshot import Answer, Frame, Snapshot
+from physsim_ros.view.run_state_track import Band
+import pytest
+
+rr = pytest.importorskip('rerun')
+chunk = pytest.importorskip('rerun.chunk')
+
+NONE = np.empty((0, 3))
+EMPTY = Scene(bodies=(), settings=WorldSettings())
+
+
+def frame(speed: float, *topics: str) -> Frame:
+    snapshot = Snapshot(step=0, stamp=0, scene=EMPTY, poses=NONE, twists=NONE)
+    answers = tuple(Answer(topic=topic, message=f'by {topic}') for topic in topics)
+    return Frame(snapshot=snapshot, contacts=None, answers=answers, speed=speed)
+
+
+def drawn(path: Path, *batches: list[Frame]) -> dict[str, list[tuple[int, str]]]:
+    """Draw frames, and return what stands in the recording: number and state by entity."""
+    recording = rr.RecordingStream('test', recording_id='band')
+    recording.save(path)
+    band = Band(recording)
+    number = 0
+    for frames in batches:
+        band.draw(frames, range(number, number + len(frames)))
+        number += len(frames)
+    recording.flush()
+    recording.disconnect()
+    states: dict[str, list[tuple[int, str]]] = {}
+    for each in chunk.RrdReader(path).stream():
+        if each.is_static:
+            continue
+        batch = each.to_record_batch()
+        (column,) = (name for name in batch.schema.names if name.endswith('state'))
+        states.setdefault(each.entity_path, []).extend(
+            (at, state[0])
+            for at, state in zip(
+                batch['frame'].to_pylist(), batch[column].to_pylist(), strict=True
+            )
+        )
+    return {path: sorted(rows) for path, rows in states.items()}
+
+
+def test_each_change_of_the_run_state_stands_once(tmp_path: Path) -> None:
+    speeds = [1.0, 1.0, 0.0, 0.0, -1.0, -4.0, -4.0, 4.0, 1.0]
+    rows = drawn(tmp_path / 'band.rrd', [frame(speed) for speed in speeds])
+    assert [number for number, _ in rows['/time/run']] == [0, 2, 4, 5, 7, 8]
+    states = [state for _, state in rows['/time/run']]
+    assert states[0] == states[-1] == 'playing'
+    assert states[1] == 'paused'
+    assert states[2] == 'rewinding'
+    assert states[3] == 'rewinding fast'
+    assert states[4] == 'playing fast'
+
+
+def styles(path: Path) -> dict[str, int]:
+    """Draw nothing, and return the colours of states that stand in the recording."""
+    recording = rr.RecordingStream('test', recording_id='band')
+    recording.save(path)
+    Band(recording)
+    recording.flush()
+    recording.disconnect()
+    (batch,) = (
+        each.to_record_batch()
+        for each in chunk.RrdReader(path).stream()
+        if each.entity_path == '/time/run'
+    )
+    columns = {name.rpartition(':')[2]: batch[name].to_pylist()[0] for name in batch.schema.names}
+    return dict(zip(columns['values'], columns['colors'], strict=True))
+
+
+def test_every_speed_is_a_state_that_has_a_colour_and_the_faster_is_darker(
+    tmp_path: Path,
+) -> None:
+    speeds = [-64.0, -4.0, -1.001, -1.0, -0.1, 0.0, 0.1, 0.999, 1.0, 3.0, 64.0]
+    rows = drawn(tmp_path / 'band.rrd', [frame(speed) for speed in speeds])
+    states = [state for _, state in rows['/time/run']]
+    assert states == [
+        'rewinding fast', 'rewinding', 'rewinding slowly', 'paused',
+        'playing slowly', 'playing', 'playing fast',
+    ]  # fmt: skip
+    colors = styles(tmp_path / 'styles.rrd')
+    # Of red, green and blue, a byte each, before alpha.
+    light = [sum((colors[state] >> 8 * byte) & 255 for byte in (1, 2, 3)) for state in states]
+    assert light[0] < light[1] < light[2]
+    assert light[4] > light[5] > light[6]
+
+
+def test_a_state_goes_on_from_one_batch_to_the_next(tmp_path: Path) -> None:
+    batches = [[frame(1.0)] * 3, [frame(1.0)] * 3, [frame(0.0)]]
+    rows = drawn(tmp_path / 'band.rrd', *batches)
+    assert [number for number, _ in rows['/time/run']] == [0, 6]
+
+
+@pytest.mark.parametrize('topic', ['branch', '~/undo', '~/redo', '~/reset'])
+def test_what_turns_the_course_begins_a_new_one(topic: str, tmp_path: Path) -> None:
+    frames = [frame(1.0), frame(1.0, '~/spawn'), frame(1.0, '~/spawn', topic), frame(1.0)]
+    rows = drawn(tmp_path / 'band.rrd', frames)
+    assert rows['/time/course'] == [(0, '1'), (2, f'2: by {topic}')]
+
+
+def test_what_only_answers_keeps_the_course(tmp_path: Path) -> None:
+    topics = ('~/spawn', '~/anchor', 'history', 'divergence', '~/seek', '~/speed')
+    rows = drawn(tmp_path / 'band.rrd', [frame(1.0, topic) for topic in topics])
+    assert rows['/time/course'] == [(0, '1')]
