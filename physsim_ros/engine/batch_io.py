@@ -13,15 +13,14 @@
 # limitations under the License.
 
 """
-The engine's bodies and contacts as arrays, in the order of its own listing.
+Batch input and output: bodies and contacts of a Pymunk space as arrays.
 
-Pymunk reads and writes them in batch; attribute by attribute it would take a hundred times as
-long.
+Pymunk reads and writes them all at once; attribute by attribute it takes a hundred times as long.
+The engine lists its bodies in an order of its own: awake dynamic and kinematic bodies, static
+ones, then sleeping ones. A *slot* is a place in that order; `body_table` maps slots to rows.
 """
 
 from __future__ import annotations
-
-from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,31 +30,11 @@ from pymunk import batch
 
 Ids = NDArray[np.uint64]
 
-_PLACE = batch.BodyFields.POSITION
-_TWIST = batch.BodyFields.VELOCITY | batch.BodyFields.ANGULAR_VELOCITY
-_POSE = _PLACE | batch.BodyFields.ANGLE
-_STATE = _POSE | _TWIST
-
-_F = batch.ArbiterFields
-_POINTS = _F.BODY_A_ID | _F.BODY_B_ID | _F.NORMAL | _F.CONTACT_COUNT
-_POINTS |= _F.POINT_A_1 | _F.POINT_B_1 | _F.POINT_A_2 | _F.POINT_B_2
+_STATE = batch.BodyFields.POSITION | batch.BodyFields.ANGLE
+_STATE |= batch.BodyFields.VELOCITY | batch.BodyFields.ANGULAR_VELOCITY
 
 
-class Touching(NamedTuple):
-    """
-    Points at which bodies touch.
-
-    :ivar bodies: (c, 2): ids of both, or whatever else tells them
-    :ivar points: (c, 2) float64 [m]
-    :ivar normals: (c, 2) float64: from the first to the second
-    """
-
-    bodies: NDArray[Any]
-    points: Floats
-    normals: Floats
-
-
-class EngineArrays:
+class BatchIO:
     """
     Reads and writes what is in a space, all at once.
 
@@ -64,71 +43,47 @@ class EngineArrays:
 
     def __init__(self, space: pymunk.Space) -> None:
         self._space = space
-        # Used again and again: a new one a call would leak. One to read and one to write with: the
-        # engine must not grow memory that numpy owns.
+        # Pymunk 7.3 leaks a `Buffer` made for one call. There is one to read and one to write
+        # with, since the engine must not grow memory that numpy owns.
         self._buffer, self._written = batch.Buffer(), batch.Buffer()
 
-    def ids(self) -> list[int]:
-        """Return the engine's ids of all bodies."""
+    def read_ids(self) -> Ids:
+        """Return (m,) uint64: the engine's ids of all bodies, by slot."""
         self._buffer.clear()
         batch.get_space_bodies(self._space, batch.BodyFields.BODY_ID, self._buffer)
-        ids: list[int] = np.frombuffer(self._buffer.int_buf(), dtype=np.uintp).tolist()
-        return ids
+        return np.frombuffer(self._buffer.int_buf(), dtype=np.uint64).copy()
 
-    def centers(self) -> Floats:
-        """Return (m, 2) float64: where the engine has its origins [m]."""
-        return self._bodies(_PLACE, 2)
+    def read_states(self) -> tuple[Ids, Floats]:
+        """
+        Return ids and states of all bodies, by slot.
 
-    def poses(self) -> Floats:
-        """Return (m, 3) float64: where they are, and their angles [m, rad]."""
-        return self._bodies(_POSE, 3)
-
-    def twists(self) -> Floats:
-        """Return (m, 3) float64: velocities [m/s] and spins [rad/s]."""
-        return self._bodies(_TWIST, 3)
-
-    def states(self) -> Floats:
-        """Return (m, 6) float64: where they are [m, rad], velocities and spins."""
-        return self._bodies(_STATE, 6)
-
-    def write_poses(self, poses: Floats) -> None:
-        """Set where all bodies are, and their angles, (m, 3) float64."""
-        self._written.set_float_buf(np.ascontiguousarray(poses))
-        batch.set_space_bodies(self._space, _POSE, self._written)
-
-    def write_twists(self, twists: Floats) -> None:
-        """Set the velocities and spins of all bodies, (m, 3) float64."""
-        self._written.set_float_buf(np.ascontiguousarray(twists))
-        batch.set_space_bodies(self._space, _TWIST, self._written)
+        :return: (m,) uint64, and (m, 6) float64: x, y [m], yaw [rad], velocity [m/s], spin [rad/s]
+        """
+        self._buffer.clear()
+        batch.get_space_bodies(self._space, batch.BodyFields.BODY_ID | _STATE, self._buffer)
+        ids = np.frombuffer(self._buffer.int_buf(), dtype=np.uint64).copy()
+        states = np.frombuffer(self._buffer.float_buf(), dtype=np.float64)
+        return ids, states.reshape(-1, 6).copy()
 
     def write_states(self, states: Floats) -> None:
-        """Set all bodies, (m, 6) float64."""
-        self._written.set_float_buf(states)
+        """
+        Set the states of all bodies, (m, 6) float64 by slot.
+
+        Nothing may sleep: Pymunk 7.3 wakes a sleeping body as it writes it, which changes the
+        slots of those behind it.
+        """
+        self._written.set_float_buf(np.ascontiguousarray(states))
         batch.set_space_bodies(self._space, _STATE, self._written)
 
-    def contacts(self, fields: batch.ArbiterFields) -> tuple[Ids, Floats]:
-        """Return some fields of what touches; to be used up before anything else is read."""
+    def read_contacts(self, fields: batch.ArbiterFields) -> tuple[Ids, Floats]:
+        """
+        Return fields of all pairs of shapes that touched in the last step.
+
+        Sleeping pairs are not among them. Both arrays are views that the next reading overwrites.
+
+        :return: the fields that are ids or counts, and those that are numbers, pair after pair
+        """
         self._buffer.clear()
         batch.get_space_arbiters(self._space, fields, self._buffer)
         ints = np.frombuffer(self._buffer.int_buf(), dtype=np.uint64)
         return ints, np.frombuffer(self._buffer.float_buf(), dtype=np.float64)
-
-    def touching(self) -> Touching:
-        """Return all points at which bodies touched in the last step, in no order."""
-        ints, floats = self.contacts(_POINTS)
-        ids, floats = ints.reshape(-1, 3), floats.reshape(-1, 10)
-        first, second = ids[:, 2] > 0, ids[:, 2] > 1
-        # On either body; the second point comes behind all first ones.
-        ones = (floats[first, 2:4] + floats[first, 4:6]) / 2
-        others = (floats[second, 6:8] + floats[second, 8:10]) / 2
-        return Touching(
-            bodies=np.concatenate((ids[first, :2], ids[second, :2])),
-            points=np.concatenate((ones, others)),
-            normals=np.concatenate((floats[first, :2], floats[second, :2])),
-        )
-
-    def _bodies(self, fields: batch.BodyFields, width: int) -> Floats:
-        self._buffer.clear()
-        batch.get_space_bodies(self._space, fields, self._buffer)
-        numbers = np.frombuffer(self._buffer.float_buf(), dtype=np.float64)
-        return numbers.reshape(-1, width).copy()

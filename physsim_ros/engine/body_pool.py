@@ -13,21 +13,24 @@
 # limitations under the License.
 
 """
-Bodies made ready for the space that the next keyframe is built in, some in every frame.
+Body pool: engine bodies made ready for the next rebuild of the world, a few in every frame.
 
 To build a thousand bodies at once, and to throw as many away, takes three times as long as all the
-rest of a keyframe. What the space before this one has left over is used again.
+rest of a checkpoint. The bodies of the space before this one are used again.
 """
 
 from __future__ import annotations
 
+import numpy as np
 from physsim_ros.engine import body as rigid_body
-from physsim_ros.engine.body import RigidBody
+from physsim_ros.engine.body import REST, RigidBody
 from physsim_ros.engine.space import Space
+from physsim_ros.engine.stages.sleeping import wake_bodies
 from physsim_ros.model.scene import Scene
+import pymunk
 
 
-class Spares:
+class BodyPool:
     """
     Bodies outside any space, as good as new.
 
@@ -38,20 +41,17 @@ class Spares:
         self.bodies: dict[str, RigidBody] = {}
         self._retired = retired
         if retired is not None:
-            retired.retire()
-        # What has been looked through for bodies that have none, and how far.
+            _clear_contacts(retired)
+        # The scene that is being built, and the row of the next body to look for.
         self._scene: Scene | None = None
         self._row = 0
 
-    def add(self, scene: Scene, count: int) -> None:
+    def build_bodies(self, scene: Scene, count: int) -> None:
         """Make so many more bodies ready, as far as a scene needs them."""
-        while count and self._retired is not None:
-            rigid = self._retired.give_up()
-            if rigid is None:
-                self._retired = None
-            else:
-                self.bodies[rigid.body.name] = rigid
-                count -= 1
+        while count and self._retired is not None and self._retired.bodies.by_name:
+            rigid = _extract_body(self._retired)
+            self.bodies[rigid.body.name] = rigid
+            count -= 1
         if scene is not self._scene:
             self._scene, self._row = scene, 0
         while count and self._row < len(scene.bodies):
@@ -61,3 +61,29 @@ class Spares:
                 self.bodies[body.name] = rigid_body.build(body, self._row)
                 count -= 1
             self._row += 1
+
+
+def _clear_contacts(space: Space) -> None:
+    """
+    Have the engine forget all contacts, by a step with all bodies far from each other.
+
+    For each shape that is removed it goes through all contacts that it remembers.
+    """
+    space.joints.clear()
+    rigids = space.bodies.by_name.values()
+    wake_bodies(rigid.engine for rigid in rigids)
+    state = np.zeros((len(rigids), 6))
+    state[:, 0] = np.arange(1, len(rigids) + 1) * 1e6
+    space.table.write_state(state)
+    space.engine.step(space.dt)
+
+
+def _extract_body(space: Space) -> RigidBody:
+    """Take a body out of a retired space, at rest and without a wrench."""
+    rigid = space.bodies.by_name.popitem()[1]
+    space.shapes.remove(rigid.engine.shapes)
+    space.engine.remove(rigid.engine)
+    # The last step has left a velocity by which the next one pushes overlaps apart.
+    pymunk.Body.update_position(rigid.engine, 0.0)
+    rigid.wrench, rigid.wrench_until, rigid.free = REST, None, True
+    return rigid

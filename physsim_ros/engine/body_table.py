@@ -13,231 +13,223 @@
 # limitations under the License.
 
 """
-Rows: what is constant about all bodies until one comes, goes or changes, in arrays.
+One table of all bodies: a row each, in spawn order, and last a row for the background.
 
-The world lists bodies in spawn order, the engine in an order of its own that changes whenever one
-comes or goes; here the two meet.
+Columns that stay until a body comes, goes or changes are made once. The engine lists bodies by
+*slot*, in an order that changes whenever one falls asleep, wakes, comes or goes; the table maps
+slots to rows, so that everything outside of it speaks of rows alone.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from physsim_ros.engine.batch_io import Ids
+from physsim_ros.engine.batch_io import BatchIO, Ids
 from physsim_ros.engine.body import REST, RigidBody
 from physsim_ros.engine.ccd import continuous
-from physsim_ros.engine.islands import Rows, spread
-from physsim_ros.engine.joints import is_exact
-from physsim_ros.engine.stages import resting_damping
+from physsim_ros.engine.islands import flood, Rows
 from physsim_ros.model.arrays import Floats, Ints
+from physsim_ros.model.joint_properties import JointKind
 from physsim_ros.model.scene import Scene
+import pymunk
+
+Flags = NDArray[np.bool_]
 
 
-@dataclass(slots=True, eq=False)
-class Layout:
+class SceneColumns(NamedTuple):
     """
-    What is constant for the rows of all bodies until one comes, goes or changes.
+    Columns that follow from the scene alone, for n bodies.
 
-    :param scene: the bodies, in spawn order
-    :param rows: name -> row
-    :param ids: (n,): the engine's ids of the bodies, ascending
-    :param id_rows: (n,): the row of each of them
-    :param order: for each row, its place in the engine's own listing
-    :param listed: for each place in the engine's listing, its body; None for walls
-    :param depths: (n,): how far each body may move in a step without a sweep [m]
-    :param safe: for each place, the speed up to which no sweep is needed [m/s]
-    :param arm: for each place, what turns a spin into a speed that counts for that [m]
-    :param group: for each place, the group of bodies that pass through each other; 0 is none
-    :param apart: (j, 2): places of bodies that a joint keeps from colliding
-    :param unswept: while no velocity [m/s] and no spin [rad/s] is greater, all are that slow
-    :param loose: (n,) bool: whether forces move the body
-    :param joined: (j,) and (j,): places of what joints hold together, the background's last
-    :param hung: (n,) bool: hangs by joints that give way, so that its velocity never leads
-    :param offsets: (n, 2): the engine's origin in the body's frame [m]
-    :param lead: (n, 3): how far the engine's velocity leads in free flight
-    :param free: (n,) bool: in free flight; changes from frame to frame
-    :param ground: what `stillness` has to know of the bodies
-    :param expiries: step -> names of the bodies that go at its end
-    :param state: (n, 6): poses and velocities of the engine's origins; None where they have
-        changed since they were read
+    :ivar rows: name -> row
+    :ivar dynamic: (n + 1,) bool: forces move it; never the background
+    :ivar anchored: (n + 1,) bool: it does not move at all; always the background
+    :ivar friction: (n + 1,) float64: the engine's coefficient, whose products are those of pairs
+    :ivar reach: (n,) float64: greatest distance of a point of it from the centre of mass [m]
+    :ivar offsets: (n, 2) float64: the engine's origin in the body's frame [m]
+    :ivar gravity_lead: (n, 3) float64: half a step of gravity [m/s, m/s, rad/s]
+    :ivar max_depths: (n,) float64: how far it may move in a step without continuous collision [m]
+    :ivar sweep_arms: (n,) float64: factor from its spin to a speed that counts for that [m]
+    :ivar groups: (n,) int64: bodies of one group pass through each other; 0 is none
+    :ivar joined: (j, 2) intp: rows of the two bodies of each joint
+    :ivar not_colliding: (k, 2) intp: rows of bodies that a joint keeps from colliding
+    :ivar sprung: (n,) bool: part of an island of joints that hangs on a spring and on something
+        that forces do not move, so that its velocity has no half-step lead
+    :ivar expiries: step -> names of the bodies that are removed at its end
     """
 
-    scene: Scene
     rows: dict[str, int]
-    ids: Ids
-    id_rows: Ints
-    order: NDArray[np.intp]
-    listed: tuple[RigidBody | None, ...]
-    depths: Floats
-    safe: Floats
-    arm: Floats
-    group: Ints
-    apart: Ints
-    unswept: float
-    loose: NDArray[np.bool_]
-    joined: tuple[Rows, Rows]
-    hung: NDArray[np.bool_]
+    dynamic: Flags
+    anchored: Flags
+    friction: Floats
+    reach: Floats
     offsets: Floats
-    lead: Floats
-    free: NDArray[np.bool_]
-    ground: resting_damping.Ground
+    gravity_lead: Floats
+    max_depths: Floats
+    sweep_arms: Floats
+    groups: Ints
+    joined: Rows
+    not_colliding: Rows
+    sprung: Flags
     expiries: dict[int, list[str]]
-    state: Floats | None = None
+
+
+class BodyTable:
+    """
+    The bodies of a space by column.
+
+    :param scene: of these bodies
+    :param bodies: of the engine, in spawn order
+    :param background: the engine's body of all that is no body
+    :param io: of the space
+    :param dt: of a step [s]
+
+    :ivar columns: what follows from the scene
+    :ivar leads: (n, 3) float64: the half-step lead of each body in free flight, wrench included
+    :ivar free: (n,) bool: in free flight, so that the engine's velocity leads by that
+    :ivar asleep: (n,) bool: in the engine's sleep, as of the last reading
+    :ivar slot_changes: counts how often slots were found changed, by sleeping and waking
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        bodies: Sequence[RigidBody],
+        background: pymunk.Body,
+        io: BatchIO,
+        dt: float,
+    ) -> None:
+        self.scene = scene
+        self.bodies = tuple(bodies)
+        self.columns = _columns_of(scene, dt)
+        self.leads = self.columns.gravity_lead.copy()
+        for row, rigid in enumerate(bodies):
+            if rigid.wrench != REST:
+                self.leads[row] = rigid.lead(scene.settings.gravity, dt)
+        self.free = np.array([rigid.free for rigid in bodies], np.bool_)
+        self.slot_changes = 0
+        self._io = io
+        ids = [rigid.engine.id for rigid in bodies]
+        self.ids: Ids = np.array([*ids, background.id], np.uint64)
+        self._ascending = np.argsort(self.ids)
+        self._sorted_ids = self.ids[self._ascending]
+        self._state: Floats | None = None
+        self._listed = io.read_ids()
+        self._map_slots()
+
+    def rows_of(self, ids: Ids) -> Rows:
+        """Return the rows of engine ids; of one that is no body's, that of the background."""
+        near = np.minimum(np.searchsorted(self._sorted_ids, ids), len(self.ids) - 1)
+        rows: Rows = self._ascending[near]
+        return np.where(self._sorted_ids[near] == ids, rows, len(self.bodies))
 
     @property
-    def engine_ids(self) -> Ids:
-        """Return (n,) the engine's ids of the bodies, in spawn order."""
-        ids = np.empty_like(self.ids)
-        ids[self.id_rows] = self.ids
-        return ids
+    def state(self) -> Floats:
+        """Return (n, 6) float64: poses and velocities of the engine's origins; not to be written."""
+        if self._state is None:
+            listed, states = self._io.read_states()
+            if not np.array_equal(listed, self._listed):
+                self._listed = listed
+                self.slot_changes += 1
+                self._map_slots()
+            self._state = states.take(self._slots, axis=0)
+        return self._state
 
-    def depth(self, rigid: RigidBody) -> float:
-        """Return how far a body may move in a step without a sweep [m]."""
-        return float(self.depths[self.rows[rigid.body.name]])
+    def write_state(self, state: Floats) -> None:
+        """Set the poses and velocities of all bodies, (n, 6) float64; none may sleep."""
+        states = np.zeros((len(self._listed), 6))
+        states[self._slots] = state
+        self._io.write_states(states)
+        self.forget_state()
 
-    def flatten_flight(self) -> None:
-        """Give every body its own note of whether it is in free flight."""
-        for place, free in zip(self.order.tolist(), self.free.tolist(), strict=True):
-            rigid = self.listed[place]
-            if rigid is not None:
-                rigid.free = free
+    def write_poses(self, rows: Rows, poses: Floats) -> None:
+        """
+        Set the poses of some bodies, sleeping ones excepted.
 
+        :param rows: (k,) of the bodies
+        :param poses: (k, 3) float64: of the engine's origins [m, rad]
+        """
+        state = self.state
+        moved = (state[rows, :3] != poses).any(axis=1) & ~self.asleep[rows]
+        rows, poses = rows[moved], poses[moved]
+        for row, (x, y, yaw) in zip(rows.tolist(), poses.tolist(), strict=True):
+            engine = self.bodies[row].engine
+            engine.position, engine.angle = (x, y), yaw
+        state[rows, :3] = poses
 
-def lay_out(
-    scene: Scene, rigids: Sequence[RigidBody], listing: Sequence[int], dt: float
-) -> Layout:
-    """
-    Lay bodies out in rows.
+    def forget_state(self) -> None:
+        """Read the state anew when it is asked for next: the engine has changed it."""
+        self._state = None
 
-    :param scene: what they are
-    :param rigids: in spawn order
-    :param listing: the engine's ids, in the order of its own listing
-    :param dt: of a step [s]
-    """
-    rows = _rows(scene, dt)
-    places = {id_: place for place, id_ in enumerate(listing)}
-    ids = np.array([rigid.engine.id for rigid in rigids], dtype=np.uintp)
-    order = np.array([places[id_] for id_ in ids.tolist()], dtype=np.intp)
-    ascending = np.argsort(ids)
-    listed: list[RigidBody | None] = [None] * len(listing)
-    for rigid, place in zip(rigids, order.tolist(), strict=True):
-        listed[place] = rigid
-    all_places = np.append(order, len(listing))
-    safe, arm = np.full(len(listing), np.inf), np.zeros(len(listing))
-    group = np.zeros(len(listing), np.int64)
-    safe[order], arm[order], group[order] = rows.safe, rows.arm, rows.group
-    lead = rows.lead.copy()
-    for row, rigid in enumerate(rigids):
-        if rigid.wrench != REST:
-            lead[row] = rigid.lead(scene.settings.gravity, dt)
-    return Layout(
-        scene=scene,
-        rows=rows.names,
-        ids=ids[ascending],
-        id_rows=ascending,
-        order=order,
-        listed=tuple(listed),
-        depths=rows.depths,
-        safe=safe,
-        arm=arm,
-        group=group,
-        apart=order[rows.apart],
-        # The length of a vector is at most 1.42 times its greater coordinate.
-        unswept=float((safe / (1.42 + arm)).min(initial=np.inf)),
-        loose=rows.loose,
-        joined=(all_places[rows.joined[0]], all_places[rows.joined[1]]),
-        hung=rows.hung,
-        offsets=rows.offsets,
-        lead=lead,
-        free=np.array([rigid.free for rigid in rigids], dtype=np.bool_),
-        ground=resting_damping.ground(listed, listing, scene.settings.friction),
-        expiries=rows.expiries,
-    )
+    def store_flags(self) -> None:
+        """Write whether it flies to each body, before the table is given up."""
+        for rigid, free in zip(self.bodies, self.free.tolist(), strict=True):
+            rigid.free = free
 
-
-class _Rows(NamedTuple):
-    """
-    What is constant about the rows of a scene, in whatever order the engine lists them.
-
-    The fields are those of `Layout`, in spawn order.
-    """
-
-    names: dict[str, int]
-    depths: Floats
-    safe: Floats
-    arm: Floats
-    group: Ints
-    apart: Ints
-    loose: NDArray[np.bool_]
-    joined: tuple[Rows, Rows]
-    hung: NDArray[np.bool_]
-    offsets: Floats
-    lead: Floats
-    expiries: dict[int, list[str]]
+    def _map_slots(self) -> None:
+        rows = self.rows_of(self._listed)
+        slots = np.empty(len(self.ids), np.intp)
+        slots[rows] = np.arange(len(rows))
+        self._slots = slots[:-1]
+        # The engine lists sleeping bodies behind all static ones, the background among them.
+        self.asleep = self.columns.dynamic[:-1] & (self._slots > slots[-1])
 
 
 # A world is often built anew from the scene that it has, and then another one follows it.
 @lru_cache(maxsize=2)
-def _rows(scene: Scene, dt: float) -> _Rows:
-    bodies = scene.bodies
-    anchored = np.array([body.anchored for body in bodies], dtype=np.bool_)
-    swept = ~anchored & ~np.array([body.sensor for body in bodies], dtype=np.bool_)
-    loose = np.array([not body.fixed for body in bodies], dtype=np.bool_)
-    lead = np.where(
-        loose[:, None], (*(half * dt / 2 for half in scene.settings.gravity), 0.0), 0.0
-    )
+def _columns_of(scene: Scene, dt: float) -> SceneColumns:
+    bodies, count = scene.bodies, len(scene.bodies)
+    anchored = np.array([*(body.anchored for body in bodies), True], np.bool_)
+    dynamic = np.array([*(not body.fixed for body in bodies), False], np.bool_)
+    sensor = np.array([body.sensor for body in bodies], np.bool_)
+    lead = (*(half * dt / 2 for half in scene.settings.gravity), 0.0)
+    friction = [*(body.friction for body in bodies), scene.settings.friction]
     depths = continuous.safe_depths(bodies)
+    swept = ~anchored[:-1] & ~sensor
+    rows = {name: row for row, name in enumerate(scene.names)}
+    ends = [(rows[joint.a], rows.get(joint.b, count)) for joint in scene.joints]
+    joined = np.array(ends, np.intp).reshape(-1, 2)
+    # With the background, which has no shape but walls, a jointed body collides.
+    collide = np.array([joint.collide or joint.b not in rows for joint in scene.joints], np.bool_)
+    springs = np.array([joint.kind is JointKind.SPRING for joint in scene.joints], np.bool_)
     expiries: dict[int, list[str]] = {}
     for body in bodies:
         if body.expires is not None:
             expiries.setdefault(body.expires, []).append(body.name)
-    names = {name: row for row, name in enumerate(scene.names)}
-    # With the background, which has no row, a body always collides.
-    apart = [
-        (names[joint.a], names[joint.b])
-        for joint in scene.joints
-        if joint.b in names and not joint.collide
-    ]
-    ends = [(names[joint.a], names.get(joint.b, len(names))) for joint in scene.joints]
-    one, other = np.array(ends, np.intp).reshape(-1, 2).T
-    yielding = np.array([not is_exact(joint) for joint in scene.joints], dtype=np.bool_)
-    return _Rows(
-        names=names,
-        depths=depths,
-        safe=np.where(swept, depths / dt, np.inf),
-        arm=np.where(swept, [continuous.arm(body) for body in bodies], 0.0),
-        group=np.array([body.group for body in bodies], np.int64),
-        apart=np.array(apart, np.int64).reshape(-1, 2),
-        loose=loose,
-        joined=(one, other),
-        hung=_hung(np.append(loose, False), one, other, yielding),
-        offsets=np.where(anchored[:, None], 0.0, scene.centroids),
-        lead=lead,
+    return SceneColumns(
+        rows=rows,
+        dynamic=dynamic,
+        anchored=anchored,
+        friction=np.sqrt(friction),
+        reach=np.array([body.shape.form.outer for body in bodies]),
+        offsets=np.where(anchored[:-1, None], 0.0, scene.centroids),
+        gravity_lead=np.where(dynamic[:-1, None], lead, 0.0),
+        max_depths=np.where(swept, depths, np.inf),
+        sweep_arms=np.where(swept, [continuous.arm(body) for body in bodies], 0.0),
+        groups=np.array([body.group for body in bodies], np.int64),
+        joined=joined,
+        not_colliding=joined[~collide],
+        sprung=_sprung(dynamic, joined, springs),
         expiries=expiries,
     )
 
 
-def _hung(
-    loose: NDArray[np.bool_], one: Rows, other: Rows, yielding: NDArray[np.bool_]
-) -> NDArray[np.bool_]:
+def _sprung(dynamic: Flags, joined: Rows, springs: Flags) -> Flags:
     """
-    Return (n,) bool: what hangs on something that forces do not move, and not by exact joints.
+    Return (n,) bool: dynamic bodies of islands that hang on a spring, and on what is not dynamic.
 
-    :param loose: (n + 1,) whether forces move it; the background comes last
-    :param one: (j,) of each joint
-    :param other: (j,) of each joint
-    :param yielding: (j,) whether it gives way
+    :param dynamic: (n + 1,) bool
+    :param joined: (j, 2) intp: rows of each joint
+    :param springs: (j,) bool: which of the joints are springs
     """
-    inner = loose[one] & loose[other]
+    within = dynamic[joined].all(axis=1)
 
-    def together(joints: NDArray[np.bool_]) -> NDArray[np.bool_]:
-        marked = np.zeros(len(loose), np.bool_)
-        marked[one[joints]] = marked[other[joints]] = True
-        return spread(marked & loose, one[inner], other[inner])
+    def islands_with(joints: Flags) -> Flags:
+        marked = np.zeros(len(dynamic), np.bool_)
+        marked[joined[joints]] = True
+        return flood(marked & dynamic, joined[within])
 
-    return (together(~inner) & together(yielding))[:-1]
+    return (islands_with(~within) & islands_with(springs))[:-1]

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""The walls of `bounds`, which close a world off on all four sides."""
+"""Boundary: the walls of `bounds`, which close a world off on all four sides."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ import pymunk
 THICKNESS = 10.0
 
 
-class Walls:
+class Boundary:
     """
-    Stands walls around a space.
+    Walls around a space.
 
     :param space: that they are in, on its static body
     :param shapes: numbers of its shapes
@@ -42,8 +42,8 @@ class Walls:
         self._shapes = shapes
         self._walls: list[pymunk.Shape] = []
 
-    def follow(self, settings: WorldSettings) -> None:
-        """Put up walls as the settings of the world have them, in place of those that stand."""
+    def rebuild(self, settings: WorldSettings) -> None:
+        """Replace the walls by those of other settings."""
         self._shapes.remove(self._walls)
         self._walls = []
         if settings.bounds is None:

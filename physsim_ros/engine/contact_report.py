@@ -13,11 +13,13 @@
 # limitations under the License.
 
 """
-What touches: the engine's contacts, summed over the steps of a frame, read in batch.
+Contact report: contact points, normals and impulses, summed over the steps of a frame.
 
 A Python callback a contact would double the cost of a step, so every step reads only pairs and
-impulses, and the last one of a frame their places. A pair that has parted before the frame ends
-keeps its place from the frame before, or from its first touch.
+impulses in batch, and the last one of a frame their manifolds. A pair that has parted before the
+frame ends keeps its manifold from the frame before, or from its first touch. The engine does not
+list the contacts of sleeping bodies: while a pair sleeps, the impulses of its last step awake and
+its last manifold are repeated.
 """
 
 from __future__ import annotations
@@ -27,7 +29,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from physsim_ros.engine.batch_io import EngineArrays, Ids
+from physsim_ros.engine.batch_io import BatchIO, Ids
+from physsim_ros.engine.body_table import BodyTable
 from physsim_ros.model.arrays import Floats, Ints
 from physsim_ros.model.snapshot import Contacts
 import pymunk
@@ -46,16 +49,16 @@ _SPREAD = np.uint64(0x9E3779B97F4A7C15)
 OPPOSED = 1e-6
 
 
-class ContactLog:
+class ContactReport:
     """
     Sums up contacts from step to step until they are taken.
 
-    :param arrays: of a space whose `collision_persistence` is 1, so that the engine lists only
+    :param io: of a space whose `collision_persistence` is 1, so that the engine lists only
         contacts of the last step
     """
 
-    def __init__(self, arrays: EngineArrays) -> None:
-        self._arrays = arrays
+    def __init__(self, io: BatchIO) -> None:
+        self._io = io
         # Of the last step, in the engine's order: ids of each pair, the lesser one first, and the
         # sums of its impulses.
         self._ids: Ids = np.empty((0, 2), np.uint64)
@@ -63,8 +66,11 @@ class ContactLog:
         # Which one the engine has first, and so which way round its impulses are.
         self._firsts: Ids = np.empty(0, np.uint64)
         self._signs: Floats = np.empty((0, 1))
-        # What these gave in the last step that was read.
+        # The impulses of these in the last step.
         self._given: Floats = np.empty((0, 2))
+        # Pairs that sleep, and the impulses of their last step awake; behind the listed ones.
+        self._sleeping: tuple[Ids, Floats] = (self._ids, self._given)
+        self._slot_changes = 0
         # Steps since the frame began.
         self._steps = 0
         # The same of earlier steps of the frame, at whose ends other pairs touched.
@@ -83,40 +89,50 @@ class ContactLog:
         a, b = (body.id for body in arbiter.bodies)
         self._begun[min(a, b), max(a, b)] = (1 if a < b else -1, contact)
 
-    def add_step(self) -> None:
-        """Add the contacts of the step that the engine has just made."""
+    def add_step(self, table: BodyTable) -> None:
+        """
+        Add the contacts of the step that the engine has just made.
+
+        :param table: of the bodies, after that step
+        """
         self._steps += 1
+        if table.slot_changes != self._slot_changes:
+            self._slot_changes, self.settled = table.slot_changes, False
+        sleeping = len(self._sleeping[0])
         if self.settled:
-            firsts, impulses = self._arrays.contacts(_FIRSTS_AND_IMPULSES)
-            if len(firsts) == len(self._ids):
+            firsts, impulses = self._io.read_contacts(_FIRSTS_AND_IMPULSES)
+            if len(firsts) == len(self._ids) - sleeping:
                 # The engine turns a pair round as its bodies move, in a contact that goes on too.
                 if not np.array_equal(firsts, self._firsts):
                     self._firsts, self._signs = firsts.copy(), self._signs_of(firsts)
-                self._give(impulses.reshape(-1, 2))
+                self._add_impulses(impulses.reshape(-1, 2))
                 return
-        ints, impulses = self._arrays.contacts(_PAIRS_AND_IMPULSES)
+        ints, impulses = self._io.read_contacts(_PAIRS_AND_IMPULSES)
         self._firsts = ints[::2].copy()
+        impulses = impulses.reshape(-1, 2).copy()
         ids, self._signs = _oriented(ints.reshape(-1, 2))
+        self._sleeping = self._find_sleeping(table, ids)
+        ids = np.concatenate((ids, self._sleeping[0]))
         if not np.array_equal(ids, self._ids):
             self._begin_listing(ids)
-        self._give(impulses.reshape(-1, 2))
+        self._add_impulses(impulses)
         self.settled = True
 
-    def repeat_step(self) -> None:
-        """Add the contacts of the engine's last step once more."""
-        if self.settled:
-            self._steps += 1
-            self._sums += self._given
-        else:
-            self.add_step()
+    def _find_sleeping(self, table: BodyTable, listed: Ids) -> tuple[Ids, Floats]:
+        """Return pairs of the step before that sleep now, and the impulses that they had then."""
+        if not table.asleep.any():
+            return NO_PAIRS
+        asleep = np.append(table.asleep, False)[table.rows_of(self._ids)].any(axis=1)
+        asleep &= ~_find(self._ids, listed)[1]
+        return self._ids[asleep], self._given[asleep]
 
-    def _give(self, impulses: Floats) -> None:
-        self._given = impulses * self._signs
+    def _add_impulses(self, impulses: Floats) -> None:
+        self._given = np.concatenate((impulses * self._signs, self._sleeping[1]))
         self._sums += self._given
 
     def _signs_of(self, firsts: Ids) -> Floats:
         """Return (k, 1): -1 where the engine has another one of a pair first than its lesser."""
-        return np.where(firsts == self._ids[:, 0], 1.0, -1.0)[:, None]
+        return np.where(firsts == self._ids[: len(firsts), 0], 1.0, -1.0)[:, None]
 
     def _begin_listing(self, ids: Ids) -> None:
         """Go on with other pairs."""
@@ -147,11 +163,13 @@ class ContactLog:
 
         :param body: its id in the engine
         """
-        if self._steps == 0:
-            return
         self.settled = False
         stays = (self._ids != body).all(axis=1)
         self._ids, self._sums = self._ids[stays], self._sums[stays]
+        self._given = self._given[stays]
+        ids, given = self._sleeping
+        stays = (ids != body).all(axis=1)
+        self._sleeping = ids[stays], given[stays]
         for number, (ids, sums) in enumerate(self._earlier):
             stays = (ids != body).all(axis=1)
             self._earlier[number] = ids[stays], sums[stays]
@@ -168,7 +186,7 @@ class ContactLog:
         self._steps = 0
         self._begun.clear()
 
-    def inherit(self, old: ContactLog, old_ids: Ids, ids: Ids) -> None:
+    def inherit(self, old: ContactReport, old_ids: Ids, ids: Ids) -> None:
         """
         Take over what another log has summed up, of the same bodies under other ids.
 
@@ -189,6 +207,7 @@ class ContactLog:
 
         self._steps = old._steps
         self._ids, self._sums = renamed(old._ids, old._sums)
+        self._given = np.zeros_like(self._sums)
         self._earlier = [renamed(pairs, sums) for pairs, sums in old._earlier]
         pairs, places = old._places
         pairs, rows = renamed(pairs, places.T)
@@ -199,15 +218,14 @@ class ContactLog:
                 a, b = names[first], names[second]
                 self._begun[min(a, b), max(a, b)] = (sign if a < b else -sign, contact)
 
-    def take(self, ids: Ids, rows: Ints, centers: Callable[[], Floats]) -> Contacts:
+    def take(self, table: BodyTable, centers: Callable[[], Floats]) -> Contacts:
         """
         Return the contacts since the last call, each pair once.
 
-        :param ids: (n,) uintp: the engine's ids of the bodies, ascending
-        :param rows: (n,) int64: the row in the scene of each; an id that is missing belongs to
-            the walls of `bounds`, or to a body that has gone since
-        :param centers: gives (n, 2) float64: centres of mass, between which overlaps with sensors
-            lie
+        :param table: of the bodies; an id that is not in it belongs to the walls of `bounds`, or
+            to a body that has gone since
+        :param centers: returns (n, 2) float64: centres of mass, between which overlaps with
+            sensors lie
         """
         if self._steps == 0:
             return NO_CONTACTS
@@ -220,10 +238,10 @@ class ContactLog:
         self._sums = np.zeros_like(self._sums)
         self._steps = 0
         self._begun.clear()
-        if len(ids) == 0 or len(touching) == 0:
+        if len(table.bodies) == 0 or len(touching) == 0:
             return NO_CONTACTS
-        if self._listing is None or not self._listing.holds(touching, ids):
-            self._listing = _list(touching, ids, rows)
+        if self._listing is None or not self._listing.holds(touching, table):
+            self._listing = _list(touching, table)
         contacts, pointless = self._listing.contacts(places, sums, len(self._ids))
         overlaps = np.flatnonzero(pointless & (contacts.pairs[:, 1] >= 0))
         if len(overlaps):
@@ -247,7 +265,7 @@ class ContactLog:
 
     def _read_places(self) -> Floats:
         """Return (5, m) float64: normal, count of points, mean point, of the last step."""
-        ints, floats = self._arrays.contacts(_PLACES)
+        ints, floats = self._io.read_contacts(_PLACES)
         firsts, counts = ints.reshape(-1, 2).T
         # Columns, because numpy adds them up five times as fast as pairs.
         columns = np.ascontiguousarray(floats.reshape(-1, 10).T)
@@ -258,7 +276,8 @@ class ContactLog:
         first, second = columns[2:4] + columns[4:6], columns[6:8] + columns[8:10]
         np.add(first, second, out=places[3:])
         places[3:] *= 0.5 / np.maximum(counts, 1)
-        return places
+        sleeping = self._sleeping[0]
+        return np.concatenate((places, self._last_places(sleeping)), axis=1)
 
 
 NO_PAIRS = np.empty((0, 2), np.uint64), np.empty((0, 2))
@@ -298,7 +317,7 @@ class _Listing:
     Which rows of the scene touch, in order; the same from frame to frame in a pile at rest.
 
     :param touching: (k, 2): the engine's ids of pairs, as they come
-    :param ids: (n,): the engine's ids of all bodies
+    :param table: of the bodies
     :param pairs: (m, 2): rows of each pair, the earlier spawned first
     :param order: (l,): where the contacts of the pairs are among those that come, pair by pair
     :param first: (m,): where in that order each pair begins
@@ -306,15 +325,15 @@ class _Listing:
     """
 
     touching: Ids
-    ids: Ids
+    table: BodyTable
     pairs: Ints
     order: NDArray[np.intp]
     first: NDArray[np.intp]
     sign: Floats
 
-    def holds(self, touching: Ids, ids: Ids) -> bool:
-        """Tell whether the same touch as when this was made."""
-        return self.ids is ids and np.array_equal(self.touching, touching)
+    def holds(self, touching: Ids, table: BodyTable) -> bool:
+        """Return whether the same pairs touch as when this was made."""
+        return self.table is table and np.array_equal(self.touching, touching)
 
     def contacts(
         self, places: Floats, sums: Floats, current: int
@@ -380,30 +399,26 @@ def _means(places: Floats, current: NDArray[np.bool_], first: NDArray[np.intp]) 
     return means
 
 
-def _list(touching: Ids, ids: Ids, rows: Ints) -> _Listing:
-    """Find the rows of what touches."""
-    a, b = (_rows_of(each, ids, rows) for each in touching.T)
+def _list(touching: Ids, table: BodyTable) -> _Listing:
+    """Find the rows of the pairs that touch."""
+    count = len(table.bodies)
+    # The background has no row in a scene.
+    a, b = (np.where(rows < count, rows, -1) for rows in table.rows_of(touching).T)
     swap = (b >= 0) & ((a > b) | (a < 0))
     a, b = np.where(swap, b, a), np.where(swap, a, b)
-    keys = a * (len(ids) + 1) + b
+    keys = a * (count + 1) + b
     order = np.argsort(keys, kind='stable')
     order = order[a[order] >= 0]
     first = np.flatnonzero(np.diff(keys[order], prepend=-2))
     leading = order[first]
     return _Listing(
         touching=touching,
-        ids=ids,
+        table=table,
         pairs=np.column_stack((a[leading], b[leading])),
         order=order,
         first=first,
         sign=np.where(swap, -1.0, 1.0)[order],
     )
-
-
-def _rows_of(wanted: Ids, ids: Ids, rows: Ints) -> Ints:
-    """Return the rows of engine ids; -1 where they are no body's."""
-    at = np.minimum(np.searchsorted(ids, wanted), len(ids) - 1)
-    return np.where(ids[at] == wanted, rows[at], -1)
 
 
 def _place_overlaps(contacts: Contacts, overlaps: NDArray[np.intp], centers: Floats) -> None:

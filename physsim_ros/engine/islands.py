@@ -45,16 +45,17 @@ def meetings(places: Rows, items: Rows) -> tuple[Rows, Rows]:
     return np.repeat(items, count), items[ranges(first, count)]
 
 
-def spread(marked: NDArray[np.bool_], one: Rows, other: Rows) -> NDArray[np.bool_]:
+def flood(marked: NDArray[np.bool_], pairs: Rows) -> NDArray[np.bool_]:
     """
-    Return (n,) bool: what is marked, and what hangs together with it.
+    Return (n,) bool: marked nodes, and all that are connected with one by pairs.
 
-    :param marked: (n,)
-    :param one: (k,) of each pair
-    :param other: (k,) of each pair
+    It takes as many rounds as the longest shortest path has pairs (breadth-first search).
+
+    :param marked: (n,) bool
+    :param pairs: (k, 2) intp: nodes that are connected
     """
     reached = marked.copy()
-    # Pair by pair from there; as many rounds as the longest way has pairs.
+    one, other = pairs.T
     while True:
         near = reached[one] | reached[other]
         if not near.any():

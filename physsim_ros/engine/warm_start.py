@@ -13,22 +13,24 @@
 # limitations under the License.
 
 """
-What the engine remembers of contacts: the impulses from which its next step starts.
+Warm start: the engine's impulse cache, read for a checkpoint and written to a rebuilt space.
 
-A space built anew from poses and velocities alone has forgotten them, and what rests stirs until
-the solver has found them again. Pymunk has no public way to read or give them; this goes the way
-of its own pickling, through the structures of its binding.
-
-Law: two spaces built from one memory go on alike to the bit.
+The solver starts a step with the impulses of the step before. A space built anew from poses and
+velocities alone does not have them, and what rests stirs until the solver has found them again.
+Pymunk 7.3 has no public way to read or set them; this goes the way of its own pickling, through
+`Space._get_arbiters` and Chipmunk's `cpArbiter.contacts` (`cpContact.jnAcc`, `jtAcc`, `hash`). It
+can go when Pymunk reads and writes contact impulses.
 """
 
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
+import itertools
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from physsim_ros.engine.body import RigidBody
 from physsim_ros.model.arrays import Ints
 from physsim_ros.model.checkpoint import ContactMemory
 import pymunk
@@ -141,31 +143,41 @@ class _Points(NamedTuple):
             begin = end
 
 
-def weaken(shapes: ShapeIds, share: float) -> None:
-    """Let the engine start its next step from a share of what it remembers."""
+def scale_impulses(shapes: ShapeIds, share: float) -> None:
+    """Let the engine start its next step with a share of all cached impulses."""
     found = shapes.contacts()
     found.scale(share)
     found.write()
 
 
-def forget(shapes: ShapeIds, numbers: Ints) -> None:
-    """Let the engine forget what shapes of some numbers give and get."""
+def shape_numbers(rigids: Iterable[RigidBody]) -> Ints:
+    """Return the engine's numbers of all shapes of some bodies, (k,) int64."""
+    numbers = (
+        range(rigid.first, rigid.first + len(rigid.body.shape.form.pieces)) for rigid in rigids
+    )
+    return np.fromiter(itertools.chain.from_iterable(numbers), np.int64)
+
+
+def clear_impulses(shapes: ShapeIds, rigids: Iterable[RigidBody]) -> None:
+    """Let the engine start its next step without the cached impulses of some bodies."""
     found = shapes.contacts()
-    found.forget(numbers)
+    found.forget(shape_numbers(rigids))
     found.write()
 
 
-def recall(shapes: ShapeIds, ids: Sequence[int], walls: int, *, forgotten: Ints) -> ContactMemory:
+def read_impulses(
+    shapes: ShapeIds, ids: Sequence[int], walls: int, *, without: Ints
+) -> ContactMemory:
     """
-    Return what a space remembers.
+    Return the cached impulses of a space.
 
     :param shapes: in the space
     :param ids: number of the first shape of each body, in spawn order
     :param walls: number of the first wall
-    :param forgotten: numbers of the shapes of which nothing is remembered
+    :param without: numbers of the shapes whose impulses count as zero
     """
     found = shapes.contacts()
-    found.forget(forgotten)
+    found.forget(without)
     _, pairs, points = found
     # The engine lists by address, which is never the same twice.
     order = np.lexsort((points['hash'], pairs[:, 1], pairs[:, 0]))
@@ -180,9 +192,11 @@ def recall(shapes: ShapeIds, ids: Sequence[int], walls: int, *, forgotten: Ints)
     )
 
 
-def remind(space: pymunk.Space, shapes: ShapeIds, memory: ContactMemory, dt: float) -> None:
+def write_impulses(
+    space: pymunk.Space, shapes: ShapeIds, memory: ContactMemory, dt: float
+) -> None:
     """
-    Give a space that has not stepped yet what another one remembered.
+    Set the cached impulses of a space that has not stepped yet.
 
     :param space: its bodies where they were, and without velocities, which are spoiled
     :param shapes: in it, under the numbers that they had

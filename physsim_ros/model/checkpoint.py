@@ -119,7 +119,8 @@ class Keyframe:
     :param wrenches: of the bodies that one acts on: row, wrench [N, N m], the step at which it
         ends or None
     :param memory: of contacts
-    :param forces: (j,) float64: what each joint gave in the step before [N]
+    :param joint_impulses: (c, 2) float64: impulses from which the engine's constraints start their
+        next step [N s, N m s], in the order of the joints
     """
 
     step: int
@@ -128,4 +129,4 @@ class Keyframe:
     free: NDArray[np.bool_]
     wrenches: tuple[tuple[int, Pose, int | None], ...]
     memory: ContactMemory
-    forces: Floats
+    joint_impulses: Floats

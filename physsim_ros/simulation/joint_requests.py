@@ -54,7 +54,7 @@ def join(space: Space, request: Join, points: tuple[Point, ...]) -> tuple[str, s
     :return: its name, and a sentence that says what was done
     :raises Refusal: and nothing is changed
     """
-    old = space.machine.joints.get(request.name)
+    old = space.joints.by_name.get(request.name)
     a, b, points = _members(space, request, points)
     _check_members(space, request.kind, a, b)
     kept = old.joint if old is not None and old.joint.kind is request.kind else None
@@ -70,6 +70,7 @@ def join(space: Space, request: Join, points: tuple[Point, ...]) -> tuple[str, s
         seat = _seat(request.kind, points, _pose(space, a), _pose(space, b), phase)
     joint = Joint(name=request.name, kind=request.kind, a=a, b=b, seat=seat, properties=said)
     if old is None or old.joint != joint:
+        space.check_springs({}, joint)
         # Only then: what hangs on it would stir.
         space.join(joint)
     other = 'the background' if b == WORLD else b
@@ -89,7 +90,7 @@ def pin(space: Space, kind: JointKind, point: Point) -> tuple[str, str]:
     :raises Anchored: forces move neither of them
     """
     number = 0
-    while f'{kind}/{number}' in space.machine.joints:
+    while f'{kind}/{number}' in space.joints.by_name:
         number += 1
     return join(space, Join(name=f'{kind}/{number}', kind=kind, points=(point,)), (point,))
 
@@ -100,7 +101,7 @@ def unjoin(space: Space, name: str) -> tuple[str, str]:
 
     :raises UnknownJoint: there is none of that name
     """
-    if name not in space.machine.joints:
+    if name not in space.joints.by_name:
         raise UnknownJoint(f'there is no joint {name!r}', field='name')
     space.unjoin(name)
     return name, f'deleted joint {name}'
@@ -110,7 +111,7 @@ def unjoin_all(space: Space, namespace: str | None) -> str:
     """Remove all joints, or all of a namespace, and say how many."""
     names = [
         name
-        for name in space.machine.joints
+        for name in space.joints.by_name
         if namespace is None or split_name(name)[0] == namespace
     ]
     for name in names:
@@ -120,11 +121,11 @@ def unjoin_all(space: Space, namespace: str | None) -> str:
 
 def loosen(space: Space, body: str, point: Point) -> list[str]:
     """Remove the pins and axles of a body that sit at a point of the world [m]; name them."""
-    reach = max(_NEAR, _NEAR_SHARE * space.bodies[body].body.shape.form.inner)
+    reach = max(_NEAR, _NEAR_SHARE * space.bodies.by_name[body].body.shape.form.inner)
     names = [
         name
-        for name in space.machine.of(body)
-        if (joint := space.machine.joints[name].joint).kind in (JointKind.PIN, JointKind.AXLE)
+        for name in space.joints.of(body)
+        if (joint := space.joints.by_name[name].joint).kind in (JointKind.PIN, JointKind.AXLE)
         and math.dist(_drawn(space, joint)[0], point) <= reach
     ]
     for name in names:
@@ -159,11 +160,11 @@ def _members(
     :raises NothingThere: no name is given, and no body is there
     """
     for field, name in (('a', request.a), ('b', request.b)):
-        if name and name != WORLD and name not in space.bodies:
+        if name and name != WORLD and name not in space.bodies.by_name:
             raise UnknownBody(f'there is no body {name!r}', field=field)
     a, b = request.a, request.b
-    first = [name for name in space.bodies_at(points[0]) if name != b]
-    last = space.bodies_at(points[-1])
+    first = [name for name in space.bodies.at(points[0]) if name != b]
+    last = space.bodies.at(points[-1])
     if not a and not first:
         # A line drawn from the ceiling down to a body hangs the body.
         if request.kind in _STRAIGHT and b in ('', WORLD) and last:
@@ -179,7 +180,7 @@ def _check_members(space: Space, kind: JointKind, a: str, b: str) -> None:
     """Refuse a joint of a body with itself, or of two that forces do not move."""
     if a == b:
         raise BadProperty(f'{a} cannot be joined to itself', field='b')
-    bodies = [space.bodies[name].body for name in (a, b) if name != WORLD]
+    bodies = [space.bodies.by_name[name].body for name in (a, b) if name != WORLD]
     if all(body.fixed for body in bodies):
         fixed = ' and '.join(
             f'{body.name} is {"anchored" if body.anchored else "kinematic"}' for body in bodies
@@ -234,7 +235,7 @@ def _drawn(space: Space, joint: Joint) -> tuple[Point, ...]:
 
 
 def _pose(space: Space, name: str) -> Pose:
-    return BACKGROUND if name == WORLD else space.bodies[name].pose
+    return BACKGROUND if name == WORLD else space.bodies.by_name[name].pose
 
 
 def _out(pose: Pose, point: Point) -> Point:

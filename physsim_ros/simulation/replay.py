@@ -271,4 +271,4 @@ class Timeline(Course):
     def build_ahead(self, steps: int) -> None:
         """Build ahead for the next keyframe what a share of its time, so many steps, allows."""
         bodies = len(self.world)
-        self.world.build_spares(-(-bodies * steps // max(1, int(self._spacing * _AHEAD))))
+        self.world.build_bodies(-(-bodies * steps // max(1, int(self._spacing * _AHEAD))))

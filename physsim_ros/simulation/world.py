@@ -26,7 +26,9 @@ import hashlib
 import math
 
 from physsim_ros.engine.body import REST, RigidBody
-from physsim_ros.engine.body_pool import Spares
+from physsim_ros.engine.body_pool import BodyPool
+from physsim_ros.engine.checkpoint import restore_checkpoint, take_checkpoint
+from physsim_ros.engine.observation import digest_parts, observe_bodies
 from physsim_ros.engine.space import Space
 from physsim_ros.model.body_properties import HEAVIEST, LIGHTEST
 from physsim_ros.model.checkpoint import BodyState, Keyframe, Motion, WorldState
@@ -94,15 +96,15 @@ class World:
         self._settings = settings or WorldSettings()
         self._space = Space(self._settings, self.dt)
         self._spawned = 0
-        self._spares = Spares()
+        self._pool = BodyPool()
 
     # Reading
 
     def __len__(self) -> int:
-        return len(self._space.bodies)
+        return len(self._space.bodies.by_name)
 
     def __contains__(self, name: str) -> bool:
-        return name in self._space.bodies
+        return name in self._space.bodies.by_name
 
     @property
     def settings(self) -> WorldSettings:
@@ -116,43 +118,46 @@ class World:
 
     def snapshot(self) -> Snapshot:
         """Return where everything is."""
-        scene, poses, twists = self._space.rows()
+        table, settled = self._space.table, self._space.settled
+        poses, twists = observe_bodies(table, settled)
         return Snapshot(
             step=self.step_count,
             stamp=self.stamp,
-            scene=scene,
+            scene=table.scene,
             poses=poses,
             twists=twists,
-            forces=self._space.forces(),
-            springs=self._space.machine.springs(),
+            forces=self._space.joints.forces(),
+            springs=self._space.joints.springs(),
         )
 
     def contacts(self, snapshot: Snapshot) -> Contacts:
         """Return what touched since the last call while the world was being watched."""
-        return self._space.contacts(lambda: snapshot.centers)
+        report = self._space.pipeline.contact_report
+        return report.take(self._space.table, lambda: snapshot.centers)
 
     def clear_contacts(self) -> None:
         """Forget what touched since the last call of `contacts`."""
-        self._space.clear_contacts()
+        self._space.pipeline.contact_report.clear()
 
     def digest(self) -> str:
         """Return a hash of all that is known of the world, but for the engine's own memory."""
         digest = hashlib.blake2b(digest_size=16)
         digest.update(f'{self.step_count} {self.physics_rate!r}'.encode())
-        for part in self._space.essence():
+        acting = self._space.pipeline.wrenches.acting()
+        for part in digest_parts(self._space.table, self._space.settled, acting):
             digest.update(part)
         return digest.hexdigest()
 
     def body_at(self, point: Point) -> str | None:
         """Return the topmost body, that spawned last, which covers a point of the world [m]."""
-        return next(iter(self._space.bodies_at(point)), None)
+        return next(iter(self._space.bodies.at(point)), None)
 
     def save(self) -> WorldState:
         """Return everything that the world goes on from."""
         now = self.step_count
-        key, bodies = self._space.keyframe(now), []
+        key, bodies = take_checkpoint(self._space, now), []
         motions = zip(key.state.tolist(), key.free.tolist(), strict=True)
-        for rigid, (state, free) in zip(self._space.bodies.values(), motions, strict=True):
+        for rigid, (state, free) in zip(self._space.bodies.by_name.values(), motions, strict=True):
             body, until = rigid.body, rigid.wrench_until
             if body.expires is not None:
                 body = replace(body, expires=body.expires - now)
@@ -160,13 +165,13 @@ class World:
                 BodyState(
                     body=body,
                     pose=rigid.pose,
-                    twist=self._space.twist(rigid),
+                    twist=self._space.twist_of(rigid),
                     motion=Motion._make((*state, free)),
                     wrench=rigid.wrench,
                     wrench_steps=None if until is None else until - now,
                 )
             )
-        joints = tuple(held.joint for held in self._space.machine.joints.values())
+        joints = tuple(held.joint for held in self._space.joints.by_name.values())
         return WorldState(
             settings=self._settings, bodies=tuple(bodies), joints=joints, memory=key.memory
         )
@@ -222,14 +227,9 @@ class World:
         :return: bodies that left the range of numbers and were removed
         """
         lost: list[str] = []
-        for remaining in range(count, 0, -1):
-            # Counted from the beginning, so that it does not depend on who makes how many steps.
-            ends = (self.step_count + 1) % self.frame_steps == 0
-            last = ends or remaining == 1
-            lost += self._space.step(self.step_count, watching=self.watching, last=last)
+        for _ in range(count):
+            lost += self._space.step(self.step_count, watching=self.watching)
             self.step_count += 1
-            if ends:
-                lost += self._space.drop_lost()
         return tuple(lost)
 
     # Going on from a keyframe
@@ -242,12 +242,10 @@ class World:
         past that cannot be read, as in the order in which it has found contacts; a new space has
         none.
         """
-        key = self._space.keyframe(self.step_count)
-        space = Space(
-            self._settings, self.dt, key=key, spares=self._spares.bodies, before=self._space
-        )
-        space.inherit(self._space)
-        self._take(space, Spares(self._space))
+        key = take_checkpoint(self._space, self.step_count)
+        space = restore_checkpoint(key, self.dt, pool=self._pool.bodies)
+        _hand_over(self._space, space)
+        self._replace_space(space, BodyPool(self._space))
         return key
 
     def resume(self, key: Keyframe, *, going_over: bool = False) -> None:
@@ -255,29 +253,29 @@ class World:
         Go back, or forward, to a keyframe.
 
         :param going_over: whether the world is at that moment now, with the same bodies; then
-            what has touched in the frame so far is not forgotten
+            the contacts of the frame so far are not forgotten
         """
         self.step_count = key.step
         self._settings = key.scene.settings
-        space = Space(self._settings, self.dt, key=key, before=self._space)
+        space = restore_checkpoint(key, self.dt)
         if going_over:
-            space.inherit(self._space)
-        self._take(space, Spares())
+            _hand_over(self._space, space)
+        self._replace_space(space, BodyPool())
 
-    def build_spares(self, count: int) -> None:
+    def build_bodies(self, count: int) -> None:
         """Make so many bodies ready for the next `renew`."""
-        self._spares.add(self._space.scene, count)
+        self._pool.build_bodies(self._space.table.scene, count)
 
-    def _take(self, space: Space, spares: Spares) -> None:
-        self._space, self._spares = space, spares
-        self._spawned = len(space.bodies)
+    def _replace_space(self, space: Space, pool: BodyPool) -> None:
+        self._space, self._pool = space, pool
+        self._spawned = len(space.bodies.by_name)
 
     # Requests
 
     def _spawn(self, request: Spawn) -> tuple[str, str]:
         name, said = request.name, request.properties
-        old = self._space.bodies.get(name)
-        count, most = len(self._space.bodies), self._settings.max_bodies
+        old = self._space.bodies.by_name.get(name)
+        count, most = len(self._space.bodies.by_name), self._settings.max_bodies
         if old is None and count >= most:
             raise WorldFull(f'the world holds {count} bodies; it may hold {most}')
         pose = self._in_world(request.pose, request.frame)
@@ -286,7 +284,7 @@ class World:
         moves = (said.velocity or (0.0, 0.0)) != (0.0, 0.0) or bool(said.spin)
         if body.anchored and moves:
             raise Anchored(f'{name} is anchored; it has no velocity', field='velocity')
-        twist = REST if old is None or old.body.anchored else self._space.twist(old)
+        twist = REST if old is None or old.body.anchored else self._space.twist_of(old)
         if said.velocity is not None:
             twist = (*said.velocity, twist[2])
         if said.spin is not None:
@@ -347,7 +345,7 @@ class World:
         name = self.body_at((x, y))
         if name is None:
             raise NothingThere(f'there is no body at ({x:g}, {y:g})', field='point')
-        rigid = self._space.bodies[name]
+        rigid = self._space.bodies.by_name[name]
         if rigid.body.anchored != anchored:
             body = replace(rigid.body, anchored=anchored)
             self._space.change(rigid, body, rigid.pose, REST)
@@ -359,7 +357,7 @@ class World:
     def _delete_all(self, namespace: str | None) -> str:
         names = [
             name
-            for name in self._space.bodies
+            for name in self._space.bodies.by_name
             if namespace is None or split_name(name)[0] == namespace
         ]
         for name in names:
@@ -386,7 +384,7 @@ class World:
             self._space.set_twist(rigid, twist)
         until = self._wrenches_until()
         for rigid, wrench in zip(rigids, request.wrenches, strict=False):
-            self._space.push(rigid, wrench, until)
+            self._space.set_wrench(rigid, wrench, until)
         if len(rigids) == 1:
             return request.names[0], f'commanded {request.names[0]}'
         return '', f'commanded {len(rigids)} bodies'
@@ -400,7 +398,13 @@ class World:
         old, self._settings = self._settings, settings
         self._space.configure(settings)
         if settings.command_timeout != old.command_timeout:
-            self._space.limit_wrenches(self._wrenches_until())
+            self._limit_wrenches(self._wrenches_until())
+
+    def _limit_wrenches(self, until: int | None) -> None:
+        """Let no wrench act longer than to a step; None is for ever."""
+        for rigid in self._space.pipeline.wrenches.acting():
+            if until is not None and (rigid.wrench_until is None or rigid.wrench_until > until):
+                self._space.set_wrench(rigid, rigid.wrench, until)
 
     def _restore(self, state: WorldState) -> None:
         # A space of its own for every state: what was in the old one leaves no trace.
@@ -412,34 +416,35 @@ class World:
                 body = replace(body, expires=body.expires + now)
             rigid = space.add(body, serial, saved.pose, saved.twist)
             if saved.wrench != REST:
-                space.push(rigid, saved.wrench, None if steps is None else now + steps)
+                space.set_wrench(rigid, saved.wrench, None if steps is None else now + steps)
             if saved.motion is not None:
                 space.set_motion(rigid, saved.motion)
         for joint in state.joints:
             space.join(joint)
+        space.check_springs({name: rigid.body for name, rigid in space.bodies.by_name.items()})
         if state.memory is not None:
-            key = replace(space.keyframe(now), memory=state.memory)
-            space = Space(state.settings, self.dt, key=key)
+            key = replace(take_checkpoint(space, now), memory=state.memory)
+            space = restore_checkpoint(key, self.dt)
         self._settings = state.settings
-        self._take(space, Spares())
+        self._replace_space(space, BodyPool())
 
     def _points(self, points: tuple[Point, ...], frame: str) -> tuple[Point, ...]:
         """Return points of a frame as points of the world."""
         return tuple(self._in_world((*point, 0.0), frame)[:2] for point in points)
 
     def _known(self, name: str, field: str = 'name') -> RigidBody:
-        if name not in self._space.bodies:
+        if name not in self._space.bodies.by_name:
             raise UnknownBody(f'there is no body {name!r}', field=field)
-        return self._space.bodies[name]
+        return self._space.bodies.by_name[name]
 
     def _in_world(self, pose: Pose, frame: str) -> Pose:
         if not frame:
             return pose
-        if frame not in self._space.bodies:
+        if frame not in self._space.bodies.by_name:
             raise UnknownFrame(
                 f'frame {frame!r} is neither the world nor a body', field='header.frame_id'
             )
-        x, y, yaw = self._space.bodies[frame].pose
+        x, y, yaw = self._space.bodies.by_name[frame].pose
         turned_x, turned_y = rotated((pose[0], pose[1]), yaw)
         result = (x + turned_x, y + turned_y, yaw + pose[2])
         check_pose(result, 'pose')
@@ -457,6 +462,13 @@ def steps_in(seconds: float, physics_rate: float) -> int:
     """
     # Less a billionth, and a few last bits: 0.1 s at 240 Hz is 24 steps, not 25.
     return max(1, math.ceil(seconds * physics_rate * (1.0 - 1e-15) - 1e-9))
+
+
+def _hand_over(old: Space, new: Space) -> None:
+    """Hand on what an older space of the same bodies has reported of the frame so far."""
+    report = new.pipeline.contact_report
+    report.inherit(old.pipeline.contact_report, old.table.ids, new.table.ids)
+    new.broken = old.broken
 
 
 def _check_weight(body: Body) -> None:

@@ -19,8 +19,6 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from physsim_ros.engine.articulation import solver
-from physsim_ros.engine.articulation.solver import Linkage
 from physsim_ros.model.joint_properties import JointKind
 from physsim_ros.model.requests import Join
 from physsim_ros.model.settings import WorldSettings
@@ -45,16 +43,6 @@ def test_a_net_is_as_long_as_its_rods(side: int) -> None:
     for _ in range(10):
         world.step(12)
         assert stretched(world) < 2e-4
-
-
-def test_a_net_is_held_part_by_part_where_even_its_work_is_not_looked_at(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    # The last of its rods lie side by side, and hang together only by those of the part before.
-    monkeypatch.setattr(solver, '_MOST_PAIRS', 0)
-    world = net(20)
-    world.step(120)
-    assert 2e-4 < stretched(world) < MESH / 4
 
 
 def test_a_heavy_ball_swings_on_a_light_chain() -> None:
@@ -100,30 +88,6 @@ def test_what_is_too_much_to_be_solved_at_once_is_held_part_by_part() -> None:
     assert snapshot.momentum == pytest.approx((0.0, 0.0), abs=1e-6)
     inner = snapshot.poses[1:221, :2]
     assert np.hypot(*inner.T) == pytest.approx(np.full(220, 1.5), abs=0.02)
-
-
-def linkage(world: World) -> Linkage:
-    machine = world._space.machine  # noqa: SLF001 - what it has found out
-    assert machine.known is not None
-    return machine.known.linkage
-
-
-def test_what_has_been_found_out_of_joints_is_known_until_they_change() -> None:
-    world = net(5)
-    world.step(1)
-    first = linkage(world)
-    world.renew()
-    world.step(1)
-    spawn(world, 'stone/0', Disc(radius=0.1), (9.0, 9.0, 0.0))
-    world.step(1)
-    key = world.renew()
-    world.step(4)
-    world.resume(key)
-    world.step(1)
-    assert linkage(world) is first
-    spawn(world, 'knot/7', Disc(radius=0.1), (0.6, -0.3, 0.0), group=1, mass=2.0)
-    world.step(1)
-    assert linkage(world) is not first
 
 
 def test_a_machine_among_bodies_that_come_goes_on_as_one_that_knows_nothing() -> None:

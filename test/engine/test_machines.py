@@ -28,7 +28,7 @@ from typing import Any
 
 from hypothesis import given, Phase, settings, strategies
 import numpy as np
-from physsim_ros.model.errors import Anchored
+from physsim_ros.model.errors import Anchored, BadProperty
 from physsim_ros.model.joint_properties import JointKind, JointProperties
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.requests import (
@@ -113,7 +113,8 @@ def machine(pick: random.Random, *, sensors: bool) -> World:
                     properties=JointProperties(**properties(pick, kind)),
                 )
             )
-        except Anchored:
+        except (Anchored, BadProperty):
+            # Both anchored, or a spring that is too stiff for what is on it already.
             continue
     return world
 

@@ -362,3 +362,11 @@ def _gap(point: Vec2d, box: pymunk.BB) -> float:
     x, y = point
     left, bottom, right, top = box
     return math.hypot(max(left - x, 0.0, x - right), max(bottom - y, 0.0, y - top))
+
+
+class ContinuousCollision:
+    def __init__(self, *_):
+        pass
+
+    def clamp_moves(self, context):
+        pass

@@ -112,3 +112,8 @@ def _wait(raw: Any, blow: float) -> None:
         for place in places:
             # The speed apart that the engine goes for is the negative of this.
             place.bounce = 2.0 * blow
+
+
+class ImpactPropagation:
+    def __init__(self, *_):
+        pass

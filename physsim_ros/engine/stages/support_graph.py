@@ -13,23 +13,25 @@
 # limitations under the License.
 
 """
-Footing: what hangs together with something that stands, and what has lost that.
+Support graph: which bodies rest on something, and which have lost all that they rested on.
 
-Law: what hangs together with nothing that stands falls as one. It hangs together by joints, and by
-contacts that pressed in the last step and are still there, or are new. Of such a pile the engine
-still remembers what it has borne, and would blow it apart.
+Problem: where a floor, an anchor or a joint is removed, the engine still warm-starts with the
+impulses that carried the pile on it, and would blow the pile apart; and what falls from that
+moment has no half-step lead yet, so that it would seem to be thrown up by half a step of gravity.
+Method: a search in the contact graph, for that moment only. Bodies that contacts or joints tie to
+nothing that stands are in free fall as one, without the impulses of the step before.
+Cost: none in a step before which nothing was removed.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
-from physsim_ros.engine.batch_io import EngineArrays
-from physsim_ros.engine.body import RigidBody
-from physsim_ros.engine.islands import Rows, spread
-from physsim_ros.engine.stages.resting_damping import Ground
+from physsim_ros.engine.batch_io import BatchIO
+from physsim_ros.engine.body_table import BodyTable, Flags
+from physsim_ros.engine.islands import flood, Rows
 from physsim_ros.model.arrays import Ints
 import pymunk
 from pymunk import batch
@@ -38,66 +40,55 @@ _F = batch.ArbiterFields
 _PRESSING = _F.BODY_A_ID | _F.BODY_B_ID | _F.TOTAL_IMPULSE
 
 
-class Footing:
+def find_unsupported(
+    space: pymunk.Space, io: BatchIO, table: BodyTable, released: Sequence[int]
+) -> NDArray[np.bool_]:
     """
-    Finds what has lost its footing.
+    Return (n,) bool: which bodies have lost their support.
 
-    :param space: whose `collision_persistence` is 1, so that it lists only contacts of the last
-        step
-    :param arrays: of it
+    :param space: of the engine; its `collision_persistence` is 1, so that it lists only contacts
+        of the last step
+    :param io: of the space
+    :param table: of its bodies
+    :param released: rows of the dynamic bodies from which something was removed since that step
     """
-
-    def __init__(self, space: pymunk.Space, arrays: EngineArrays) -> None:
-        self._space = space
-        self._arrays = arrays
-
-    def lost(
-        self, ground: Ground, joined: tuple[Rows, Rows], loosened: Iterable[RigidBody]
-    ) -> NDArray[np.bool_]:
-        """
-        Return (m,) bool, in the engine's listing: what fell away with what something let go of.
-
-        :param ground: what is constant about the bodies
-        :param joined: (j,) and (j,) places of what joints hold together, the background's last
-        :param loosened: bodies that something let go of since the last step, and forces move
-        """
-        engines = [rigid.engine for rigid in loosened]
-        loose = np.zeros(len(ground.loose), np.bool_)
-        loose[ground.rows(_ids(engines))] = True
-        one, other = self._contacts(ground, loose, engines)
-        one, other = np.append(one, joined[0]), np.append(other, joined[1])
-        held = spread(~ground.loose, one, other)
-        return spread(loose & ~held, one, other)[:-1]
-
-    def _contacts(
-        self, ground: Ground, loose: NDArray[np.bool_], engines: list[pymunk.Body]
-    ) -> tuple[Rows, Rows]:
-        """Return the places of what touches, pair by pair; of loose bodies this is found anew."""
-        ints, floats = self._arrays.contacts(_PRESSING)
-        presses = floats.reshape(-1, 2).any(axis=1)
-        pairs = ground.rows(ints.reshape(-1, 2))
-        now = ground.rows(np.array([*self._now(engines)], np.uintp).reshape(-1, 2))
-        known, new = (_keys(each, len(loose)) for each in (pairs, now))
-        # What only lies beside another does not hold it.
-        now = now[np.isin(new, known[presses]) | ~np.isin(new, known)]
-        pairs = np.concatenate((pairs[presses & ~loose[pairs].any(axis=1)], now))
-        return pairs[:, 0], pairs[:, 1]
-
-    def _now(self, engines: list[pymunk.Body]) -> Iterator[tuple[int, int]]:
-        """Yield the engine's ids of what touches where all is now, as the next step finds it."""
-        for body in engines:
-            for shape in body.shapes:
-                for hit in self._space.shape_query(shape):
-                    other = hit.shape
-                    if other and other.body and not (shape.sensor or other.sensor):
-                        yield body.id, other.body.id
+    loose = np.zeros(len(table.ids), np.bool_)
+    loose[list(released)] = True
+    engines = [table.bodies[row].engine for row in released]
+    pairs = np.concatenate((_contacts(space, io, table, loose, engines), table.columns.joined))
+    supported = flood(~table.columns.dynamic, pairs)
+    return flood(loose & ~supported, pairs)[:-1]
 
 
-def _ids(engines: list[pymunk.Body]) -> NDArray[np.uintp]:
-    return np.array([each.id for each in engines], np.uintp)
+def _contacts(
+    space: pymunk.Space, io: BatchIO, table: BodyTable, loose: Flags, engines: list[pymunk.Body]
+) -> Rows:
+    """
+    Return (k, 2) intp: rows of what supports each other.
+
+    Contacts that pressed in the last step do; those of released bodies are searched for anew,
+    and count if they pressed or are new, not if the two only lie side by side.
+    """
+    ints, floats = io.read_contacts(_PRESSING)
+    presses = floats.reshape(-1, 2).any(axis=1)
+    pairs = table.rows_of(ints.reshape(-1, 2))
+    now = table.rows_of(np.array([*_touching(space, engines)], np.uint64).reshape(-1, 2))
+    known, new = (_keys(each, len(loose)) for each in (pairs, now))
+    now = now[np.isin(new, known[presses]) | ~np.isin(new, known)]
+    return np.concatenate((pairs[presses & ~loose[pairs].any(axis=1)], now))
 
 
-def _keys(pairs: NDArray[np.intp], count: int) -> Ints:
-    """Return (k,) one number for each pair, whichever comes first."""
+def _touching(space: pymunk.Space, engines: list[pymunk.Body]) -> Iterator[tuple[int, int]]:
+    """Yield the engine's ids of pairs that touch where all is now, as the next step finds it."""
+    for body in engines:
+        for shape in body.shapes:
+            for hit in space.shape_query(shape):
+                other = hit.shape
+                if other and other.body and not (shape.sensor or other.sensor):
+                    yield body.id, other.body.id
+
+
+def _keys(pairs: Rows, count: int) -> Ints:
+    """Return (k,) int64: one number for each pair, whichever of the two comes first."""
     keys: Ints = pairs.min(axis=1, initial=count) * (count + 1) + pairs.max(axis=1, initial=0)
     return keys

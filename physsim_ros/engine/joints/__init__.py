@@ -12,4 +12,10 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Joints that are solved directly, beside the engine's own solver. Start with `joint_set`."""
+"""
+Joints: Pymunk's constraints without their bias, and the correction of positions after a step.
+
+A file a kind has its constraints, its constraint rows and its centripetal term; `joint_set` is
+the front and holds the joints of a space; `projection` closes gaps. Which bodies a joint means is
+not here but in `joining`. Start reading at `joint_set`.
+"""

@@ -1,0 +1,94 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Body set: the bodies of a space, by name in spawn order.
+
+Pymunk wakes what is touched, pushed or set. Under a static body that is added or moved it does
+not, so that is done here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from physsim_ros.engine.body import RigidBody
+from physsim_ros.engine.stages.sleeping import wake_bodies, wake_overlapping
+from physsim_ros.engine.warm_start import ShapeIds
+from physsim_ros.model.shapes import Point
+import pymunk
+
+# A point so near counts as inside [m]: on the seam of two pieces it lies inside neither.
+SEAM = 1e-9
+
+
+class BodySet:
+    """
+    Bodies in the engine.
+
+    :param engine: Pymunk's space
+    :param shapes: numbers of its shapes
+
+    :ivar by_name: the bodies, in spawn order
+    """
+
+    def __init__(self, engine: pymunk.Space, shapes: ShapeIds) -> None:
+        self.by_name: dict[str, RigidBody] = {}
+        self._names: dict[pymunk.Body, str] = {}
+        self._engine = engine
+        self._shapes = shapes
+
+    def add_without_shapes(self, rigids: Sequence[RigidBody]) -> None:
+        """Add bodies all at once, whose shapes are added under their old numbers later."""
+        for rigid in rigids:
+            self.by_name[rigid.body.name] = rigid
+            self._names[rigid.engine] = rigid.body.name
+        self._engine.add(*(rigid.engine for rigid in rigids))
+
+    def add(self, rigid: RigidBody) -> None:
+        """Add a body; it replaces one of that name, which was taken out, in its place."""
+        self.add_without_shapes([rigid])
+        rigid.first = self._shapes.add(rigid.engine.shapes)
+        self.wake_around(rigid)
+
+    def take_out(self, rigid: RigidBody) -> None:
+        """Take a body out of the engine; its name keeps its place."""
+        self._shapes.remove(rigid.engine.shapes)
+        self._engine.remove(rigid.engine)
+        del self._names[rigid.engine]
+
+    def at(self, point: Point) -> list[str]:
+        """Return the bodies that cover a point of the world [m], the highest serial first."""
+        names = set()
+        for hit in self._engine.point_query(point, SEAM, pymunk.ShapeFilter()):
+            if hit.shape is not None and hit.shape.body in self._names:
+                names.add(self._names[hit.shape.body])
+        return sorted(names, key=lambda name: -self.by_name[name].serial)
+
+    def touching(self, engine: pymunk.Body) -> list[RigidBody]:
+        """Return the bodies that touched one, or the background, in the last step."""
+        found: list[pymunk.Body] = []
+        engine.each_arbiter(lambda arbiter: found.extend(arbiter.bodies))
+        names = dict.fromkeys(self._names[each] for each in found if each in self._names)
+        return [self.by_name[name] for name in names]
+
+    def wake_around(self, rigid: RigidBody, touching: Sequence[RigidBody] = ()) -> None:
+        """
+        Wake what a body overlaps that does not move by itself, and what it touched before.
+
+        :param touching: before it was moved
+        """
+        if rigid.body.fixed:
+            wake_bodies(each.engine for each in touching)
+            wake_overlapping(self._engine, rigid.engine)

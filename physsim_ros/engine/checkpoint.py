@@ -1,0 +1,107 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Checkpoints: a space is read into immutable values, and another is built from these.
+
+Two spaces built from one checkpoint go on alike to the bit. A space that has stepped and one that
+is built from its checkpoint do not, since the engine has a past that cannot be read, such as the
+order in which it has found contacts; that is why the live world goes on in a space rebuilt from
+each checkpoint that is taken.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from physsim_ros.engine import body as rigid_body
+from physsim_ros.engine.body import RigidBody
+from physsim_ros.engine.space import Space
+from physsim_ros.engine.stages.sleeping import wake_bodies
+from physsim_ros.engine.warm_start import read_impulses, shape_numbers, write_impulses
+from physsim_ros.model.checkpoint import Keyframe
+from physsim_ros.model.scene import Body
+
+
+def take_checkpoint(space: Space, step: int) -> Keyframe:
+    """
+    Return everything that a space goes on from.
+
+    Sleeping bodies have no velocity in it; all bodies of the space wake, as they are awake in the
+    one that is built from it.
+
+    :param step: steps that the world has made
+    """
+    table, settled, rigids = space.table, space.settled, list(space.bodies.by_name.values())
+    state = settled.state.copy()
+    state[table.asleep, 3:] = 0.0
+    wake_bodies(rigid.engine for rigid in rigids)
+    table.forget_state()
+    unsupported = [rigids[row] for row in np.flatnonzero(settled.unsupported)]
+    return Keyframe(
+        step=step,
+        scene=table.scene,
+        state=state,
+        free=settled.free.copy(),
+        wrenches=tuple(
+            (table.columns.rows[rigid.body.name], rigid.wrench, rigid.wrench_until)
+            for rigid in space.pipeline.wrenches.acting()
+        ),
+        memory=read_impulses(
+            space.shapes,
+            [rigid.first for rigid in rigids],
+            space.boundary.first,
+            without=shape_numbers(unsupported),
+        ),
+        joint_impulses=space.joints.impulses(),
+    )
+
+
+def restore_checkpoint(
+    key: Keyframe, dt: float, *, pool: Mapping[str, RigidBody] | None = None
+) -> Space:
+    """
+    Build a space that goes on from a checkpoint.
+
+    :param dt: of a step [s]
+    :param pool: bodies built beforehand, by name
+    """
+    space = Space(key.scene.settings, dt, first_shape=key.memory.walls)
+    rigids = [_rigid_body(body, pool or {}, row) for row, body in enumerate(key.scene.bodies)]
+    for rigid, first, free in zip(rigids, key.memory.ids.tolist(), key.free.tolist(), strict=True):
+        rigid.first, rigid.free = first, free
+    for row, wrench, until in key.wrenches:
+        space.pipeline.wrenches.set_wrench(rigids[row], wrench, until)
+    space.bodies.add_without_shapes(rigids)
+    table = space.lay_out(key.scene)
+    at_rest = key.state.copy()
+    at_rest[:, 3:] = 0.0
+    table.write_state(at_rest)
+    space.shapes.put_back((rigid.first, rigid.engine.shapes) for rigid in rigids)
+    write_impulses(space.engine, space.shapes, key.memory, dt)
+    table.write_state(key.state)
+    for joint in key.scene.joints:
+        space.joints.put(joint)
+    space.joints.go_on_from(key.joint_impulses)
+    return space
+
+
+def _rigid_body(body: Body, pool: Mapping[str, RigidBody], row: int) -> RigidBody:
+    """Return the engine's objects of a body, from the pool if it has them."""
+    rigid = pool.get(body.name)
+    if rigid is None or rigid.body is not body:
+        rigid = rigid_body.build(body, row)
+    rigid.serial = row
+    return rigid

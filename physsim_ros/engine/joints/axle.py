@@ -1,0 +1,80 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Axle: two anchors coincide; the turn of one body against the other may have limits.
+
+Of `lower` and `upper` [rad], turns of a against b from where they were, the engine and the rows
+know the turn of b against a, from zero.
+"""
+
+from __future__ import annotations
+
+import math
+
+from physsim_ros.model.arrays import Floats
+from physsim_ros.model.scene import Joint
+from physsim_ros.engine.joints import rows
+from physsim_ros.engine.joints.kind import Batch, Ends, EQUAL, Kind, Motion
+from physsim_ros.model.transform import turned
+import pymunk
+from pymunk._chipmunk_cffi import lib
+
+# With 1 Chipmunk takes a limit whose bias is 0 for one that is not reached: this leaves a share of
+# 4e-7 of an angle to be corrected in a step of 1/240 s.
+_NEARLY_NONE = 1.0 - 1e-4
+
+
+def pivot(ends: Ends) -> pymunk.PivotJoint:
+    """Return the constraint of two anchors that coincide."""
+    constraint = pymunk.PivotJoint(ends.a, ends.b, ends.at_a, ends.at_b)
+    constraint.error_bias = 0.0
+    return constraint
+
+
+def _constraints(joint: Joint, ends: Ends) -> list[pymunk.Constraint]:
+    limits = [pymunk.RotaryLimitJoint(ends.a, ends.b, *each) for each in _bounds(joint)[2:]]
+    for limit in limits:
+        limit.error_bias = _NEARLY_NONE
+    return [pivot(ends), *limits]
+
+
+def _bounds(joint: Joint) -> list[tuple[float, float]]:
+    lower, upper, phase = joint.properties.lower, joint.properties.upper, joint.seat.phase
+    if lower is None and upper is None:
+        return [EQUAL, EQUAL]
+    least = -math.inf if upper is None else phase - upper
+    return [EQUAL, EQUAL, (least, math.inf if lower is None else phase - lower)]
+
+
+def _rows(batch: Batch, a: Floats, b: Floats) -> tuple[Floats, Floats]:
+    point = rows.point(batch, a, b)
+    return rows.both(point, rows.angle(batch, a, b)) if batch.lower.shape[1] > 2 else point
+
+
+def aim(batch: Batch, motion: Motion) -> None:
+    """
+    Have each `PivotJoint` solve for v_b - v_a = dt / 2 (w_b^2 r_b - w_a^2 r_a) at the anchors.
+
+    Chipmunk solves for -gap / dt with `error_bias` 0, so anchor B is moved to where the gap is
+    - dt times that, whatever the gap between the anchors themselves.
+    """
+    arm_a, arm_b, apart = rows.arms(batch, motion.a[:, :3], motion.b[:, :3])
+    target = motion.pull[:, 1:] * arm_b - motion.pull[:, :1] * arm_a
+    anchors = turned(arm_b + apart - target * motion.dt, -motion.b[:, 2])
+    for pointer, x, y in zip(batch.constraints, *anchors.T.tolist(), strict=True):
+        lib.cpPivotJointSetAnchorB(pointer, (x, y))
+
+
+KIND = Kind(_constraints, _bounds, _rows, aim)

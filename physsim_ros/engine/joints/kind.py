@@ -1,0 +1,144 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+A joint in the engine, and a kind of joint: the functions that one file a kind provides.
+
+A constraint row is a number x of the poses of two bodies with lower <= x <= upper; of an equality
+both bounds are the same. C is how far x lies outside its bounds [m, rad], J = dx/dq its Jacobian.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from physsim_ros.model.arrays import Floats
+from physsim_ros.model.scene import Joint
+from physsim_ros.engine.islands import Rows
+from physsim_ros.model.shapes import Point
+import pymunk
+
+
+@dataclass(frozen=True, slots=True)
+class Ends:
+    """
+    The two bodies of a joint in the engine, and its anchors.
+
+    :param a: one body
+    :param b: another one, or the background
+    :param at_a: anchor in the frame of the first, its origin the centre of mass [m]
+    :param at_b: the same in the frame of the second
+    """
+
+    a: pymunk.Body
+    b: pymunk.Body
+    at_a: Point
+    at_b: Point
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class EngineJoint:
+    """
+    A joint and its constraints.
+
+    :param joint: its description
+    :param ends: its bodies and anchors
+    :param constraints: those of Pymunk; none where neither body is dynamic
+    """
+
+    joint: Joint
+    ends: Ends
+    constraints: tuple[pymunk.Constraint, ...]
+
+    @property
+    def impulse(self) -> float:
+        """Return the greatest impulse of a constraint in the last step [N s, N m s]."""
+        # That of a spring is negative where it pulls.
+        return max((abs(each.impulse) for each in self.constraints), default=0.0)
+
+
+class Batch(NamedTuple):
+    """
+    Joints of one kind, by column.
+
+    :ivar numbers: (k,) of the joints in their set
+    :ivar a: (k,) row of the first body in the states
+    :ivar b: (k,) row of the second body
+    :ivar at_a: (k, 2) float64: anchor in the frame of the first body [m]
+    :ivar at_b: (k, 2) float64: anchor in the frame of the second body [m]
+    :ivar axis: (k, 2) float64: unit vector of a slider in the frame of the second body
+    :ivar ratio: (k,) float64: of a gear
+    :ivar lower: (k, r) float64: least value of each row [m, rad]
+    :ivar upper: (k, r) float64: greatest value of each row [m, rad]
+    :ivar constraints: (k,) the engine's pointer to the first constraint of each
+    """
+
+    numbers: Rows
+    a: Rows
+    b: Rows
+    at_a: Floats
+    at_b: Floats
+    axis: Floats
+    ratio: Floats
+    lower: Floats
+    upper: Floats
+    constraints: list[Any]
+
+    def take(self, rows: Rows) -> Batch:
+        """Return some of them."""
+        columns = (column[rows] for column in self[:-1])
+        return Batch(*columns, [self.constraints[row] for row in rows.tolist()])
+
+
+class Motion(NamedTuple):
+    """
+    Bodies of a batch: poses at which the engine will solve, and velocities before it does.
+
+    :ivar a: (k, 6) float64: x, y [m], yaw [rad] and their rates, of the first bodies
+    :ivar b: (k, 6) float64: the same of the second bodies
+    :ivar pull: (k, 2) float64: (1 - cos(w dt)) / dt of the first and the second body [1/s], which
+        is dt / 2 w^2 while w dt is small: times an arm, half of a step of centripetal acceleration
+    :ivar dt: of a step [s]
+    """
+
+    a: Floats
+    b: Floats
+    pull: Floats
+    dt: float
+
+
+class Kind(NamedTuple):
+    """
+    What one kind of joint consists of.
+
+    :ivar constraints: makes the Pymunk constraints, the one that `aim` writes to first
+    :ivar bounds: returns (lower, upper) of each constraint row of a joint [m, rad]
+    :ivar rows: returns the (k, r) values x and the (k, r, 6) Jacobian J at the (k, 3) poses of the
+        first and the second bodies; None where positions are not corrected
+    :ivar aim: sets the velocity J v that the first constraint of each is solved for to the
+        centripetal term - dt / 2 (dJ/dt v); None where there is no such term
+    """
+
+    constraints: Callable[[Joint, Ends], list[pymunk.Constraint]]
+    bounds: Callable[[Joint], Sequence[tuple[float, float]]] = lambda _: ()
+    rows: Callable[[Batch, Floats, Floats], tuple[Floats, Floats]] | None = None
+    aim: Callable[[Batch, Motion], None] | None = None
+
+
+Bools = NDArray[np.bool_]
+EQUAL = (0.0, 0.0)

@@ -1,0 +1,40 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Pin: two anchors coincide, and neither body turns against the other."""
+
+from __future__ import annotations
+
+from physsim_ros.model.arrays import Floats
+from physsim_ros.model.scene import Joint
+from physsim_ros.engine.joints import rows
+from physsim_ros.engine.joints.axle import aim, pivot
+from physsim_ros.engine.joints.gear import gear
+from physsim_ros.engine.joints.kind import Batch, Ends, EQUAL, Kind
+import pymunk
+
+
+def _constraints(joint: Joint, ends: Ends) -> list[pymunk.Constraint]:
+    return [pivot(ends), gear(joint, ends)]
+
+
+def _bounds(joint: Joint) -> list[tuple[float, float]]:
+    return [EQUAL, EQUAL, (joint.seat.phase, joint.seat.phase)]
+
+
+def _rows(batch: Batch, a: Floats, b: Floats) -> tuple[Floats, Floats]:
+    return rows.both(rows.point(batch, a, b), rows.angle(batch, a, b))
+
+
+KIND = Kind(_constraints, _bounds, _rows, aim)

@@ -1,0 +1,51 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Rope: two anchors are no further from each other than its length."""
+
+from __future__ import annotations
+
+import numpy as np
+from physsim_ros.model.scene import Joint
+from physsim_ros.engine.joints import rows
+from physsim_ros.engine.joints.kind import Batch, Ends, Kind, Motion
+from physsim_ros.engine.joints.rod import lengths
+import pymunk
+from pymunk._chipmunk_cffi import lib
+
+# By so much a taut rope is too long for Chipmunk, which has a `SlideJoint` act only then [m].
+_TAUT = 1e-12
+
+
+def _constraints(joint: Joint, ends: Ends) -> list[pymunk.Constraint]:
+    rope = pymunk.SlideJoint(ends.a, ends.b, ends.at_a, ends.at_b, 0.0, joint.rest_length)
+    rope.error_bias = 0.0
+    return [rope]
+
+
+def _aim(batch: Batch, motion: Motion) -> None:
+    """
+    Have each taut `SlideJoint` solve for its rate: Chipmunk solves for (max - |d|) / dt.
+
+    It only holds back: a rate at which the anchors part is none.
+    """
+    longest = batch.upper[:, 0]
+    length, rate = lengths(batch, motion)
+    taut = length - np.maximum(-rate * motion.dt, _TAUT * (1.0 + length))
+    aimed = np.where(length > longest, taut, longest)
+    for pointer, most in zip(batch.constraints, aimed.tolist(), strict=True):
+        lib.cpSlideJointSetMax(pointer, most)
+
+
+KIND = Kind(_constraints, lambda joint: [(0.0, joint.rest_length)], rows.distance, _aim)

@@ -1,0 +1,111 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Constraint rows that several kinds of joints share: their values x and their Jacobians J.
+
+Poses are (k, 3) float64: x, y [m], yaw [rad] of the centres of mass. The columns of J are x, y,
+yaw of the first body, then of the second.
+Source: Catto, "Modeling and Solving Constraints", GDC 2009.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from physsim_ros.model.arrays import Floats
+from physsim_ros.engine.joints.kind import Batch
+from physsim_ros.model.transform import turned
+
+
+def arms(batch: Batch, a: Floats, b: Floats) -> tuple[Floats, Floats, Floats]:
+    """
+    Return the arms to both anchors, and from the second anchor to the first [m].
+
+    :return: (k, 2) float64 each, world axes
+    """
+    arm_a, arm_b = turned(batch.at_a, a[:, 2]), turned(batch.at_b, b[:, 2])
+    return arm_a, arm_b, (a[:, :2] + arm_a) - (b[:, :2] + arm_b)
+
+
+def point(batch: Batch, a: Floats, b: Floats) -> tuple[Floats, Floats]:
+    """Return the rows of two anchors that coincide: x = p_a - p_b."""
+    arm_a, arm_b, apart = arms(batch, a, b)
+    jacobian = np.zeros((len(apart), 2, 6))
+    jacobian[:, 0, 0] = jacobian[:, 1, 1] = 1.0
+    jacobian[:, 0, 3] = jacobian[:, 1, 4] = -1.0
+    jacobian[:, 0, 2], jacobian[:, 1, 2] = -arm_a[:, 1], arm_a[:, 0]
+    jacobian[:, 0, 5], jacobian[:, 1, 5] = arm_b[:, 1], -arm_b[:, 0]
+    return apart, jacobian
+
+
+def angle(batch: Batch, a: Floats, b: Floats) -> tuple[Floats, Floats]:
+    """Return the row of the turn of the second body against the first: x = ratio yaw_b - yaw_a."""
+    jacobian = np.zeros((len(a), 1, 6))
+    jacobian[:, 0, 2], jacobian[:, 0, 5] = -1.0, batch.ratio
+    return (batch.ratio * b[:, 2] - a[:, 2])[:, None], jacobian
+
+
+def distance(batch: Batch, a: Floats, b: Floats) -> tuple[Floats, Floats]:
+    """Return the row of the distance of two anchors: x = |p_a - p_b|."""
+    arm_a, arm_b, apart = arms(batch, a, b)
+    length = np.hypot(apart[:, 0], apart[:, 1])
+    # Anchors on each other have no direction; any one parts them.
+    along = np.where(length[:, None] > 0.0, apart / np.maximum(length, 1e-300)[:, None], (1.0, 0))
+    return length[:, None], _along(along, arm_a, arm_b)
+
+
+def track(batch: Batch, a: Floats, b: Floats) -> tuple[Floats, Floats]:
+    """
+    Return the rows of an anchor on a line that turns with the second body.
+
+    x = (n . d, u . d) with d = p_a - p_b, u the unit vector of the line and n across it.
+    """
+    arm_a, arm_b, apart = arms(batch, a, b)
+    u = turned(batch.axis, b[:, 2])
+    n = across(u)
+    # The line reaches from the second body to where the first anchor is.
+    reach = arm_b + apart
+    value = np.stack((dot(n, apart), dot(u, apart)), axis=1)
+    return value, np.concatenate((_along(n, arm_a, reach), _along(u, arm_a, reach)), axis=1)
+
+
+def both(first: tuple[Floats, Floats], second: tuple[Floats, Floats]) -> tuple[Floats, Floats]:
+    """Return the rows of both."""
+    return np.concatenate((first[0], second[0]), 1), np.concatenate((first[1], second[1]), 1)
+
+
+def across(vectors: Floats) -> Floats:
+    """Return (k, 2) vectors turned counter-clockwise by a quarter."""
+    return np.stack((-vectors[:, 1], vectors[:, 0]), axis=1)
+
+
+def dot(a: Floats, b: Floats) -> Floats:
+    """Return (k,) float64: the scalar products of (k, 2) vectors."""
+    product: Floats = a[:, 0] * b[:, 0] + a[:, 1] * b[:, 1]
+    return product
+
+
+def velocity(states: Floats, arm: Floats) -> Floats:
+    """Return (k, 2) float64: velocities of the points at arms from the centres of mass [m/s]."""
+    moved: Floats = states[:, 3:5] + states[:, 5:] * across(arm)
+    return moved
+
+
+def _along(direction: Floats, arm_a: Floats, arm_b: Floats) -> Floats:
+    """Return the (k, 1, 6) Jacobian of direction . (p_a - p_b)."""
+    jacobian = np.empty((len(direction), 1, 6))
+    jacobian[:, 0, :2], jacobian[:, 0, 3:5] = direction, -direction
+    jacobian[:, 0, 2] = arm_a[:, 0] * direction[:, 1] - arm_a[:, 1] * direction[:, 0]
+    jacobian[:, 0, 5] = arm_b[:, 1] * direction[:, 0] - arm_b[:, 0] * direction[:, 1]
+    return jacobian

@@ -1,0 +1,111 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Slider: an anchor of the first body stays on a line of the second, and neither turns against the
+other; the way along the line may have limits.
+
+Chipmunk's `GrooveJoint` solves both directions and then drops what is along the line, which is not
+the velocity constraint of a line where masses and arms make the two directions unequal (7.0.3, as
+in Pymunk 7.3.1): sliders that are loaded off centre would gain energy. In its place a `PinJoint`
+pulls across the line: from a point of the second body that is put beside the anchor in each step.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from physsim_ros.engine.joints import rows
+from physsim_ros.engine.joints.gear import gear
+from physsim_ros.engine.joints.kind import Batch, Ends, EQUAL, Kind, Motion
+from physsim_ros.model.arrays import Floats
+from physsim_ros.model.scene import Joint
+from physsim_ros.model.shapes import Point, SMALLEST
+from physsim_ros.model.transform import turned
+import pymunk
+from pymunk._chipmunk_cffi import lib
+
+# Length of the arm with which the pin pulls across the line [m]; any will do.
+_ARM = 1.0
+
+
+def has_no_way(joint: Joint) -> bool:
+    """Return whether the limits leave no way along the line, so that the joint is a pin."""
+    lower, upper = joint.properties.lower, joint.properties.upper
+    return lower is not None and upper is not None and upper - lower < SMALLEST
+
+
+def stop(joint: Joint, at_b: Point) -> Point:
+    """Return where on the second body the anchor of a slider that has no way stays [m]."""
+    middle = ((joint.properties.lower or 0.0) + (joint.properties.upper or 0.0)) / 2.0
+    return at_b[0] + joint.seat.ux * middle, at_b[1] + joint.seat.uy * middle
+
+
+def _constraints(joint: Joint, ends: Ends) -> list[pymunk.Constraint]:
+    pin = pymunk.PinJoint(ends.b, ends.a, ends.at_b, ends.at_a)
+    pin.error_bias = 0.0
+    lower, upper = _limits(joint)
+    if math.isinf(lower) and math.isinf(upper):
+        return [pin, gear(joint, ends)]
+    # Distances from a point of the line that lies behind its lower limit.
+    back = _ARM if math.isinf(lower) else _ARM - lower
+    (x, y), (ux, uy) = ends.at_b, (joint.seat.ux, joint.seat.uy)
+    least = 0.0 if math.isinf(lower) else back + lower
+    origin = x - ux * back, y - uy * back
+    limit = pymunk.SlideJoint(ends.b, ends.a, origin, ends.at_a, least, back + upper)
+    # Without a bias: a share of 0 of the gap is closed in a step.
+    limit.error_bias = 1.0
+    return [pin, gear(joint, ends), limit]
+
+
+def _limits(joint: Joint) -> tuple[float, float]:
+    lower, upper = joint.properties.lower, joint.properties.upper
+    return -math.inf if lower is None else lower, math.inf if upper is None else upper
+
+
+def _bounds(joint: Joint) -> list[tuple[float, float]]:
+    phase = joint.seat.phase
+    return [EQUAL, _limits(joint), (phase, phase)]
+
+
+def _rows(batch: Batch, a: Floats, b: Floats) -> tuple[Floats, Floats]:
+    return rows.both(rows.track(batch, a, b), rows.angle(batch, a, b))
+
+
+def _aim(batch: Batch, motion: Motion) -> None:
+    """
+    Have each `PinJoint` solve for its centripetal term.
+
+    Of x = n . d, n the unit vector across the line, which turns with b, dJ/dt v is
+    n . (w_b^2 r_b - w_a^2 r_a - w_b^2 d) - 2 w_b u . (v_a - v_b), the last one Coriolis's term.
+    Chipmunk solves for (distance - length) / dt along the pin with `error_bias` 0.
+    """
+    dt = motion.dt
+    arm_a, arm_b, apart = rows.arms(batch, motion.a[:, :3], motion.b[:, :3])
+    u = turned(batch.axis, motion.b[:, 2])
+    n = rows.across(u)
+    pulled = motion.pull[:, :1] * arm_a - motion.pull[:, 1:] * (arm_b - apart)
+    change = rows.velocity(motion.a, arm_a) - rows.velocity(motion.b, arm_b)
+    rate = rows.dot(n, pulled) + motion.b[:, 5] * dt * rows.dot(u, change)
+    anchors = turned(arm_b + apart - n * _ARM, -motion.b[:, 2])
+    lengths = np.maximum(_ARM + rate * dt, 0.0)
+    for pointer, (x, y), length in zip(
+        batch.constraints, anchors.tolist(), lengths.tolist(), strict=True
+    ):
+        lib.cpPinJointSetAnchorA(pointer, (x, y))
+        lib.cpPinJointSetDist(pointer, length)
+
+
+KIND = Kind(_constraints, _bounds, _rows, _aim)

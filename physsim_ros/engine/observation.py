@@ -1,0 +1,57 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Observation: what is read of a space, as fresh arrays in spawn order."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from physsim_ros.engine.body import RigidBody
+from physsim_ros.engine.body_table import BodyTable
+from physsim_ros.engine.stages.half_step import Settled
+from physsim_ros.model.arrays import Floats
+from physsim_ros.model.transform import turned
+
+
+def observe_bodies(table: BodyTable, settled: Settled) -> tuple[Floats, Floats]:
+    """
+    Return poses of the bodies' origins and true twists of their centres of mass.
+
+    :param settled: the state that the next step begins with
+    :return: (n, 3) float64 each: x, y [m], yaw [rad]; velocity [m/s], spin [rad/s]
+    """
+    poses, twists = settled.state[:, :3].copy(), settled.state[:, 3:].copy()
+    offsets = table.columns.offsets
+    if offsets.any():
+        poses[:, :2] -= turned(offsets, poses[:, 2])
+    twists[settled.free] -= table.leads[settled.free]
+    twists[table.asleep] = 0.0
+    return poses, twists
+
+
+def digest_parts(
+    table: BodyTable, settled: Settled, pushed: Sequence[RigidBody]
+) -> Iterator[bytes]:
+    """
+    Yield all that is known of the bodies, but for the engine's impulse cache.
+
+    :param settled: the state that the next step begins with
+    :param pushed: bodies on which a wrench acts, in spawn order
+    """
+    yield table.scene.key
+    yield settled.state.tobytes()
+    yield settled.free.tobytes()
+    for rigid in pushed:
+        yield f'{rigid.body.name} {rigid.wrench!r} {rigid.wrench_until}'.encode()

@@ -1,0 +1,103 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+The pipeline: one step of the engine, stage by stage in this order.
+
+1. Wrenches: the forces of commands are set for the step.
+2. Half-step velocity: bodies that have lost their support fall freely, without old impulses.
+3. Resting damping: the solver's error is removed from what friction locks in place.
+4. Continuous collision: fast bodies are advanced to where they first touch something.
+5. Joints: the target velocity of constraints is set to the centripetal term.
+6. Pymunk's step: positions, narrow phase, solver, sleeping. As pairs begin to touch, in the middle
+   of it: impact propagation, first manifolds for the contact report.
+7. Joints: gaps are closed in positions.
+8. Half-step velocity: free flight is found.
+9. Contact report: impulses are added up.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from physsim_ros.engine.batch_io import BatchIO
+from physsim_ros.engine.ccd.continuous import ContinuousCollision
+from physsim_ros.engine.contact_report import ContactReport
+from physsim_ros.engine.joints.joint_set import JointSet
+from physsim_ros.engine.stages.half_step import HalfStep
+from physsim_ros.engine.stages.impact_propagation import ImpactPropagation
+from physsim_ros.engine.stages.resting_damping import RestingDamping
+from physsim_ros.engine.stages.wrenches import Wrenches
+from physsim_ros.engine.step_context import StepContext
+from physsim_ros.engine.warm_start import clear_impulses, ShapeIds
+import pymunk
+
+
+class Pipeline:
+    """
+    The stages of a space.
+
+    :param engine: Pymunk's space
+    :param io: of it
+    :param shapes: numbers of its shapes
+    :param joints: in it
+    :param dt: of a step [s]
+    """
+
+    def __init__(
+        self, engine: pymunk.Space, io: BatchIO, shapes: ShapeIds, joints: JointSet, dt: float
+    ) -> None:
+        self.wrenches = Wrenches()
+        self.half_step = HalfStep(engine, io)
+        self.resting_damping = RestingDamping(io, dt)
+        self.continuous_collision = ContinuousCollision(engine, io, dt)
+        self.impact_propagation = ImpactPropagation(engine, io)
+        self.contact_report = ContactReport(io)
+        self._joints = joints
+        self._engine = engine
+        self._shapes = shapes
+        # The step that is being made; None between steps.
+        self._context: StepContext | None = None
+        engine.on_collision(begin=self._begin_contact)
+
+    def step(self, context: StepContext) -> None:
+        """Make a step."""
+        table = context.table
+        self.wrenches.apply_wrenches()
+        unsupported = self.half_step.begin_step(table)
+        if unsupported.any():
+            rows = np.flatnonzero(unsupported).tolist()
+            clear_impulses(self._shapes, [table.bodies[row] for row in rows])
+        context.twists = table.state[:, 3:].copy()
+        self.resting_damping.damp_resting(context)
+        self.continuous_collision.clamp_moves(context)
+        self._joints.set_targets(context)
+        self._context = context
+        self._engine.step(context.dt)
+        self._context = None
+        table.forget_state()
+        self._joints.close_gaps(context)
+        self.half_step.find_free(context)
+        if context.watching:
+            self.contact_report.add_step(table)
+        else:
+            self.contact_report.skip_step()
+
+    def forget_body(self, engine_id: int) -> None:
+        """Forget a body that leaves the engine, or the background where its walls are replaced."""
+        self.contact_report.forget(engine_id)
+
+    def _begin_contact(self, arbiter: pymunk.Arbiter, space: pymunk.Space, _: object) -> None:
+        """Handle two shapes that begin to touch, before the solver runs."""
+        if self._context is not None and self._context.watching:
+            self.contact_report.begin(arbiter, arbiter.contact_point_set)

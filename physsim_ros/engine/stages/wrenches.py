@@ -1,0 +1,66 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Wrenches: forces and torques that commands let act on bodies, until a step.
+
+The engine adds a body's force up from step to step only if it is set again for each.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from physsim_ros.engine.body import REST, RigidBody
+from physsim_ros.model.shapes import Pose
+
+
+class Wrenches:
+    """The wrenches that act in a space; each stands with its body."""
+
+    def __init__(self) -> None:
+        self._acting: dict[str, RigidBody] = {}
+
+    def set_wrench(self, rigid: RigidBody, wrench: Pose, until: int | None) -> None:
+        """
+        Let a wrench act in place of the one before.
+
+        :param wrench: force [N] and torque [N m] at the centre of mass
+        :param until: step at which it ends; None is never
+        """
+        rigid.wrench, rigid.wrench_until = wrench, until
+        if wrench == REST:
+            self._acting.pop(rigid.body.name, None)
+        else:
+            self._acting[rigid.body.name] = rigid
+
+    def forget_body(self, rigid: RigidBody) -> None:
+        """Forget a body that leaves the space; what it carries stays with it."""
+        self._acting.pop(rigid.body.name, None)
+
+    def acting(self) -> list[RigidBody]:
+        """Return the bodies on which a wrench acts, in spawn order."""
+        return sorted(self._acting.values(), key=lambda rigid: rigid.serial)
+
+    def ended(self, step: int) -> Iterator[RigidBody]:
+        """Yield the bodies whose wrench acts no longer than to a step."""
+        for rigid in list(self._acting.values()):
+            if rigid.wrench_until is not None and rigid.wrench_until <= step:
+                yield rigid
+
+    def apply_wrenches(self) -> None:
+        """Set forces and torques for the coming step of the engine, which clears them after it."""
+        for rigid in self._acting.values():
+            fx, fy, rigid.engine.torque = rigid.wrench
+            rigid.engine.force = fx, fy

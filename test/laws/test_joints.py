@@ -1,0 +1,132 @@
+"""Laws 31 to 34: joints under limits, loads and each other; their warm start over checkpoints."""
+
+import math
+import random
+
+import numpy as np
+from physsim_ros.model.errors import Refusal
+from physsim_ros.model.shapes import Box, Disc
+import pytest
+
+from .scenes import energy, G, join, run, simulation, spawn, steps
+
+
+def double_pendulum(**said):
+    """Return two bars that swing from each other."""
+    sim = simulation()
+    for number in range(2):
+        spawn(sim, f'bar/{number}', Box(width=1.0, height=0.1), (0.5 + number, 0.0, 0.0))
+        other = f'bar/{number - 1}' if number else 'world'
+        points = [(float(number), 0.0)]
+        join(sim, f'j/{number}', 'axle', points, a=f'bar/{number}', b=other, **said)
+    return sim
+
+
+@pytest.mark.parametrize('limit', ['max_force', 'break_force', 'lower', 'upper'])
+def test_a_limit_that_is_never_reached_changes_nothing(report, limit):
+    value = {'max_force': 1e6, 'break_force': 1e6, 'lower': -50.0, 'upper': 50.0}[limit]
+    one, other = run(double_pendulum(), 2.0), run(double_pendulum(**{limit: value}), 2.0)
+    off = float(np.abs(one.poses - other.poses).max())
+    report.check(31, f'double pendulum with {limit}, 2 s', off, 0.0, 1e-6, 'm')
+
+
+@pytest.mark.parametrize('power', range(3, 9))
+def test_a_spring_is_as_stiff_as_it_says_or_refused(report, power):
+    sim, stiffness = simulation(), 10.0**power
+    spawn(sim, 'mass/0', Disc(radius=0.1), mass=1.0)
+    said = {'stiffness': stiffness, 'damping': math.sqrt(stiffness), 'a': 'mass/0', 'b': 'world'}
+    try:
+        join(sim, 'spring/0', 'spring', [(0.0, 0.0), (0.0, 1.0)], **said)
+    except Refusal as refusal:
+        assert '57600 N/m' in str(refusal)  # noqa: PT017
+        return
+    last = run(sim, 5.0)
+    exact = G / stiffness
+    what = f'1 kg on {stiffness:g} N/m, extension'
+    report.check(32, what, -last.poses[0, 1], exact, 0.01, 'm', relative=True)
+
+
+def bridge():
+    """Return ten light planks on axles between two banks."""
+    sim = simulation()
+    for number in range(10):
+        place = (number + 0.5, 5.0, 0.0)
+        spawn(sim, f'plank/{number}', Box(width=1.0, height=0.2), place, mass=0.22, group=7)
+    for number in range(11):
+        a, b = f'plank/{min(number, 9)}', f'plank/{number - 1}' if 0 < number < 10 else 'world'
+        join(sim, f'axle/{number}', 'axle', [(float(number), 5.0)], a=a, b=b)
+    for number, (x, width) in enumerate(((-0.5, 1.0), (11.5, 3.0))):
+        box = Box(width=width, height=1.0)
+        spawn(sim, f'bank/{number}', box, (x, 4.6, 0.0), anchored=True, group=7)
+    return sim
+
+
+def roller(sim):
+    """Let 50 kg roll over it."""
+    place = (1.0, 5.61, 0.0)
+    spawn(sim, 'roller/0', Disc(radius=0.5), place, mass=50.0, velocity=(2.0, 0.0), spin=-4.0)
+
+
+def rubble(sim):
+    """Drop 80 boxes of 5 kg on it."""
+    for number in range(80):
+        place = (0.6 + 0.45 * (number % 20), 5.5 + 0.45 * (number // 20), 0.0)
+        spawn(sim, f'box/{number}', Box(width=0.4, height=0.4), place, mass=5.0)
+
+
+@pytest.mark.parametrize('load', [roller, rubble])
+def test_light_planks_stay_closed_under_a_heavy_load(report, load):
+    sim = bridge()
+    load(sim)
+    before = sim.world.snapshot()
+    lowest = 0.0
+    for now in steps(sim, 480):
+        gap = float(np.hypot(*(now.ends[:, 0] - now.ends[:, 1]).T).max())
+        report.check(33, f'{load.__name__} on ten planks, gap', gap, 0.0, 0.02, 'm')
+        lowest = min(lowest, now.potential_energy - before.potential_energy)
+        gain = max(energy(now) - energy(before), 0.0) / max(-lowest, 100.0)
+        report.check(33, f'{load.__name__} on ten planks, energy gain', gain, 0.0, 0.01, '–')
+
+
+def tangle(seed):
+    """Return six boxes with joints that contradict each other, above a floor."""
+    pick, sim = random.Random(seed), simulation()
+    spawn(sim, 'floor/0', Box(width=100.0, height=1.0), (0.0, -0.5, 0.0), anchored=True)
+    places = [(pick.uniform(-2.0, 2.0), pick.uniform(2.0, 5.0)) for _ in range(6)]
+    for number, place in enumerate(places):
+        box = Box(width=pick.uniform(0.3, 1.0), height=pick.uniform(0.3, 1.0))
+        spawn(sim, f'b/{number}', box, (*place, 0.0), mass=10 ** pick.uniform(-1, 1))
+    for number in range(8):
+        b = pick.randrange(6)
+        a = pick.choice([f'b/{other}' for other in range(6) if other != b] + ['world'])
+        kind = pick.choice(['axle', 'pin', 'rod', 'slider', 'rope', 'gear'])
+        x, y = places[b]
+        near = (x + pick.uniform(-0.5, 0.5), y + pick.uniform(-0.5, 0.5))
+        far = (pick.uniform(-2.0, 2.0), pick.uniform(2.0, 5.0))
+        points = [near, far] if kind in ('rod', 'slider', 'rope') else [near]
+        join(sim, f'j/{number}', kind, points, a=f'b/{b}', b=a)
+    return sim
+
+
+@pytest.mark.parametrize('seed', range(20))
+def test_joints_that_contradict_each_other_give_no_energy(report, seed):
+    sim = tangle(seed)
+    before = sim.world.snapshot()
+    most = float(before.scene.inertia[:, 0].sum()) * G * 5.0
+    gain = max(energy(now) - energy(before) for now in steps(sim, 480)) / most
+    report.check(34, 'tangle, energy gained', max(gain, 0.0), 0.0, 0.05, '–')
+
+
+def test_a_loaded_chain_does_not_stir_at_a_checkpoint(report):
+    sim = simulation()
+    for number in range(30):
+        place = (0.0, -0.2 * (number + 0.5), 0.0)
+        spawn(sim, f'link/{number}', Box(width=0.05, height=0.2), place, mass=0.1)
+        other = f'link/{number - 1}' if number else 'world'
+        points = [(0.0, -0.2 * number)]
+        join(sim, f'axle/{number}', 'axle', points, a=f'link/{number}', b=other)
+    sim.world.step(960)
+    sim.world.renew()
+    for now in steps(sim, 24):
+        fastest = float(np.abs(now.twists).max())
+        report.check(26, 'chain at rest, after a checkpoint', fastest, 0.0, 5e-3, 'm/s')
