@@ -27,7 +27,8 @@ import math
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.requests import Spawn
-from physsim_ros.model.shapes import Box, Chain, Disc, Point, Polygon, Pose, Shape
+from physsim_ros.model.shapes import Box, Chain, Disc, Polygon, Shape
+from physsim_ros.model.transform import Point, Pose
 
 
 def disc(name: str, center: Point, radius: float, settings: DrawingSettings) -> Spawn:

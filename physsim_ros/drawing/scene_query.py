@@ -32,9 +32,9 @@ from physsim_ros.model.errors import BadProperty, UnknownFrame
 from physsim_ros.model.names import split_name
 from physsim_ros.model.scene import Body
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Capsule, Circle, Convex, Piece, Point, Pose
+from physsim_ros.model.shapes import Capsule, Circle, Convex, Piece
 from physsim_ros.model.snapshot import Snapshot
-from physsim_ros.model.transform import rotated
+from physsim_ros.model.transform import Point, Pose, rotated
 
 # The namespace of all that is drawn.
 DRAWN = 'drawn'

@@ -33,8 +33,8 @@ from physsim_ros.model.errors import NotRecognised
 from physsim_ros.model.names import split_name
 from physsim_ros.model.preview import Line, NOTHING, Preview
 from physsim_ros.model.requests import Join, Request, Spawn
-from physsim_ros.model.shapes import Point
 from physsim_ros.model.snapshot import Answer, Snapshot
+from physsim_ros.model.transform import Point
 
 # Below that confidence a runner-up is not worth a word in the picture.
 _WORTH = 0.05

@@ -18,8 +18,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from physsim_ros.model.body_properties import Checks, velocity, Within
-from physsim_ros.model.shapes import Color, Point, SMALLEST
+from physsim_ros.model.checks import Checks, velocity, Within
+from physsim_ros.model.colors import Color
+from physsim_ros.model.shapes import SMALLEST
+from physsim_ros.model.transform import Point
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

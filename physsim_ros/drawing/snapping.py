@@ -29,7 +29,8 @@ from physsim_ros.drawing.scene_query import on_segment, View
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.names import WORLD
-from physsim_ros.model.shapes import Capsule, Chain, Circle, Convex, Disc, Piece, Point
+from physsim_ros.model.shapes import Capsule, Chain, Circle, Convex, Disc, Piece
+from physsim_ros.model.transform import Point
 
 # What so much of a circle lies on, it was drawn across the edge of.
 _ACROSS = 0.25

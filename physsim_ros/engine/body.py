@@ -28,8 +28,8 @@ import math
 
 from physsim_ros.model.checkpoint import Motion
 from physsim_ros.model.scene import Body
-from physsim_ros.model.shapes import Capsule, Circle, Convex, Piece, Point, Pose
-from physsim_ros.model.transform import rotated
+from physsim_ros.model.shapes import Capsule, Circle, Convex, Piece
+from physsim_ros.model.transform import Point, Pose, rotated
 import pymunk
 
 REST = (0.0, 0.0, 0.0)

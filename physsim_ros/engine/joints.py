@@ -28,10 +28,11 @@ import math
 
 import numpy as np
 from physsim_ros.engine.body import RigidBody
-from physsim_ros.model.joint_properties import JointKind
+from physsim_ros.model.joints import JointKind
 from physsim_ros.model.scene import Joint
-from physsim_ros.model.shapes import Point, SMALLEST
+from physsim_ros.model.shapes import SMALLEST
 from physsim_ros.model.snapshot import Springs
+from physsim_ros.model.transform import Point
 import pymunk
 
 # How far a slider without limits goes to each side [m].

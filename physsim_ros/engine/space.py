@@ -46,9 +46,8 @@ from physsim_ros.model.arrays import Floats, greatest
 from physsim_ros.model.checkpoint import Keyframe, Motion
 from physsim_ros.model.scene import Body, Joint, Scene
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Point, Pose
 from physsim_ros.model.snapshot import Contacts
-from physsim_ros.model.transform import turned
+from physsim_ros.model.transform import Point, Pose, turned
 import pymunk
 
 # A point so near counts as inside [m]: on the seam of two pieces it lies inside neither.

@@ -32,35 +32,18 @@ from physsim_ros.engine.body import REST
 from physsim_ros.engine.space import LOST
 from physsim_ros.files.base64_array import unpack
 from physsim_ros.files.world_schema import FORMAT, MEMORY, PARAMETERS, PROPERTIES, SETTINGS
-from physsim_ros.model.body_properties import (
-    check_key,
-    number,
-    pair,
-    properties_from,
-    shown,
-    Within,
-)
+from physsim_ros.model.body_properties import properties_from
 from physsim_ros.model.checkpoint import BodyState, ContactMemory, Motion, WorldState
-from physsim_ros.model.colors import color_from
+from physsim_ros.model.checks import check_key, number, pair, shown, Within
+from physsim_ros.model.colors import Color, color_from
 from physsim_ros.model.errors import BadProperty, BadWorldFile, Refusal, UnknownProperty
-from physsim_ros.model.joint_properties import JointKind
+from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import check_name, WORLD
 from physsim_ros.model.requests import Command, join_from, joined_from, LONGEST, Restore, Spawn
 from physsim_ros.model.scene import Joint, Seat
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import (
-    Box,
-    Chain,
-    Color,
-    Compound,
-    Disc,
-    Point,
-    Polygon,
-    Pose,
-    Shape,
-    Triangles,
-)
-from physsim_ros.model.transform import rotated
+from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon, Shape, Triangles
+from physsim_ros.model.transform import Point, Pose, rotated
 from physsim_ros.simulation.joint_requests import drawn_points
 from physsim_ros.simulation.world import steps_in, World
 

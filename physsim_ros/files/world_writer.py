@@ -22,19 +22,10 @@ import numpy as np
 from physsim_ros.files.base64_array import pack
 from physsim_ros.files.world_schema import FORMAT, MEMORY, SETTINGS
 from physsim_ros.model.checkpoint import BodyState, ContactMemory, WorldState
-from physsim_ros.model.colors import color_from
+from physsim_ros.model.colors import Color, color_from
 from physsim_ros.model.scene import Joint
-from physsim_ros.model.shapes import (
-    Box,
-    Chain,
-    Color,
-    Compound,
-    Disc,
-    Polygon,
-    Pose,
-    Shape,
-    Triangles,
-)
+from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon, Shape, Triangles
+from physsim_ros.model.transform import Pose
 from physsim_ros.simulation.joint_requests import drawn_points
 import yaml
 

@@ -27,7 +27,9 @@ from typing import Any, TypeVar
 
 from geometry_msgs.msg import Point, PointStamped, Quaternion
 from physsim_ros.files.yaml12 import load_mapping
-from physsim_ros.model.body_properties import check_finite, properties_from
+from physsim_ros.model.body_properties import properties_from
+from physsim_ros.model.checks import check_finite
+from physsim_ros.model.colors import Color
 from physsim_ros.model.errors import (
     BadProperty,
     BadSize,
@@ -51,7 +53,6 @@ from physsim_ros.model.requests import (
 from physsim_ros.model.shapes import (
     Box,
     Chain,
-    Color,
     Compound,
     Disc,
     MOST_POINTS,

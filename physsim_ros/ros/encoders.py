@@ -32,7 +32,7 @@ import struct
 
 import numpy as np
 from physsim_ros.model.arrays import Floats, Ints, Singles
-from physsim_ros.model.joint_properties import JointKind
+from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.scene import Body, Joint, Scene
 from physsim_ros.model.snapshot import Answer, Contacts, Snapshot

@@ -24,7 +24,8 @@ from dataclasses import dataclass
 import json
 import math
 
-from physsim_ros.model.joint_properties import JointKind
+from physsim_ros.model.colors import Color
+from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import (
     CROSS_PREFIX,
     JOINT_PREFIX,
@@ -34,17 +35,8 @@ from physsim_ros.model.names import (
 )
 from physsim_ros.model.scene import Body, Joint
 from physsim_ros.model.settings import Bounds
-from physsim_ros.model.shapes import (
-    Box,
-    Chain,
-    Color,
-    Compound,
-    Disc,
-    Point,
-    Polygon,
-    Shape,
-    Triangles,
-)
+from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon, Shape, Triangles
+from physsim_ros.model.transform import Point
 from visualization_msgs.msg import Marker
 
 Size = tuple[float, float, float]

@@ -28,12 +28,12 @@ from typing import Any
 from physsim_ros.drawing.clicks.tools import Tool
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.settings import RANGES as DRAWING_RANGES
-from physsim_ros.model.body_properties import FASTEST
-from physsim_ros.model.colors import color_from
+from physsim_ros.model.checks import FASTEST
+from physsim_ros.model.colors import Color, color_from
 from physsim_ros.model.errors import BadProperty, Malformed
 from physsim_ros.model.settings import RANGES as WORLD_RANGES
 from physsim_ros.model.settings import STRONGEST, WorldSettings
-from physsim_ros.model.shapes import Color, LARGEST
+from physsim_ros.model.shapes import LARGEST
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
 from rcl_interfaces.msg import Parameter as ParameterMessage
 from rcl_interfaces.srv import SetParameters, SetParametersAtomically

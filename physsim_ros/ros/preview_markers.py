@@ -26,7 +26,7 @@ import math
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import Point as PointMessage
 from physsim_ros.model.preview import Preview
-from physsim_ros.model.shapes import Point
+from physsim_ros.model.transform import Point
 from std_msgs.msg import ColorRGBA
 from visualization_msgs.msg import Marker, MarkerArray
 

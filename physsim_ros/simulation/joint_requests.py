@@ -27,12 +27,11 @@ import math
 
 from physsim_ros.engine.space import Space
 from physsim_ros.model.errors import Anchored, BadProperty, NothingThere, UnknownBody, UnknownJoint
-from physsim_ros.model.joint_properties import JointKind, JointProperties
+from physsim_ros.model.joints import JointKind, JointProperties
 from physsim_ros.model.names import split_name, WORLD
 from physsim_ros.model.requests import Join
 from physsim_ros.model.scene import Joint, Seat
-from physsim_ros.model.shapes import Point, Pose
-from physsim_ros.model.transform import rotated
+from physsim_ros.model.transform import Point, Pose, rotated
 
 # Points that lie so near to where a joint is drawn are where it is [m]: what is drawn comes back
 # in the digits of a double, and from a person's hand never.

@@ -28,8 +28,8 @@ import math
 from physsim_ros.engine.body import REST, RigidBody
 from physsim_ros.engine.body_pool import Spares
 from physsim_ros.engine.space import Space
-from physsim_ros.model.body_properties import HEAVIEST, LIGHTEST
 from physsim_ros.model.checkpoint import BodyState, Keyframe, Motion, WorldState
+from physsim_ros.model.checks import HEAVIEST, LIGHTEST
 from physsim_ros.model.colors import color_of
 from physsim_ros.model.errors import (
     Anchored,
@@ -39,7 +39,7 @@ from physsim_ros.model.errors import (
     UnknownFrame,
     WorldFull,
 )
-from physsim_ros.model.joint_properties import JointKind
+from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import split_name
 from physsim_ros.model.requests import (
     Anchor,
@@ -61,9 +61,8 @@ from physsim_ros.model.requests import (
 )
 from physsim_ros.model.scene import Body
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Point, Pose
 from physsim_ros.model.snapshot import Contacts, Snapshot
-from physsim_ros.model.transform import rotated
+from physsim_ros.model.transform import Point, Pose, rotated
 from physsim_ros.simulation import joint_requests
 
 

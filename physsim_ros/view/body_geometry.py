@@ -30,20 +30,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.model.arrays import Floats, Singles
+from physsim_ros.model.colors import Color
 from physsim_ros.model.scene import Body, Scene
 from physsim_ros.model.settings import Bounds
-from physsim_ros.model.shapes import (
-    Box,
-    Capsule,
-    Circle,
-    Color,
-    Compound,
-    Convex,
-    Disc,
-    Piece,
-    Point,
-    Polygon,
-)
+from physsim_ros.model.shapes import Box, Capsule, Circle, Compound, Convex, Disc, Piece, Polygon
+from physsim_ros.model.transform import Point
 
 # A flat rectangle or disc on a body: x, y [m], yaw [rad] in the body's frame; half extents [m];
 # red, green, blue, alpha, each 0 .. 1. The corner of a triangle has no extent.

@@ -29,7 +29,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.joint_properties import JointKind
+from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.scene import Body, Joint, Scene
 from physsim_ros.model.transform import turned

@@ -33,8 +33,8 @@ from numpy.typing import NDArray
 from physsim_ros.model.arrays import Floats, Singles
 from physsim_ros.model.preview import NOTHING
 from physsim_ros.model.settings import Bounds
-from physsim_ros.model.shapes import Point
 from physsim_ros.model.snapshot import Answer, Frame, Snapshot
+from physsim_ros.model.transform import Point
 from physsim_ros.view import run_state_track
 from physsim_ros.view.body_geometry import (
     BodyPicture,

@@ -22,7 +22,7 @@ import math
 import numpy as np
 from physsim_ros.drawing.scene_query import View
 from physsim_ros.model.errors import UnknownFrame
-from physsim_ros.model.joint_properties import JointKind
+from physsim_ros.model.joints import JointKind
 from physsim_ros.model.requests import Join
 from physsim_ros.simulation.world import World
 import pytest

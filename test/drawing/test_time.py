@@ -24,8 +24,9 @@ from physsim_ros.drawing.session import Pen
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.model.requests import Command, Configure, Delete, Join, Spawn
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Disc, Point
+from physsim_ros.model.shapes import Disc
 from physsim_ros.model.snapshot import Answer, Frame
+from physsim_ros.model.transform import Point
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 

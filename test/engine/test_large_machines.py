@@ -21,7 +21,7 @@ import math
 import numpy as np
 from physsim_ros.engine.articulation import solver
 from physsim_ros.engine.articulation.solver import Linkage
-from physsim_ros.model.joint_properties import JointKind
+from physsim_ros.model.joints import JointKind
 from physsim_ros.model.requests import Join
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Disc

@@ -31,7 +31,7 @@ from physsim_ros.files.yaml12 import load_mapping
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.colors import color_of
 from physsim_ros.model.errors import BadWorldFile, Malformed
-from physsim_ros.model.joint_properties import JointKind, JointProperties
+from physsim_ros.model.joints import JointKind, JointProperties
 from physsim_ros.model.requests import Anchor, Command, Configure, Join, Release, Restore
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Disc

@@ -17,7 +17,8 @@
 import math
 from typing import Any
 
-from physsim_ros.model.body_properties import (
+from physsim_ros.model.body_properties import Properties, properties_from
+from physsim_ros.model.checks import (
     check_finite,
     check_key,
     FASTEST,
@@ -25,8 +26,6 @@ from physsim_ros.model.body_properties import (
     LIGHTEST,
     number,
     pair,
-    Properties,
-    properties_from,
     shown,
 )
 from physsim_ros.model.errors import BadProperty, Malformed, Refusal, UnknownProperty

@@ -24,7 +24,7 @@ from typing import Any
 import numpy as np
 from physsim_ros.files import world_file
 from physsim_ros.model.errors import OutOfHistory
-from physsim_ros.model.joint_properties import JointKind, JointProperties
+from physsim_ros.model.joints import JointKind, JointProperties
 from physsim_ros.model.requests import (
     Anchor,
     Command,

@@ -27,7 +27,8 @@ import math
 from physsim_ros.drawing.scene_query import View
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.model.errors import BadSize, NothingThere, UnknownBody
-from physsim_ros.model.shapes import Point, SMALLEST
+from physsim_ros.model.shapes import SMALLEST
+from physsim_ros.model.transform import Point
 
 # What is shorter than that share of `snap`, 15 mm as it stands, is a slip of the hand.
 SLIP = 0.1

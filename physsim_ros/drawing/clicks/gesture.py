@@ -29,7 +29,7 @@ from physsim_ros.drawing.scene_query import View
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.model.preview import Line, Preview
 from physsim_ros.model.requests import check_point
-from physsim_ros.model.shapes import Point
+from physsim_ros.model.transform import Point
 
 # Corners of the ring about a polygon's first corner.
 _RING = 24

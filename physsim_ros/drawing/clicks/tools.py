@@ -31,7 +31,7 @@ from physsim_ros.drawing.clicks.click import Click, distinct, meant, span
 from physsim_ros.drawing.scene_query import View
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.model.errors import Anchored, NothingThere
-from physsim_ros.model.joint_properties import JointKind
+from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.requests import (
     Anchor,
@@ -44,7 +44,7 @@ from physsim_ros.model.requests import (
     Release,
     Request,
 )
-from physsim_ros.model.shapes import Point
+from physsim_ros.model.transform import Point
 
 
 class Tool(StrEnum):

@@ -31,9 +31,9 @@ from physsim_ros.drawing.strokes.glyphs import Swings
 from physsim_ros.drawing.strokes.hypothesis import Candidate, falls, LEAST, Primitive, rises
 from physsim_ros.drawing.strokes.polyline import angles, smoothed, turns, widened
 from physsim_ros.drawing.strokes.stroke import Stroke
-from physsim_ros.model import polygon
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.polygon import cross
+from physsim_ros.model.shapes import crosses_itself, is_convex, signed_area
+from physsim_ros.model.transform import cross
 
 # So many corners that are all alike are a circle's samples; the weight of an outline of no shape.
 MANY, BLOB = 9, 0.8
@@ -48,7 +48,7 @@ def solids(stroke: Stroke, swings: Swings, plain: float) -> Iterator[Candidate]:
     outline, narrow = widened(stroke.outline)
     at = corner_detection.corners(outline, closed=True, gap=stroke.gap)
     found = corner_detection.vertices(outline, at, closed=True) @ narrow
-    simple = len(at) >= 3 and not polygon.crosses_itself(found)
+    simple = len(at) >= 3 and not crosses_itself(found)
     # What sides leave unexplained, beside what a circle does; a hexagon's is a fifth.
     size = float(np.hypot(*np.ptp(outline, axis=0)))
     left = corner_detection.side_error(outline, at) / size if len(at) >= 3 else 1.0
@@ -58,7 +58,7 @@ def solids(stroke: Stroke, swings: Swings, plain: float) -> Iterator[Candidate]:
     ratio = math.log(max(left, 1e-6) / max(error, 1e-6) / 0.19)
     evidence = ratio + 1.5 * math.log(2.25 / sharpness)
     round_ = rises(evidence, 0.0, 0.3) * rises(aspect, 0.55, 0.04)
-    if len(at) >= MANY and polygon.is_convex(_counterclockwise(found)):
+    if len(at) >= MANY and is_convex(_counterclockwise(found)):
         # Nobody draws so many equal corners: they are the samples of a quick circle.
         round_ = max(round_, falls(error, 0.04, 0.004))
     disc = closed * once * round_ * falls(error, 0.085, 0.015)
@@ -74,7 +74,7 @@ def solids(stroke: Stroke, swings: Swings, plain: float) -> Iterator[Candidate]:
     if blob > max(sided, LEAST):
         # Neither round nor sided: any other outline, as it was drawn.
         found = traced(stroke.outline)
-        sided = 0.0 if polygon.crosses_itself(found) else blob
+        sided = 0.0 if crosses_itself(found) else blob
     yield Candidate(primitive=Primitive.POLYGON, weight=broad * sided, points=found)
 
 
@@ -119,4 +119,4 @@ def _once_around(away: Floats) -> float:
 
 
 def _counterclockwise(found: Floats) -> Floats:
-    return found if polygon.signed_area(found) > 0 else found[::-1]
+    return found if signed_area(found) > 0 else found[::-1]

@@ -30,8 +30,7 @@ from physsim_ros.drawing.strokes.fitting import line
 from physsim_ros.drawing.strokes.polyline import angles, smoothed, turns
 from physsim_ros.drawing.strokes.stroke import HOOK, HOOK_TURN
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.polygon import cross
-from physsim_ros.model.shapes import Point
+from physsim_ros.model.transform import cross, Point
 
 # Smoothing before corners are looked for, and the arms of the angle there [points].
 SMOOTHING, ARM = 1.2, 5

@@ -31,7 +31,7 @@ from physsim_ros.drawing.strokes.hypothesis import Candidate, falls, LEAST, Prim
 from physsim_ros.drawing.strokes.polyline import COUNT
 from physsim_ros.drawing.strokes.stroke import Stroke
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.polygon import cross
+from physsim_ros.model.transform import cross
 
 # Directions in which swings to and fro are looked for.
 _ANGLES = np.arange(12) * math.pi / 12

@@ -39,9 +39,8 @@ from physsim_ros.drawing.strokes.stroke import Stroke, stroke
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NotRecognised
 from physsim_ros.model.names import WORLD
-from physsim_ros.model.polygon import cross
 from physsim_ros.model.requests import Request
-from physsim_ros.model.shapes import Point
+from physsim_ros.model.transform import cross, Point
 
 # The weight of its being nothing of all this.
 DOUBT = 0.12

@@ -24,7 +24,7 @@ import math
 
 import numpy as np
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.polygon import cross
+from physsim_ros.model.transform import cross
 
 # Points of an evenly spaced way: a dozen for each side of a star of five points.
 COUNT = 128

@@ -26,8 +26,8 @@ import math
 import numpy as np
 from physsim_ros.drawing.strokes import fitting
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.polygon import cross, crosses_itself
-from physsim_ros.model.shapes import Pose
+from physsim_ros.model.shapes import crosses_itself
+from physsim_ros.model.transform import cross, Pose
 
 
 def rectangle(corners: Floats, tolerance: float) -> tuple[Pose, float, float]:

@@ -34,9 +34,9 @@ from physsim_ros.drawing.strokes.fitting import simplified
 from physsim_ros.drawing.strokes.stroke import Stroke
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NothingThere, NotRecognised
-from physsim_ros.model.joint_properties import JointKind
+from physsim_ros.model.joints import JointKind
 from physsim_ros.model.requests import Anchor, Axle, Configure, Delete, Join, Request
-from physsim_ros.model.shapes import Point
+from physsim_ros.model.transform import Point
 
 # Points of the outline of a disc that is shown.
 _SHOWN = 48

@@ -35,7 +35,7 @@ import numpy as np
 from physsim_ros.engine.articulation.jacobian import Restraints
 from physsim_ros.engine.joints import EngineJoint, islands, springs_of
 from physsim_ros.model.arrays import Floats, Ints
-from physsim_ros.model.joint_properties import JointKind
+from physsim_ros.model.joints import JointKind
 import pymunk
 
 # Of an energy, what is rounding.

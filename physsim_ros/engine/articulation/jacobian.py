@@ -29,7 +29,7 @@ from numpy.typing import NDArray
 from physsim_ros.engine.islands import Rows
 from physsim_ros.engine.joints import EngineJoint
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.joint_properties import JointKind
+from physsim_ros.model.joints import JointKind
 from physsim_ros.model.scene import Joint
 from physsim_ros.model.transform import turned
 import pymunk

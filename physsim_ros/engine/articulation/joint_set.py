@@ -37,7 +37,7 @@ from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.islands import Rows
 from physsim_ros.engine.joints import EngineJoint
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.joint_properties import JointKind
+from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.scene import Body, Joint
 from physsim_ros.model.snapshot import Springs

@@ -38,7 +38,7 @@ from physsim_ros.engine.articulation.jacobian import Restraints
 from physsim_ros.engine.islands import Graph, meetings
 from physsim_ros.engine.joints import EngineJoint, FASTEST_CORRECTION, islands
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.joint_properties import JointKind
+from physsim_ros.model.joints import JointKind
 import pymunk
 
 # What hangs together and is no more work than so many rows of which each meets each, which take

@@ -34,7 +34,7 @@ from physsim_ros.model.errors import (
     UnknownBody,
     UnknownFrame,
 )
-from physsim_ros.model.joint_properties import JointKind
+from physsim_ros.model.joints import JointKind
 from physsim_ros.model.preview import NOTHING
 from physsim_ros.model.requests import (
     Anchor,
@@ -49,7 +49,8 @@ from physsim_ros.model.requests import (
     Spawn,
 )
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Box, Chain, Disc, Point, Polygon
+from physsim_ros.model.shapes import Box, Chain, Disc, Polygon
+from physsim_ros.model.transform import Point
 from physsim_ros.simulation.world import World
 import pytest
 

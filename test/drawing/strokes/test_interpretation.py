@@ -25,7 +25,7 @@ from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes.interpretation import Meaning, read, Reading
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import BadProperty, NothingThere, NotRecognised, Refusal
-from physsim_ros.model.joint_properties import JointKind
+from physsim_ros.model.joints import JointKind
 from physsim_ros.model.requests import Anchor, Axle, Configure, Delete, Join, Spawn
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Chain, Disc, Polygon

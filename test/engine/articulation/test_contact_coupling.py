@@ -22,7 +22,7 @@ import math
 import numpy as np
 from physsim_ros.engine.articulation import contact_coupling
 from physsim_ros.engine.batch_io import EngineArrays, Touching
-from physsim_ros.model.joint_properties import JointKind, JointProperties
+from physsim_ros.model.joints import JointKind, JointProperties
 from physsim_ros.model.requests import Axle, Join, Pin
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Disc, Shape

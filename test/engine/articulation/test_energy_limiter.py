@@ -19,7 +19,7 @@ from __future__ import annotations
 import numpy as np
 from physsim_ros.engine import joints
 from physsim_ros.engine.articulation.energy_limiter import Balance
-from physsim_ros.model.joint_properties import JointKind, JointProperties
+from physsim_ros.model.joints import JointKind, JointProperties
 from physsim_ros.model.requests import Command, Join
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Disc
