@@ -31,8 +31,7 @@ import time
 from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import PoseStamped
 from nav_msgs.msg import Path
-from physsim_ros.files import drawing_file
-from physsim_ros.files.drawing_file import BadDrawing, Pace
+from physsim_ros.files import BadDrawing, find_drawing, load_drawing, Pace
 from physsim_ros.model.arrays import Floats
 from physsim_ros.ros.qos_safe_node import LOSSLESS, QuietNode
 import rclpy
@@ -190,8 +189,8 @@ def main() -> None:
 
 
 def _draw_drawing(options: argparse.Namespace) -> None:
-    strokes = drawing_file.load(
-        drawing_file.find(options.drawing),
+    strokes = load_drawing(
+        find_drawing(options.drawing),
         scale=options.scale,
         pace=Pace(speed=options.speed, rate=options.rate),
     )

@@ -38,7 +38,7 @@ from geometry_msgs.msg import PointStamped
 from nav_msgs.msg import Path as PathMessage
 from physsim_ros.drawing.clicks.tools import Tool
 from physsim_ros.drawing.session import Pen, told
-from physsim_ros.files import world_file
+from physsim_ros.files import find_world, hides_shipped, load_world, save_world
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import PhysSimError, Refusal
 from physsim_ros.model.requests import (
@@ -403,25 +403,23 @@ class PhysSimNode(QuietNode):
         return f'{message} from {path.name}'
 
     def _read_world(self, *, confined: bool) -> tuple[WorldState, Path]:
-        path = world_file.find(
-            self._values['world_file'], world_dir=self._world_dir, confined=confined
-        )
+        path = find_world(self._values['world_file'], world_dir=self._world_dir, confined=confined)
         simulation = self.simulation
-        state = world_file.load(
+        state = load_world(
             path, settings=simulation.settings, physics_rate=simulation.physics_rate
         )
         return state, path
 
     def _save(self) -> str:
         state = self.simulation.save()
-        path = world_file.save(
+        path = save_world(
             state,
             self._values['world_file'],
             world_dir=self._world_dir,
             physics_rate=self.simulation.physics_rate,
         )
         message = f'saved {len(state.bodies)} bodies to {path.name}'
-        if world_file.hides_shipped(path, world_dir=self._world_dir):
+        if hides_shipped(path, world_dir=self._world_dir):
             message += '; from now on it comes before the shipped world of that name'
         return message
 

@@ -21,7 +21,7 @@ import math
 import numpy as np
 from physsim_ros.drawing.session import Pen
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.files import drawing_file
+from physsim_ros.files import find_drawing, load_drawing
 from physsim_ros.model.arrays import Floats
 from physsim_ros.simulation.simulation import Simulation
 import pytest
@@ -40,7 +40,7 @@ class Machine:
         self._random = np.random.default_rng(7)
         self.read: list[str] = []
         self.frame = self.simulation.advance_frame()
-        for stroke in drawing_file.load(drawing_file.find(name)):
+        for stroke in load_drawing(find_drawing(name)):
             self._draw(stroke, tremor)
 
     def _draw(self, stroke: Floats, tremor: float) -> None:

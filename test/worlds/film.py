@@ -17,7 +17,7 @@
 from pathlib import Path
 
 import numpy as np
-from physsim_ros.files import world_file
+from physsim_ros.files import find_world, load_world
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.simulation.simulation import Simulation
 
@@ -28,8 +28,8 @@ FRAMES = 60
 
 def state_of(name):
     """Return the state that a world of the package begins with."""
-    path = world_file.find(name, world_dir=Path('nowhere'), confined=True)
-    return world_file.load(path, settings=WorldSettings(), physics_rate=RATE)
+    path = find_world(name, world_dir=Path('nowhere'), confined=True)
+    return load_world(path, settings=WorldSettings(), physics_rate=RATE)
 
 
 def simulation(name):
