@@ -13,7 +13,7 @@
 # limitations under the License.
 
 """
-ROS messages -> requests: the only module that knows both.
+ROS messages -> requests; the shapes of markers are in `marker_shapes`.
 
 Law: what a message says is checked here as far as the message alone can tell; whether the world
 can do it is decided when the request is applied. z is ignored; stamps are ignored.
@@ -21,22 +21,17 @@ can do it is decided when the request is applied. z is ignored; stamps are ignor
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 import math
 from typing import Any, TypeVar
 
-from geometry_msgs.msg import Point, PointStamped, Quaternion
-from physsim_ros.files.yaml12 import load_mapping
+from geometry_msgs.msg import PointStamped, Quaternion
+from physsim_ros.files import load_mapping
 from physsim_ros.model.body_properties import properties_from
-from physsim_ros.model.checks import check_finite
 from physsim_ros.model.colors import Color
 from physsim_ros.model.errors import (
     BadProperty,
-    BadSize,
     Malformed,
     NotPlanar,
-    Refusal,
-    UnknownShape,
 )
 from physsim_ros.model.names import JOINT_PREFIX
 from physsim_ros.model.requests import (
@@ -50,16 +45,7 @@ from physsim_ros.model.requests import (
     Unjoin,
     UnjoinAll,
 )
-from physsim_ros.model.shapes import (
-    Box,
-    Chain,
-    Compound,
-    Disc,
-    MOST_POINTS,
-    Polygon,
-    Shape,
-    Triangles,
-)
+from physsim_ros.ros.marker_shapes import points_from, shape_from
 from sensor_msgs.msg import MultiDOFJointState
 from visualization_msgs.msg import Marker
 
@@ -73,17 +59,6 @@ LONGEST_TEXT = 10_000
 MOST_BRACKETS = 50
 
 _AtPoint = TypeVar('_AtPoint', bound=AtPoint)
-
-# A shape's own fields, as the marker calls them.
-_FIELDS = {
-    'radius': 'scale.x',
-    'width': 'scale.x',
-    'height': 'scale.y',
-    'thickness': 'scale.x',
-    'outline': 'points',
-    'vertices': 'points',
-    'centers': 'points',
-}
 
 
 def name_of(marker: Marker) -> str:
@@ -121,7 +96,7 @@ def body_request(marker: Marker, *, frame_id: str) -> Spawn | Delete | DeleteAll
     position = marker.pose.position
     return Spawn(
         name=name_of(marker),
-        shape=_shape(marker),
+        shape=shape_from(marker),
         pose=(position.x, position.y, _yaw(marker.pose.orientation, 'pose.orientation')),
         frame=_frame(marker.header.frame_id, frame_id),
         color=_color(marker),
@@ -147,7 +122,7 @@ def joint_request(marker: Marker, *, frame_id: str) -> Join | Unjoin | UnjoinAll
     return join_from(
         _mapping(marker.text),
         name=joint_name_of(marker),
-        points=_points(marker.points),
+        points=points_from(marker.points),
         frame=_frame(marker.header.frame_id, frame_id),
     )
 
@@ -224,54 +199,3 @@ def _mapping(text: str) -> dict[Any, Any]:
     if text.count('[') + text.count('{') > MOST_BRACKETS:
         raise Malformed(f'text has more than {MOST_BRACKETS} brackets', field='text')
     return load_mapping(text, field='text')
-
-
-def _shape(marker: Marker) -> Shape:
-    try:
-        return _shape_of_type(marker)
-    except Refusal as refusal:
-        refusal.field = _FIELDS.get(refusal.field, refusal.field)
-        raise
-
-
-def _shape_of_type(marker: Marker) -> Shape:
-    scale = marker.scale
-    match marker.type:
-        case Marker.CUBE:
-            return Box(width=scale.x, height=scale.y)
-        case Marker.SPHERE | Marker.CYLINDER:
-            return _disc(marker)
-        case Marker.LINE_STRIP:
-            points = _points(marker.points)
-            if len(points) > 2 and points[0] == points[-1]:
-                return Polygon(outline=points[:-1])
-            return Chain(points=points, thickness=scale.x)
-        case Marker.TRIANGLE_LIST:
-            # RViz scales the points of this type; a scale that was left out counts as one.
-            x, y = scale.x or 1.0, scale.y or 1.0
-            check_finite((x, y), 2, 'scale')
-            if not (x > 0 and y > 0):
-                raise BadSize('scale must be positive', field='scale')
-            points = _points(marker.points)
-            return Triangles(vertices=tuple((px * x, py * y) for px, py in points))
-        case Marker.CUBE_LIST:
-            box = Box(width=scale.x, height=scale.y)
-            return Compound(element=box, centers=_points(marker.points))
-        case Marker.SPHERE_LIST:
-            return Compound(element=_disc(marker), centers=_points(marker.points))
-        case _:
-            raise UnknownShape(f'a marker of type {marker.type} is no body', field='type')
-
-
-def _disc(marker: Marker) -> Disc:
-    disc = Disc(radius=marker.scale.x / 2)
-    check_finite((marker.scale.y,), 1, 'scale.y')
-    if marker.scale.y != marker.scale.x:
-        raise BadSize('a disc is round: scale.x and scale.y must be equal', field='scale.y')
-    return disc
-
-
-def _points(points: Sequence[Point]) -> tuple[tuple[float, float], ...]:
-    # A closed line says its first point twice, so that one more than the most may be right; one
-    # more than that is enough for the shape to refuse them all.
-    return tuple((point.x, point.y) for point in points[: MOST_POINTS + 2])

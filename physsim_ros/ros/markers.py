@@ -22,10 +22,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 import json
-import math
 
 from physsim_ros.model.colors import Color
-from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import (
     CROSS_PREFIX,
     JOINT_PREFIX,
@@ -35,18 +33,14 @@ from physsim_ros.model.names import (
 )
 from physsim_ros.model.scene import Body, Joint
 from physsim_ros.model.settings import Bounds
-from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon, Shape, Triangles
 from physsim_ros.model.transform import Point
+from physsim_ros.ros.marker_shapes import geometry_of, Size, THIN
 from visualization_msgs.msg import Marker
 
-Size = tuple[float, float, float]
 Key = tuple[str, int]
 
-# How thick flat bodies and how wide outlines are drawn [m]: seen from anywhere, in nobody's way.
-_THIN = 0.02
 # Joints lie on top of bodies and their crosses [m].
-_RAISED = 2 * _THIN
-_LENGTHS = {JointKind.SPRING: 'rest_length', JointKind.ROPE: 'length'}
+_RAISED = 2 * THIN
 _DARK, _LIGHT, _GREY = (0.1, 0.1, 0.1, 1.0), (0.9, 0.9, 0.9, 1.0), (0.5, 0.5, 0.5, 1.0)
 # Luminance from which a dark line shows better than a light one.
 _BRIGHT = 0.35
@@ -75,7 +69,7 @@ class Symbol:
 def symbols(body: Body) -> list[Symbol]:
     """Return the markers of a body: itself, and the x of an anchored one."""
     key = split_name(body.name)
-    kind, scale, points = _geometry(body.shape)
+    kind, scale, points = geometry_of(body.shape)
     symbols = [Symbol(key, kind, scale, points, color=body.color, text=_material(body))]
     if body.anchored:
         symbols.append(_cross(body, (f'{CROSS_PREFIX}{key[0]}', key[1])))
@@ -119,12 +113,8 @@ def joint_symbols(joint: Joint, size: float, corners: int) -> tuple[Symbol, Symb
 def _terms(joint: Joint) -> str:
     """Return the YAML mapping that gives a joined marker the bodies and properties of a joint."""
     terms = [f'kind: {joint.kind}', f'a: {_word(joint.a)}', f'b: {_word(joint.b)}']
-    said = joint.properties.said()
-    if joint.kind in (JointKind.SPRING, JointKind.ROPE):
-        # As drawn is as drawn then, not as it will be drawn.
-        said[_LENGTHS[joint.kind]] = joint.rest_length
-    if joint.kind is JointKind.GEAR:
-        said['phase'] = joint.seat.phase
+    # As drawn now, not as drawn where the marker is published again.
+    said = joint.properties.said() | joint.drawn_values()
     for key, value in said.items():
         shown = str(value).lower() if isinstance(value, bool) else _number(value)
         terms.append(f'{key}: {shown}')
@@ -134,31 +124,6 @@ def _terms(joint: Joint) -> str:
 def _word(name: str) -> str:
     """Return a name as a YAML string."""
     return json.dumps(name, ensure_ascii=False)
-
-
-def _geometry(shape: Shape) -> tuple[int, Size, tuple[Point, ...]]:
-    """Return type, scale and points of the marker that spawns a shape."""
-    match shape:
-        case Disc():
-            return Marker.CYLINDER, (2 * shape.radius, 2 * shape.radius, _THIN), ()
-        case Box():
-            return Marker.CUBE, (shape.width, shape.height, _THIN), ()
-        case Polygon():
-            return Marker.LINE_STRIP, (_THIN, 0.0, 0.0), (*shape.outline, shape.outline[0])
-        case Chain():
-            return Marker.LINE_STRIP, (shape.thickness, 0.0, 0.0), _open(shape.points)
-        case Triangles():
-            return Marker.TRIANGLE_LIST, (1.0, 1.0, 1.0), shape.vertices
-        case Compound():
-            kind, scale, _ = _geometry(shape.element)
-            kind = Marker.CUBE_LIST if kind == Marker.CUBE else Marker.SPHERE_LIST
-            return kind, scale, shape.centers
-
-
-def _open(points: tuple[Point, ...]) -> tuple[Point, ...]:
-    """Return the points of a chain; a marker whose ends are the same is a polygon."""
-    (x, y), last = points[0], points[-1]
-    return points if last != (x, y) else (*points[:-1], (math.nextafter(x, math.inf), y))
 
 
 def _material(body: Body) -> str:
@@ -193,7 +158,7 @@ def _cross(body: Body, key: Key) -> Symbol:
     red, green, blue, _ = body.color
     # Luminance as of ITU-R BT.601.
     color = _DARK if 0.299 * red + 0.587 * green + 0.114 * blue > _BRIGHT else _LIGHT
-    return Symbol(key, Marker.LINE_LIST, (reach / 4, 0.0, 0.0), points, _THIN, color)
+    return Symbol(key, Marker.LINE_LIST, (reach / 4, 0.0, 0.0), points, THIN, color)
 
 
 def walls(bounds: Bounds) -> Symbol:
@@ -201,4 +166,4 @@ def walls(bounds: Bounds) -> Symbol:
     left, bottom, right, top = bounds
     corners = ((left, bottom), (right, bottom), (right, top), (left, top), (left, bottom))
     key = (WALLS, 0)
-    return Symbol(key, Marker.LINE_STRIP, (_THIN, 0.0, 0.0), corners, color=_GREY)
+    return Symbol(key, Marker.LINE_STRIP, (THIN, 0.0, 0.0), corners, color=_GREY)
