@@ -19,13 +19,9 @@ from typing import Any
 
 from physsim_ros.model.body_properties import Properties, properties_from
 from physsim_ros.model.checks import (
-    check_finite,
-    check_key,
     FASTEST,
     HEAVIEST,
     LIGHTEST,
-    number,
-    pair,
     shown,
 )
 from physsim_ros.model.errors import BadProperty, Malformed, Refusal, UnknownProperty
@@ -228,28 +224,3 @@ def test_what_a_message_shows_is_short_whatever_was_given() -> None:
         assert len(str(refusal)) < 1000
         assert len(refusal.field) < 100
     assert len(shown(nested)) < 1000
-
-
-def test_numbers_and_pairs_are_told_from_what_only_looks_alike() -> None:
-    assert number(3, 'n') == 3.0
-    assert pair((1, 2), 'p') == (1.0, 2.0)
-    for value in (True, '3', None):
-        with pytest.raises(BadProperty):
-            number(value, 'n')
-    for other in ('ab', None, {1: 2, 3: 4}, {1, 2}):
-        with pytest.raises(BadProperty):
-            pair(other, 'p')
-
-
-def test_a_count_of_finite_numbers_is_checked() -> None:
-    check_finite((1.0, 2.0), 2, 'p')
-    for values in ((1.0,), (1.0, 2.0, 3.0), (1.0, math.nan), (math.inf, 1.0), ()):
-        with pytest.raises(Malformed) as refused:
-            check_finite(values, 2, 'p')
-        assert refused.value.field == 'p'
-
-
-def test_a_known_key_is_let_through() -> None:
-    check_key('b', ['a', 'b'])
-    with pytest.raises(UnknownProperty):
-        check_key('c', ['a', 'b'])
