@@ -36,8 +36,7 @@ from typing import Any
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PointStamped
 from nav_msgs.msg import Path as PathMessage
-from physsim_ros.drawing.clicks.tools import Tool
-from physsim_ros.drawing.session import Pen, told
+from physsim_ros.drawing import DrawingSession, reading_answer, Tool
 from physsim_ros.files import world_file
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import PhysSimError, Refusal
@@ -123,7 +122,9 @@ class PhysSimNode(QuietNode):
         self._streams = Streams(
             self, frame_id=self._frame_id, publish_clock=self._values['publish_clock']
         )
-        self._pen = Pen(parameters.drawing_settings(self._values), Tool(self._values['tool']))
+        self._pen = DrawingSession(
+            parameters.drawing_settings(self._values), Tool(self._values['tool'])
+        )
         self._meter = Meter()
         self._diagnostics = self.create_publisher(DiagnosticArray, '/diagnostics', 10)
         # The last one that was delivered.
@@ -308,7 +309,7 @@ class PhysSimNode(QuietNode):
         with self._drawing('~/stroke', 'poses') as snapshot:
             samples, frame = stroke_reader.stroke_from(message, frame_id=self._frame_id)
             reading = self._pen.stroke(samples, frame, snapshot)
-            self.simulation.tell(told(reading, topic='~/stroke'))
+            self.simulation.tell(reading_answer(reading, topic='~/stroke'))
             self._submit_all(reading.requests, '~/stroke', 'poses')
 
     @contextmanager

@@ -25,9 +25,7 @@ from dataclasses import asdict, dataclass, fields
 import math
 from typing import Any
 
-from physsim_ros.drawing.clicks.tools import Tool
-from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.settings import RANGES as DRAWING_RANGES
+from physsim_ros.drawing import DRAWING_RANGES, DrawingSettings, Tool
 from physsim_ros.model.body_properties import FASTEST
 from physsim_ros.model.colors import color_from
 from physsim_ros.model.errors import BadProperty, Malformed

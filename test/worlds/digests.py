@@ -20,8 +20,7 @@ Digests of every shipped world and drawing, which tell whether a change moves an
 
 from pathlib import Path
 
-from physsim_ros.drawing.session import Pen
-from physsim_ros.drawing.settings import DrawingSettings
+from physsim_ros.drawing import DrawingSession, DrawingSettings
 from physsim_ros.files import drawing_file, world_file
 from physsim_ros.files.resources import shipped
 from physsim_ros.simulation.simulation import Simulation
@@ -42,7 +41,7 @@ def scene(name):
     folder, _, name = name.partition('/')
     if folder == 'worlds':
         return simulation(name)
-    sim, pen = Simulation(speed=0.0), Pen(DrawingSettings())
+    sim, pen = Simulation(speed=0.0), DrawingSession(DrawingSettings())
     frame = sim.advance_frame()
     for stroke in drawing_file.load(drawing_file.find(name)):
         for request in pen.stroke(stroke, '', frame.snapshot).requests:
