@@ -144,8 +144,8 @@ class PhysSim:
         path = given.resolve() if given.is_file() else world
         self.node.set_parameters([Parameter('world_file', value=str(path))])
         with _refusing():
-            self.node.load_world(confined=False)
-        self.node.apply()
+            self.node.world_files.load(confined=False)
+        self.node.apply_requests()
         self.settle()
 
     def add(self, node: Node) -> None:
@@ -213,7 +213,7 @@ class PhysSim:
         self.settle()
         with _refusing():
             self.node.simulation.seek(round(seconds * 1e9))
-        self.node.apply()
+        self.node.apply_requests()
         self.settle()
 
     def settle(self) -> None:
@@ -292,7 +292,7 @@ class PhysSim:
         self._client.publish(topic, message)
 
         def answered() -> bool:
-            self.node.apply()
+            self.node.apply_requests()
             return len(received) >= earlier + answers
 
         patience = _PATIENCE + _PATIENCE_EACH * (earlier + answers)
@@ -309,7 +309,7 @@ class PhysSim:
     def _apply(self) -> tuple[Answer, ...]:
         """Carry out what waits, and return the answers, which are on their way."""
         last = self.node.frame
-        self.node.apply()
+        self.node.apply_requests()
         frame = self.node.frame
         return () if frame is None or frame is last else frame.answers
 
@@ -439,11 +439,11 @@ class _Client:
     def __init__(self, context: Context) -> None:
         from diagnostic_msgs.msg import DiagnosticStatus
         from geometry_msgs.msg import PointStamped
-        from physsim_ros.ros.qos_safe_node import LOSSLESS, QuietNode
+        from physsim_ros.ros.qos_safe_node import LOSSLESS, NodeWithoutQosEvents
         from sensor_msgs.msg import MultiDOFJointState
         from visualization_msgs.msg import Marker, MarkerArray
 
-        self.node = QuietNode('physsim_test', context=context)
+        self.node = NodeWithoutQosEvents('physsim_test', context=context)
         kinds = {
             'spawn': Marker,
             'spawn_array': MarkerArray,
