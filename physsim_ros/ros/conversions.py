@@ -271,6 +271,5 @@ def _disc(marker: Marker) -> Disc:
 
 
 def _points(points: Sequence[Point]) -> tuple[tuple[float, float], ...]:
-    # A closed line repeats its first point: MOST_POINTS + 1 may be valid, and the shape refuses one
-    # more.
+    # A closed line repeats its first point: MOST_POINTS + 1 may be valid; the shape refuses more.
     return tuple((point.x, point.y) for point in points[: MOST_POINTS + 2])

@@ -328,7 +328,7 @@ def test_a_contact_turns_the_x_axis_onto_its_normal():
 
 
 def test_names_of_pairs_stay_right_when_the_store_of_them_is_full(monkeypatch):
-    monkeypatch.setattr(encoders, '_MOST_PAIRS', 3)
+    monkeypatch.setattr(encoders.contacts, '_MOST_PAIRS', 3)
     encoder = encoders.ContactsEncoder('world')
     snapshot = snapshot_of(bodies_named('a', 'b', 'c'))
     for pairs in ([(0, 1), (0, 2)], [(1, 2), (0, -1)], [(0, 1), (2, -1)]):
