@@ -19,7 +19,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from physsim_ros.drawing.session import Pen
+from physsim_ros.drawing.session import DrawingSession
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.files import find_drawing, load_drawing
 from physsim_ros.model.arrays import Floats
@@ -36,7 +36,7 @@ class Machine:
 
     def __init__(self, name: str, tremor: float = 0.0) -> None:
         self.simulation = Simulation(speed=0.0)
-        self._pen = Pen(DrawingSettings())
+        self._pen = DrawingSession(DrawingSettings())
         self._random = np.random.default_rng(7)
         self.read: list[str] = []
         self.frame = self.simulation.advance_frame()
@@ -51,7 +51,7 @@ class Machine:
         extent = min(float(np.ptp(stroke[:, :2], axis=0).max()), 1.0)
         shaken[:, :2] += tremor * extent * np.column_stack(drift)
         reading = self._pen.stroke(shaken, '', self.frame.snapshot)
-        self.read.append(str(reading.what))
+        self.read.append(str(reading.meaning))
         for request in reading.requests:
             self.simulation.submit(request, topic='~/stroke')
         frame = self.simulation.settle()

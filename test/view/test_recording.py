@@ -28,7 +28,7 @@ from physsim_ros.model.scene import Body, Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon, Triangles
 from physsim_ros.model.snapshot import Answer, Contacts, Frame, Snapshot
-from physsim_ros.view.recording import LINGER, Picture, REPEAT
+from physsim_ros.view.recording import FrameRecorder, LINGER, REPEAT
 import pytest
 
 from ..rerun_program import free_port, is_open, rerun
@@ -95,7 +95,7 @@ class Recording:
         self.path = path
         self._stream = rr.RecordingStream('test')
         self._stream.set_sinks(rr.FileSink(path))
-        self.picture = Picture(self._stream)
+        self.picture = FrameRecorder(self._stream)
 
     def draw(self, *frames, real_time_factor=1.0):
         self.picture.draw(frames, real_time_factor=real_time_factor)

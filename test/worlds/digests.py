@@ -20,8 +20,7 @@ Digests of every shipped world and drawing, which tell whether a change moves an
 
 from pathlib import Path
 
-from physsim_ros.drawing.session import Pen
-from physsim_ros.drawing.settings import DrawingSettings
+from physsim_ros.drawing import DrawingSession, DrawingSettings
 from physsim_ros.files import find_drawing, load_drawing, shipped, shipped_worlds
 from physsim_ros.simulation.simulation import Simulation
 import yaml
@@ -41,7 +40,7 @@ def scene(name):
     folder, _, name = name.partition('/')
     if folder == 'worlds':
         return simulation(name)
-    sim, pen = Simulation(speed=0.0), Pen(DrawingSettings())
+    sim, pen = Simulation(speed=0.0), DrawingSession(DrawingSettings())
     frame = sim.advance_frame()
     for stroke in load_drawing(find_drawing(name)):
         for request in pen.stroke(stroke, '', frame.snapshot).requests:

@@ -20,7 +20,7 @@ from collections.abc import Sequence
 import math
 
 from physsim_ros.drawing.clicks.tools import Tool, TOOLS
-from physsim_ros.drawing.session import Pen
+from physsim_ros.drawing.session import DrawingSession
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.errors import (
@@ -60,8 +60,8 @@ SIDE, TURN = (3.0, 1.0), 0.7
 CLOSE = 1e-12
 
 
-def pen(tool: Tool, **settings: object) -> Pen:
-    return Pen(DrawingSettings(**settings), tool)
+def pen(tool: Tool, **settings: object) -> DrawingSession:
+    return DrawingSession(DrawingSettings(**settings), tool)
 
 
 def draw(

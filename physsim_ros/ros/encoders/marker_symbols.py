@@ -13,9 +13,10 @@
 # limitations under the License.
 
 """
-The picture as markers: each body drawn with the marker that would spawn it, and what is on it.
+Bodies, joints and walls as markers: type, scale, points, colour and text, without pose.
 
-Law: whoever publishes a body's marker again gets the same body, and a joint's the same joint.
+Law: the marker of a body, published to `~/spawn`, spawns an equal body; the first marker of a
+joint, published to `~/join`, makes an equal joint.
 """
 
 from __future__ import annotations
@@ -39,21 +40,21 @@ from visualization_msgs.msg import Marker
 
 Key = tuple[str, int]
 
-# Joints lie on top of bodies and their crosses [m].
+# Height of joints, above bodies and their crosses [m].
 _RAISED = 2 * THIN
 _DARK, _LIGHT, _GREY = (0.1, 0.1, 0.1, 1.0), (0.9, 0.9, 0.9, 1.0), (0.5, 0.5, 0.5, 1.0)
-# Luminance from which a dark line shows better than a light one.
+# The least luminance on which a dark line has more contrast than a light one.
 _BRIGHT = 0.35
 
 
 @dataclass(frozen=True, slots=True)
 class Symbol:
     """
-    A marker save for its pose.
+    A marker without its pose.
 
     :param key: namespace and id
-    :param kind: the marker's type
-    :param height: of its points [m]; what lies higher is drawn on top
+    :param kind: type of the marker
+    :param height: z of its points [m]; higher ones are drawn on top
     """
 
     key: Key
@@ -66,8 +67,8 @@ class Symbol:
     action: int = Marker.ADD
 
 
-def symbols(body: Body) -> list[Symbol]:
-    """Return the markers of a body: itself, and the x of an anchored one."""
+def body_symbols(body: Body) -> list[Symbol]:
+    """Return the markers of a body: the body, and the x of an anchored one."""
     key = split_name(body.name)
     kind, scale, points = geometry_of(body.shape)
     symbols = [Symbol(key, kind, scale, points, color=body.color, text=_material(body))]
@@ -78,25 +79,25 @@ def symbols(body: Body) -> list[Symbol]:
 
 def joint_symbols(joint: Joint, size: float, corners: int) -> tuple[Symbol, Symbol]:
     """
-    Return the markers of a joint: its points, which would join it again, and its lines.
+    Return the markers of a joint: its points, which make an equal joint, and its lines.
 
-    The points are those of a frame, to be filled in.
+    All points are 0; a frame writes them.
 
-    :param size: half that of its symbol [m]
-    :param corners: of its lines, two for each segment
+    :param size: half the size of its symbol [m]
+    :param corners: number of corners of its lines, two for each segment
     """
     namespace, number = split_name(joint.name)
     if joint.kind.points == 1:
         kind, scale = Marker.SPHERE_LIST, (size, size, size)
     else:
         kind, scale = Marker.LINE_STRIP, (size / 10, 0.0, 0.0)
-    nowhere = ((0.0, 0.0),)
+    origin = ((0.0, 0.0),)
     return (
         Symbol(
             (f'{JOINT_PREFIX}{namespace}', number),
             kind,
             scale,
-            nowhere * joint.kind.points,
+            origin * joint.kind.points,
             _RAISED,
             text=_terms(joint),
         ),
@@ -104,33 +105,33 @@ def joint_symbols(joint: Joint, size: float, corners: int) -> tuple[Symbol, Symb
             (f'{LINES_PREFIX}{namespace}', number),
             Marker.LINE_LIST,
             (size / 4, 0.0, 0.0),
-            nowhere * corners,
+            origin * corners,
             _RAISED,
         ),
     )
 
 
 def _terms(joint: Joint) -> str:
-    """Return the YAML mapping that gives a joined marker the bodies and properties of a joint."""
-    terms = [f'kind: {joint.kind}', f'a: {_word(joint.a)}', f'b: {_word(joint.b)}']
-    # As drawn now, not as drawn where the marker is published again.
-    said = joint.properties.explicit() | joint.drawn_values()
-    for key, value in said.items():
+    """Return the bodies and properties of a joint as a YAML mapping, for `text`."""
+    terms = [f'kind: {joint.kind}', f'a: {_quoted(joint.a)}', f'b: {_quoted(joint.b)}']
+    # Without the values as drawn, the new joint would measure them anew.
+    given = joint.properties.explicit() | joint.drawn_values()
+    for key, value in given.items():
         shown = str(value).lower() if isinstance(value, bool) else _number(value)
         terms.append(f'{key}: {shown}')
     return f'{{{", ".join(terms)}}}'
 
 
-def _word(name: str) -> str:
+def _quoted(name: str) -> str:
     """Return a name as a YAML string."""
     return json.dumps(name, ensure_ascii=False)
 
 
 def _material(body: Body) -> str:
-    """Return the YAML mapping that gives a spawned marker the properties of a body."""
-    said = {'density': body.density} if body.mass is None else {'mass': body.mass}
-    said |= {'friction': body.friction, 'elasticity': body.elasticity}
-    parts = [f'{key}: {_number(value)}' for key, value in said.items()]
+    """Return the properties of a body as a YAML mapping, for `text`."""
+    given = {'density': body.density} if body.mass is None else {'mass': body.mass}
+    given |= {'friction': body.friction, 'elasticity': body.elasticity}
+    parts = [f'{key}: {_number(value)}' for key, value in given.items()]
     parts += [f'{key}: true' for key in ('anchored', 'kinematic', 'sensor') if getattr(body, key)]
     if body.group:
         parts.append(f'group: {body.group}')
@@ -138,15 +139,15 @@ def _material(body: Body) -> str:
 
 
 def _number(value: float) -> str:
-    """Return a number as YAML 1.1 reads it: there 1e-09 is a string, and 1.0e-09 is not."""
+    """Return a number in YAML 1.1, in which 1e-09 is a string and 1.0e-09 is a number."""
     text = repr(float(value))
     return text if '.' in text else text.replace('e', '.0e')
 
 
 def _cross(body: Body, key: Key) -> Symbol:
-    """Return the small x at a body's centre of mass which says that it is anchored."""
+    """Return the small x at the centre of mass of an anchored body."""
     form = body.shape.form
-    # Area over the greatest half length is about one and a half smaller sides: a third of one.
+    # About a third of the smaller side: area / outer radius is about 1.5 of it.
     reach = min(max(form.area / form.outer / 5, 0.06), 0.3) / 2
     x, y = form.centroid
     points = (
@@ -161,7 +162,7 @@ def _cross(body: Body, key: Key) -> Symbol:
     return Symbol(key, Marker.LINE_LIST, (reach / 4, 0.0, 0.0), points, THIN, color)
 
 
-def walls(bounds: Bounds) -> Symbol:
+def wall_symbol(bounds: Bounds) -> Symbol:
     """Return the marker of the walls around the world."""
     left, bottom, right, top = bounds
     corners = ((left, bottom), (right, bottom), (right, top), (left, top), (left, bottom))
