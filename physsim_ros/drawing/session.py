@@ -31,7 +31,7 @@ from physsim_ros.drawing.strokes.interpretation import read, Reading
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NotRecognised
 from physsim_ros.model.names import split_name
-from physsim_ros.model.preview import Line, NOTHING, Preview
+from physsim_ros.model.preview import Line, NO_PREVIEW, Preview
 from physsim_ros.model.requests import Join, Request, Spawn
 from physsim_ros.model.snapshot import Answer, Snapshot
 from physsim_ros.model.transform import Point
@@ -54,7 +54,7 @@ class Pen:
 
     def __init__(self, settings: DrawingSettings, tool: Tool = Tool.NONE) -> None:
         self.settings = settings
-        self.preview: Preview = NOTHING
+        self.preview: Preview = NO_PREVIEW
         self._gesture = Gesture(tool)
         # The lowest numbers that no body and no joint of this pen's has had.
         self._body = self._joint = 0
@@ -68,7 +68,7 @@ class Pen:
     def tool(self, tool: Tool) -> None:
         if tool is not self.tool:
             self._gesture = Gesture(tool)
-            self.preview = NOTHING
+            self.preview = NO_PREVIEW
 
     def click(self, point: Point, frame: str, snapshot: Snapshot) -> Step:
         """
@@ -96,7 +96,7 @@ class Pen:
         :raises Refusal: it cannot be read
         """
         view = self._view(snapshot)
-        self.preview = NOTHING
+        self.preview = NO_PREVIEW
         placed = _placed(samples, frame, view)
         try:
             reading = read(placed, view, self.settings)

@@ -131,7 +131,7 @@ def build(body: Body, serial: int) -> RigidBody:
     elif body.kinematic:
         engine = pymunk.Body(body_type=pymunk.Body.KINEMATIC)
     else:
-        engine = pymunk.Body(body.weight, body.weight * body.shape.form.gyration)
+        engine = pymunk.Body(body.total_mass, body.total_mass * body.shape.form.gyration)
     rigid = RigidBody(body, engine, serial)
     for piece in body.shape.form.pieces:
         shape = _shape(piece, engine, rigid.offset)

@@ -43,7 +43,7 @@ from physsim_ros.engine.stages.simultaneous_impacts import Blows
 from physsim_ros.engine.stages.sleeping import Rest, SLOW, SLOW_IN_AIR, STRIDE
 from physsim_ros.engine.warm_start import forget, recall, remind, ShapeIds, weaken
 from physsim_ros.model.arrays import Floats, greatest
-from physsim_ros.model.checkpoint import Keyframe, Motion
+from physsim_ros.model.checkpoint import Checkpoint, Motion
 from physsim_ros.model.scene import Body, Joint, Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Contacts
@@ -73,7 +73,7 @@ class Space:
         settings: WorldSettings,
         dt: float,
         *,
-        key: Keyframe | None = None,
+        key: Checkpoint | None = None,
         spares: Mapping[str, RigidBody] | None = None,
         before: Space | None = None,
     ) -> None:
@@ -164,12 +164,12 @@ class Space:
         for rigid in sorted(self._pushed.values(), key=lambda rigid: rigid.serial):
             yield f'{rigid.body.name} {rigid.wrench!r} {rigid.wrench_until}'.encode()
 
-    def keyframe(self, step: int) -> Keyframe:
+    def keyframe(self, step: int) -> Checkpoint:
         """Return all that the bodies go on from; `step` is the number of steps made."""
         layout, (state, free, fallen) = self._lay_out(), self._settled()
         rigids = list(self.bodies.values())
         ids = [rigid.first for rigid in rigids]
-        return Keyframe(
+        return Checkpoint(
             step=step,
             scene=layout.scene,
             state=state.copy(),
@@ -357,7 +357,7 @@ class Space:
         """Return the engine's ids of all bodies, in spawn order, and of the background."""
         return np.append(self._lay_out().engine_ids, self._space.static_body.id)
 
-    def _fill(self, key: Keyframe, spares: Mapping[str, RigidBody]) -> None:
+    def _fill(self, key: Checkpoint, spares: Mapping[str, RigidBody]) -> None:
         """Take in all bodies at once, and go on from where they were."""
         for serial, body in enumerate(key.scene.bodies):
             rigid = spares.get(body.name)

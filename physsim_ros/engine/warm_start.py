@@ -30,7 +30,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.model.arrays import Ints
-from physsim_ros.model.checkpoint import ContactMemory
+from physsim_ros.model.checkpoint import ImpulseCache
 import pymunk
 from pymunk._chipmunk_cffi import ffi, lib
 
@@ -155,7 +155,7 @@ def forget(shapes: ShapeIds, numbers: Ints) -> None:
     found.write()
 
 
-def recall(shapes: ShapeIds, ids: Sequence[int], walls: int, *, forgotten: Ints) -> ContactMemory:
+def recall(shapes: ShapeIds, ids: Sequence[int], walls: int, *, forgotten: Ints) -> ImpulseCache:
     """
     Return what a space remembers.
 
@@ -170,7 +170,7 @@ def recall(shapes: ShapeIds, ids: Sequence[int], walls: int, *, forgotten: Ints)
     # The engine lists by address, which is never the same twice.
     order = np.lexsort((points['hash'], pairs[:, 1], pairs[:, 0]))
     points = points[order]
-    return ContactMemory(
+    return ImpulseCache(
         ids=np.array(ids, dtype=np.int64),
         walls=walls,
         following=shapes.following,
@@ -180,7 +180,7 @@ def recall(shapes: ShapeIds, ids: Sequence[int], walls: int, *, forgotten: Ints)
     )
 
 
-def remind(space: pymunk.Space, shapes: ShapeIds, memory: ContactMemory, dt: float) -> None:
+def remind(space: pymunk.Space, shapes: ShapeIds, memory: ImpulseCache, dt: float) -> None:
     """
     Give a space that has not stepped yet what another one remembered.
 
@@ -202,7 +202,7 @@ def remind(space: pymunk.Space, shapes: ShapeIds, memory: ContactMemory, dt: flo
     shapes.following = memory.following
 
 
-def _same(memory: ContactMemory, found: _Points) -> tuple[Ints, Ints]:
+def _same(memory: ImpulseCache, found: _Points) -> tuple[Ints, Ints]:
     """Return the rows of the points that are in both, in the one and in the other."""
     pairs = np.concatenate((memory.pairs, found.pairs))
     hashes = np.concatenate((memory.hashes, found.points['hash']))

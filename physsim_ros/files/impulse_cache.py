@@ -26,16 +26,16 @@ from dataclasses import fields
 import numpy as np
 from physsim_ros.files.base64_array import pack, unpack
 from physsim_ros.files.entries import count_from
-from physsim_ros.model.checkpoint import ContactMemory, WorldState
+from physsim_ros.model.checkpoint import ImpulseCache, WorldState
 from physsim_ros.model.checks import known_mapping
 from physsim_ros.model.errors import BadProperty
 
-_KEYS = [each.name for each in fields(ContactMemory)]
+_KEYS = [each.name for each in fields(ImpulseCache)]
 # Shapes of the engine that `bounds` consists of.
 _WALLS = 4
 
 
-def cache_entry(cache: ContactMemory) -> dict[str, object]:
+def cache_entry(cache: ImpulseCache) -> dict[str, object]:
     """Return the entry of an impulse cache: numbers, and packed arrays."""
     values = {key: getattr(cache, key) for key in _KEYS}
     return {
@@ -44,7 +44,7 @@ def cache_entry(cache: ContactMemory) -> dict[str, object]:
     }
 
 
-def cache_from(entry: object, state: WorldState) -> ContactMemory | None:
+def cache_from(entry: object, state: WorldState) -> ImpulseCache | None:
     """
     Return the impulse cache of an entry; None if it does not fit the bodies.
 
@@ -73,6 +73,6 @@ def cache_from(entry: object, state: WorldState) -> ContactMemory | None:
         if first < end:
             return None
         end = first + count
-    return ContactMemory(
+    return ImpulseCache(
         ids=ids, walls=walls, following=following, pairs=pairs, hashes=hashes, impulses=impulses
     )

@@ -105,7 +105,7 @@ def _joint_entry(joint: Joint, poses: Mapping[str, Pose]) -> dict[str, object]:
     points = drawn_points(joint, poses)
     entry: dict[str, object] = {'name': joint.name, 'kind': str(joint.kind)}
     entry |= {'a': joint.a, 'b': joint.b, 'points': [list(point) for point in points]}
-    return entry | joint.properties.said() | {'seat': list(joint.seat)}
+    return entry | joint.properties.explicit() | {'seat': list(joint.seat)}
 
 
 def _color_entry(color: Color) -> object:

@@ -28,12 +28,12 @@ from physsim_ros.model.checks import (
     check_keys,
     check_values,
     Checks,
+    explicit_values,
     FASTEST,
     flag,
     HEAVIEST,
     LIGHTEST,
     shown,
-    values_said,
     velocity,
     Within,
 )
@@ -75,9 +75,9 @@ class Properties:
         if self.mass is not None and self.density is not None:
             raise BadProperty('a body has a mass or a density, not both', field='mass')
 
-    def said(self) -> dict[str, Any]:
+    def explicit(self) -> dict[str, Any]:
         """Return the properties that are set, by name."""
-        return values_said(self, _CHECKS)
+        return explicit_values(self, _CHECKS)
 
 
 def properties_from(mapping: Mapping[Any, Any]) -> Properties:

@@ -84,11 +84,11 @@ class WorldState:
     settings: WorldSettings
     bodies: tuple[BodyState, ...] = ()
     joints: tuple[Joint, ...] = ()
-    memory: ContactMemory | None = field(default=None, compare=False)
+    memory: ImpulseCache | None = field(default=None, compare=False)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class ContactMemory:
+class ImpulseCache:
     """
     The impulse cache: accumulated impulses of contacts, with which the engine warm starts a step.
 
@@ -109,7 +109,7 @@ class ContactMemory:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Keyframe:
+class Checkpoint:
     """
     The whole state of a world at a step, after the requests of that step.
 
@@ -127,5 +127,5 @@ class Keyframe:
     state: Floats
     free: NDArray[np.bool_]
     wrenches: tuple[tuple[int, Pose, int | None], ...]
-    memory: ContactMemory
+    memory: ImpulseCache
     forces: Floats

@@ -242,12 +242,12 @@ def check_values(properties: object, checks: Checks) -> None:
     :param properties: a frozen dataclass under construction, one field for each check
     :raises Refusal: a check raised it
     """
-    for name, value in values_said(properties, checks).items():
+    for name, value in explicit_values(properties, checks).items():
         # Frozen for everyone but its own constructor.
         object.__setattr__(properties, name, checks[name](value, name))
 
 
-def values_said(properties: object, checks: Checks) -> dict[str, Any]:
+def explicit_values(properties: object, checks: Checks) -> dict[str, Any]:
     """Return the properties that are set, by name, in the order of the checks."""
     pairs = ((name, getattr(properties, name)) for name in checks)
     return {name: value for name, value in pairs if value is not None}

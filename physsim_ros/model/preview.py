@@ -44,4 +44,4 @@ class Preview:
         return max(every, key=lambda point: point[1], default=(0.0, 0.0))
 
 
-NOTHING = Preview()
+NO_PREVIEW = Preview()

@@ -66,7 +66,7 @@ class Body:
     expires: int | None
 
     @property
-    def weight(self) -> float:
+    def total_mass(self) -> float:
         """Return the mass: as given, or density times area [kg]."""
         return self.density * self.shape.form.area if self.mass is None else self.mass
 
@@ -182,7 +182,9 @@ class Scene:
     def inertia(self) -> Floats:
         """(n, 2) float64: mass [kg], moment of inertia [kg m²]; 0 for fixed bodies."""
         rows = [
-            (0.0, 0.0) if body.fixed else (body.weight, body.weight * body.shape.form.gyration)
+            (0.0, 0.0)
+            if body.fixed
+            else (body.total_mass, body.total_mass * body.shape.form.gyration)
             for body in self.bodies
         ]
         return np.array(rows, dtype=np.float64).reshape(-1, 2)

@@ -27,7 +27,7 @@ from typing import NamedTuple
 import numpy as np
 from physsim_ros.model.arrays import Floats, Ints
 from physsim_ros.model.errors import Refusal
-from physsim_ros.model.preview import NOTHING, Preview
+from physsim_ros.model.preview import NO_PREVIEW, Preview
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.transform import turned
 
@@ -215,7 +215,7 @@ class Frame:
     answers: tuple[Answer, ...] = field(default=())
     speed: float = 1.0
     moved: bool = True
-    preview: Preview = NOTHING
+    preview: Preview = NO_PREVIEW
 
 
 def run_state(speed: float) -> str:

@@ -114,7 +114,7 @@ def _terms(joint: Joint) -> str:
     """Return the YAML mapping that gives a joined marker the bodies and properties of a joint."""
     terms = [f'kind: {joint.kind}', f'a: {_word(joint.a)}', f'b: {_word(joint.b)}']
     # As drawn now, not as drawn where the marker is published again.
-    said = joint.properties.said() | joint.drawn_values()
+    said = joint.properties.explicit() | joint.drawn_values()
     for key, value in said.items():
         shown = str(value).lower() if isinstance(value, bool) else _number(value)
         terms.append(f'{key}: {shown}')

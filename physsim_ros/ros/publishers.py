@@ -30,7 +30,7 @@ from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import PoseArray
-from physsim_ros.model.preview import NOTHING, Preview
+from physsim_ros.model.preview import NO_PREVIEW, Preview
 from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.ros import encoders, preview_markers
 from rclpy.duration import Duration
@@ -103,7 +103,7 @@ class Streams:
         )
         self._frame_id = frame_id
         self._preview = node.create_publisher(MarkerArray, '~/preview', picture)
-        self._shown: Preview = NOTHING
+        self._shown: Preview = NO_PREVIEW
         self._events = publisher(DiagnosticStatus, '~/events', KEPT_ANSWERS)
         self._answers: deque[bytes] = deque()
         # Answers since all were known to have arrived, and until when more of them wait for that.

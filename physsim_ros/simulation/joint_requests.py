@@ -59,7 +59,7 @@ def join(space: Space, request: Join, points: tuple[Point, ...]) -> tuple[str, s
     kept = old.joint if old is not None and old.joint.kind is request.kind else None
     said = request.properties
     if kept is not None:
-        said = replace(kept.properties, **said.said())
+        said = replace(kept.properties, **said.explicit())
     if kept is not None and (kept.a, kept.b) == (a, b) and _is_at(space, kept, points):
         seat = kept.seat
         if request.properties.phase is not None or request.properties.ratio is not None:

@@ -28,7 +28,7 @@ import math
 from physsim_ros.engine.body import REST, RigidBody
 from physsim_ros.engine.body_pool import Spares
 from physsim_ros.engine.space import Space
-from physsim_ros.model.checkpoint import BodyState, Keyframe, Motion, WorldState
+from physsim_ros.model.checkpoint import BodyState, Checkpoint, Motion, WorldState
 from physsim_ros.model.checks import HEAVIEST, LIGHTEST
 from physsim_ros.model.colors import color_of
 from physsim_ros.model.errors import (
@@ -233,7 +233,7 @@ class World:
 
     # Going on from a keyframe
 
-    def renew(self) -> Keyframe:
+    def renew(self) -> Checkpoint:
         """
         Go on in a space built anew from what is so, and return that.
 
@@ -249,7 +249,7 @@ class World:
         self._take(space, Spares(self._space))
         return key
 
-    def resume(self, key: Keyframe, *, going_over: bool = False) -> None:
+    def resume(self, key: Checkpoint, *, going_over: bool = False) -> None:
         """
         Go back, or forward, to a keyframe.
 
@@ -317,7 +317,7 @@ class World:
                 sensor=False,
                 expires=None,
             )
-        changes = said.said()
+        changes = said.explicit()
         for motion in ('velocity', 'spin'):
             changes.pop(motion, None)
         if said.density is not None:
@@ -460,10 +460,10 @@ def steps_in(seconds: float, physics_rate: float) -> int:
 
 def _check_weight(body: Body) -> None:
     """Refuse a body whose size and density make it too light or too heavy."""
-    if not LIGHTEST <= body.weight <= HEAVIEST:
+    if not LIGHTEST <= body.total_mass <= HEAVIEST:
         field = 'density' if body.mass is None else 'mass'
         raise BadProperty(
-            f'the body would weigh {body.weight:g} kg; {LIGHTEST:g} to {HEAVIEST:g} kg can be '
+            f'the body would weigh {body.total_mass:g} kg; {LIGHTEST:g} to {HEAVIEST:g} kg can be '
             'simulated',
             field=field,
         )

@@ -273,7 +273,7 @@ def _much(joint: Joint, scene: Scene, bodies: dict[str, Body]) -> float:
     if joint.properties.break_force:
         return joint.properties.break_force
     weights = [
-        bodies[name].weight
+        bodies[name].total_mass
         for name in (joint.a, joint.b)
         if name != WORLD and not bodies[name].fixed
     ]

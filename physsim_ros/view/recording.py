@@ -31,7 +31,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.model.arrays import Floats, Singles
-from physsim_ros.model.preview import NOTHING
+from physsim_ros.model.preview import NO_PREVIEW
 from physsim_ros.model.settings import Bounds
 from physsim_ros.model.snapshot import Answer, Frame, Snapshot
 from physsim_ros.model.transform import Point
@@ -103,7 +103,7 @@ class Picture:
         self._framed = False
         self._touching = False
         # What is shown of what is half drawn, what was last asked for, and when.
-        self._preview = self._asked = NOTHING
+        self._preview = self._asked = NO_PREVIEW
         self._asked_at = 0
         # Entities that are not empty, and where the bodies were drawn last.
         self._drawn: set[str] = set()
@@ -295,8 +295,8 @@ class Picture:
             if preview != self._asked:
                 self._asked, self._asked_at = preview, number
             if not preview.points and number - self._asked_at >= LINGER:
-                preview = NOTHING
-            if preview == self._preview and (preview == NOTHING or number % REPEAT):
+                preview = NO_PREVIEW
+            if preview == self._preview and (preview == NO_PREVIEW or number % REPEAT):
                 continue
             self._preview = preview
             times = _times([frame.snapshot], [number])

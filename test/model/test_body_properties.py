@@ -47,8 +47,8 @@ def refusal_of(**said: Any) -> Refusal:
 
 
 def test_what_is_not_said_is_none_and_not_listed() -> None:
-    assert Properties().said() == {}
-    assert Properties(friction=0.0, anchored=False, group=0).said() == {
+    assert Properties().explicit() == {}
+    assert Properties(friction=0.0, anchored=False, group=0).explicit() == {
         'friction': 0.0,
         'anchored': False,
         'group': 0,
@@ -165,8 +165,8 @@ def test_all_keys_of_the_contract_are_known_and_no_others() -> None:
         'anchored': False, 'kinematic': True, 'group': 1, 'sensor': True,
     }  # fmt: skip
 
-    assert set(properties_from(values).said()) == set(KEYS) - {'density'}
-    assert properties_from({'density': 1}).said() == {'density': 1.0}
+    assert set(properties_from(values).explicit()) == set(KEYS) - {'density'}
+    assert properties_from({'density': 1}).explicit() == {'density': 1.0}
     for key in ('color', 'name', 'shape', 'lifetime', 'MASS', ' mass', ''):
         with pytest.raises(UnknownProperty):
             properties_from({key: 1})

@@ -367,7 +367,7 @@ def test_the_text_of_a_marker_gives_back_the_properties_of_its_body(body, role):
         body = replace(body, **{role: True})
         expected[role] = True
     marker, *_ = picture(encoders.MarkersEncoder('world'), snapshot_of([body]))
-    assert body_request(marker, frame_id='world').properties.said() == expected
+    assert body_request(marker, frame_id='world').properties.explicit() == expected
     # PyYAML by itself reads YAML 1.1, in which 1e-09 is a string.
     assert yaml.safe_load(marker.text) == expected
 

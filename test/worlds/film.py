@@ -72,7 +72,7 @@ class Film:
     def weight(self, *namespaces):
         """Return what all bodies of these namespaces weigh together [kg]."""
         bodies = self.frames[0].scene.bodies
-        return sum(body.weight for body in bodies if body.name.partition('/')[0] in namespaces)
+        return sum(body.total_mass for body in bodies if body.name.partition('/')[0] in namespaces)
 
 
 def at(seconds):

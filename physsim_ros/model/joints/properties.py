@@ -20,7 +20,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from typing import Any
 
-from physsim_ros.model.checks import check_keys, check_values, Checks, values_said
+from physsim_ros.model.checks import check_keys, check_values, Checks, explicit_values
 from physsim_ros.model.errors import BadProperty, UnknownProperty
 from physsim_ros.model.joints.kinds import JointKind, PROPERTIES
 
@@ -70,9 +70,9 @@ class JointProperties:
                 field='lower',
             )
 
-    def said(self) -> dict[str, Any]:
+    def explicit(self) -> dict[str, Any]:
         """Return the properties that are set, by name."""
-        return values_said(self, _CHECKS)
+        return explicit_values(self, _CHECKS)
 
     def check_kind(self, kind: JointKind) -> None:
         """
@@ -81,7 +81,7 @@ class JointProperties:
         :raises UnknownProperty: there is one
         """
         known = kind.schema.properties
-        for name in self.said():
+        for name in self.explicit():
             if name not in known:
                 raise UnknownProperty(
                     f'a {kind} has no {name}; it has {", ".join(known)}', field=name
