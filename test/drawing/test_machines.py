@@ -143,7 +143,7 @@ def test_a_mass_on_a_spring_goes_up_and_down(tremor: float) -> None:
     assert machine.read == ['wall', 'rectangle', 'spring']
     assert machine.joints == [('spring', 'drawn/1', 'drawn/0')]
     _, mass = range(2)
-    weight = machine.simulation.world.snapshot().scene.bodies[mass].weight
+    weight = machine.simulation.world.snapshot().scene.bodies[mass].total_mass
     stiffness = 100.0
     before = machine.frame.snapshot.poses[mass, 1]
 

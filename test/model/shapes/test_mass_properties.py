@@ -29,11 +29,11 @@ from physsim_ros.model.shapes import (
 )
 import pytest
 
-from ...building import ELL, SHAPES
 from .polygons import (
     assert_cover,
     ROUNDING,
 )
+from ...building import ELL, SHAPES
 
 
 def test_a_disc_is_weighed_by_its_formulas() -> None:

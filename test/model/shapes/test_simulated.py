@@ -33,8 +33,8 @@ from physsim_ros.model.shapes import (
 from physsim_ros.simulation.world import World
 import pytest
 
-from ...building import SHAPES, spawn
 from .polygons import combs, drawn_boxes, polyominoes, stars
+from ...building import SHAPES, spawn
 
 
 def assert_it_can_be_simulated(shape: Shape, *, haste: float = 1.0) -> None:
