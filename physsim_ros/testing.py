@@ -13,11 +13,11 @@
 # limitations under the License.
 
 """
-A pytest plugin: a world of a test's own, in its process, whose time the test drives.
+A pytest plugin: a world in the process of a test, which advances its time.
 
-Laws: nothing of ROS is imported until a test asks for the fixture `physsim`; time under it never
-depends on the wall clock, which only bounds how long an answer may take; what a frame makes other
-nodes send has arrived before the next frame, so that a run gives the same bits every time.
+Laws: ROS is not imported before a test requests the fixture `physsim`; simulation time does not
+depend on the wall clock, which only bounds the wait for an answer; messages that other nodes send
+in reaction to a frame have arrived before the next frame, so that every run gives the same bits.
 """
 
 from __future__ import annotations
@@ -48,16 +48,17 @@ if TYPE_CHECKING:
 # https://docs.ros.org/en/jazzy/Concepts/Intermediate/About-Domain-ID.html
 _DOMAINS = range(1, 102)
 _BEGINNINGS = itertools.count(os.getpid())
-# Wall seconds for what happens in this process within milliseconds.
-_PATIENCE = 10.0
-# The same for each marker of an array, which takes half a millisecond.
-_PATIENCE_EACH = 0.01
-# Messages that answer messages end some time; two nodes that answer each other for ever do not.
+# Timeout for events that take milliseconds in this process, in wall time [s].
+_TIMEOUT = 10.0
+# Additional timeout for each marker of an array, which takes half a millisecond [s].
+_TIMEOUT_EACH = 0.01
+# The greatest number of rounds of messages in reaction to messages: two nodes that answer each
+# other never end.
 _MOST_ROUNDS = 100
 
 
 class Pose(NamedTuple):
-    """Where a body is: x, y [m], yaw [rad]."""
+    """Pose of a body: x, y [m], yaw [rad]."""
 
     x: float
     y: float
@@ -65,7 +66,7 @@ class Pose(NamedTuple):
 
 
 class Twist(NamedTuple):
-    """How a body moves: vx, vy [m/s], spin [rad/s]."""
+    """Twist of a body: vx, vy of its centre of mass [m/s], angular velocity (spin) [rad/s]."""
 
     vx: float
     vy: float
@@ -73,7 +74,7 @@ class Twist(NamedTuple):
 
 
 class Contact(NamedTuple):
-    """What touched in the last frame: names of the pair, and the impulse on b [N s]."""
+    """A contact of the last frame: names of the pair, and the impulse on b [N s]."""
 
     a: str
     b: str
@@ -96,7 +97,7 @@ class Refused(Exception):
 
 @contextmanager
 def _refusing() -> Iterator[None]:
-    """Let a refusal of the world's be one to the test."""
+    """Raise `Refused` instead of a refusal of the world."""
     from physsim_ros.model.errors import Refusal
 
     try:
@@ -107,7 +108,7 @@ def _refusing() -> Iterator[None]:
 
 class PhysSim:
     """
-    A world under a test's control, and a client that talks to it over topics.
+    A world whose time a test advances, and a client that publishes requests to it.
 
     :param context: of ROS, on a domain of its own
     :param parameters: of the node, as name -> value
@@ -129,27 +130,27 @@ class PhysSim:
         self._added: list[Node] = []
         self._spin_until(lambda: self._client.matched, 'the world did not appear')
 
-    # Driving
+    # Time
 
     def load(self, world: str | Path) -> None:
         """
-        Replace the world by a file's, by its name or path.
+        Replace the world by that of a file, by name or path.
 
-        :raises Refused: there is no such world, or it is none
+        :raises Refused: there is no such file, or it is not a world
         """
         from rclpy.parameter import Parameter
 
-        # As everywhere in Python, a path counts from where the interpreter was started.
+        # A relative path is relative to the working directory, as everywhere in Python.
         given = Path(world) if Path(world).suffix else Path(f'{world}.yaml')
         path = given.resolve() if given.is_file() else world
         self.node.set_parameters([Parameter('world_file', value=str(path))])
         with _refusing():
-            self.node.load_world(confined=False)
-        self.node.apply()
+            self.node.world_files.load(confined=False)
+        self.node.apply_requests()
         self.settle()
 
     def add(self, node: Node) -> None:
-        """Spin a node together with the world; its time is the world's from now on."""
+        """Spin a node together with the world, on simulation time."""
         from rclpy.parameter import Parameter
 
         node.set_parameters([Parameter('use_sim_time', value=True)])
@@ -159,13 +160,13 @@ class PhysSim:
 
     def step(self, frames: int = 1) -> None:
         """
-        Go on by frames of one publish period each.
+        Advance by frames of one publish period each.
 
-        :raises ValueError: it is a count below 0
+        :raises ValueError: the count is below 0
         """
         if frames < 0:
             raise ValueError(f'time goes on by 0 frames or more, not by {frames}; seek goes back')
-        # What the test's own publishers have sent comes first.
+        # Messages of the test's own publishers come first.
         self.settle()
         for _ in range(frames):
             self.node.advance_frame()
@@ -173,9 +174,9 @@ class PhysSim:
 
     def run(self, seconds: float) -> None:
         """
-        Go on by simulated seconds, to the nearest frame.
+        Advance by simulated seconds, to the nearest frame.
 
-        :raises ValueError: they are below 0, not finite, or so few that they are no frame
+        :raises ValueError: they are below 0, not finite, or less than half a frame
         """
         frames = self._frames(seconds)
         if seconds and not frames:
@@ -185,10 +186,10 @@ class PhysSim:
 
     def until(self, predicate: Callable[[], object], *, timeout: float = 10.0) -> None:
         """
-        Go on frame by frame until something is so.
+        Advance by single frames until a predicate is true.
 
-        :param timeout: simulated seconds after which it should have been
-        :raises TimeoutError: it was not
+        :param timeout: simulation time after which it must be true [s]
+        :raises TimeoutError: it is not
         :raises ValueError: the timeout is below 0, or not finite
         """
         for _ in range(self._frames(timeout)):
@@ -206,24 +207,24 @@ class PhysSim:
 
     def seek(self, seconds: float) -> None:
         """
-        Go to a simulation time [s] that has been; running on repeats the same bits.
+        Go to an earlier simulation time [s]; advancing from there repeats the same bits.
 
-        :raises Refused: it is kept no more, or has not come yet
+        :raises Refused: the time is no longer in the history, or in the future
         """
         self.settle()
         with _refusing():
             self.node.simulation.seek(round(seconds * 1e9))
-        self.node.apply()
+        self.node.apply_requests()
         self.settle()
 
     def settle(self) -> None:
-        """Let every message that is under way arrive, and all that it makes nodes send."""
+        """Spin until all messages have arrived, those in reaction to them too."""
         for _ in range(_MOST_ROUNDS):
             if self._spin_to_barrier() <= 1:
                 return
         raise TimeoutError('nodes answer each other without end while time stands still')
 
-    # Asking
+    # Requests
 
     def spawn(self, marker: Marker | MarkerArray) -> str:
         """
@@ -232,8 +233,8 @@ class PhysSim:
         :raises Refused: with the code; of an array, the first refusal
         """
         if hasattr(marker, 'markers'):
-            return self._ask('spawn_array', marker, len(marker.markers))
-        return self._ask('spawn', marker)
+            return self._request('spawn_array', marker, len(marker.markers))
+        return self._request('spawn', marker)
 
     def anchor(self, point: PointStamped | tuple[float, float]) -> str:
         """
@@ -241,7 +242,7 @@ class PhysSim:
 
         :raises Refused: with the code
         """
-        return self._ask('anchor', _stamped(point))
+        return self._request('anchor', _stamped(point))
 
     def release(self, point: PointStamped | tuple[float, float]) -> str:
         """
@@ -249,7 +250,7 @@ class PhysSim:
 
         :raises Refused: with the code
         """
-        return self._ask('release', _stamped(point))
+        return self._request('release', _stamped(point))
 
     def join(self, marker: Marker) -> str:
         """
@@ -257,7 +258,7 @@ class PhysSim:
 
         :raises Refused: with the code
         """
-        return self._ask('join', marker)
+        return self._request('join', marker)
 
     def pin(self, point: PointStamped | tuple[float, float]) -> str:
         """
@@ -265,38 +266,38 @@ class PhysSim:
 
         :raises Refused: with the code
         """
-        return self._ask('pin', _stamped(point))
+        return self._request('pin', _stamped(point))
 
     def axle(self, point: PointStamped | tuple[float, float]) -> str:
         """
-        Let the bodies under a point [m] turn about it, and return the joint's name.
+        Join the bodies under a point [m] by an axle, and return the joint's name.
 
         :raises Refused: with the code
         """
-        return self._ask('axle', _stamped(point))
+        return self._request('axle', _stamped(point))
 
     def command(self, command: MultiDOFJointState) -> str:
         """
-        Set poses, twists or wrenches, and return the body's name where it is one.
+        Set poses, twists or wrenches, and return the name of the body where it is only one.
 
         :raises Refused: with the code
         """
-        return self._ask('command', command)
+        return self._request('command', command)
 
-    def _ask(self, topic: str, message: Any, answers: int = 1) -> str:
-        """Publish a request, have it carried out while time stands still, return the body."""
-        # What other nodes have asked before is answered before, and not meant here.
+    def _request(self, topic: str, message: Any, answers: int = 1) -> str:
+        """Publish a request, apply it without advancing time, and return the answer's subject."""
+        # Answers to earlier requests of other nodes come first, and are skipped.
         self.settle()
-        earlier = sum(answer.topic == f'~/{topic}' for answer in self._apply())
+        earlier = sum(answer.topic == f'~/{topic}' for answer in self._apply_requests())
         received = self._client.listen(topic)
         self._client.publish(topic, message)
 
         def answered() -> bool:
-            self.node.apply()
+            self.node.apply_requests()
             return len(received) >= earlier + answers
 
-        patience = _PATIENCE + _PATIENCE_EACH * (earlier + answers)
-        self._spin_until(answered, f'no answer to {topic}', patience)
+        timeout = _TIMEOUT + _TIMEOUT_EACH * (earlier + answers)
+        self._spin_until(answered, f'no answer to {topic}', timeout)
         self.settle()
         last = earlier + answers
         received = received[earlier:last]
@@ -306,14 +307,14 @@ class PhysSim:
                 raise Refused(values['code'], status.message, values.get('field', ''))
         return received[-1].hardware_id if received else ''
 
-    def _apply(self) -> tuple[Answer, ...]:
-        """Carry out what waits, and return the answers, which are on their way."""
+    def _apply_requests(self) -> tuple[Answer, ...]:
+        """Apply the waiting requests, and return the answers, which are being published."""
         last = self.node.frame
-        self.node.apply()
+        self.node.apply_requests()
         frame = self.node.frame
         return () if frame is None or frame is last else frame.answers
 
-    # Reading
+    # State
 
     @property
     def time(self) -> float:
@@ -327,7 +328,7 @@ class PhysSim:
 
     def pose(self, name: str) -> Pose:
         """
-        Return where a body is.
+        Return the pose of a body.
 
         :raises KeyError: there is no such body
         """
@@ -335,14 +336,14 @@ class PhysSim:
 
     def twist(self, name: str) -> Twist:
         """
-        Return how a body moves.
+        Return the twist of a body.
 
         :raises KeyError: there is no such body
         """
         return Twist(*self._snapshot.twists[self._row(name)].tolist())
 
     def contacts(self, name: str | None = None) -> list[Contact]:
-        """Return what touched in the last frame, all or with a body; 'world' is the walls."""
+        """Return the contacts of the last frame, all or of one body; 'world' is the boundary."""
         frame = self.node.frame
         if frame is None or frame.contacts is None:
             return []
@@ -355,13 +356,13 @@ class PhysSim:
         return [each for each in contacts if name is None or name in (each.a, each.b)]
 
     def energy(self) -> float:
-        """Return the energy of all bodies and springs [J], that of height zero at y = 0."""
+        """Return kinetic, potential (0 at y = 0) and elastic energy of the world [J]."""
         snapshot = self._snapshot
         return snapshot.kinetic_energy + snapshot.potential_energy + snapshot.elastic_energy
 
     def force(self, joint: str) -> float:
         """
-        Return what a joint gave in the last step [N].
+        Return the force of a joint in the last step [N].
 
         :raises KeyError: there is no such joint
         """
@@ -372,15 +373,15 @@ class PhysSim:
 
     @property
     def joints(self) -> tuple[str, ...]:
-        """Names of all joints, in the order in which they were made."""
+        """Names of all joints, in the order of their creation."""
         return tuple(joint.name for joint in self._snapshot.scene.joints)
 
     def digest(self) -> str:
         """
-        Return a hash of time, poses, velocities, wrenches, and all that describes what there is.
+        Return a hash of time, poses, velocities, wrenches and the descriptions of all objects.
 
-        What the engine remembers of contacts is not in it: two worlds of one digest may go on with
-        other bits where bodies touch.
+        The impulse cache of the engine is not included: two worlds of one digest may differ after
+        the next step, where bodies touch.
         """
         return self.node.simulation.world.digest()
 
@@ -397,25 +398,25 @@ class PhysSim:
     # Recording
 
     def record(self, path: str | Path) -> None:
-        """Write what happens from now on to a `.rrd` file, complete when the test has ended."""
+        """Record all frames from now on in a `.rrd` file, which is complete after the test."""
         self.node.record(Path(path))
 
     # Spinning
 
     def _spin_to_barrier(self) -> int:
-        """Handle what is queued now, and return how many turns it took."""
+        """Spin until all events queued now are handled, and return the number of spins."""
         reached: list[bool] = []
         self._executor.create_task(lambda: reached.append(True))
-        turns = 0
+        spins = 0
         while not reached:
             self._executor.spin_once(timeout_sec=0)
-            turns += 1
-        return turns
+            spins += 1
+        return spins
 
     def _spin_until(
-        self, predicate: Callable[[], object], otherwise: str, patience: float = _PATIENCE
+        self, predicate: Callable[[], object], otherwise: str, timeout: float = _TIMEOUT
     ) -> None:
-        deadline = time.monotonic() + patience
+        deadline = time.monotonic() + timeout
         while not predicate():
             if time.monotonic() > deadline:
                 raise TimeoutError(otherwise)
@@ -427,23 +428,23 @@ class PhysSim:
     def __exit__(self, *_: object) -> None:
         for node in (*self._added, self._client.node, self.node):
             self._executor.remove_node(node)
-        # Before its nodes: it listens to what they destroy.
+        # Before its nodes, whose waitables it holds.
         self._executor.shutdown()
         self._client.node.destroy_node()
         self.node.destroy_node()
 
 
 class _Client:
-    """A node that publishes requests and hears the answers."""
+    """A node that publishes requests and receives the answers."""
 
     def __init__(self, context: Context) -> None:
         from diagnostic_msgs.msg import DiagnosticStatus
         from geometry_msgs.msg import PointStamped
-        from physsim_ros.ros.qos_safe_node import LOSSLESS, QuietNode
+        from physsim_ros.ros.qos_safe_node import LOSSLESS, NodeWithoutQosEvents
         from sensor_msgs.msg import MultiDOFJointState
         from visualization_msgs.msg import Marker, MarkerArray
 
-        self.node = QuietNode('physsim_test', context=context)
+        self.node = NodeWithoutQosEvents('physsim_test', context=context)
         kinds = {
             'spawn': Marker,
             'spawn_array': MarkerArray,
@@ -459,9 +460,9 @@ class _Client:
             for topic, kind in kinds.items()
         }
         self._events = self.node.create_subscription(
-            DiagnosticStatus, '/physsim/events', self._hear, LOSSLESS
+            DiagnosticStatus, '/physsim/events', self._receive, LOSSLESS
         )
-        # Contacts are read only where somebody subscribes.
+        # Contacts are recorded only while there is a subscriber.
         self._contacts = self.node.create_subscription(
             MultiDOFJointState, '/physsim/contacts', lambda _: None, 5, raw=True
         )
@@ -470,38 +471,38 @@ class _Client:
 
     @property
     def matched(self) -> bool:
-        """Whether the world hears this client and is heard by it."""
+        """Whether publishers and subscriptions are matched with those of the world."""
         outward = all(each.get_subscription_count() for each in self._publishers.values())
         return outward and self.node.count_publishers('/physsim/events') > 0
 
     def listen(self, topic: str) -> list[DiagnosticStatus]:
-        """Return a list that the answers to a request will come to."""
+        """Return a list to which the answers to requests on a topic will be appended."""
         self._topic, self._received = f'~/{topic}', []
         return self._received
 
     def publish(self, topic: str, message: Any) -> None:
-        """Send a request."""
+        """Publish a request."""
         self._publishers[topic].publish(message)
 
-    def _hear(self, status: DiagnosticStatus) -> None:
+    def _receive(self, status: DiagnosticStatus) -> None:
         if status.name == self._topic:
             self._received.append(status)
 
 
 @pytest.fixture
 def physsim(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[PhysSim]:
-    """Give a test a world of its own: own context, own domain, its time in the test's hand."""
+    """Give a world with its own context and domain, whose time the test advances."""
     with own_context(monkeypatch) as context, PhysSim(context, world_dir=str(tmp_path)) as world:
         yield world
 
 
 @contextmanager
 def own_context(monkeypatch: pytest.MonkeyPatch) -> Iterator[Context]:
-    """Give a context on a domain that no other test on this machine uses meanwhile."""
+    """Give a context on a domain that no other test on this machine uses at the same time."""
     import rclpy
 
     monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
-    # Shared memory outlives processes, with the locks that one held when it was killed.
+    # Shared memory remains after a killed process, with the locks that it owned.
     monkeypatch.setenv('FASTDDS_BUILTIN_TRANSPORTS', 'UDPv4')
     with own_domain() as domain:
         context = rclpy.Context()
@@ -514,11 +515,11 @@ def own_context(monkeypatch: pytest.MonkeyPatch) -> Iterator[Context]:
 
 @contextmanager
 def own_domain() -> Iterator[int]:
-    """Give a ROS domain id that nobody else on this machine is given meanwhile."""
+    """Give a ROS domain id that no other process on this machine is given at the same time."""
     directory = Path(tempfile.gettempdir()) / f'physsim_ros_domains_{os.getuid()}'
     directory.mkdir(exist_ok=True)
-    # Beginning at a place of its own, a process seldom has to try twice; and never twice at the
-    # same, where what a test has left behind could meet the next.
+    # Each process begins at another domain, so that it seldom has to try a second; and each test,
+    # so that remains of one do not reach the next.
     begin = next(_BEGINNINGS) % len(_DOMAINS)
     for domain in (*_DOMAINS[begin:], *_DOMAINS[:begin]):
         with (directory / str(domain)).open('w') as file:

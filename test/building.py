@@ -21,21 +21,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.model.body_properties import Properties
-from physsim_ros.model.joint_properties import JointKind
+from physsim_ros.model.colors import Color
+from physsim_ros.model.joints import JointKind
 from physsim_ros.model.requests import Join, Spawn
 from physsim_ros.model.scene import Body
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import (
-    Box,
-    Chain,
-    Color,
-    Compound,
-    Disc,
-    Polygon,
-    Pose,
-    Shape,
-    Triangles,
-)
+from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon, Shape, Triangles
+from physsim_ros.model.transform import Pose
 from physsim_ros.simulation.world import World
 
 G = 9.81

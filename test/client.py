@@ -21,7 +21,7 @@ import time
 from typing import Any, NamedTuple
 
 from diagnostic_msgs.msg import DiagnosticStatus
-from physsim_ros.ros.qos_safe_node import QuietNode
+from physsim_ros.ros.qos_safe_node import NodeWithoutQosEvents
 from physsim_ros.testing import PhysSim
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 from std_srvs.srv import Trigger
@@ -53,7 +53,7 @@ class Client:
 
     def __init__(self, physsim: PhysSim) -> None:
         self.physsim = physsim
-        self.node = QuietNode('client', context=physsim.context)
+        self.node = NodeWithoutQosEvents('client', context=physsim.context)
         self.qos = QoSProfile(
             history=HistoryPolicy.KEEP_ALL, reliability=ReliabilityPolicy.RELIABLE
         )
@@ -92,7 +92,7 @@ class Client:
         # What has arrived is carried out twice, so that a second answer would be heard.
         for _ in range(2):
             self.physsim.settle()
-            self.physsim.node.apply()
+            self.physsim.node.apply_requests()
         self.physsim.settle()
         return self.events[before:]
 

@@ -12,4 +12,16 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Clicks and strokes become requests, without ROS. Start with `session`."""
+"""
+Drawing: the clicks and freehand strokes of a person become requests.
+
+Not here: ROS messages and parameters (`ros`), drawing files (`files`), the execution of requests
+(`simulation`). Start with `session`; `clicks` has the tools, `strokes` the recognition. Other
+folders import the names below.
+"""
+
+from physsim_ros.drawing.clicks.tools import Tool
+from physsim_ros.drawing.session import DrawingSession, reading_answer
+from physsim_ros.drawing.settings import DRAWING_RANGES, DrawingSettings
+
+__all__ = ['DRAWING_RANGES', 'DrawingSession', 'DrawingSettings', 'Tool', 'reading_answer']

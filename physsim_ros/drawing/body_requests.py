@@ -13,10 +13,10 @@
 # limitations under the License.
 
 """
-Bodies as they are drawn: geometry in the world -> the request that adds it.
+Spawn requests of drawn bodies, from their geometry in the world.
 
-What is not said here, density, friction and elasticity, is the world's own default when the
-request is applied. A body's origin lies at its centre of mass.
+Density, friction and elasticity are the defaults of the world at the time at which the request is
+applied. The origin of a body lies at its centre of mass.
 """
 
 from __future__ import annotations
@@ -27,7 +27,8 @@ import math
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.requests import Spawn
-from physsim_ros.model.shapes import Box, Chain, Disc, Point, Polygon, Pose, Shape
+from physsim_ros.model.shapes import Box, Chain, Disc, Polygon, Shape
+from physsim_ros.model.transform import Point, Pose
 
 
 def disc(name: str, center: Point, radius: float, settings: DrawingSettings) -> Spawn:
@@ -36,7 +37,7 @@ def disc(name: str, center: Point, radius: float, settings: DrawingSettings) -> 
 
     :raises BadSize: the radius [m] is out of range
     """
-    return _moving(name, Disc(radius=radius), (*center, 0.0), settings)
+    return _dynamic_body(name, Disc(radius=radius), (*center, 0.0), settings)
 
 
 def rectangle(
@@ -48,28 +49,28 @@ def rectangle(
     :param center: x, y [m] and the yaw of its width [rad]
     :raises BadSize: a side [m] is out of range
     """
-    return _moving(name, Box(width=width, height=height), center, settings)
+    return _dynamic_body(name, Box(width=width, height=height), center, settings)
 
 
 def polygon(name: str, corners: Sequence[Point], settings: DrawingSettings) -> Spawn:
     """
     Return the request for a polygon.
 
-    :param corners: in order, either way round, the first not repeated [m]
-    :raises BadOutline: they are no simple outline
+    :param corners: in either orientation, the first not repeated [m]
+    :raises BadOutline: they are not the outline of a simple polygon
     :raises BadSize: it is too large or too thin
     """
     x, y = Polygon(outline=tuple(corners)).form.centroid
     outline = tuple((corner[0] - x, corner[1] - y) for corner in corners)
-    return _moving(name, Polygon(outline=outline), (x, y, 0.0), settings)
+    return _dynamic_body(name, Polygon(outline=outline), (x, y, 0.0), settings)
 
 
 def wall(name: str, points: Sequence[Point], settings: DrawingSettings) -> Spawn:
     """
-    Return the request for a wall: anchored segments; where it is one, its x axis is along it.
+    Return the request for a wall of anchored segments; the x axis of a single one is along it.
 
     :param points: at least two, in order [m]
-    :raises BadOutline: they are one point
+    :raises BadOutline: all are the same point
     """
     thickness = settings.wall_thickness
     x, y = Chain(points=tuple(points), thickness=thickness).form.centroid
@@ -88,7 +89,7 @@ def wall(name: str, points: Sequence[Point], settings: DrawingSettings) -> Spawn
     )
 
 
-def _moving(name: str, shape: Shape, pose: Pose, settings: DrawingSettings) -> Spawn:
+def _dynamic_body(name: str, shape: Shape, pose: Pose, settings: DrawingSettings) -> Spawn:
     velocity = settings.draw_velocity
     return Spawn(
         name=name,

@@ -13,10 +13,9 @@
 # limitations under the License.
 
 """
-The world as whoever draws sees it: names, what lies under a point, where it is.
+Spatial queries on a snapshot of the world: bodies at a point, frames, free names.
 
-Law: it reads a snapshot, so drawing needs neither engine nor running time, and a picture of the
-past will do.
+Law: queries read a snapshot, past or present, and need neither engine nor clock.
 """
 
 from __future__ import annotations
@@ -32,23 +31,23 @@ from physsim_ros.model.errors import BadProperty, UnknownFrame
 from physsim_ros.model.names import split_name
 from physsim_ros.model.scene import Body
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Capsule, Circle, Convex, Piece, Point, Pose
+from physsim_ros.model.shapes import Capsule, Circle, Convex, Piece
 from physsim_ros.model.snapshot import Snapshot
-from physsim_ros.model.transform import rotated
+from physsim_ros.model.transform import Point, Pose, rotated
 
-# The namespace of all that is drawn.
+# The namespace of drawn bodies and joints.
 DRAWN = 'drawn'
-# Nobody has drawn so much: whoever takes such a number leaves those below to what is drawn.
-_FARTHEST = 10**9
+# Numbers from here on, which other nodes may choose, do not count as drawn.
+_NUMBER_LIMIT = 10**9
 
 
-class View:
+class SceneQuery:
     """
-    A world at a moment.
+    Queries on one snapshot.
 
     :param snapshot: of the world
-    :param first: the lowest number that no drawn body has had, as far as is remembered
-    :param first_joint: the same of drawn joints
+    :param first: the lowest number for the next drawn body
+    :param first_joint: the lowest number for the next drawn joint
     """
 
     def __init__(self, snapshot: Snapshot, *, first: int = 0, first_joint: int = 0) -> None:
@@ -57,7 +56,7 @@ class View:
 
     @property
     def settings(self) -> WorldSettings:
-        """Return what holds for the whole world."""
+        """Return the settings of the world."""
         return self.snapshot.scene.settings
 
     @property
@@ -66,7 +65,7 @@ class View:
         return self.snapshot.scene.names
 
     def body(self, name: str) -> Body:
-        """Return what a body is."""
+        """Return the description of a body."""
         return self.snapshot.scene.bodies[self._rows[name]]
 
     def pose(self, name: str) -> Pose:
@@ -75,19 +74,19 @@ class View:
         return x, y, yaw
 
     def twist(self, name: str) -> Pose:
-        """Return vx, vy [m/s] of a body's centre of mass and its spin [rad/s], world axes."""
+        """Return vx, vy [m/s] of a body's centre of mass and its angular velocity [rad/s]."""
         vx, vy, spin = self.snapshot.twists[self._rows[name]].tolist()
         return vx, vy, spin
 
     def bodies_at(self, point: Point, slack: float = 0.0) -> tuple[str, ...]:
         """
-        Return the bodies that cover a point, topmost (that spawned last) first.
+        Return the names of the bodies that cover a point, the last spawned (topmost) first.
 
         :param point: in the world [m]
-        :param slack: how far outside a body a point may lie and still count [m]
+        :param slack: the greatest distance of the point from a body that still covers it [m]
         """
-        away = self.snapshot.centers - point
-        near = np.hypot(away[:, 0], away[:, 1]) <= self._reaches + slack
+        offsets = self.snapshot.centers - point
+        near = np.hypot(offsets[:, 0], offsets[:, 1]) <= self._outer_radii + slack
         return tuple(
             self.names[row]
             for row in np.flatnonzero(near)[::-1]
@@ -96,35 +95,35 @@ class View:
 
     def covers(self, name: str, points: Floats) -> NDArray[np.bool_]:
         """
-        Tell which points a body covers, (k,) bool.
+        Return whether a body covers each of some points, (k,) bool.
 
         :param points: (k, 2) float64: in the world [m]
         """
         row = self._rows[name]
-        away = points - self.snapshot.centers[row]
-        hits: NDArray[np.bool_] = np.hypot(away[:, 0], away[:, 1]) <= self._reaches[row]
-        for place in np.flatnonzero(hits).tolist():
-            x, y = points[place].tolist()
-            hits[place] = self._covers(row, (x, y), 0.0)
+        offsets = points - self.snapshot.centers[row]
+        hits: NDArray[np.bool_] = np.hypot(offsets[:, 0], offsets[:, 1]) <= self._outer_radii[row]
+        for index in np.flatnonzero(hits).tolist():
+            x, y = points[index].tolist()
+            hits[index] = self._covers(row, (x, y), 0.0)
         return hits
 
     def local(self, name: str, point: Point) -> Point:
-        """Return a point of the world as it is in a body's frame [m]."""
+        """Return a point of the world in the frame of a body [m]."""
         x, y, yaw = self.pose(name)
         return rotated((point[0] - x, point[1] - y), -yaw)
 
     def in_world(self, name: str, point: Point) -> Point:
-        """Return a point of a body's frame as it is in the world [m]."""
+        """Return a point of the frame of a body in the world [m]."""
         x, y, yaw = self.pose(name)
         dx, dy = rotated(point, yaw)
         return x + dx, y + dy
 
-    def placed(self, point: Point, frame: str) -> Point:
+    def resolve_point(self, point: Point, frame: str) -> Point:
         """
-        Return where a point lies in the world [m].
+        Return a point of a named frame in the world [m].
 
         :param point: [m]
-        :param frame: of it: '' for the world, or a body's name
+        :param frame: of it: '' for the world, or the name of a body
         :raises UnknownFrame: there is no such body
         """
         if not frame:
@@ -137,9 +136,9 @@ class View:
 
     def gravity_strength(self) -> float:
         """
-        Return how strong the gravity is that is to be turned [m/s²].
+        Return the magnitude of gravity [m/s²].
 
-        :raises BadProperty: there is none
+        :raises BadProperty: it is 0, which has no direction
         """
         strength = math.hypot(*self.settings.gravity)
         if strength == 0.0:
@@ -149,21 +148,21 @@ class View:
         return strength
 
     def next_body(self) -> str:
-        """Return the name of the next body, numbered above all that are or have been drawn."""
-        return f'{DRAWN}/{max(_above(self.names), self._first)}'
+        """Return the name of the next drawn body, numbered above all drawn before."""
+        return f'{DRAWN}/{max(_next_number(self.names), self._first)}'
 
     def next_joint(self) -> str:
-        """Return the name of the next joint, numbered above all that are or have been drawn."""
+        """Return the name of the next drawn joint, numbered above all drawn before."""
         names = (joint.name for joint in self.snapshot.scene.joints)
-        return f'{DRAWN}/{max(_above(names), self._first_joint)}'
+        return f'{DRAWN}/{max(_next_number(names), self._first_joint)}'
 
     @cached_property
     def _rows(self) -> dict[str, int]:
         return {name: row for row, name in enumerate(self.names)}
 
     @cached_property
-    def _reaches(self) -> Floats:
-        """(n,) float64: how far each body reaches from its centre of mass [m]."""
+    def _outer_radii(self) -> Floats:
+        """(n,) float64: outer radius of each body about its centre of mass [m]."""
         return np.array([body.shape.form.outer for body in self.snapshot.scene.bodies])
 
     def _covers(self, row: int, point: Point, slack: float) -> bool:
@@ -172,27 +171,28 @@ class View:
         return any(_covers(piece, local, slack) for piece in body.shape.form.pieces)
 
 
-def _above(names: Iterable[str]) -> int:
-    """Return the lowest number above all that drawn things among these have."""
+def _next_number(names: Iterable[str]) -> int:
+    """Return the lowest number above those of all drawn names among these."""
     numbers = (split_name(name) for name in names)
-    drawn = (id_ for space, id_ in numbers if space == DRAWN and id_ < _FARTHEST)
+    drawn = (id_ for space, id_ in numbers if space == DRAWN and id_ < _NUMBER_LIMIT)
     return 1 + max(drawn, default=-1)
 
 
 def _covers(piece: Piece, point: Point, slack: float) -> bool:
-    """Tell whether a convex piece covers a point, or lies as near to it as the slack."""
+    """Return whether a convex piece covers a point, or lies within the slack of it."""
     match piece:
         case Circle(center, radius):
             return math.dist(center, point) <= radius + slack
         case Capsule(start, end, radius):
-            return math.dist(point, on_segment(start, end, point)) <= radius + slack
+            return math.dist(point, nearest_on_segment(start, end, point)) <= radius + slack
         case Convex(vertices):
             sides = list(zip(vertices, (*vertices[1:], vertices[0]), strict=True))
             if all(_left_of(start, end, point) for start, end in sides):
                 return True
             return (
                 slack > 0
-                and min(math.dist(point, on_segment(*side, point)) for side in sides) <= slack
+                and min(math.dist(point, nearest_on_segment(*side, point)) for side in sides)
+                <= slack
             )
 
 
@@ -203,8 +203,8 @@ def _left_of(start: Point, end: Point, point: Point) -> bool:
     return turn >= 0
 
 
-def on_segment(start: Point, end: Point, point: Point) -> Point:
-    """Return the point of a segment that is nearest to a point."""
+def nearest_on_segment(start: Point, end: Point, point: Point) -> Point:
+    """Return the point of a segment that is nearest to another point [m]."""
     along = end[0] - start[0], end[1] - start[1]
     dot = (point[0] - start[0]) * along[0] + (point[1] - start[1]) * along[1]
     share = min(max(dot / max(along[0] ** 2 + along[1] ** 2, 1e-24), 0.0), 1.0)

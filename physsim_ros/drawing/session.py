@@ -13,9 +13,9 @@
 # limitations under the License.
 
 """
-The pen in somebody's hand: its tool, what is half drawn, what is shown, which names are taken.
+A drawing session: the chosen tool, an unfinished gesture, its preview, and the next free names.
 
-Law: it changes nothing but itself. What it returns are ordinary requests, for somebody to submit.
+Law: a session changes only itself; it returns ordinary requests, to be submitted.
 """
 
 from __future__ import annotations
@@ -24,121 +24,121 @@ from collections.abc import Iterable
 
 import numpy as np
 from physsim_ros.drawing.clicks.gesture import Gesture
-from physsim_ros.drawing.clicks.tools import Step, Tool
-from physsim_ros.drawing.scene_query import DRAWN, View
+from physsim_ros.drawing.clicks.tools import ClickResult, Tool
+from physsim_ros.drawing.scene_query import DRAWN, SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.strokes.interpretation import read, Reading
+from physsim_ros.drawing.strokes.interpretation import interpret_stroke, Reading
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NotRecognised
 from physsim_ros.model.names import split_name
-from physsim_ros.model.preview import Line, NOTHING, Preview
+from physsim_ros.model.preview import Line, NO_PREVIEW, Preview
 from physsim_ros.model.requests import Join, Request, Spawn
-from physsim_ros.model.shapes import Point
 from physsim_ros.model.snapshot import Answer, Snapshot
+from physsim_ros.model.transform import Point
 
-# Below that confidence a runner-up is not worth a word in the picture.
-_WORTH = 0.05
-# Points of a stroke that is shown as it was drawn.
-_MOST_SHOWN = 200
+# The least confidence in a runner-up that the label of a preview mentions.
+_MENTIONED = 0.05
+# The greatest number of points of a stroke in a preview.
+_MOST_POINTS = 200
 
 
-class Pen:
+class DrawingSession:
     """
-    What somebody draws with.
+    The clicks and strokes of one person.
 
     :param settings: of drawing; may be changed at any time
-    :param tool: that clicks are made with
+    :param tool: that clicks use
 
-    :ivar preview: what is to be shown of what is not in the world
+    :ivar preview: the unfinished gesture, or the last stroke as it was read
     """
 
     def __init__(self, settings: DrawingSettings, tool: Tool = Tool.NONE) -> None:
         self.settings = settings
-        self.preview: Preview = NOTHING
+        self.preview: Preview = NO_PREVIEW
         self._gesture = Gesture(tool)
-        # The lowest numbers that no body and no joint of this pen's has had.
-        self._body = self._joint = 0
+        # The lowest numbers that no body and no joint of this session has had.
+        self._next_body = self._next_joint = 0
 
     @property
     def tool(self) -> Tool:
-        """Return the tool in hand; taking another one drops what is half drawn."""
+        """Return the tool that clicks use; a change drops the unfinished gesture."""
         return self._gesture.tool
 
     @tool.setter
     def tool(self, tool: Tool) -> None:
         if tool is not self.tool:
             self._gesture = Gesture(tool)
-            self.preview = NOTHING
+            self.preview = NO_PREVIEW
 
-    def click(self, point: Point, frame: str, snapshot: Snapshot) -> Step:
+    def click(self, point: Point, frame: str, snapshot: Snapshot) -> ClickResult:
         """
-        Click with the tool in hand.
+        Add a click to the gesture, and return its requests where that ends it.
 
         :param point: [m]
-        :param frame: of the point: '' for the world, or a body's name
-        :param snapshot: the world as it is seen
-        :raises Refusal: nothing can be drawn of it
+        :param frame: of the point: '' for the world, or the name of a body
+        :param snapshot: of the world that was clicked
+        :raises Refusal: the gesture cannot be drawn
         """
         try:
-            step = self._gesture.click(point, frame, self._view(snapshot), self.settings)
+            step = self._gesture.click(point, frame, self._query(snapshot), self.settings)
         finally:
             self.preview = self._gesture.preview(self.settings)
-        self._remember(step.requests)
+        self._reserve_names(step.requests)
         return step
 
     def stroke(self, samples: Floats, frame: str, snapshot: Snapshot) -> Reading:
         """
-        Draw a stroke.
+        Return the reading of a stroke, with its requests.
 
         :param samples: (n, 3) float64: x, y [m], time [s]
-        :param frame: of the samples: '' for the world, or a body's name
-        :param snapshot: the world as it is seen
-        :raises Refusal: it cannot be read
+        :param frame: of the samples: '' for the world, or the name of a body
+        :param snapshot: of the world that it was drawn over
+        :raises Refusal: it is not recognised, or cannot be drawn
         """
-        view = self._view(snapshot)
-        self.preview = NOTHING
-        placed = _placed(samples, frame, view)
+        scene = self._query(snapshot)
+        self.preview = NO_PREVIEW
+        placed = _in_world(samples, frame, scene)
         try:
-            reading = read(placed, view, self.settings)
+            reading = interpret_stroke(placed, scene, self.settings)
         except NotRecognised:
-            self.preview = _unread(placed)
+            self.preview = _unrecognised_preview(placed)
             raise
-        self.preview = _shown(reading)
-        self._remember(reading.requests)
+        self.preview = _reading_preview(reading)
+        self._reserve_names(reading.requests)
         return reading
 
-    def _view(self, snapshot: Snapshot) -> View:
-        return View(snapshot, first=self._body, first_joint=self._joint)
+    def _query(self, snapshot: Snapshot) -> SceneQuery:
+        return SceneQuery(snapshot, first=self._next_body, first_joint=self._next_joint)
 
-    def _remember(self, requests: Iterable[Request]) -> None:
-        """See to it that no name is given twice, also where the world has lost or refused it."""
+    def _reserve_names(self, requests: Iterable[Request]) -> None:
+        """Reserve the names of new bodies and joints, whatever becomes of the requests."""
         for request in requests:
             match request:
                 case Spawn(name=name) if split_name(name)[0] == DRAWN:
-                    self._body = max(self._body, 1 + split_name(name)[1])
+                    self._next_body = max(self._next_body, 1 + split_name(name)[1])
                 case Join(name=name) if split_name(name)[0] == DRAWN:
-                    self._joint = max(self._joint, 1 + split_name(name)[1])
+                    self._next_joint = max(self._next_joint, 1 + split_name(name)[1])
 
 
-def told(reading: Reading, *, topic: str) -> Answer:
-    """Return the answer that tells how a stroke was read; those to its requests follow."""
+def reading_answer(reading: Reading, *, topic: str) -> Answer:
+    """Return the answer that reports a reading; the answers to its requests follow."""
     values = (*reading.values, ('requests', str(len(reading.requests))))
     return Answer(topic=topic, subject=reading.subject, message=reading.message, values=values)
 
 
-def _placed(samples: Floats, frame: str, view: View) -> Floats:
-    """Return samples of a frame as they lie in the world."""
+def _in_world(samples: Floats, frame: str, scene: SceneQuery) -> Floats:
+    """Return samples of a frame in the world, (n, 3) float64: x, y [m], time [s]."""
     if not frame:
         return samples
-    origin, ahead = view.placed((0.0, 0.0), frame), view.placed((1.0, 0.0), frame)
+    origin, ahead = scene.resolve_point((0.0, 0.0), frame), scene.resolve_point((1.0, 0.0), frame)
     cos, sin = ahead[0] - origin[0], ahead[1] - origin[1]
     turn = np.array(((cos, sin, 0.0), (-sin, cos, 0.0), (0.0, 0.0, 1.0)))
     return np.asarray(samples @ turn + (*origin, 0.0))
 
 
-def _unread(samples: Floats) -> Preview:
-    """Return a stroke that was not recognised, as it was drawn."""
-    stride = 1 + len(samples) // _MOST_SHOWN
+def _unrecognised_preview(samples: Floats) -> Preview:
+    """Return the preview of a stroke that was not recognised."""
+    stride = 1 + len(samples) // _MOST_POINTS
     return Preview(lines=(_line(samples[::stride]),), label='not recognised')
 
 
@@ -146,8 +146,8 @@ def _line(points: Floats) -> Line:
     return tuple((x, y) for x, y in points[:, :2].tolist())
 
 
-def _shown(reading: Reading) -> Preview:
-    label = f'{reading.what} {reading.confidence:.0%}'
-    if reading.runner_up is not None and reading.runner_up_confidence >= _WORTH:
+def _reading_preview(reading: Reading) -> Preview:
+    label = f'{reading.meaning} {reading.confidence:.0%}'
+    if reading.runner_up and reading.runner_up_confidence >= _MENTIONED:
         label += f', or {reading.runner_up} {reading.runner_up_confidence:.0%}'
     return Preview(lines=(_line(reading.outline),), label=label)

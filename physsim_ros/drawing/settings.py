@@ -12,14 +12,16 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""What whoever draws can set: how near is near, what counts as meant, what drawn things are."""
+"""The settings of drawing: tolerances of snapping and recognition, defaults of drawn bodies."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
-from physsim_ros.model.body_properties import Checks, velocity, Within
-from physsim_ros.model.shapes import Color, Point, SMALLEST
+from physsim_ros.model.checks import Checks, velocity, Within
+from physsim_ros.model.colors import Color
+from physsim_ros.model.shapes import SMALLEST
+from physsim_ros.model.transform import Point
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -27,16 +29,16 @@ class DrawingSettings:
     """
     The settings of drawing; each is the ROS parameter of the same name.
 
-    :param snap: what ends as near as this to something is meant to end there [m], 0 .. 10
-    :param sketch_confidence: the least confidence with which a stroke is taken for something,
-        0 .. 1
-    :param beautify: how far what is drawn may be from regular and still be meant so, 0 .. 0.5:
-        an angle in radians from right, level or upright, a length in shares of its neighbour's;
-        0 keeps the geometry as it was drawn
-    :param wall_thickness: of walls that are drawn [m], 0.001 .. 10
-    :param draw_velocity: of bodies that are drawn [m/s]
-    :param draw_color: of bodies that are drawn, red, green, blue, alpha, each 0 .. 1; None
-        chooses one for each
+    :param snap: the greatest distance at which an end of a stroke, or a click, snaps to a body, an
+        end of a wall or a first corner [m], 0 .. 10
+    :param sketch_confidence: the least confidence in the meaning of a stroke with which it is
+        accepted, 0 .. 1
+    :param beautify: tolerance of regularisation, 0 .. 0.5: an angle [rad] from right, horizontal
+        or vertical, a length in shares of its neighbour; 0 keeps the geometry as it was drawn
+    :param wall_thickness: of drawn walls [m], 0.001 .. 10
+    :param draw_velocity: of drawn bodies [m/s]
+    :param draw_color: of drawn bodies, red, green, blue, alpha, each 0 .. 1; None chooses one for
+        each
     :raises Malformed: a number is not finite
     :raises BadProperty: a value is out of range
     """
@@ -53,11 +55,11 @@ class DrawingSettings:
             object.__setattr__(self, name, check(getattr(self, name), name))
 
 
-# Of the settings that are one number each.
-RANGES = {
+# Ranges of the scalar settings.
+DRAWING_RANGES = {
     'snap': Within(0.0, 10.0, 'm'),
     'sketch_confidence': Within(0.0, 1.0),
     'beautify': Within(0.0, 0.5),
     'wall_thickness': Within(SMALLEST, 10.0, 'm'),
 }
-_CHECKS: Checks = {'draw_velocity': velocity, **RANGES}
+_CHECKS: Checks = {'draw_velocity': velocity, **DRAWING_RANGES}

@@ -13,9 +13,9 @@
 # limitations under the License.
 
 """
-Where the ends of what is drawn belong: on the bodies that they were drawn to.
+Snapping: ends of drawn joints and walls move onto the bodies that they were drawn to.
 
-Law: a point moves by no more than `snap`, and only onto something that is there.
+Law: a point moves by no more than `snap`, and only onto a body.
 """
 
 from __future__ import annotations
@@ -25,136 +25,142 @@ from dataclasses import dataclass
 import math
 
 import numpy as np
-from physsim_ros.drawing.scene_query import on_segment, View
+from physsim_ros.drawing.scene_query import nearest_on_segment, SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.names import WORLD
-from physsim_ros.model.shapes import Capsule, Chain, Circle, Convex, Disc, Piece, Point
+from physsim_ros.model.shapes import Capsule, Chain, Circle, Convex, Disc, Piece
+from physsim_ros.model.transform import Point
 
-# What so much of a circle lies on, it was drawn across the edge of.
+# The least share of a circle on a second body, across whose edge it was drawn.
 _ACROSS = 0.25
 
 
 @dataclass(frozen=True, slots=True)
 class End:
     """
-    An end of something that joins bodies.
+    An end of a joint.
 
     :param point: in the world [m]
-    :param body: a body's name, or 'world' for the background
+    :param body: name of the body, or 'world' for the background
     """
 
     point: Point
     body: str
 
 
-def ends_on(
-    start: Point, end: Point, view: View, settings: DrawingSettings
+def joint_ends(
+    start: Point, end: Point, scene: SceneQuery, settings: DrawingSettings
 ) -> tuple[End, End] | None:
     """
-    Return the ends of what joins the bodies at two points, the first one on a body that moves.
+    Return the ends of a joint between the bodies at two points, the first on a dynamic body.
 
-    :return: None where there is nothing to join: no body that moves, or one body at both ends
+    :return: None where no body at either point is dynamic, or it is the same body at both
     """
-    first, last = _bodies(start, view, settings), _bodies(end, view, settings)
+    first, last = _bodies_near(start, scene, settings), _bodies_near(end, scene, settings)
     pairs = [(a, b) for a in first or (WORLD,) for b in last or (WORLD,) if a != b]
     for a, b in pairs:
-        ends = End(_onto(start, a, view, settings), a), End(_onto(end, b, view, settings), b)
-        if a != WORLD and not view.body(a).fixed:
+        ends = (
+            End(_snapped(start, a, scene, settings), a),
+            End(_snapped(end, b, scene, settings), b),
+        )
+        if a != WORLD and not scene.body(a).fixed:
             return ends
-        if b != WORLD and not view.body(b).fixed:
+        if b != WORLD and not scene.body(b).fixed:
             return ends[::-1]
     return None
 
 
-def pivot(
-    center: Point, drawn: Floats, view: View, settings: DrawingSettings
+def axle_pivot(
+    center: Point, drawn: Floats, scene: SceneQuery, settings: DrawingSettings
 ) -> tuple[Point, tuple[str, ...]]:
     """
-    Return where an axle belongs, and the one or two bodies that it joins, the topmost first.
+    Return the pivot of an axle [m], and the one or two bodies that it joins, the topmost first.
 
-    :param center: of the circle, on a body
+    :param center: of the circle, on a body [m]
     :param drawn: (k, 2) float64: the circle [m]
     """
-    under = view.bodies_at(center)[:2]
+    under = scene.bodies_at(center)[:2]
     if len(under) == 1:
-        under = _with_what_it_crosses(under[0], center, drawn, view)
+        under = _with_crossed_body(under[0], center, drawn, scene)
     for name in under:
-        if isinstance(view.body(name).shape, Disc):
-            x, y, _ = view.pose(name)
+        if isinstance(scene.body(name).shape, Disc):
+            x, y, _ = scene.pose(name)
             if math.dist((x, y), center) > settings.snap:
                 continue
-            # In the middle of a wheel, where that is on the same bodies, or near the other one.
-            near = view.bodies_at((x, y), settings.snap)
-            if view.bodies_at((x, y))[:2] == under or (len(under) == 2 and set(under) <= {*near}):
+            # The middle of a wheel, where it lies on the same bodies or near the other one.
+            near = scene.bodies_at((x, y), settings.snap)
+            if scene.bodies_at((x, y))[:2] == under or (len(under) == 2 and set(under) <= {*near}):
                 return (x, y), under
     return center, under
 
 
-def _with_what_it_crosses(name: str, center: Point, drawn: Floats, view: View) -> tuple[str, ...]:
-    """Return a body, and another one whose edge a circle on it was drawn across, topmost first."""
+def _with_crossed_body(
+    name: str, center: Point, drawn: Floats, scene: SceneQuery
+) -> tuple[str, ...]:
+    """Return a body, and a second one that a circle on it overlaps, the topmost first."""
     radius = float(np.hypot(*(drawn - center).T).max())
-    near = view.bodies_at(center, radius)
-    shares = {each: float(view.covers(each, drawn).mean()) for each in near if each != name}
+    near = scene.bodies_at(center, radius)
+    shares = {each: float(scene.covers(each, drawn).mean()) for each in near if each != name}
     beside = max(shares, key=shares.__getitem__, default=name)
     if shares.get(beside, 0.0) < _ACROSS:
         return (name,)
     return tuple(each for each in near if each in (name, beside))
 
 
-def wall_end(point: Point, view: View, settings: DrawingSettings) -> Point:
-    """Return where the end of a wall belongs: at the end of another, or on a body's surface."""
-    near = view.bodies_at(point, settings.snap)
+def wall_end(point: Point, scene: SceneQuery, settings: DrawingSettings) -> Point:
+    """Return the snapped end of a wall: an end of another wall, or a point on a body [m]."""
+    near = scene.bodies_at(point, settings.snap)
     for name in near:
-        shape = view.body(name).shape
+        shape = scene.body(name).shape
         if isinstance(shape, Chain):
             for end in (shape.points[0], shape.points[-1]):
-                there = view.in_world(name, end)
+                there = scene.in_world(name, end)
                 if math.dist(there, point) <= settings.snap:
                     return there
-    covering = view.bodies_at(point)
-    return point if covering or not near else _surface(point, near[0], view)
+    covering = scene.bodies_at(point)
+    return point if covering or not near else _surface(point, near[0], scene)
 
 
-def _bodies(point: Point, view: View, settings: DrawingSettings) -> tuple[str, ...]:
-    """Return the bodies that a point belongs to, topmost first: those that cover it, or near."""
-    return view.bodies_at(point) or view.bodies_at(point, settings.snap)
+def _bodies_near(point: Point, scene: SceneQuery, settings: DrawingSettings) -> tuple[str, ...]:
+    """Return the bodies that cover a point, or else those within `snap`, topmost first."""
+    return scene.bodies_at(point) or scene.bodies_at(point, settings.snap)
 
 
-def _onto(point: Point, name: str, view: View, settings: DrawingSettings) -> Point:
-    """Return where on a body an end belongs: in its middle, where it was drawn, or nearest."""
+def _snapped(point: Point, name: str, scene: SceneQuery, settings: DrawingSettings) -> Point:
+    """Return the snapped end of a joint: the middle of a body, the point, or the nearest one."""
     if name == WORLD:
         return point
-    body = view.body(name)
-    # What is hung up in its middle does not turn for a slip of the hand.
-    middle = view.in_world(name, body.shape.form.centroid)
+    body = scene.body(name)
+    # A body joined exactly at its middle does not turn under gravity.
+    middle = scene.in_world(name, body.shape.form.centroid)
     if not body.fixed and math.dist(point, middle) <= min(settings.snap, body.shape.form.inner):
         return middle
-    return point if name in view.bodies_at(point) else _surface(point, name, view)
+    return point if name in scene.bodies_at(point) else _surface(point, name, scene)
 
 
-def _surface(point: Point, name: str, view: View) -> Point:
+def _surface(point: Point, name: str, scene: SceneQuery) -> Point:
     """Return the point of a body that is nearest to a point outside it."""
-    local = view.local(name, point)
-    pieces = view.body(name).shape.form.pieces
+    local = scene.local(name, point)
+    pieces = scene.body(name).shape.form.pieces
     nearest = (near for piece in pieces for near in _nearest(piece, local))
-    return view.in_world(name, min(nearest, key=lambda each: math.dist(each, local)))
+    return scene.in_world(name, min(nearest, key=lambda each: math.dist(each, local)))
 
 
 def _nearest(piece: Piece, point: Point) -> Iterator[Point]:
-    """Yield points of a piece, that nearest to a point outside it among them."""
+    """Yield points of a piece, the one nearest to a point outside it among them."""
     match piece:
         case Circle(center, radius):
             yield _towards(center, point, radius)
         case Capsule(start, end, radius):
-            yield _towards(on_segment(start, end, point), point, radius)
+            yield _towards(nearest_on_segment(start, end, point), point, radius)
         case Convex(vertices):
             for start, end in zip(vertices, (*vertices[1:], vertices[0]), strict=True):
-                yield on_segment(start, end, point)
+                yield nearest_on_segment(start, end, point)
 
 
 def _towards(start: Point, end: Point, length: float) -> Point:
-    """Return the point that lies so far from one point towards another."""
+    """Return the point at a distance from `start` towards `end` [m]."""
     distance = max(math.dist(start, end), 1e-12)
     share = length / distance
     return start[0] + share * (end[0] - start[0]), start[1] + share * (end[1] - start[1])

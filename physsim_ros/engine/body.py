@@ -28,8 +28,8 @@ import math
 
 from physsim_ros.model.checkpoint import Motion
 from physsim_ros.model.scene import Body
-from physsim_ros.model.shapes import Capsule, Circle, Convex, Piece, Point, Pose
-from physsim_ros.model.transform import rotated
+from physsim_ros.model.shapes import Capsule, Circle, Convex, Piece
+from physsim_ros.model.transform import Point, Pose, rotated
 import pymunk
 
 REST = (0.0, 0.0, 0.0)
@@ -131,7 +131,7 @@ def build(body: Body, serial: int) -> RigidBody:
     elif body.kinematic:
         engine = pymunk.Body(body_type=pymunk.Body.KINEMATIC)
     else:
-        engine = pymunk.Body(body.weight, body.weight * body.shape.form.gyration)
+        engine = pymunk.Body(body.total_mass, body.total_mass * body.shape.form.gyration)
     rigid = RigidBody(body, engine, serial)
     for piece in body.shape.form.pieces:
         shape = _shape(piece, engine, rigid.offset)

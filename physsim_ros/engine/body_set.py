@@ -26,7 +26,7 @@ from collections.abc import Sequence
 from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.stages.sleeping import wake_bodies, wake_overlapping
 from physsim_ros.engine.warm_start import ShapeIds
-from physsim_ros.model.shapes import Point
+from physsim_ros.model.transform import Point
 import pymunk
 
 # A point so near counts as inside [m]: on the seam of two pieces it lies inside neither.

@@ -33,7 +33,7 @@ from physsim_ros.engine.body import REST, RigidBody
 from physsim_ros.engine.ccd import continuous
 from physsim_ros.engine.islands import flood, Rows
 from physsim_ros.model.arrays import Floats, Ints
-from physsim_ros.model.joint_properties import JointKind
+from physsim_ros.model.joints import JointKind
 from physsim_ros.model.scene import Scene
 import pymunk
 

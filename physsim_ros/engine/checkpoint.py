@@ -31,11 +31,11 @@ from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.space import Space
 from physsim_ros.engine.stages.sleeping import wake_bodies
 from physsim_ros.engine.warm_start import read_impulses, shape_numbers, write_impulses
-from physsim_ros.model.checkpoint import Keyframe
+from physsim_ros.model.checkpoint import Checkpoint
 from physsim_ros.model.scene import Body
 
 
-def take_checkpoint(space: Space, step: int) -> Keyframe:
+def take_checkpoint(space: Space, step: int) -> Checkpoint:
     """
     Return everything that a space goes on from.
 
@@ -50,7 +50,7 @@ def take_checkpoint(space: Space, step: int) -> Keyframe:
     wake_bodies(rigid.engine for rigid in rigids)
     table.forget_state()
     unsupported = [rigids[row] for row in np.flatnonzero(settled.unsupported)]
-    return Keyframe(
+    return Checkpoint(
         step=step,
         scene=table.scene,
         state=state,
@@ -70,7 +70,7 @@ def take_checkpoint(space: Space, step: int) -> Keyframe:
 
 
 def restore_checkpoint(
-    key: Keyframe, dt: float, *, pool: Mapping[str, RigidBody] | None = None
+    key: Checkpoint, dt: float, *, pool: Mapping[str, RigidBody] | None = None
 ) -> Space:
     """
     Build a space that goes on from a checkpoint.

@@ -42,7 +42,7 @@ from physsim_ros.engine.warm_start import scale_impulses, ShapeIds
 from physsim_ros.model.checkpoint import Motion
 from physsim_ros.model.scene import Body, Joint, Scene
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Point, Pose
+from physsim_ros.model.transform import Point, Pose
 import pymunk
 
 # Overlap that the engine leaves standing [m]; its own 0.1 is 10 cm in a metre world.

@@ -32,7 +32,7 @@ import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.engine.body import RigidBody
 from physsim_ros.model.arrays import Ints
-from physsim_ros.model.checkpoint import ContactMemory
+from physsim_ros.model.checkpoint import ImpulseCache
 import pymunk
 from pymunk._chipmunk_cffi import ffi, lib
 
@@ -167,7 +167,7 @@ def clear_impulses(shapes: ShapeIds, rigids: Iterable[RigidBody]) -> None:
 
 def read_impulses(
     shapes: ShapeIds, ids: Sequence[int], walls: int, *, without: Ints
-) -> ContactMemory:
+) -> ImpulseCache:
     """
     Return the cached impulses of a space.
 
@@ -182,7 +182,7 @@ def read_impulses(
     # The engine lists by address, which is never the same twice.
     order = np.lexsort((points['hash'], pairs[:, 1], pairs[:, 0]))
     points = points[order]
-    return ContactMemory(
+    return ImpulseCache(
         ids=np.array(ids, dtype=np.int64),
         walls=walls,
         following=shapes.following,
@@ -192,9 +192,7 @@ def read_impulses(
     )
 
 
-def write_impulses(
-    space: pymunk.Space, shapes: ShapeIds, memory: ContactMemory, dt: float
-) -> None:
+def write_impulses(space: pymunk.Space, shapes: ShapeIds, memory: ImpulseCache, dt: float) -> None:
     """
     Set the cached impulses of a space that has not stepped yet.
 
@@ -216,7 +214,7 @@ def write_impulses(
     shapes.following = memory.following
 
 
-def _same(memory: ContactMemory, found: _Points) -> tuple[Ints, Ints]:
+def _same(memory: ImpulseCache, found: _Points) -> tuple[Ints, Ints]:
     """Return the rows of the points that are in both, in the one and in the other."""
     pairs = np.concatenate((memory.pairs, found.pairs))
     hashes = np.concatenate((memory.hashes, found.points['hash']))

@@ -12,4 +12,37 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""World files, drawings, and what ships with the package. Start with `world_file`."""
+"""
+World files, drawing files, and the files that ship with the package.
+
+Nothing here knows ROS or Rerun. The state of a world is a value of `model.checkpoint`; strokes are
+recognised in `drawing`. Start with `world_file`, then `world_reader` and `world_writer`.
+"""
+
+from physsim_ros.files.drawing_file import BadDrawing, find_drawing, load_drawing, Pace
+from physsim_ros.files.resources import shipped
+from physsim_ros.files.world_file import (
+    find_world,
+    hides_shipped,
+    load_world,
+    save_world,
+    shipped_worlds,
+)
+from physsim_ros.files.world_schema import PARAMETERS, SETTINGS
+from physsim_ros.files.yaml12 import load_mapping
+
+__all__ = [
+    'PARAMETERS',
+    'SETTINGS',
+    'BadDrawing',
+    'Pace',
+    'find_drawing',
+    'find_world',
+    'hides_shipped',
+    'load_drawing',
+    'load_mapping',
+    'load_world',
+    'save_world',
+    'shipped',
+    'shipped_worlds',
+]

@@ -13,10 +13,10 @@
 # limitations under the License.
 
 """
-Drawings -> strokes: SVG files as editors write them, and JSON, as a pen would draw them.
+Drawing files: strokes from SVG, as editors write it, and from JSON.
 
-Laws: what a browser shows is what is drawn, one stroke for every run of the pen, in the order of
-the file. Corners stay; between them a pen of constant speed is sampled.
+Laws: the strokes are the lines that a browser shows, one for each subpath, in the order of the
+file. Corners are samples; between them a pen of constant speed is sampled.
 """
 
 from __future__ import annotations
@@ -39,18 +39,18 @@ from physsim_ros.model.settings import MOST_SAMPLES
 from svgelements import Curve, Matrix, Shape, SVG
 from svgelements import Path as SvgPath
 
-# Metres for a user unit of SVG: a page of 1600 by 1000 is a world of 16 m by 10 m.
+# Metres for each user unit of SVG: a page of 1600 by 1000 is a world of 16 m by 10 m.
 SVG_SCALE = 0.01
-# A Bézier or an arc is cut into so many straight pieces before it is sampled.
-_PIECES = 64
-# What turns more at a point has a corner there [rad].
+# Line segments that approximate a Bézier curve or an arc before it is sampled.
+_SEGMENTS = 64
+# Change of direction above which a point is a corner, not part of a curve [rad].
 _CORNER = 0.2
-# Small things are drawn more slowly: no stroke has fewer samples.
+# Least number of samples of a stroke: people draw small figures more slowly.
 _FEWEST = 30
-# No pen takes longer for a stroke [s]: four months.
+# Greatest duration of a stroke [s]: four months.
 _LONGEST = 1e7
-# What svgelements 1.9 raises where an element or an attribute is not as it should be.
-_STUMBLES = (ArithmeticError, AttributeError, LookupError, TypeError)
+# Raised by svgelements 1.9 at malformed elements and attributes, instead of an error of its own.
+_SVG_ERRORS = (ArithmeticError, AttributeError, LookupError, TypeError)
 
 
 class BadDrawing(PhysSimError):
@@ -60,19 +60,19 @@ class BadDrawing(PhysSimError):
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Pace:
     """
-    How the pen goes.
+    Speed and sample rate of the pen.
 
-    :param speed: [m/s]
-    :param rate: samples a second [Hz]
+    :param speed: along the stroke [m/s]
+    :param rate: of samples [Hz]
     """
 
     speed: float = 4.0
     rate: float = 100.0
 
 
-def find(name: str) -> Path:
+def find_drawing(name: str) -> Path:
     """
-    Return the file that a path, or the plain name of a shipped drawing, means.
+    Return the file of a path, or of the plain name of a shipped drawing.
 
     :raises BadDrawing: there is none
     """
@@ -85,14 +85,16 @@ def find(name: str) -> Path:
     raise BadDrawing(f'there is no drawing {name!r}')
 
 
-def load(path: Path, *, scale: float | None = None, pace: Pace | None = None) -> list[Floats]:
+def load_drawing(
+    path: Path, *, scale: float | None = None, pace: Pace | None = None
+) -> list[Floats]:
     """
-    Read the strokes of a drawing.
+    Return the strokes of a drawing.
 
-    :param path: of an SVG file, its page's lower left corner the origin and y turned up; or of
-        JSON, a list of strokes, each a list of [x, y] or of [x, y, t], y up
-    :param scale: metres for a unit of the file; None is 0.01 for SVG and 1 for JSON
-    :param pace: of the pen; strokes that have times keep those
+    :param path: of an SVG file, whose origin is the page's lower left corner, y up; or of JSON, a
+        list of strokes, each a list of [x, y] or of [x, y, t], y up
+    :param scale: metres for each unit of the file; None is 0.01 for SVG and 1 for JSON
+    :param pace: of the pen, for strokes without times
     :return: (n, 3) float64 each: x, y [m] and time from the first sample [s]
     :raises BadDrawing: it cannot be read, or holds no stroke
     """
@@ -108,10 +110,10 @@ def load(path: Path, *, scale: float | None = None, pace: Pace | None = None) ->
     except RecursionError as error:
         raise BadDrawing(f'cannot read {path}: it is nested too deeply, or in itself') from error
     factor = unit if scale is None else scale
-    # What overflows is refused.
+    # Infinite coordinates are refused below.
     with np.errstate(over='ignore'):
-        drawn = [_drawn(line, factor, pace or Pace()) for line in lines if len(line)]
-    strokes = [stroke for stroke in drawn if len(stroke)]
+        sampled = [_sampled(line, factor, pace or Pace()) for line in lines if len(line)]
+    strokes = [stroke for stroke in sampled if len(stroke)]
     if not strokes:
         raise BadDrawing(f'{path} holds no stroke')
     if not all((np.abs(stroke[:, 2]) <= _LONGEST).all() for stroke in strokes):
@@ -120,7 +122,7 @@ def load(path: Path, *, scale: float | None = None, pace: Pace | None = None) ->
 
 
 def _from_json(content: Any) -> list[Floats]:
-    """Return (n, 2) or (n, 3) float64: x, y, and time where it is given."""
+    """Return (n, 2) or (n, 3) float64 of each stroke: x, y, and time [s] if the file has it."""
     if isinstance(content, dict):
         content = content.get('strokes')
     if not isinstance(content, list):
@@ -140,18 +142,18 @@ def _from_json(content: Any) -> list[Floats]:
 
 
 def _from_svg(path: Path) -> list[Floats]:
-    """Return (n, 2) float64 of every subpath: x, y in user units of the page, y up."""
+    """Return (n, 2) float64 of each subpath: x, y [user units of the page], y up."""
     try:
         page = SVG.parse(str(path))
         if not isinstance(page, SVG):
             raise BadDrawing(f'{path} is no SVG')
-        return _runs(page)
-    except _STUMBLES as error:
+        return _subpaths(page)
+    except _SVG_ERRORS as error:
         raise BadDrawing(f'cannot read {path}: an element is not as it should be') from error
 
 
-def _runs(page: SVG) -> list[Floats]:
-    # To pixels, where a page says how large a user unit is; the scale here is one of those.
+def _subpaths(page: SVG) -> list[Floats]:
+    # svgelements scales user units to pixels where the page has a size; this is the inverse.
     to_units = ~Matrix(page.viewbox_transform)
     left, bottom = 0.0, 0.0
     if page.viewbox is not None:
@@ -162,26 +164,26 @@ def _runs(page: SVG) -> list[Floats]:
     for element in page.elements():
         if isinstance(element, Shape):
             whole = abs(SvgPath(element) * to_units)
-            for run in whole.as_subpaths():
-                points = np.array(list(_corners(run)), dtype=np.float64).reshape(-1, 2)
+            for subpath in whole.as_subpaths():
+                points = np.array(list(_vertices(subpath)), dtype=np.float64).reshape(-1, 2)
                 lines.append(np.column_stack((points[:, 0] - left, bottom - points[:, 1])))
     return lines
 
 
-def _corners(run: Iterable[Any]) -> Iterable[tuple[float, float]]:
-    """Yield the points of a run of the pen: ends of its segments, and along its curves."""
-    for segment in run:
+def _vertices(subpath: Iterable[Any]) -> Iterable[tuple[float, float]]:
+    """Yield the ends of the segments of a subpath, and points along its curves."""
+    for segment in subpath:
         if isinstance(segment, Curve):
-            for piece in range(1, _PIECES):
-                point = segment.point(piece / _PIECES)
+            for number in range(1, _SEGMENTS):
+                point = segment.point(number / _SEGMENTS)
                 yield point.x, point.y
-        # What is closed before it has begun ends nowhere.
+        # A close command without a line has no end.
         if segment.end is not None:
             yield segment.end.x, segment.end.y
 
 
-def _drawn(line: Floats, scale: float, pace: Pace) -> Floats:
-    """Return a line as the pen draws it: (n, 3) float64, x, y [m], time [s]."""
+def _sampled(line: Floats, scale: float, pace: Pace) -> Floats:
+    """Return the samples of the pen along a line: (n, 3) float64: x, y [m], time [s]."""
     points = line[:, :2] * scale
     if not (np.abs(points) <= FARTHEST).all():
         raise BadDrawing(f'a stroke reaches further than {FARTHEST:g} m')
@@ -194,18 +196,18 @@ def _drawn(line: Floats, scale: float, pace: Pace) -> Floats:
         return np.empty((0, 3))
     reached = np.concatenate(((0.0,), np.cumsum(steps)))
     length = float(reached[-1])
-    # With the corners they are not more than a stroke may have.
+    # Evenly spaced samples and corners together are less than MOST_SAMPLES.
     count = math.ceil(min(length / pace.speed * pace.rate, MOST_SAMPLES // 2))
     count = max(count, _FEWEST)
-    corners = reached[_turns(points)][: MOST_SAMPLES // 3]
+    corners = reached[_is_corner(points)][: MOST_SAMPLES // 3]
     along = np.union1d(np.linspace(0.0, length, count + 1), corners)
     x = np.interp(along, reached, points[:, 0])
     y = np.interp(along, reached, points[:, 1])
     return np.column_stack((x, y, along / pace.speed))
 
 
-def _turns(points: Floats) -> NDArray[np.bool_]:
-    """Return (n,) bool: where a line turns so much that it is a corner, and no part of a curve."""
+def _is_corner(points: Floats) -> NDArray[np.bool_]:
+    """Return (n,) bool: whether each point of a line is a corner."""
     steps = np.diff(points, axis=0)
     headings = np.arctan2(steps[:, 1], steps[:, 0])
     turns = np.abs((np.diff(headings) + math.pi) % math.tau - math.pi)

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Where the files that come with the package are, in its source tree or installed; their names."""
+"""Directories and names of the files that ship with the package: in its source, or installed."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ import sys
 
 def shipped(folder: str) -> Path:
     """
-    Return the directory of what comes with the package.
+    Return a directory of files that ship with the package.
 
-    :param folder: below its `config`
+    :param folder: name of the directory below `config`
     """
     source = Path(__file__).resolve().parents[2] / 'config' / folder
     if source.is_dir():
@@ -38,5 +38,5 @@ def shipped(folder: str) -> Path:
 
 
 def is_plain(name: str) -> bool:
-    """Tell whether a name is a plain one, which shipped files have, and no path of a file."""
+    """Tell whether a name has neither directory nor suffix, like the names of shipped files."""
     return Path(name).name == name and not Path(name).suffix

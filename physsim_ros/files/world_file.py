@@ -13,10 +13,10 @@
 # limitations under the License.
 
 """
-World files: where they are, and when they are written.
+World files: finding, loading and saving them.
 
-Laws: what is saved loads again to the same state, to the bit; a file is written whole or not at
-all, and only below the world directory.
+Laws: a saved world loads to the same state, to the bit; a file is written whole or not at all, and
+only below the world directory.
 """
 
 from __future__ import annotations
@@ -34,23 +34,23 @@ from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import BadWorldFile, Malformed, Refusal
 from physsim_ros.model.settings import WorldSettings
 
-# Of names, in characters: more than anyone reads.
+# Length of a list of names in a message [characters].
 _LONGEST_LIST = 500
 
 
 def shipped_worlds() -> Path:
-    """Return the directory of the worlds that come with the package."""
+    """Return the directory of the worlds that ship with the package."""
     return shipped('worlds')
 
 
-def find(name: str, *, world_dir: Path, confined: bool) -> Path:
+def find_world(name: str, *, world_dir: Path, confined: bool) -> Path:
     """
-    Return the file that a name or path means.
+    Return the file of a name or path.
 
     :param name: a path, absolute or below the world directory, or a world's plain name
-    :param world_dir: where worlds are kept
+    :param world_dir: directory of the user's worlds
     :param confined: whether only that directory and the shipped worlds may be read
-    :raises BadWorldFile: there is no such file, or it must not be read
+    :raises BadWorldFile: there is no such file, or it lies elsewhere
     """
     if not name:
         raise BadWorldFile('parameter world_file names no file', field='world_file')
@@ -62,7 +62,7 @@ def find(name: str, *, world_dir: Path, confined: bool) -> Path:
         try:
             found = path.is_file()
         except OSError as error:
-            # Its name is too long, or a directory on the way there is closed.
+            # The name is too long, or a directory of the path may not be searched.
             raise BadWorldFile(f'cannot read {name[:99]}: {error}', field='world_file') from error
         if found:
             if confined and not _below(path, world_dir) and not _below(path, shipped_worlds()):
@@ -77,14 +77,15 @@ def _worlds(directory: Path) -> list[Path]:
     return [path for path in directory.glob('*.yaml') if not path.name.startswith('.')]
 
 
-def load(path: Path, *, settings: WorldSettings, physics_rate: float) -> WorldState:
+def load_world(path: Path, *, settings: WorldSettings, physics_rate: float) -> WorldState:
     """
     Read a world.
 
     :param path: of the file
-    :param settings: what holds where the file says nothing
-    :param physics_rate: of the world that will go on from it [Hz]
-    :raises BadWorldFile: it cannot be read, or a body in it is refused; says which and why
+    :param settings: those that the file does not set
+    :param physics_rate: of the world that continues from it [Hz]
+    :raises BadWorldFile: it cannot be read, or its content is refused; the message names the body
+        or joint and the reason
     """
     try:
         content = load_mapping(path.read_text(encoding='utf-8'), field=path.name)
@@ -98,23 +99,23 @@ def load(path: Path, *, settings: WorldSettings, physics_rate: float) -> WorldSt
         raise BadWorldFile(f'{path.name}: {refusal}', field=refusal.field) from refusal
 
 
-def save(state: WorldState, name: str, *, world_dir: Path, physics_rate: float) -> Path:
+def save_world(state: WorldState, name: str, *, world_dir: Path, physics_rate: float) -> Path:
     """
     Write a world, whole or not at all.
 
     :param state: of the world
     :param name: a path below the world directory, or a world's plain name
-    :param world_dir: below which files may be written
+    :param world_dir: directory below which files may be written
     :param physics_rate: of the world [Hz]
-    :return: where it is
-    :raises BadWorldFile: it cannot be written, or must not
+    :return: path of the file
+    :raises BadWorldFile: it cannot be written, or lies elsewhere
     """
     if not name:
         raise BadWorldFile('parameter world_file names no file', field='world_file')
     try:
         path = (world_dir / (f'{name}.yaml' if is_plain(name) else name)).resolve()
     except (OSError, RuntimeError, ValueError) as error:
-        # Links in a circle, or a NUL.
+        # A loop of symbolic links, or a NUL character.
         raise BadWorldFile(f'{name!r} is no path: {error}', field='world_file') from error
     # The directory itself is not below itself.
     if not _below(path.parent, world_dir):
@@ -140,13 +141,13 @@ def save(state: WorldState, name: str, *, world_dir: Path, physics_rate: float) 
 
 def hides_shipped(path: Path, *, world_dir: Path) -> bool:
     """
-    Tell whether a file is what the plain name of a shipped world means.
+    Tell whether the plain name of a shipped world now finds this file instead.
 
-    :param path: where a world was saved
-    :param world_dir: where worlds are kept
+    :param path: of a saved world
+    :param world_dir: directory of the user's worlds
     """
     worlds = shipped_worlds().resolve()
-    # Plain names are looked for in the directory itself alone.
+    # Plain names are searched for in the directory itself, not below it.
     return path.parent == world_dir.resolve() != worlds and (worlds / path.name).is_file()
 
 

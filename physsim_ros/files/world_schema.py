@@ -12,22 +12,20 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""The keys of world files that are those of the core's own classes."""
+"""Keys of world files that are fields of classes of the model."""
 
 from __future__ import annotations
 
 from dataclasses import fields
 
 from physsim_ros.model.body_properties import Properties
-from physsim_ros.model.checkpoint import ContactMemory
 from physsim_ros.model.settings import WorldSettings
 
 FORMAT = 1
-# How many bodies a world may hold is the node's own protection, not the file's to lift.
+# Not `max_bodies`: it protects the node, whatever files say.
 SETTINGS = [each.name for each in fields(WorldSettings) if each.name != 'max_bodies']
 PROPERTIES = [each.name for each in fields(Properties)]
-MEMORY = [each.name for each in fields(ContactMemory)]
-# Parameters of the node, and so of no world.
+# Parameters of the node that are no settings of a world.
 PARAMETERS = frozenset(
     {
         'beautify',

@@ -12,39 +12,28 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""YAML text from the state of a world, with the numbers that only the node writes."""
+"""The text of a world file from the state of the world, motion and impulse cache included."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 
-import numpy as np
-from physsim_ros.files.base64_array import pack
-from physsim_ros.files.world_schema import FORMAT, MEMORY, SETTINGS
-from physsim_ros.model.checkpoint import BodyState, ContactMemory, WorldState
-from physsim_ros.model.colors import color_from
+from physsim_ros.files.impulse_cache import cache_entry
+from physsim_ros.files.world_schema import FORMAT, SETTINGS
+from physsim_ros.model.checkpoint import BodyState, WorldState
+from physsim_ros.model.colors import Color, color_from
 from physsim_ros.model.scene import Joint
-from physsim_ros.model.shapes import (
-    Box,
-    Chain,
-    Color,
-    Compound,
-    Disc,
-    Polygon,
-    Pose,
-    Shape,
-    Triangles,
-)
+from physsim_ros.model.transform import Pose
 from physsim_ros.simulation.joint_requests import drawn_points
 import yaml
 
 
 def text_of(state: WorldState, physics_rate: float) -> str:
     """
-    Return what a file says of a world, one line a body.
+    Return the YAML text of a world, one line for each body and joint.
 
     :param state: of the world
-    :param physics_rate: of it [Hz]
+    :param physics_rate: of the world [Hz]
     """
     lines = [f'format: {FORMAT}\n']
     for key in SETTINGS:
@@ -60,7 +49,7 @@ def text_of(state: WorldState, physics_rate: float) -> str:
         lines.append(
             '# What the engine remembers of contacts: not to be edited, but may be deleted.\n'
         )
-        lines.append(f'memory: {_flow(_memory_entry(state.memory))}\n')
+        lines.append(f'memory: {_flow(cache_entry(state.memory))}\n')
     return ''.join(lines)
 
 
@@ -70,7 +59,7 @@ def _flow(value: object) -> str:
         Dumper=yaml.CSafeDumper,
         default_flow_style=True,
         sort_keys=False,
-        # However long a line is.
+        # No line breaks.
         width=-1,
         allow_unicode=True,
     )
@@ -85,7 +74,7 @@ def _entry(state: BodyState, physics_rate: float) -> dict[str, object]:
     body = state.body
     entry: dict[str, object] = {
         'name': body.name,
-        **_shape_entry(body.shape),
+        body.shape.KEY: body.shape.entry(),
         'at': list(state.pose),
         'color': _color_entry(body.color),
     }
@@ -116,35 +105,11 @@ def _joint_entry(joint: Joint, poses: Mapping[str, Pose]) -> dict[str, object]:
     points = drawn_points(joint, poses)
     entry: dict[str, object] = {'name': joint.name, 'kind': str(joint.kind)}
     entry |= {'a': joint.a, 'b': joint.b, 'points': [list(point) for point in points]}
-    return entry | joint.properties.said() | {'seat': list(joint.seat)}
-
-
-def _memory_entry(memory: ContactMemory) -> dict[str, object]:
-    values = {key: getattr(memory, key) for key in MEMORY}
-    return {
-        key: pack(value) if isinstance(value, np.ndarray) else value
-        for key, value in values.items()
-    }
-
-
-def _shape_entry(shape: Shape) -> dict[str, object]:
-    match shape:
-        case Disc(radius=radius):
-            return {'circle': {'radius': radius}}
-        case Box(width=width, height=height):
-            return {'box': {'width': width, 'height': height}}
-        case Polygon(outline=outline):
-            return {'polygon': _lists(outline)}
-        case Triangles(vertices=vertices):
-            return {'triangles': _lists(vertices)}
-        case Chain(points=points, thickness=thickness):
-            return {'chain': {'points': _lists(points), 'thickness': thickness}}
-        case Compound(element=element, centers=centers):
-            return {'compound': {**_shape_entry(element), 'centers': _lists(centers)}}
+    return entry | joint.properties.explicit() | {'seat': list(joint.seat)}
 
 
 def _color_entry(color: Color) -> object:
-    """Return '#rrggbb' where that is exact, else the four numbers."""
+    """Return '#rrggbb' or '#rrggbbaa' where that is exact, else the four channels."""
     channels = bytes(round(channel * 255) for channel in color)
     text = '#' + channels[: 3 if channels[3] == 255 else 4].hex()
     return text if color_from(text) == color else list(color)

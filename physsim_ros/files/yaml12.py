@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""YAML as other people write it: numbers as in YAML 1.2 (1e5 is one), no dates, no tags."""
+"""A YAML loader with the numbers of YAML 1.2 (1e5 is one), no dates and no custom tags."""
 
 from __future__ import annotations
 
@@ -29,13 +29,13 @@ _TAG = 'tag:yaml.org,2002:'
 
 class _Loader(Composer, yaml.CSafeLoader):
     """
-    The safe loader with the types of the YAML 1.2 core schema, and keys that come once.
+    PyYAML's safe loader with the types of the YAML 1.2 core schema; duplicate keys are refused.
 
-    It reads by libyaml, in a quarter of the time, but composes in Python: libyaml's own composer
-    overflows the stack where brackets are nested by tens of thousands.
+    It scans with libyaml, in a quarter of the time, but composes in Python: the composer of
+    PyYAML 6.0's CParser overflows the stack where brackets are nested by tens of thousands.
 
-    PyYAML's own constructors raise whatever Python raises at a tag that does not fit, as in
-    `!!bool maybe`; these raise its own errors, and there are no others.
+    PyYAML's own constructors raise ValueError and others at a scalar that does not fit its tag, as
+    in `!!bool maybe`; these raise ConstructorError only.
     """
 
     yaml_implicit_resolvers: dict[str, list[tuple[str, re.Pattern[str]]]] = {}  # noqa: RUF012
@@ -50,14 +50,14 @@ class _Loader(Composer, yaml.CSafeLoader):
         Composer.__init__(self)
 
     def flatten_mapping(self, node: yaml.MappingNode) -> None:
-        """Merge no mappings: YAML 1.2 knows no such key, and nested merges fill the memory."""
+        """Ignore merge keys: YAML 1.2 has none, and nested merges exhaust the memory."""
 
     def construct_mapping(
         self,
         node: yaml.MappingNode,
         deep: bool = False,  # noqa: FBT001, FBT002 - PyYAML's own
     ) -> dict[Any, Any]:
-        """Return the mapping, unless a key comes twice."""
+        """Return the mapping of a node; a duplicate key is an error."""
         entries = node.value if isinstance(node, yaml.MappingNode) else ()
         keys = set()
         for key in (key for key, _ in entries if isinstance(key, yaml.ScalarNode)):
@@ -113,17 +113,16 @@ for _tag, _pattern, _first in (
 
 def load_mapping(text: str, *, field: str) -> dict[Any, Any]:
     """
-    Return a YAML mapping; empty text is an empty one.
+    Return the mapping of a YAML text; of an empty text an empty one.
 
     :param text: YAML
-    :param field: what the text is, for the refusal
-    :raises Malformed: the text is not YAML, or not a mapping
+    :param field: name of the text, for the refusal
+    :raises Malformed: the text is not YAML, or no mapping
     """
     try:
         value = yaml.load(text, Loader=_Loader)  # noqa: S506 - a subclass of SafeLoader
     except (yaml.YAMLError, ValueError, RecursionError) as error:
-        # What PyYAML says may span lines and repeat the text; its problem, where it has one, does
-        # not.
+        # The text of PyYAML's errors spans lines and quotes the input; their `problem` does not.
         said = getattr(error, 'problem', None) or str(error) or type(error).__name__
         reason = said.partition('\n')[0][:200] + _place(error, text)
         raise Malformed(f'{field} is not YAML: {reason}', field=field) from error
@@ -135,14 +134,14 @@ def load_mapping(text: str, *, field: str) -> dict[Any, Any]:
 
 
 def _place(error: Exception, text: str) -> str:
-    """Return where in a text an error is; '' where it does not tell, or there is one line."""
+    """Return the line of an error in a text; '' if it is unknown, or there is one line only."""
     lines = text.rstrip('\n').count('\n') + 1
     mark = getattr(error, 'problem_mark', None)
     if mark is not None:
-        # Where the text ends too early, libyaml counts a line more.
+        # At the end of the text libyaml counts one line more.
         line = min(mark.line + 1, lines)
     elif isinstance(error, yaml.reader.ReaderError):
-        # It counts bytes.
+        # ReaderError.position counts bytes.
         line = text.encode()[: error.position].count(b'\n') + 1
     else:
         return ''

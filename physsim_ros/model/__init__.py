@@ -13,9 +13,11 @@
 # limitations under the License.
 
 """
-Values that the whole project speaks in: shapes, bodies, joints, requests, snapshots, refusals.
+Values that all folders use, frozen and checked; numpy is the most that is imported here.
 
-Nothing here moves, reads a clock or knows an engine; numpy is the most that is imported. Start
-with `scene` (bodies and joints), `requests` (all that can be asked) and `snapshot` (all that is
-seen).
+Nothing here moves, reads a clock or knows an engine. Each module is a front of its own, named by
+a noun, and so are the packages `shapes` and `joints`; this file exports nothing.
+Values of one thing: `names`, `colors`, `transform`, `arrays`, `checks`, `errors`.
+The world: `shapes`, `body_properties`, `joints`, `settings`, `scene`. Asked of it: `requests`.
+Told of it: `snapshot`, `preview`. Saved of it: `checkpoint`. Start with `scene` and `requests`.
 """

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""The arrays that numbers of many bodies are held in."""
+"""Types of arrays, and a reduction that numpy has no single name for."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,5 +24,5 @@ Flags = NDArray[np.bool_]
 
 
 def greatest(numbers: Floats) -> float:
-    """Return how great the greatest of some numbers is, either way; of none 0, of NaN NaN."""
+    """Return the greatest absolute value; 0 for an empty array, NaN if any is NaN."""
     return float(np.abs(numbers).max(initial=0.0))

@@ -13,9 +13,9 @@
 # limitations under the License.
 
 """
-What a world goes on from: as a file has it, and as a keyframe has it.
+Saved states of a world: for files, and checkpoints for rewind.
 
-Law: two worlds that go on from the same keyframe go on alike to the bit.
+Law: two worlds that continue from the same checkpoint have the same bits ever after.
 """
 
 from __future__ import annotations
@@ -28,15 +28,16 @@ from numpy.typing import NDArray
 from physsim_ros.model.arrays import Floats, Ints
 from physsim_ros.model.scene import Body, Joint, Scene
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Pose
+from physsim_ros.model.transform import Pose
 
 
 class Motion(NamedTuple):
     """
-    The engine's own numbers for a body: enough to go on from to the bit.
+    The engine's state of a body, from which it continues to the bit.
 
-    x, y [m], yaw [rad] of the engine's origin; vx, vy [m/s], spin [rad/s] as the engine has them;
-    whether the body is in free flight.
+    x, y [m], yaw [rad] of the engine's origin, the centre of mass; vx, vy [m/s], spin [rad/s] of
+    the engine; whether the body is in free flight, so that the engine's velocity leads the
+    reported one by half a step.
     """
 
     x: float
@@ -51,14 +52,14 @@ class Motion(NamedTuple):
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BodyState:
     """
-    A body and all that it goes on from.
+    A body and its state.
 
-    :param body: what it is; `expires` counts from the moment of the state
+    :param body: without pose and velocity; `expires` counts from the step of the state
     :param pose: of its origin in the world [m, rad]
     :param twist: velocity of the centre of mass [m/s] and spin [rad/s]
-    :param motion: the engine's numbers for these two; None where they come from a person
+    :param motion: the engine's numbers for these two; None if a person wrote them
     :param wrench: force [N] and torque [N m] that act on it
-    :param wrench_steps: steps for which the wrench still acts; None is for ever
+    :param wrench_steps: number of further steps in which the wrench acts; None is for ever
     """
 
     body: Body
@@ -72,31 +73,31 @@ class BodyState:
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WorldState:
     """
-    A whole world at a moment, as it is saved and restored; it has no time of its own.
+    The state of a world for a file: bodies, joints, settings; no time.
 
     :param settings: of the world
     :param bodies: in spawn order
     :param joints: in the order in which they were made
-    :param memory: of contacts; None where the state comes from a person
+    :param memory: impulse cache; None if a person wrote the state
     """
 
     settings: WorldSettings
     bodies: tuple[BodyState, ...] = ()
     joints: tuple[Joint, ...] = ()
-    memory: ContactMemory | None = field(default=None, compare=False)
+    memory: ImpulseCache | None = field(default=None, compare=False)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class ContactMemory:
+class ImpulseCache:
     """
-    What the engine remembers of contacts: its next step starts from these impulses.
+    The impulse cache: accumulated impulses of contacts, with which the engine warm starts a step.
 
     :param ids: (n,) int64: the engine's number of each body's first shape, in spawn order
-    :param walls: the same of the first wall of `bounds`; 0 where there are none
-    :param following: the number that the next shape gets
+    :param walls: the same of the first wall of `bounds`; 0 if there are none
+    :param following: number of the next shape that the engine makes
     :param pairs: (k, 2) int64: numbers of the two shapes of each contact point
-    :param hashes: (k,) uint64: what the engine tells the points of a pair apart by
-    :param impulses: (k, 2) float64: along and across the normal, in the last step [N s]
+    :param hashes: (k,) uint64: feature ids of the contact points (Chipmunk: cpContact.hash)
+    :param impulses: (k, 2) float64: normal and tangential, of the last step [N s]
     """
 
     ids: Ints
@@ -108,17 +109,16 @@ class ContactMemory:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Keyframe:
+class Checkpoint:
     """
-    All that a world goes on from at a step, after the requests of that step.
+    The whole state of a world at a step, after the requests of that step.
 
     :param step: number of steps since the world began
     :param scene: the bodies and the settings
     :param state: (n, 6) float64: pose and velocity of each engine body [m, rad, s]
     :param free: (n,) bool: in free flight, so that the engine's velocity leads
-    :param wrenches: of the bodies that one acts on: row, wrench [N, N m], the step at which it
-        ends or None
-    :param memory: of contacts
+    :param wrenches: row of the body, wrench [N, N m], and the step at which it ends or None
+    :param memory: impulse cache
     :param joint_impulses: (c, 2) float64: impulses from which the engine's constraints start their
         next step [N s, N m s], in the order of the joints
     """
@@ -128,5 +128,5 @@ class Keyframe:
     state: Floats
     free: NDArray[np.bool_]
     wrenches: tuple[tuple[int, Pose, int | None], ...]
-    memory: ContactMemory
+    memory: ImpulseCache
     joint_impulses: Floats

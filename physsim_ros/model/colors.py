@@ -13,11 +13,10 @@
 # limitations under the License.
 
 """
-Colours as they are written, and those of bodies that ask for none.
+Colours: from text, and the default ones of bodies.
 
-The latter are distinct on white and on black, also for the colour-blind.
-
-They are Vega's scheme `tableau10` (https://vega.github.io/vega/docs/schemes/).
+Default colours are Vega's scheme `tableau10` (https://vega.github.io/vega/docs/schemes/): distinct
+on white and on black, for colour-blind people too.
 """
 
 from __future__ import annotations
@@ -25,12 +24,14 @@ from __future__ import annotations
 import re
 import zlib
 
-from physsim_ros.model.body_properties import shown
+from physsim_ros.model.checks import shown
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.names import split_name
-from physsim_ros.model.shapes import Color
 
-_PALETTE = (
+# Red, green, blue, alpha, each 0 .. 1.
+Color = tuple[float, float, float, float]
+
+_TABLEAU10 = (
     '#4c78a8', '#f58518', '#e45756', '#72b7b2', '#54a24b',
     '#eeca3b', '#b279a2', '#ff9da6', '#9d755d', '#bab0ac',
 )  # fmt: skip
@@ -38,7 +39,7 @@ _PALETTE = (
 
 def color_from(text: str) -> Color:
     """
-    Return the colour that '#rrggbb' or '#rrggbbaa' means.
+    Return the colour of '#rrggbb' or '#rrggbbaa'.
 
     :raises BadProperty: it is neither
     """
@@ -52,11 +53,11 @@ def color_from(text: str) -> Color:
 
 def color_of(name: str) -> Color:
     """
-    Return the colour of a body that asks for none: of its name alone, one after another by id.
+    Return the default colour of a body, a function of its name: consecutive ids get other colours.
 
-    A count of spawns would be a state of the world that nobody sees and no file keeps.
+    A count of spawned bodies instead would be a hidden state of the world, in no file.
     """
     namespace, id_ = split_name(name)
     number = zlib.crc32(namespace.encode()) + id_
-    red, green, blue = bytes.fromhex(_PALETTE[number % len(_PALETTE)][1:])
+    red, green, blue = bytes.fromhex(_TABLEAU10[number % len(_TABLEAU10)][1:])
     return red / 255, green / 255, blue / 255, 1.0

@@ -13,25 +13,25 @@
 # limitations under the License.
 
 """
-The one family of errors; each class carries the stable code of its refusal.
+Errors of this package; each class of refusal has a stable code.
 
-Law: a refusal changes nothing, and says what and why.
+Law: a refused request changes nothing; the message names what is refused and the reason.
 """
 
 from __future__ import annotations
 
 
 class PhysSimError(Exception):
-    """Everything this package raises on purpose."""
+    """Base class of the errors that this package raises."""
 
 
 class Refusal(PhysSimError):
     """
-    A request that the world does not carry out.
+    A request that is not applied.
 
-    :param message: one sentence: what is refused and why
-    :param field: the offending field of the request, '' where it is the whole
-    :param values: what else there is to tell, as pairs of key and value
+    :param message: one sentence: the refused value and the reason
+    :param field: the offending field of the request, '' if it is the whole request
+    :param values: further pairs of key and value for the event
     """
 
     code = 'refused'
@@ -39,24 +39,24 @@ class Refusal(PhysSimError):
     def __init__(
         self, message: str, *, field: str = '', values: tuple[tuple[str, str], ...] = ()
     ) -> None:
-        super().__init__(_sayable(message))
-        self.field = _sayable(field)
+        super().__init__(_encodable(message))
+        self.field = _encodable(field)
         self.values = values
 
 
-def _sayable(text: str) -> str:
-    """Return a text without what no message and no log can hold: halves of characters."""
+def _encodable(text: str) -> str:
+    """Return a text with surrogates replaced, which UTF-8 cannot encode."""
     return text.encode(errors='replace').decode()
 
 
 class Malformed(Refusal):
-    """Not a number, infinite, or arrays whose lengths do not fit."""
+    """NaN, infinity, or arrays of the wrong length."""
 
     code = 'malformed'
 
 
 class UnknownShape(Refusal):
-    """A marker type that has no body."""
+    """A type of marker that no shape is made from."""
 
     code = 'unknown_shape'
 
@@ -68,13 +68,13 @@ class BadSize(Refusal):
 
 
 class BadOutline(Refusal):
-    """An outline that crosses itself or encloses no area."""
+    """An outline that is not simple or encloses no area."""
 
     code = 'bad_outline'
 
 
 class NotPlanar(Refusal):
-    """A rotation that leaves the plane."""
+    """A rotation with roll or pitch."""
 
     code = 'not_planar'
 
@@ -98,48 +98,48 @@ class BadProperty(Refusal):
 
 
 class UnknownBody(Refusal):
-    """A name that no body has."""
+    """A name of no body in the world."""
 
     code = 'unknown_body'
 
 
 class UnknownJoint(Refusal):
-    """A name that no joint has."""
+    """A name of no joint in the world."""
 
     code = 'unknown_joint'
 
 
 class Anchored(Refusal):
-    """Motion asked of a body that is fixed to the background, or a joint between two that are."""
+    """A velocity or wrench for an anchored body, or a joint between two anchored bodies."""
 
     code = 'anchored'
 
 
 class NothingThere(Refusal):
-    """A point with no body under it."""
+    """A point that lies in no body."""
 
     code = 'nothing_there'
 
 
 class WorldFull(Refusal):
-    """One body more than the world may hold."""
+    """A request that exceeds a limit on the size of the world."""
 
     code = 'world_full'
 
 
 class NotRecognised(Refusal):
-    """A stroke that might mean anything."""
+    """A stroke whose interpretation is not confident enough."""
 
     code = 'not_recognised'
 
 
 class BadWorldFile(Refusal):
-    """A world file that cannot be read, written or understood."""
+    """A world file that cannot be read or written, or whose content is refused."""
 
     code = 'bad_world_file'
 
 
 class OutOfHistory(Refusal):
-    """A time that is kept no more, or has not come yet; or nothing to undo."""
+    """A time before the oldest or after the newest checkpoint, or no request to undo."""
 
     code = 'out_of_history'

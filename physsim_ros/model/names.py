@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Names of bodies: `<namespace>/<id>`, as markers have them, one spelling a name."""
+"""Names of bodies and joints: `<namespace>/<id>` of their markers, in one canonical spelling."""
 
 from __future__ import annotations
 
@@ -20,16 +20,16 @@ import unicodedata
 
 from physsim_ros.model.errors import Malformed
 
-# The background's own name in joints, contacts and frames.
+# Name of the background in joints, contacts and frames.
 WORLD = 'world'
-# What frame names and message strings can reasonably hold.
+# Characters of a name; names are frames and strings of messages too.
 LONGEST_NAME = 1000
-# Control characters, halves of characters, ends of lines and of paragraphs, as Unicode calls them.
-# Others that show nothing are part of how Persian and Hindi are written, or join emoji.
-_NO_TEXT = {'Cc', 'Cs', 'Zl', 'Zp'}
-# What stands before the namespace of a joint in the picture, so that a body and a joint of one
-# name do not hide each other; `~/join` knows it. What stands before those of its lines and of the
-# x of an anchored body, and the namespace of the walls.
+# Unicode categories of control characters, surrogates, line and paragraph separators. Format
+# characters are allowed: Persian, Hindi and emoji are written with them.
+_UNPRINTABLE = {'Cc', 'Cs', 'Zl', 'Zp'}
+# Prefixes of the namespaces of markers that are no bodies: joints (`~/join` accepts it), their
+# lines, the x of an anchored body; and the namespace of the walls. A body and a joint of one name
+# are two markers.
 JOINT_PREFIX, LINES_PREFIX, CROSS_PREFIX, WALLS = 'joint:', 'lines:', 'anchor:', 'physsim:bounds'
 
 
@@ -37,7 +37,7 @@ def check_name(name: str) -> None:
     """
     Refuse a name that is not `<namespace>/<id>`, the id a 32-bit whole number.
 
-    :raises Malformed: it is not, or is too long, or holds a character no message can
+    :raises Malformed: it is not, or is too long, or has an unprintable character
     """
     namespace, id_ = split_name(name)
     if not namespace:
@@ -46,7 +46,7 @@ def check_name(name: str) -> None:
         )
     if len(name) > LONGEST_NAME:
         raise Malformed(f'a name has at most {LONGEST_NAME} characters', field='name')
-    if any(unicodedata.category(character) in _NO_TEXT for character in name):
+    if any(unicodedata.category(character) in _UNPRINTABLE for character in name):
         raise Malformed(f'{name!r} holds a character that cannot be printed', field='name')
     if not -(2**31) <= id_ < 2**31:
         raise Malformed(f'the id of {name!r} does not fit into 32 bits', field='name')
@@ -54,9 +54,9 @@ def check_name(name: str) -> None:
 
 def check_body_name(name: str) -> None:
     """
-    Refuse a name that is none of a body.
+    Refuse a name that no body can have.
 
-    :raises Malformed: it is no name at all, or is one of something else in the picture
+    :raises Malformed: it is not `<namespace>/<id>`, or its prefix is that of other markers
     """
     check_name(name)
     if name.startswith((JOINT_PREFIX, LINES_PREFIX, CROSS_PREFIX, WALLS)):
@@ -64,11 +64,11 @@ def check_body_name(name: str) -> None:
 
 
 def split_name(name: str) -> tuple[str, int]:
-    """Return namespace and id of a name; the namespace is '' where it is no name."""
+    """Return namespace and id of a name; the namespace is '' if it is not canonical."""
     namespace, _, id_ = name.rpartition('/')
     try:
         number = int(id_)
     except ValueError:
         return '', 0
-    # One spelling a name: '7', not '07' or '+7', so that a marker leads back to it.
+    # One spelling of a number: '7', not '07' or '+7', as in the name of its marker.
     return (namespace, number) if str(number) == id_ else ('', 0)

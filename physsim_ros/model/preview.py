@@ -12,13 +12,13 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""What is shown of a drawing that is not in the world, or not yet."""
+"""The preview of a drawing: lines and words over the world, for shapes that are unfinished."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
-from physsim_ros.model.shapes import Point
+from physsim_ros.model.transform import Point
 
 Line = tuple[Point, ...]
 
@@ -26,11 +26,11 @@ Line = tuple[Point, ...]
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Preview:
     """
-    Lines, points and words over the world.
+    Lines, points and a label that are shown over the world.
 
-    :param lines: each from point to point [m]
-    :param points: that were clicked [m]
-    :param label: what it is; '' says nothing
+    :param lines: polylines [m]
+    :param points: clicked so far [m]
+    :param label: text above the rest; '' is none
     """
 
     lines: tuple[Line, ...] = ()
@@ -39,9 +39,9 @@ class Preview:
 
     @property
     def top(self) -> Point:
-        """Return the highest point of it, over which its label stands [m]."""
+        """Return the highest point of it, above which the label is drawn [m]."""
         every = [*self.points, *(point for line in self.lines for point in line)]
         return max(every, key=lambda point: point[1], default=(0.0, 0.0))
 
 
-NOTHING = Preview()
+NO_PREVIEW = Preview()

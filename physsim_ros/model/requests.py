@@ -13,9 +13,10 @@
 # limitations under the License.
 
 """
-What may be asked of the world: frozen values, complete in themselves.
+Requests: everything that can be asked of a world, as frozen values.
 
-A request says what somebody wants; whether the world can do it is decided when it is applied.
+The constructor of a request checks its values alone; the world checks them against its bodies when
+the request is applied.
 Poses are (x, y, yaw) in metres and radians, in the world or, where `frame` names a body, relative
 to that body as it is when the request is applied.
 """
@@ -27,17 +28,12 @@ from dataclasses import dataclass, field
 import math
 from typing import Any
 
-from physsim_ros.model.body_properties import (
-    check_finite,
-    check_key,
-    FASTEST,
-    HEAVIEST,
-    Properties,
-    shown,
-)
+from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checkpoint import WorldState
+from physsim_ros.model.checks import check_finite, check_key, FASTEST, HEAVIEST, shown
+from physsim_ros.model.colors import Color
 from physsim_ros.model.errors import BadProperty, BadSize, Malformed
-from physsim_ros.model.joint_properties import (
+from physsim_ros.model.joints import (
     JOINT_KEYS,
     joint_properties_from,
     JointKind,
@@ -46,11 +42,13 @@ from physsim_ros.model.joint_properties import (
 )
 from physsim_ros.model.names import check_body_name, check_name, WORLD
 from physsim_ros.model.settings import check_setting
-from physsim_ros.model.shapes import Color, Point, Pose, Shape, SMALLEST
+from physsim_ros.model.shapes import Shape
+from physsim_ros.model.transform import Point, Pose
 
-# 10 000 km: beyond it float64 positions are coarser than a nanometre.
+# Greatest coordinate [m]: beyond 10 000 km float64 positions are coarser than a nanometre.
 FARTHEST = 1e7
-# 300 years [s]: more than a message's Duration holds, few enough for steps to be counted exactly.
+# Greatest lifetime [s]: 300 years, more than a message's Duration holds, and exact as a number of
+# steps.
 LONGEST = 1e10
 
 
@@ -59,16 +57,17 @@ class Spawn:
     """
     Add a body, or change the body of that name in place.
 
-    A change takes over the shape, the pose, the colour where one is given, the lifetime where it
-    is not zero, and the properties that are said; all else is kept, motion too.
+    A change replaces the shape, the pose, the colour unless it is None, the lifetime unless it is
+    0, and the properties that are set. Everything else is kept, velocity included.
 
     :param name: of the body
-    :param shape: what it is made of
+    :param shape: geometry in the body's frame
     :param pose: of the body's origin
     :param frame: '' for the world, or a body's name
-    :param color: red, green, blue, alpha, each 0 .. 1; None chooses one
-    :param lifetime: simulation time after which the body goes [s]; 0 is for ever
-    :param properties: material, motion and role, as far as said
+    :param color: red, green, blue, alpha, each 0 .. 1; None is the default of the
+        name
+    :param lifetime: simulation time after which the body is removed [s]; 0 is for ever
+    :param properties: material, velocity and role
     :raises Malformed: a number is not finite, or the name is empty or too long
     :raises BadProperty: a pose, colour or lifetime is out of range
     """
@@ -109,7 +108,7 @@ class DeleteAll:
     """
     Remove all bodies, or all of a namespace, and their joints.
 
-    :param namespace: what stands before the last slash of the names; None is every body
+    :param namespace: of their names, the part before the last slash; None is every body
     """
 
     namespace: str | None = None
@@ -120,21 +119,21 @@ class Join:
     """
     Join two bodies, or a body and the background; or change the joint of that name in place.
 
-    A change takes over the bodies and the points, and the properties that are said; where the
-    kind stays, the others are kept.
+    A change replaces the bodies, the points and the properties that are set. The other properties
+    are kept if the kind is the same.
 
     :param name: of the joint
-    :param kind: how it holds them
-    :param points: one or two, as the kind has them [m]
+    :param kind: of joint
+    :param points: anchor points, one or two as the kind requires [m]
     :param frame: of the points: '' for the world, or a body's name
-    :param a: a body's name; '' is the topmost under the (first) point
-    :param b: the same, or 'world' for the background; '' is the next body under the point, or the
-        topmost under the second one, or where there is none the background
-    :param properties: as far as said
-    :raises Malformed: a number is not finite, the name is none, or the points are too few or many
+    :param a: name of a body; '' is the topmost one at the first point
+    :param b: name of a body, or 'world' for the background; '' is the next body at the point, or
+        the topmost one at the second point, or the background if there is none
+    :param properties: of the kind
+    :raises Malformed: a number is not finite, the name has no id, or the number of points is wrong
     :raises BadProperty: a body would be joined to itself, or a point is too far away
-    :raises BadSize: the points of a rod or slider lie too close together
-    :raises UnknownProperty: that kind of joint does not have a property
+    :raises BadSize: the points are closer than the kind allows
+    :raises UnknownProperty: the kind of joint does not have a property
     """
 
     name: str
@@ -160,10 +159,9 @@ class Join:
         if self.a and self.a == self.b:
             raise BadProperty(f'{self.a} cannot be joined to itself', field='b')
         self.properties.check_kind(self.kind)
-        if self.kind in (JointKind.ROD, JointKind.SLIDER) and math.dist(*self.points) < SMALLEST:
-            raise BadSize(
-                f'the points of a {self.kind} must be {SMALLEST:g} m apart', field='points'
-            )
+        least = self.kind.schema.least_distance
+        if least and math.dist(*self.points) < least:
+            raise BadSize(f'the points of a {self.kind} must be {least:g} m apart', field='points')
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -178,7 +176,7 @@ class UnjoinAll:
     """
     Remove all joints, or all of a namespace.
 
-    :param namespace: what stands before the last slash of the names; None is every joint
+    :param namespace: of their names, the part before the last slash; None is every joint
     """
 
     namespace: str | None = None
@@ -186,7 +184,7 @@ class UnjoinAll:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AtPoint:
-    """A request for what lies under a point [m], the topmost first."""
+    """A request for the topmost bodies, or joints, at a point [m]."""
 
     point: Point
     frame: str = ''
@@ -197,34 +195,34 @@ class AtPoint:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Pin(AtPoint):
-    """Weld the two topmost bodies under a point, or the only one to the background."""
+    """Weld the two topmost bodies at a point, or the only one to the background."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Axle(AtPoint):
-    """Let the two topmost bodies under a point turn about it, or the only one by itself."""
+    """Join the two topmost bodies at a point by an axle, or the only one to the background."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Anchor(AtPoint):
-    """Fix the topmost body under a point to the background."""
+    """Fix the topmost body at a point to the background."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Release(AtPoint):
-    """Free the topmost body under a point, and remove the pins and axles there."""
+    """Undo the anchoring of the topmost body at a point, and remove pins and axles there."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Command:
     """
-    Set poses, twists or wrenches of named bodies; all of it or nothing.
+    Set poses, twists or wrenches of named bodies: all of them, or none if one is refused.
 
     :param names: the bodies, each once
     :param poses: (x, y, yaw) for each, or empty
     :param twists: (vx, vy, spin) for each, world axes [m/s, rad/s], or empty
-    :param wrenches: (fx, fy, torque) for each, world axes [N, N m], or empty; acts at the centre
-        of mass until the next one, at most for the world's `command_timeout`
+    :param wrenches: (fx, fy, torque) for each, world axes [N, N m], or empty; they act at
+        the centre of mass until the next one, at most for the world's `command_timeout`
     :param frame: of the poses: '' for the world, or a body's name
     :raises Malformed: lengths do not fit, a name comes twice, a number is not finite
     :raises BadProperty: a value is out of range
@@ -267,7 +265,7 @@ class Configure:
     """
     Change settings of the world.
 
-    :param changes: names of WorldSettings and their new values
+    :param changes: new values by the field of WorldSettings
     """
 
     changes: Mapping[str, Any]
@@ -280,7 +278,7 @@ class Configure:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Restore:
-    """Replace the whole world by a saved state."""
+    """Replace all bodies, joints and settings by those of a saved state."""
 
     state: WorldState
 
@@ -289,15 +287,15 @@ def join_from(
     mapping: Mapping[Any, Any], *, name: str, points: tuple[Point, ...], frame: str = ''
 ) -> Join:
     """
-    Return the joint that a YAML mapping asks for: `kind`, `a`, `b` and properties.
+    Return the request for a joint of a YAML mapping: `kind`, `a`, `b` and properties.
 
-    Where the mapping names the one body, a `b` that is left out is the background; where it names
-    none, the bodies under the points are meant.
+    Without `b`, a mapping with `a` means the background; without both it means the bodies at the
+    points.
 
     :param name: of the joint
     :param points: in the frame [m]
     :param frame: '' for the world, or a body's name
-    :raises Refusal: a key is not known, or a value not possible
+    :raises Refusal: a key is unknown, or a value is out of range
     """
     kind, a, b, properties = joined_from(mapping)
     return Join(name=name, kind=kind, points=points, frame=frame, a=a, b=b, properties=properties)
@@ -305,9 +303,9 @@ def join_from(
 
 def joined_from(mapping: Mapping[Any, Any]) -> tuple[JointKind, str, str, JointProperties]:
     """
-    Return what a YAML mapping says of a joint: its kind, the two bodies, its properties.
+    Return kind, names of the bodies a and b, and properties of a YAML mapping.
 
-    :raises Refusal: a key is not known, or a value not possible
+    :raises Refusal: a key is unknown, or a value is out of range
     """
     for key in mapping:
         check_key(key, JOINT_KEYS)

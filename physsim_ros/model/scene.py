@@ -13,9 +13,9 @@
 # limitations under the License.
 
 """
-What there is: bodies, joints, and the scene of all of them; not where they are.
+The scene: bodies and joints without their poses.
 
-Law: everything here is immutable, and stays while the world steps.
+Law: everything here is immutable, and constant while the world steps.
 """
 
 from __future__ import annotations
@@ -26,29 +26,30 @@ from typing import NamedTuple
 
 import numpy as np
 from physsim_ros.model.arrays import Floats, Ints
-from physsim_ros.model.joint_properties import DEFAULTS, JointKind, JointProperties
+from physsim_ros.model.colors import Color
+from physsim_ros.model.joints import JointKind, JointProperties, PROPERTIES
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Color, Shape
+from physsim_ros.model.shapes import Shape
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Body:
     """
-    What a body is, apart from where it is.
+    A body without its pose and velocity.
 
     :param name: unique in its world
     :param shape: geometry in the body's frame
     :param color: red, green, blue, alpha, each 0 .. 1
-    :param mass: as given [kg], or None where the density counts
+    :param mass: [kg]; None is density times area
     :param density: [kg/m²]
-    :param friction: of its material
-    :param elasticity: of its material
+    :param friction: coefficient
+    :param elasticity: coefficient of restitution
     :param anchored: fixed to the background
-    :param kinematic: moves as commanded whatever it touches
-    :param group: bodies of the same non-zero group pass through each other
-    :param sensor: reports contacts, pushes nothing
-    :param expires: step at whose end the body goes; None is never
+    :param kinematic: moves at its commanded velocity, unaffected by contacts and joints
+    :param group: bodies of the same non-zero group do not collide with each other
+    :param sensor: its contacts are reported and have no effect
+    :param expires: step at whose end the body is removed; None is never
     """
 
     name: str
@@ -65,23 +66,24 @@ class Body:
     expires: int | None
 
     @property
-    def weight(self) -> float:
-        """Return the mass that counts [kg]."""
+    def total_mass(self) -> float:
+        """Return the mass: as given, or density times area [kg]."""
         return self.density * self.shape.form.area if self.mass is None else self.mass
 
     @property
     def fixed(self) -> bool:
-        """Whether forces do not move it."""
+        """Whether forces have no effect on it: it is anchored or kinematic."""
         return self.anchored or self.kinematic
 
 
 class Seat(NamedTuple):
     """
-    Where a joint sits on its two bodies, as it was when it was drawn.
+    The anchor points of a joint, its axis, reference angle and length, from when it was drawn.
 
-    ax, ay [m]: its point in the frame of a; bx, by [m]: the same in the frame of b; ux, uy: the
-    unit vector of a slider's line in the frame of b; phase [rad]: turn of b times ratio less turn
-    of a; length [m]: distance of the two points as drawn.
+    ax, ay [m]: anchor point in the frame of a; bx, by [m]: the same in the frame of b; ux, uy:
+    unit vector of a slider's axis in the frame of b; phase [rad]: angle of b times ratio, less
+    angle of a; length [m]: distance of the two points. Box2D: localAnchorA, localAnchorB,
+    localAxis, referenceAngle, length.
     """
 
     ax: float
@@ -97,14 +99,14 @@ class Seat(NamedTuple):
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Joint:
     """
-    What a joint is: all that it goes on from.
+    A joint; together with the poses of its bodies, all that its motion depends on.
 
     :param name: unique among the joints of its world
-    :param kind: how it holds its bodies
-    :param a: a body's name
-    :param b: another one's, or 'world' for the background
-    :param seat: where it sits on them
-    :param properties: as far as said
+    :param kind: of joint
+    :param a: name of a body
+    :param b: name of another body, or 'world' for the background
+    :param seat: its anchor points on them, and what else was measured when it was drawn
+    :param properties: those that a request has set
     """
 
     name: str
@@ -116,14 +118,14 @@ class Joint:
 
     @property
     def rest_length(self) -> float:
-        """Return the length at which a spring is slack, or a rope taut [m]."""
+        """Return the length of a spring without force, or of a taut rope [m]."""
         said = self.properties
-        length = said.length if self.kind is JointKind.ROPE else said.rest_length
+        length = said.rest_length if said.length is None else said.length
         return self.seat.length if length is None else length
 
     @property
     def stiffness(self) -> float:
-        """Return that of a spring [N/m], 0 for other kinds."""
+        """Return the stiffness of a spring [N/m], 0 for other kinds."""
         return float(self.number('stiffness')) if self.kind is JointKind.SPRING else 0.0
 
     @property
@@ -132,19 +134,30 @@ class Joint:
         return bool(self.properties.collide)
 
     def number(self, name: str) -> float:
-        """Return a property that is said, or its default."""
+        """Return a property that has a number as its default."""
         value: float | None = getattr(self.properties, name)
-        default: float = getattr(DEFAULTS, name)
+        default = PROPERTIES[name].default
+        assert default is not None  # noqa: S101 - by the contract above
         return default if value is None else value
+
+    def drawn_values(self) -> dict[str, float]:
+        """Return those properties by name whose default is the value as drawn."""
+        values = {
+            'rest_length': self.rest_length,
+            'length': self.rest_length,
+            'phase': self.seat.phase,
+        }
+        schema = self.kind.schema.properties
+        return {name: values[name] for name, each in schema.items() if each.as_drawn}
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Scene:
     """
-    Everything about a world that stays while it steps; one object until something changes.
+    Bodies, joints and settings of a world: all that is constant while it steps.
 
-    Compare scenes by identity: a frame with the same scene as the one before has the same bodies
-    in the same order.
+    Scenes are compared by identity: two frames with one scene have the same bodies in the same
+    order. A request that changes the world makes a new scene.
 
     :param bodies: in spawn order
     :param settings: of the world
@@ -157,7 +170,7 @@ class Scene:
 
     @cached_property
     def key(self) -> bytes:
-        """Everything of it as bytes, for digests."""
+        """Its content as bytes, for digests; names of classes and fields are part of them."""
         return repr((self.bodies, self.settings, self.joints)).encode()
 
     @cached_property
@@ -167,9 +180,11 @@ class Scene:
 
     @cached_property
     def inertia(self) -> Floats:
-        """(n, 2) float64: mass [kg], moment [kg m²]; zero for bodies that forces do not move."""
+        """(n, 2) float64: mass [kg], moment of inertia [kg m²]; 0 for fixed bodies."""
         rows = [
-            (0.0, 0.0) if body.fixed else (body.weight, body.weight * body.shape.form.gyration)
+            (0.0, 0.0)
+            if body.fixed
+            else (body.total_mass, body.total_mass * body.shape.form.gyration)
             for body in self.bodies
         ]
         return np.array(rows, dtype=np.float64).reshape(-1, 2)
@@ -189,5 +204,5 @@ class Scene:
 
     @cached_property
     def seats(self) -> Floats:
-        """(j, 8) float64: the seat of each joint."""
+        """(j, 8) float64: the seat of each joint, by its fields."""
         return np.array([joint.seat for joint in self.joints], dtype=np.float64).reshape(-1, 8)

@@ -12,22 +12,23 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""What holds for the whole world, and what bodies are made of when they do not say."""
+"""Settings of a world: gravity, damping, solver, walls, and the default material of bodies."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 import math
 
-from physsim_ros.model.body_properties import Checks, HEAVIEST, LIGHTEST, pair, shown, Within
+from physsim_ros.model.checks import Checks, HEAVIEST, LIGHTEST, pair, shown, Whole, Within
 from physsim_ros.model.errors import BadProperty, Malformed
-from physsim_ros.model.shapes import LARGEST, Point
+from physsim_ros.model.shapes import LARGEST
+from physsim_ros.model.transform import Point
 
 Bounds = tuple[float, float, float, float]
 
-# A thousand times that of the earth [m/s²]: 40 m/s more with every step.
+# Greatest gravity [m/s²]: a thousand times that of the earth, 40 m/s in a step.
 STRONGEST = 1e4
-# Samples of a stroke at most: a minute of a pen of 160 Hz; nobody draws a line for that long.
+# Greatest number of samples of a stroke: a minute of a pen at 160 Hz.
 MOST_SAMPLES = 10_000
 
 
@@ -37,14 +38,14 @@ class WorldSettings:
     The settings of a world.
 
     :param gravity: [m/s²]
-    :param damping: share of velocity lost to the air each second, 0 .. 1
-    :param iterations: of the solver
+    :param damping: share of velocity lost each second, 0 .. 1
+    :param iterations: of the engine's solver in a step
     :param bounds: xmin, ymin, xmax, ymax of the walls around the world [m]; None is no walls
-    :param density: default [kg/m²]
-    :param friction: default
-    :param elasticity: default
-    :param command_timeout: how long a wrench acts [s of simulation time]; 0 means no limit
-    :param max_bodies: the most the world holds
+    :param density: of bodies by default [kg/m²]
+    :param friction: coefficient of bodies by default
+    :param elasticity: coefficient of restitution of bodies by default
+    :param command_timeout: simulation time for which a wrench acts [s]; 0 is no limit
+    :param max_bodies: greatest number of bodies
     :raises Malformed: a number is not finite or an array has the wrong length
     :raises BadProperty: a value is out of range
     """
@@ -86,31 +87,7 @@ def _bounds(value: object, name: str) -> Bounds | None:
     return left, bottom, right, top
 
 
-@dataclass(frozen=True, slots=True)
-class Whole:
-    """
-    A check that a number is whole and lies in a closed range.
-
-    :param low: the least
-    :param high: the greatest
-    """
-
-    low: int
-    high: int
-
-    def __call__(self, value: object, name: str) -> int:
-        """
-        Return the number.
-
-        :raises BadProperty: it is not whole, or out of range
-        """
-        low, high = self.low, self.high
-        if isinstance(value, bool) or not isinstance(value, int) or not low <= value <= high:
-            raise BadProperty(f'{name} must be a whole number, {low} to {high}', field=name)
-        return value
-
-
-# Of the settings that are one number each.
+# Checks of the settings that are a single number.
 RANGES: dict[str, Within | Whole] = {
     'damping': Within(0.0, 1.0),
     'iterations': Whole(1, 1000),

@@ -13,9 +13,9 @@
 # limitations under the License.
 
 """
-What is seen: where everything is after a step, what touched, and what became of requests.
+Snapshots and frames: state after a step, contacts, and answers to requests.
 
-Law: what crosses the border is an immutable value or a fresh array, never an engine object.
+Law: all values are immutable or fresh arrays; none is an object of the engine.
 """
 
 from __future__ import annotations
@@ -27,22 +27,22 @@ from typing import NamedTuple
 import numpy as np
 from physsim_ros.model.arrays import Floats, Ints
 from physsim_ros.model.errors import Refusal
-from physsim_ros.model.preview import NOTHING, Preview
+from physsim_ros.model.preview import NO_PREVIEW, Preview
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.transform import turned
 
-# What every message has, beside what it is made of.
+# The field that every request with a point or pose has besides the one it consists of.
 _FRAME = 'header.frame_id'
 
 
 class Springs(NamedTuple):
     """
-    The springs of a world, as the engine has them.
+    The springs of a world with the engine's constants.
 
-    :ivar numbers: (k,) int64: of the joints that are springs and move a body
-    :ivar stiffness: (k,) float64: as steps can follow it [N/m]
-    :ivar rest: (k,) float64: length at which they are slack [m]
-    :ivar reach: (k,) float64: from where on they pull no harder [m]
+    :ivar numbers: (k,) int64: rows among the joints of those springs that act on a movable body
+    :ivar stiffness: (k,) float64: after the limit that the step sets [N/m]
+    :ivar rest: (k,) float64: length without force [m]
+    :ivar reach: (k,) float64: extension from which the force is constant [m]
     """
 
     numbers: Ints
@@ -52,14 +52,14 @@ class Springs(NamedTuple):
 
     def energy(self, length: Floats) -> tuple[Floats, Floats]:
         """
-        Return (k,) float64: what is in each [J], and what it pulls or pushes with [N].
+        Return (k,) float64 each: potential energy [J] and absolute force [N].
 
-        :param length: (k,) float64: of each [m]
+        :param length: (k,) float64: present length of each spring [m]
         """
-        size = np.abs(length - self.rest)
-        bent = np.minimum(size, self.reach)
-        pull = self.stiffness * bent
-        return pull * (bent / 2 + (size - bent)), pull
+        extension = np.abs(length - self.rest)
+        elastic = np.minimum(extension, self.reach)
+        force = self.stiffness * elastic
+        return force * (elastic / 2 + (extension - elastic)), force
 
 
 NO_SPRINGS = Springs(np.empty(0, np.int64), np.empty(0), np.empty(0), np.empty(0))
@@ -68,16 +68,16 @@ NO_SPRINGS = Springs(np.empty(0, np.int64), np.empty(0), np.empty(0), np.empty(0
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Snapshot:
     """
-    Where everything is after a step.
+    The state of a world after a step.
 
     :param step: number of steps since the world began
     :param stamp: simulation time, step / physics_rate [ns]
-    :param scene: what the rows are
+    :param scene: the bodies and joints of the rows
     :param poses: (n, 3) float64: x, y [m], yaw [rad] of each body's origin
     :param twists: (n, 3) float64: vx, vy [m/s] of each centre of mass, spin [rad/s]; world axes
-    :param forces: (j,) float64: what each joint gave in the last step [N]; where it turns, at an
-        arm of 1 m; empty where it is not known
-    :param springs: among the joints
+    :param forces: (j,) float64: force of each joint in the last step [N]; of a torque, at an arm
+        of 1 m; empty if unknown
+    :param springs: those of the joints that are springs
     """
 
     step: int
@@ -90,7 +90,7 @@ class Snapshot:
 
     @property
     def nbytes(self) -> int:
-        """Memory it takes [bytes]; what is worked out from it not counted."""
+        """Memory of its arrays [bytes], without cached properties."""
         return self.poses.nbytes + self.twists.nbytes + self.forces.nbytes
 
     @cached_property
@@ -100,35 +100,35 @@ class Snapshot:
 
     @cached_property
     def kinetic_energy(self) -> float:
-        """Of all bodies that forces move [J]."""
+        """Kinetic energy of all movable bodies [J]."""
         mass, moment = self.scene.inertia.T
         speed2 = (self.twists[:, :2] ** 2).sum(axis=1)
         return float((mass * speed2 + moment * self.twists[:, 2] ** 2).sum() / 2)
 
     @cached_property
     def potential_energy(self) -> float:
-        """In the field of gravity, zero at the origin [J]."""
+        """Potential energy of all movable bodies in the field of gravity, 0 at the origin [J]."""
         return float(-(self.scene.inertia[:, 0] @ (self.centers @ self.scene.settings.gravity)))
 
     @cached_property
     def elastic_energy(self) -> float:
-        """In the springs [J]."""
+        """Potential energy of all springs [J]."""
         ends = self.ends[self.springs.numbers]
-        apart = ends[:, 0] - ends[:, 1]
-        within, _ = self.springs.energy(np.hypot(apart[:, 0], apart[:, 1]))
-        return float(within.sum())
+        offset = ends[:, 0] - ends[:, 1]
+        energy, _ = self.springs.energy(np.hypot(offset[:, 0], offset[:, 1]))
+        return float(energy.sum())
 
     @cached_property
     def ends(self) -> Floats:
-        """(j, 2, 2) float64: the points of each joint on its bodies a and b, world [m]."""
+        """(j, 2, 2) float64: anchor points of each joint on its bodies a and b, world [m]."""
         seats, rows = self.scene.seats, self.scene.joint_rows
-        # The background is the last row.
+        # Row -1, the background, is the row of zeros appended here.
         poses = np.vstack((self.poses, np.zeros((1, 3))))[rows]
         return poses[..., :2] + turned(seats[:, :4].reshape(-1, 2, 2), poses[..., 2])
 
     @cached_property
     def momentum(self) -> tuple[float, float]:
-        """Of all bodies that forces move [kg m/s]."""
+        """Linear momentum of all movable bodies [kg m/s]."""
         x, y = (self.scene.inertia[:, 0] @ self.twists[:, :2]).tolist()
         return x, y
 
@@ -136,13 +136,14 @@ class Snapshot:
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Contacts:
     """
-    The pairs that touched during a frame, each pair once, in a stable order.
+    The pairs of bodies that touched during a frame, each pair once, in a stable order.
 
     :param pairs: (m, 2) int64: rows of the two bodies in the scene, the earlier spawned first;
         -1, always second, is the walls of `bounds`
     :param points: (m, 2) float64: mean of the latest contact points, world [m]
     :param normals: (m, 2) float64: unit vector from the first to the second body, world
-    :param impulses: (m, 2) float64: what the first gave the second over the frame, world [N s]
+    :param impulses: (m, 2) float64: sum over the frame of the impulses on the second body by the
+        first, world [N s]
     """
 
     pairs: Ints
@@ -160,14 +161,14 @@ class Contacts:
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Answer:
     """
-    What became of one request, or what happened without one.
+    The answer to one request, or the report of an event without one.
 
-    :param topic: where the request came from, as '~/spawn'; or what happened, as 'divergence'
-    :param subject: the body concerned, '' where there is none
+    :param topic: of the request, as '~/spawn', or the event, as 'divergence'
+    :param subject: name of the body or joint, '' if there is none
     :param message: a sentence
     :param code: '' for success, else the stable code of the refusal
     :param field: the offending field of a refusal
-    :param values: what else there is to tell, as pairs of key and value
+    :param values: further pairs of key and value
     """
 
     topic: str
@@ -182,9 +183,9 @@ class Answer:
         cls, refusal: Refusal, *, topic: str, subject: str = '', field: str = ''
     ) -> Answer:
         """
-        Make the answer that tells of a refusal.
+        Return the answer to a refused request.
 
-        :param field: that the request was all made of; '' where it had several
+        :param field: the only field of the request; '' if it has several
         """
         return cls(
             topic=topic,
@@ -199,14 +200,14 @@ class Answer:
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Frame:
     """
-    All that leaves the simulation at once: state, contacts and answers.
+    Everything that the simulation publishes at once: state, contacts and answers.
 
-    :param snapshot: where everything is
-    :param contacts: what touched since the frame before; None where nobody asked
-    :param answers: to the requests that were applied, in their order
-    :param speed: at which time runs; 0 is paused
-    :param moved: whether time went on since the frame before
-    :param preview: what is half drawn over it
+    :param snapshot: state after the last step
+    :param contacts: since the frame before; None if they were not requested
+    :param answers: to the requests applied since the frame before, in their order
+    :param speed: simulation time by wall time; 0 is paused
+    :param moved: whether simulation time differs from that of the frame before
+    :param preview: of the unfinished drawing
     """
 
     snapshot: Snapshot
@@ -214,11 +215,11 @@ class Frame:
     answers: tuple[Answer, ...] = field(default=())
     speed: float = 1.0
     moved: bool = True
-    preview: Preview = NOTHING
+    preview: Preview = NO_PREVIEW
 
 
 def run_state(speed: float) -> str:
-    """Return what a world does at a speed, in words."""
+    """Return the word for a speed: paused, playing or rewinding, with its factor if not 1."""
     if speed == 0.0:
         return 'paused'
     words = 'playing' if speed > 0.0 else 'rewinding'

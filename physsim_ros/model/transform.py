@@ -12,21 +12,24 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Vectors turned counter-clockwise: one, or many at once."""
+"""Plane vectors: rotation counter-clockwise, of one or of many at once, and the cross product."""
 
 from __future__ import annotations
 
 import math
 
 import numpy as np
-from numpy.typing import NDArray
-from physsim_ros.model.shapes import Point
+from physsim_ros.model.arrays import Floats
 
-Floats = NDArray[np.float64]
+# x, y [m].
+Point = tuple[float, float]
+# x, y [m], yaw [rad]; also vx, vy [m/s], spin [rad/s] of a twist, and fx, fy [N], torque [N m] of
+# a wrench.
+Pose = tuple[float, float, float]
 
 
 def rotated(vector: Point, yaw: float) -> Point:
-    """Return a vector turned counter-clockwise by yaw [rad]."""
+    """Return a vector rotated counter-clockwise by yaw [rad]."""
     if vector == (0.0, 0.0):
         return vector
     cos, sin = math.cos(yaw), math.sin(yaw)
@@ -35,10 +38,10 @@ def rotated(vector: Point, yaw: float) -> Point:
 
 def turned(vectors: Floats, yaw: Floats) -> Floats:
     """
-    Return vectors, each turned counter-clockwise.
+    Return vectors, each rotated counter-clockwise by its own yaw.
 
-    :param vectors: (..., 2)
-    :param yaw: (...), or what goes with that [rad]
+    :param vectors: (..., 2) float64
+    :param yaw: (...) float64, or of a shape that broadcasts to it [rad]
     """
     cos, sin = np.cos(yaw), np.sin(yaw)
     x, y = vectors[..., 0], vectors[..., 1]
@@ -47,3 +50,9 @@ def turned(vectors: Floats, yaw: Floats) -> Floats:
     result[..., 0] = across
     result[..., 1] = sin * x + cos * y
     return result
+
+
+def cross(a: Floats, b: Floats) -> Floats:
+    """Return (...) float64: the z component of the cross product of plane vectors (..., 2)."""
+    product: Floats = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
+    return product

@@ -13,7 +13,9 @@
 # limitations under the License.
 
 """
-The node: topics, services and parameters on one side, a simulation on the other.
+The node: a Simulation as topics, services and parameters of ROS 2.
 
-The only folder, beside `testing`, that imports rclpy or a message package. Start with `node`.
+Beside `testing`, only this folder imports rclpy and message packages. Not here: decisions about
+requests (`simulation`), geometry of pictures (`view`). Start with `node`; `conversions` reads
+messages, `encoders` writes them.
 """

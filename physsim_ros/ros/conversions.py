@@ -13,28 +13,25 @@
 # limitations under the License.
 
 """
-ROS messages -> requests: the only module that knows both.
+ROS messages to requests.
 
-Law: what a message says is checked here as far as the message alone can tell; whether the world
-can do it is decided when the request is applied. z is ignored; stamps are ignored.
+Law: only the message is validated here; the world validates a request when it applies it. z and
+stamps are ignored.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 import math
 from typing import Any, TypeVar
 
-from geometry_msgs.msg import Point, PointStamped, Quaternion
-from physsim_ros.files.yaml12 import load_mapping
-from physsim_ros.model.body_properties import check_finite, properties_from
+from geometry_msgs.msg import PointStamped, Quaternion
+from physsim_ros.files import load_mapping
+from physsim_ros.model.body_properties import properties_from
+from physsim_ros.model.colors import Color
 from physsim_ros.model.errors import (
     BadProperty,
-    BadSize,
     Malformed,
     NotPlanar,
-    Refusal,
-    UnknownShape,
 )
 from physsim_ros.model.names import JOINT_PREFIX
 from physsim_ros.model.requests import (
@@ -48,55 +45,34 @@ from physsim_ros.model.requests import (
     Unjoin,
     UnjoinAll,
 )
-from physsim_ros.model.shapes import (
-    Box,
-    Chain,
-    Color,
-    Compound,
-    Disc,
-    MOST_POINTS,
-    Polygon,
-    Shape,
-    Triangles,
-)
+from physsim_ros.ros.marker_shapes import points_from, shape_from
 from sensor_msgs.msg import MultiDOFJointState
 from visualization_msgs.msg import Marker
 
-# The namespaces of markers that have none.
+# The namespaces of markers with an empty one.
 NAMESPACE, JOINT_NAMESPACE = 'body', 'joint'
-# Roll and pitch [rad] up to which a rotation counts as planar: rounding of float32 tools.
+# The greatest roll and pitch of a planar rotation [rad]: rounding errors of float32 tools.
 MOST_TILT = 1e-3
-# All properties with all their digits fit ten times over; longer text is an accident.
+# The greatest length of `text` [characters]: ten times all properties with all digits.
 LONGEST_TEXT = 10_000
-# PyYAML takes a second for a thousand brackets in each other; a velocity and its mapping are two.
+# The greatest number of brackets in `text`; two are needed. PyYAML takes 1 s for 1000 nested ones.
 MOST_BRACKETS = 50
 
 _AtPoint = TypeVar('_AtPoint', bound=AtPoint)
 
-# A shape's own fields, as the marker calls them.
-_FIELDS = {
-    'radius': 'scale.x',
-    'width': 'scale.x',
-    'height': 'scale.y',
-    'thickness': 'scale.x',
-    'outline': 'points',
-    'vertices': 'points',
-    'centers': 'points',
-}
-
 
 def name_of(marker: Marker) -> str:
-    """Return the body's name that a marker means."""
+    """Return the name of the body of a marker."""
     return f'{marker.ns or NAMESPACE}/{marker.id}'
 
 
 def joint_name_of(marker: Marker) -> str:
-    """Return the joint's name that a marker means."""
+    """Return the name of the joint of a marker."""
     return f'{marker.ns.removeprefix(JOINT_PREFIX) or JOINT_NAMESPACE}/{marker.id}'
 
 
 def subject_of(message: Marker | PointStamped | MultiDOFJointState, *, joint: bool = False) -> str:
-    """Return the one body that a message names, or joint where it is of one, or ''."""
+    """Return the one body, or with `joint` the joint, that a message names, or ''."""
     if isinstance(message, Marker):
         return joint_name_of(message) if joint else name_of(message)
     names: list[str] = getattr(message, 'joint_names', [])
@@ -105,11 +81,11 @@ def subject_of(message: Marker | PointStamped | MultiDOFJointState, *, joint: bo
 
 def body_request(marker: Marker, *, frame_id: str) -> Spawn | Delete | DeleteAll:
     """
-    Return what a marker asks of a body.
+    Return the request of a marker for a body.
 
     :param marker: from `~/spawn`
-    :param frame_id: name of the world's frame
-    :raises Refusal: the marker cannot be meant for this world
+    :param frame_id: name of the world frame
+    :raises Refusal: the marker describes no valid body
     """
     if marker.action == Marker.DELETE:
         return Delete(name=name_of(marker))
@@ -120,7 +96,7 @@ def body_request(marker: Marker, *, frame_id: str) -> Spawn | Delete | DeleteAll
     position = marker.pose.position
     return Spawn(
         name=name_of(marker),
-        shape=_shape(marker),
+        shape=shape_from(marker),
         pose=(position.x, position.y, _yaw(marker.pose.orientation, 'pose.orientation')),
         frame=_frame(marker.header.frame_id, frame_id),
         color=_color(marker),
@@ -131,11 +107,11 @@ def body_request(marker: Marker, *, frame_id: str) -> Spawn | Delete | DeleteAll
 
 def joint_request(marker: Marker, *, frame_id: str) -> Join | Unjoin | UnjoinAll:
     """
-    Return what a marker asks of a joint.
+    Return the request of a marker for a joint.
 
     :param marker: from `~/join`
-    :param frame_id: name of the world's frame
-    :raises Refusal: the marker cannot be meant for this world
+    :param frame_id: name of the world frame
+    :raises Refusal: the marker describes no valid joint
     """
     if marker.action == Marker.DELETE:
         return Unjoin(name=joint_name_of(marker))
@@ -146,28 +122,28 @@ def joint_request(marker: Marker, *, frame_id: str) -> Join | Unjoin | UnjoinAll
     return join_from(
         _mapping(marker.text),
         name=joint_name_of(marker),
-        points=_points(marker.points),
+        points=points_from(marker.points),
         frame=_frame(marker.header.frame_id, frame_id),
     )
 
 
 def point_request(kind: type[_AtPoint], message: PointStamped, *, frame_id: str) -> _AtPoint:
     """
-    Return what a point asks for.
+    Return the request of a point.
 
-    :param kind: of request
+    :param kind: class of the request
     :raises Malformed: the point is not finite
     """
-    point, frame = click(message, frame_id=frame_id)
+    point, frame = point_in_frame(message, frame_id=frame_id)
     return kind(point=point, frame=frame)
 
 
 def command_request(message: MultiDOFJointState, *, frame_id: str) -> Command:
     """
-    Return the poses, twists and wrenches that a message commands.
+    Return the request with the poses, twists and wrenches of a message.
 
-    :raises Malformed: lengths do not fit, or a number is not finite
-    :raises NotPlanar: a rotation leaves the plane
+    :raises Malformed: the lengths differ, or a number is not finite
+    :raises NotPlanar: a rotation is not about z
     """
     return Command(
         names=tuple(message.joint_names),
@@ -181,8 +157,8 @@ def command_request(message: MultiDOFJointState, *, frame_id: str) -> Command:
     )
 
 
-def click(message: PointStamped, *, frame_id: str) -> tuple[tuple[float, float], str]:
-    """Return the point of a click and its frame, '' for the world; nothing is checked yet."""
+def point_in_frame(message: PointStamped, *, frame_id: str) -> tuple[tuple[float, float], str]:
+    """Return a point [m] and its frame, '' for the world; neither is validated."""
     return (message.point.x, message.point.y), _frame(message.header.frame_id, frame_id)
 
 
@@ -198,7 +174,7 @@ def _yaw(rotation: Quaternion, field: str) -> float:
     largest = max(map(abs, parts))
     if largest == 0.0:
         return 0.0
-    # Scaled by its largest part first, so that squares neither overflow nor vanish.
+    # Scaled by its largest part first, so that squares neither overflow nor underflow.
     x, y, z, w = (part / largest for part in parts)
     norm = math.sqrt(x * x + y * y + z * z + w * w)
     x, y, z, w = x / norm, y / norm, z / norm, w / norm
@@ -223,54 +199,3 @@ def _mapping(text: str) -> dict[Any, Any]:
     if text.count('[') + text.count('{') > MOST_BRACKETS:
         raise Malformed(f'text has more than {MOST_BRACKETS} brackets', field='text')
     return load_mapping(text, field='text')
-
-
-def _shape(marker: Marker) -> Shape:
-    try:
-        return _shape_of_type(marker)
-    except Refusal as refusal:
-        refusal.field = _FIELDS.get(refusal.field, refusal.field)
-        raise
-
-
-def _shape_of_type(marker: Marker) -> Shape:
-    scale = marker.scale
-    match marker.type:
-        case Marker.CUBE:
-            return Box(width=scale.x, height=scale.y)
-        case Marker.SPHERE | Marker.CYLINDER:
-            return _disc(marker)
-        case Marker.LINE_STRIP:
-            points = _points(marker.points)
-            if len(points) > 2 and points[0] == points[-1]:
-                return Polygon(outline=points[:-1])
-            return Chain(points=points, thickness=scale.x)
-        case Marker.TRIANGLE_LIST:
-            # RViz scales the points of this type; a scale that was left out counts as one.
-            x, y = scale.x or 1.0, scale.y or 1.0
-            check_finite((x, y), 2, 'scale')
-            if not (x > 0 and y > 0):
-                raise BadSize('scale must be positive', field='scale')
-            points = _points(marker.points)
-            return Triangles(vertices=tuple((px * x, py * y) for px, py in points))
-        case Marker.CUBE_LIST:
-            box = Box(width=scale.x, height=scale.y)
-            return Compound(element=box, centers=_points(marker.points))
-        case Marker.SPHERE_LIST:
-            return Compound(element=_disc(marker), centers=_points(marker.points))
-        case _:
-            raise UnknownShape(f'a marker of type {marker.type} is no body', field='type')
-
-
-def _disc(marker: Marker) -> Disc:
-    disc = Disc(radius=marker.scale.x / 2)
-    check_finite((marker.scale.y,), 1, 'scale.y')
-    if marker.scale.y != marker.scale.x:
-        raise BadSize('a disc is round: scale.x and scale.y must be equal', field='scale.y')
-    return disc
-
-
-def _points(points: Sequence[Point]) -> tuple[tuple[float, float], ...]:
-    # A closed line says its first point twice, so that one more than the most may be right; one
-    # more than that is enough for the shape to refuse them all.
-    return tuple((point.x, point.y) for point in points[: MOST_POINTS + 2])

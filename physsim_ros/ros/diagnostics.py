@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""How the node is doing, each second: what a frame costs, what is late, what the world holds."""
+"""`/diagnostics` once a second: cost of a frame, late frames, real-time factor, energies."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ from builtin_interfaces.msg import Time
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from physsim_ros.model.snapshot import run_state, Snapshot
 
-# Seconds of wall time over which the real-time factor is smoothed: as fast as a person reads.
+# Time constant of the smoothed real-time factor, in wall time [s]: legible to a person.
 _SMOOTHING = 1.0
 
 
-class Meter:
-    """Measures frames as they are made; steady times are handed in."""
+class FrameStatistics:
+    """Cost of frames and real-time factor; steady times are arguments."""
 
     def __init__(self) -> None:
         self.real_time_factor = 0.0
@@ -33,30 +33,30 @@ class Meter:
         self._frames = 0
         self._step_ns = 0
         self._frame_ns = 0
-        self._late_told = 0
+        self._late_reported = 0
 
     def add(self, *, now_ns: int, stamp: int, step_ns: int, frame_ns: int) -> None:
         """
         Add a frame.
 
-        :param now_ns: steady time of it [ns]
-        :param stamp: its simulation time [ns]
-        :param step_ns: what its steps cost [ns]
-        :param frame_ns: what all of it cost [ns]
+        :param now_ns: steady time of the frame [ns]
+        :param stamp: simulation time of the frame [ns]
+        :param step_ns: cost of its steps [ns]
+        :param frame_ns: cost of its steps and of publishing [ns]
         """
         self._frames += 1
         self._step_ns += step_ns
         self._frame_ns += frame_ns
         if self._last is not None and now_ns > self._last[0]:
             elapsed = now_ns - self._last[0]
-            # The first factor that there is counts in full.
+            # The first factor is not smoothed.
             share = min(1.0, elapsed * 1e-9 / _SMOOTHING) if self.real_time_factor else 1.0
             factor = (stamp - self._last[1]) / elapsed
             self.real_time_factor += share * (factor - self.real_time_factor)
         self._last = (now_ns, stamp)
 
-    def pause(self) -> None:
-        """Forget the pace: time stands still, or has jumped."""
+    def reset_pace(self) -> None:
+        """Reset the real-time factor: the world is paused, or time has jumped."""
         self._last = None
         self.real_time_factor = 0.0
 
@@ -64,14 +64,14 @@ class Meter:
         self, snapshot: Snapshot, *, node: str, speed: float, late_frames: int, viewer: str
     ) -> DiagnosticArray:
         """
-        Return what to publish, and begin the next second.
+        Return the message of the last second, and begin the next.
 
-        :param node: whole name of the node, which tells worlds apart
+        :param node: fully qualified name of the node
         :param speed: simulation seconds a second
-        :param late_frames: since the world began
-        :param viewer: what is shown where
+        :param late_frames: since the node started
+        :param viewer: state of the viewer, in one sentence
         """
-        late, self._late_told = late_frames - self._late_told, late_frames
+        late, self._late_reported = late_frames - self._late_reported, late_frames
         count = self._frames
         frames = max(1, count)
         px, py = snapshot.momentum

@@ -13,9 +13,9 @@
 # limitations under the License.
 
 """
-physsim_draw: draws a drawing into a world, stroke by stroke, as somebody with a pen would.
+The program `physsim_draw`: publishes the strokes of a drawing to a world, one after the other.
 
-Law: it knows the world by its topics alone, and draws on only when the stroke before is answered.
+Law: it uses topics and services only, and publishes a stroke after the answer to the one before.
 """
 
 from __future__ import annotations
@@ -31,10 +31,9 @@ import time
 from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import PoseStamped
 from nav_msgs.msg import Path
-from physsim_ros.files import drawing_file
-from physsim_ros.files.drawing_file import BadDrawing, Pace
+from physsim_ros.files import BadDrawing, find_drawing, load_drawing, Pace
 from physsim_ros.model.arrays import Floats
-from physsim_ros.ros.qos_safe_node import LOSSLESS, QuietNode
+from physsim_ros.ros.qos_safe_node import LOSSLESS, NodeWithoutQosEvents
 import rclpy
 from rclpy.exceptions import InvalidTopicNameException
 from rclpy.experimental import EventsExecutor
@@ -46,19 +45,19 @@ from std_srvs.srv import Trigger
 
 
 class Unanswered(Exception):
-    """The world is not there, or does not answer."""
+    """There is no world, or it does not answer."""
 
 
 class Interrupted(Exception):
-    """Somebody wants it to end."""
+    """The program was interrupted by a signal."""
 
 
-class Artist(QuietNode):
+class StrokePublisher(NodeWithoutQosEvents):
     """
-    A node that draws strokes and hears what becomes of them.
+    A node that publishes strokes and receives the answers.
 
-    :param world: the name of the world's node
-    :param patience: for the world to appear, and for each answer [s]
+    :param world: name of the node of the world
+    :param patience: timeout for the discovery of the world, and for each answer [s]
     """
 
     def __init__(self, world: str, *, patience: float) -> None:
@@ -67,7 +66,7 @@ class Artist(QuietNode):
         self._answers: deque[DiagnosticStatus] = deque()
         self._strokes = self.create_publisher(Path, f'{world}/stroke', LOSSLESS)
         self._events = self.create_subscription(
-            DiagnosticStatus, f'{world}/events', self._hear, LOSSLESS
+            DiagnosticStatus, f'{world}/events', self._receive, LOSSLESS
         )
         self._buttons = {
             name: self.create_client(Trigger, f'{world}/{name}') for name in ('pause', 'play')
@@ -78,11 +77,11 @@ class Artist(QuietNode):
         for number in (signal.SIGINT, signal.SIGTERM):
             signal.signal(number, lambda received, _: self._stopped.append(received))
 
-    def meet(self) -> None:
+    def wait_for_world(self) -> None:
         """
-        Wait until the world hears and is heard.
+        Wait until publishers and subscriptions have been matched with those of the world.
 
-        :raises Unanswered: there is none
+        :raises Unanswered: there is no world
         """
         events, strokes = self._events, self._strokes
         self._spin_until(
@@ -90,14 +89,16 @@ class Artist(QuietNode):
             f'there is no world at {strokes.topic_name.rpartition("/")[0]}',
         )
 
-    def draw(self, stroke: Floats, *, frame_id: str, at_once: bool) -> list[DiagnosticStatus]:
+    def draw_stroke(
+        self, stroke: Floats, *, frame_id: str, at_once: bool
+    ) -> list[DiagnosticStatus]:
         """
-        Draw a stroke as fast as its times say, and return all that the world answers.
+        Publish a stroke after the duration of drawing it, and return the answers to it.
 
         :param stroke: (n, 3) float64: x, y [m], time [s]
-        :param frame_id: that it is drawn in; '' is the world's
-        :param at_once: whether the pen takes no time
-        :raises Unanswered: the world does not
+        :param frame_id: of the stroke; '' is the world frame
+        :param at_once: whether to publish without that duration
+        :raises Unanswered: the world does not answer
         """
         if not at_once:
             lifted = time.monotonic() + float(stroke[-1, 2])
@@ -105,15 +106,15 @@ class Artist(QuietNode):
         self._answers.clear()
         self._strokes.publish(self._message(stroke, frame_id))
         self._spin_until(lambda: self._answers, 'the world does not answer')
-        # The first one tells how the stroke was read, and how many answers follow.
+        # The first answer reports the reading, and the number of answers that follow.
         values = {pair.key: pair.value for pair in self._answers[0].values}
         count = 1 + int(values.get('requests', '0'))
         self._spin_until(lambda: len(self._answers) >= count, 'the world does not answer')
         return [self._answers.popleft() for _ in range(count)]
 
-    def call(self, service: str) -> None:
+    def call_service(self, service: str) -> None:
         """
-        Have the world pause or play.
+        Call `~/pause` or `~/play`.
 
         :raises Unanswered: it does not answer
         """
@@ -122,7 +123,8 @@ class Artist(QuietNode):
         futures: list[Future] = []
 
         def answered() -> bool:
-            # Again each second: a world that has not discovered a client yet drops its answer.
+            # Called again each second: a service that has not discovered its client yet drops the
+            # response.
             if time.monotonic() >= began + len(futures):
                 futures.append(client.call_async(Trigger.Request()))
             return any(future.done() for future in futures)
@@ -131,7 +133,7 @@ class Artist(QuietNode):
         self._spin_until(answered, f'{service} is not answered')
 
     def close(self) -> None:
-        """Leave the graph."""
+        """Destroy the node and its executor."""
         self._executor.remove_node(self)
         self._executor.shutdown()
         self.destroy_node()
@@ -149,7 +151,7 @@ class Artist(QuietNode):
             message.poses.append(sample)
         return message
 
-    def _hear(self, status: DiagnosticStatus) -> None:
+    def _receive(self, status: DiagnosticStatus) -> None:
         if status.name == '~/stroke':
             self._answers.append(status)
 
@@ -159,7 +161,7 @@ class Artist(QuietNode):
         deadline = time.monotonic() + (self._patience if patience is None else patience)
         while not predicate():
             if self._stopped:
-                # Told once: what is left to be put right can still be.
+                # Raised once, so that `play` can still be called.
                 self._stopped.clear()
                 raise Interrupted
             if time.monotonic() > deadline:
@@ -168,19 +170,19 @@ class Artist(QuietNode):
 
 
 def main() -> None:
-    """Draw a drawing, say what each stroke was read as, and end."""
+    """Draw a drawing, print the reading of each stroke, and exit."""
     try:
         options = _options(remove_ros_args(sys.argv)[1:])
         rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
     except RuntimeError as error:
-        # rcl's own: arguments that it cannot read.
+        # rcl raises it for invalid arguments.
         sys.exit(f'physsim_draw: {error}')
     try:
         _draw_drawing(options)
     except (BadDrawing, Unanswered) as error:
         sys.exit(f'physsim_draw: {error}')
     except InvalidTopicNameException as error:
-        # The lines below point at what is wrong with it.
+        # The lines below the first one mark the invalid character.
         first, *_ = str(error).splitlines()
         sys.exit(f'physsim_draw: --world: {first.rstrip(":")}')
     except Interrupted:
@@ -190,31 +192,33 @@ def main() -> None:
 
 
 def _draw_drawing(options: argparse.Namespace) -> None:
-    strokes = drawing_file.load(
-        drawing_file.find(options.drawing),
+    strokes = load_drawing(
+        find_drawing(options.drawing),
         scale=options.scale,
         pace=Pace(speed=options.speed, rate=options.rate),
     )
     for stroke in strokes:
         stroke[:, :2] += options.at
-    artist = Artist(options.world, patience=options.patience)
+    publisher = StrokePublisher(options.world, patience=options.patience)
     try:
-        refused = _draw_all(artist, strokes, options)
+        refused = _draw_all(publisher, strokes, options)
     finally:
-        artist.close()
+        publisher.close()
     if refused:
         sys.exit(f'physsim_draw: {refused} of {len(strokes)} strokes were refused')
 
 
-def _draw_all(artist: Artist, strokes: Sequence[Floats], options: argparse.Namespace) -> int:
-    """Draw strokes and return how many of them the world refused something of."""
-    artist.meet()
+def _draw_all(
+    publisher: StrokePublisher, strokes: Sequence[Floats], options: argparse.Namespace
+) -> int:
+    """Draw strokes and return the number of those with a refused request."""
+    publisher.wait_for_world()
     refused = 0
     if options.pause:
-        artist.call('pause')
+        publisher.call_service('pause')
     try:
         for number, stroke in enumerate(strokes, 1):
-            answers = artist.draw(stroke, frame_id=options.frame, at_once=options.once)
+            answers = publisher.draw_stroke(stroke, frame_id=options.frame, at_once=options.once)
             refused += any(answer.level != DiagnosticStatus.OK for answer in answers)
             for answer in answers:
                 words = 'refused: ' if answer.level != DiagnosticStatus.OK else ''
@@ -222,7 +226,7 @@ def _draw_all(artist: Artist, strokes: Sequence[Floats], options: argparse.Names
                 print(line, flush=True)  # noqa: T201
     finally:
         if options.pause:
-            artist.call('play')
+            publisher.call_service('play')
     return refused
 
 

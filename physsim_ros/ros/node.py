@@ -13,9 +13,10 @@
 # limitations under the License.
 
 """
-The node: subscriptions, services, parameters and one timer around a Simulation.
+The node: subscriptions, parameters and timers around a Simulation, and the program `physsim`.
 
-It wires and reports, and decides nothing.
+Law: a callback converts a message, submits the request and reports a refusal; all decisions are
+taken by the simulation.
 """
 
 from __future__ import annotations
@@ -36,28 +37,25 @@ from typing import Any
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PointStamped
 from nav_msgs.msg import Path as PathMessage
-from physsim_ros.drawing.clicks.tools import Tool
-from physsim_ros.drawing.session import Pen, told
-from physsim_ros.files import world_file
-from physsim_ros.model.checkpoint import WorldState
+from physsim_ros.drawing import DrawingSession, reading_answer, Tool
 from physsim_ros.model.errors import PhysSimError, Refusal
 from physsim_ros.model.requests import (
     Anchor,
     Axle,
     Configure,
-    DeleteAll,
     Pin,
     Release,
     Request,
 )
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.snapshot import Answer, Frame, run_state, Snapshot
+from physsim_ros.model.snapshot import Answer, Frame, Snapshot
 from physsim_ros.ros import conversions, parameters, stroke_reader
-from physsim_ros.ros.diagnostics import Meter
-from physsim_ros.ros.publishers import Streams
-from physsim_ros.ros.qos_safe_node import LOSSLESS, QuietNode
+from physsim_ros.ros.diagnostics import FrameStatistics
+from physsim_ros.ros.publishers import Publishers
+from physsim_ros.ros.qos_safe_node import LOSSLESS, NodeWithoutQosEvents
+from physsim_ros.ros.services import create_services, WorldFiles
 from physsim_ros.simulation.simulation import Simulation
-from physsim_ros.view.viewer import Viewer, ViewerMode
+from physsim_ros.view import Viewer, ViewerMode
 from rcl_interfaces.msg import SetParametersResult
 import rclpy
 from rclpy.clock import Clock as RosClock
@@ -70,17 +68,20 @@ from rclpy.utilities import remove_ros_args
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import MultiDOFJointState
 from std_msgs.msg import Float64
-from std_srvs.srv import Trigger
 from visualization_msgs.msg import Marker, MarkerArray
 
 
-class PhysSimNode(QuietNode):
+class PhysSimNode(NodeWithoutQosEvents):
     """
     A physics world on the ROS graph.
 
     :param context: of ROS; None is the default one
-    :param parameter_overrides: values that come before those of the command line
+    :param parameter_overrides: values that override those of the command line
     :raises PhysSimError: a parameter or the world file is refused
+
+    :ivar simulation: the world and its time
+    :ivar world_files: reads and writes the world file of parameter `world_file`
+    :ivar frame: the last frame that was published; None before the first
     """
 
     def __init__(
@@ -100,13 +101,13 @@ class PhysSimNode(QuietNode):
         try:
             self._set_up()
         except BaseException:
-            # What is refused leaves nothing on the graph.
+            # A refused node leaves nothing on the graph.
             self.destroy_node()
             raise
 
     def _set_up(self) -> None:
         """
-        Make the world, and let the graph reach it.
+        Create the world, then publishers, subscriptions and services.
 
         :raises PhysSimError: a parameter or the world file is refused
         """
@@ -119,114 +120,126 @@ class PhysSimNode(QuietNode):
             history=self._values['history'],
         )
         self._frame_id: str = self._values['frame_id']
-        self._world_dir = Path(self._values['world_dir'])
-        self._streams = Streams(
+        self.world_files = WorldFiles(self.simulation, self._values)
+        self._world_publishers = Publishers(
             self, frame_id=self._frame_id, publish_clock=self._values['publish_clock']
         )
-        self._pen = Pen(parameters.drawing_settings(self._values), Tool(self._values['tool']))
-        self._meter = Meter()
+        self._session = DrawingSession(
+            parameters.drawing_settings(self._values), Tool(self._values['tool'])
+        )
+        self._statistics = FrameStatistics()
         self._diagnostics = self.create_publisher(DiagnosticArray, '/diagnostics', 10)
-        # The last one that was delivered.
         self.frame: Frame | None = None
         self._started = False
-        self._followed: WorldSettings | None = self.simulation.settings
+        # The settings of the world that the parameters have; None where they may differ.
+        self._mirrored: WorldSettings | None = self.simulation.settings
         if self._values['world_file']:
-            self.simulation.begin(self._read_world(confined=False)[0])
-            self._follow()
-        self._subscribe()
-        self._serve()
+            self.world_files.begin_with()
+            self._mirror_settings()
+        self._create_subscriptions()
+        create_services(
+            self,
+            self.simulation,
+            self.world_files,
+            fast_speed=lambda: self._values['fast_speed'],
+            set_speed=lambda speed: self.set_parameters([Parameter('speed', value=speed)]),
+            advance_frame=self.advance_frame,
+            on_success=self._mirror_settings,
+        )
         self.add_on_set_parameters_callback(self._check_parameters)
-        self.add_post_set_parameters_callback(self._take_parameters)
+        self.add_post_set_parameters_callback(self._apply_parameters)
 
     def start(self) -> None:
-        """Let time run: frames at the publish rate of a steady clock, and a viewer."""
+        """Start the timers, on a steady clock, and the viewer."""
         self._started = True
         if self._values['record_file']:
             self.record(Path(self._values['record_file']))
         self._open_viewer()
-        # The node that publishes the clock must not wait for it.
+        # The node that publishes `clock` cannot run its timers on it.
         steady = RosClock(clock_type=ClockType.STEADY_TIME)
         period = 1.0 / self._values['publish_rate']
         self.create_timer(period, lambda: self.tick(time.monotonic_ns()), clock=steady)
-        self.create_timer(1.0, self._diagnose, clock=steady)
+        self.create_timer(1.0, self._publish_diagnostics, clock=steady)
         self.get_logger().info(f'ready: {len(self.simulation.world)} bodies')
 
     def tick(self, now_ns: int) -> None:
         """
-        Go on by what is due at a steady time, and deliver the frames.
+        Advance the world to a steady time, and publish the frames.
 
-        :param now_ns: steady time, never going back [ns]
+        :param now_ns: steady time, monotonic [ns]
         """
         began = time.perf_counter_ns()
-        self._watch()
+        self._update_contact_recording()
         frames = self.simulation.advance(now_ns)
         stepped = time.perf_counter_ns()
         for frame in frames:
-            self.deliver(frame)
+            self.publish_frame(frame)
         if not frames:
-            if self.frame is not None and self.frame.preview != self._pen.preview:
-                # Nothing has happened but that what was half drawn has been dropped.
-                self._show(replace(self.frame, answers=(), moved=False))
-            self._streams.welcome()
+            if self.frame is not None and self.frame.preview != self._session.preview:
+                # Only the preview has changed: an unfinished gesture was dropped.
+                self._show_frame(replace(self.frame, answers=(), moved=False))
+            self._world_publishers.publish_to_late_subscribers()
             return
         last = frames[-1]
         if last.moved:
-            self._meter.add(
+            self._statistics.add(
                 now_ns=now_ns,
                 stamp=last.snapshot.stamp,
                 step_ns=stepped - began,
                 frame_ns=time.perf_counter_ns() - began,
             )
         else:
-            self._meter.pause()
+            self._statistics.reset_pace()
 
-    def deliver(self, frame: Frame) -> None:
-        """Send a frame to topics and viewer."""
-        self._follow()
+    def publish_frame(self, frame: Frame) -> None:
+        """Publish a frame on the topics and in the viewer."""
+        self._mirror_settings()
         for answer in frame.answers:
-            self._log(answer)
-        self._streams.publish(frame)
-        self._show(frame)
+            self._log_answer(answer)
+        self._world_publishers.publish_frame(frame)
+        self._show_frame(frame)
 
-    def _show(self, frame: Frame) -> None:
-        """Send a frame, and what is half drawn now, to the viewer."""
-        if self._pen.preview != frame.preview:
-            frame = replace(frame, preview=self._pen.preview)
+    def _show_frame(self, frame: Frame) -> None:
+        """Send a frame, with the current preview, to the viewer."""
+        if self._session.preview != frame.preview:
+            frame = replace(frame, preview=self._session.preview)
         self.frame = frame
-        self._viewer.show(frame, real_time_factor=self._meter.real_time_factor)
+        self._viewer.show(frame, real_time_factor=self._statistics.real_time_factor)
 
     def advance_frame(self) -> None:
-        """Go on by one publish period, whatever the clock says, and deliver the frame."""
-        self._watch()
-        self.deliver(self.simulation.advance_frame())
+        """Advance the world by one publish period, at any time, and publish the frame."""
+        self._update_contact_recording()
+        self.publish_frame(self.simulation.advance_frame())
 
-    def apply(self) -> None:
-        """Carry out what was asked while time stands still."""
-        self._watch()
+    def apply_requests(self) -> None:
+        """Apply the waiting requests without advancing time, and publish the frame."""
+        self._update_contact_recording()
         frame = self.simulation.settle()
         if frame is not None:
-            self.deliver(frame)
+            self.publish_frame(frame)
         else:
-            self._streams.flush()
+            self._world_publishers.flush_answers()
 
     @property
     def frame_period(self) -> float:
-        """Return the simulation time from one frame to the next at speed 1 [s]."""
+        """Return the simulation time of a frame at speed 1 [s]."""
         return self.simulation.frame_steps / self.simulation.physics_rate
 
-    def _watch(self) -> None:
-        """Have contacts read where somebody looks."""
-        self.simulation.watch_contacts(self._streams.wants_contacts or self._viewer.is_open)
+    def _update_contact_recording(self) -> None:
+        """Record contacts while there is a subscriber or a viewer."""
+        self.simulation.watch_contacts(
+            self._world_publishers.wants_contacts or self._viewer.is_open
+        )
 
     def destroy_node(self) -> None:
-        """Close the viewer, then everything of ROS."""
+        """Close the viewer, and destroy the node."""
         self._viewer.close()
         super().destroy_node()
 
     # Requests
 
-    def _subscribe(self) -> None:
-        def listen(kind: type, topic: str, convert: Callable[..., Request]) -> None:
+    def _create_subscriptions(self) -> None:
+        def subscribe(kind: type, topic: str, convert: Callable[..., Request]) -> None:
             field = 'point' if kind is PointStamped else ''
 
             def callback(message: Any) -> None:
@@ -234,13 +247,13 @@ class PhysSimNode(QuietNode):
 
             self.create_subscription(kind, topic, callback, LOSSLESS)
 
-        listen(Marker, '~/spawn', conversions.body_request)
-        listen(Marker, '~/join', conversions.joint_request)
-        listen(PointStamped, '~/pin', partial(conversions.point_request, Pin))
-        listen(PointStamped, '~/axle', partial(conversions.point_request, Axle))
-        listen(PointStamped, '~/anchor', partial(conversions.point_request, Anchor))
-        listen(PointStamped, '~/release', partial(conversions.point_request, Release))
-        listen(MultiDOFJointState, '~/command', conversions.command_request)
+        subscribe(Marker, '~/spawn', conversions.body_request)
+        subscribe(Marker, '~/join', conversions.joint_request)
+        subscribe(PointStamped, '~/pin', partial(conversions.point_request, Pin))
+        subscribe(PointStamped, '~/axle', partial(conversions.point_request, Axle))
+        subscribe(PointStamped, '~/anchor', partial(conversions.point_request, Anchor))
+        subscribe(PointStamped, '~/release', partial(conversions.point_request, Release))
+        subscribe(MultiDOFJointState, '~/command', conversions.command_request)
         self.create_subscription(MarkerArray, '~/spawn_array', self._spawn_array, LOSSLESS)
         self.create_subscription(Float64, '~/speed', self._speed, LOSSLESS)
         self.create_subscription(PointStamped, 'clicked_point', self._click, LOSSLESS)
@@ -265,7 +278,7 @@ class PhysSimNode(QuietNode):
         self.simulation.submit(request, topic=topic, joined=joined, field=field)
 
     def _submit_all(self, requests: Iterable[Request], topic: str, field: str) -> None:
-        """Submit what one gesture asks for: it is undone as one."""
+        """Submit the requests of one gesture, which are undone together."""
         for number, request in enumerate(requests):
             self.simulation.submit(request, topic=topic, joined=number > 0, field=field)
 
@@ -274,13 +287,13 @@ class PhysSimNode(QuietNode):
             self._submit(marker, '~/spawn_array', conversions.body_request, joined=number > 0)
 
     def _speed(self, message: Float64) -> None:
-        # Without the sign of a negative zero.
+        # + 0.0 removes the sign of a negative zero.
         speed = Parameter('speed', value=message.data + 0.0)
         try:
-            # Here too, since rclpy refuses what is out of range in words without a code.
+            # Checked here as well: a refusal by rclpy has no code.
             parameters.check(speed)
         except Refusal as refusal:
-            self._refuse(refusal, '~/speed')
+            self._refuse_command(refusal, '~/speed')
             return
         self.set_parameters([speed])
         self.simulation.tell(Answer(topic='~/speed', message=f'speed {speed.value:g}'))
@@ -290,140 +303,61 @@ class PhysSimNode(QuietNode):
         try:
             done = self.simulation.seek(stamp)
         except Refusal as refusal:
-            self._refuse(refusal, '~/seek')
+            self._refuse_command(refusal, '~/seek')
             return
-        self._meter.pause()
-        self._follow()
+        self._statistics.reset_pace()
+        self._mirror_settings()
         self.simulation.tell(Answer(topic='~/seek', message=done))
 
     def _click(self, message: PointStamped) -> None:
-        with self._drawing('clicked_point', 'point') as snapshot:
-            point, frame = conversions.click(message, frame_id=self._frame_id)
-            step = self._pen.click(point, frame, snapshot)
+        with self._drawing_on_snapshot('clicked_point', 'point') as snapshot:
+            point, frame = conversions.point_in_frame(message, frame_id=self._frame_id)
+            step = self._session.click(point, frame, snapshot)
             if step.message:
                 self.simulation.tell(Answer(topic='clicked_point', message=step.message))
             self._submit_all(step.requests, 'clicked_point', 'point')
 
     def _stroke(self, message: bytes) -> None:
-        with self._drawing('~/stroke', 'poses') as snapshot:
+        with self._drawing_on_snapshot('~/stroke', 'poses') as snapshot:
             samples, frame = stroke_reader.stroke_from(message, frame_id=self._frame_id)
-            reading = self._pen.stroke(samples, frame, snapshot)
-            self.simulation.tell(told(reading, topic='~/stroke'))
+            reading = self._session.stroke(samples, frame, snapshot)
+            self.simulation.tell(reading_answer(reading, topic='~/stroke'))
             self._submit_all(reading.requests, '~/stroke', 'poses')
 
     @contextmanager
-    def _drawing(self, topic: str, field: str) -> Iterator[Snapshot]:
+    def _drawing_on_snapshot(self, topic: str, field: str) -> Iterator[Snapshot]:
         """
-        Give what is seen, with all that was asked before; refuse what cannot be drawn.
+        Give the snapshot that a click or stroke refers to, and refuse one that cannot be drawn.
 
-        :param field: of the message, that drawings are made of
+        :param field: of the message, for the refusal
         """
-        self.apply()
+        self.apply_requests()
         try:
             yield self.simulation.world.snapshot() if self.frame is None else self.frame.snapshot
         except Refusal as refusal:
             self.simulation.refuse(refusal, topic=topic, subject='', field=field)
-        self._streams.show(self._pen.preview)
+        self._world_publishers.publish_preview(self._session.preview)
 
-    def _refuse(self, refusal: Refusal, topic: str) -> None:
-        """Refuse what makes no frame, after the answers to what was asked before."""
-        self.apply()
-        self._report(Answer.refused(refusal, topic=topic))
+    def _refuse_command(self, refusal: Refusal, topic: str) -> None:
+        """Publish a refusal outside of a frame, after the answers to earlier requests."""
+        self.apply_requests()
+        self._report_answer(Answer.refused(refusal, topic=topic))
 
-    def _report(self, answer: Answer) -> None:
-        """Tell of what comes without a frame."""
-        self._streams.report(answer)
-        self._log(answer)
+    def _report_answer(self, answer: Answer) -> None:
+        """Publish and log an answer outside of a frame."""
+        self._world_publishers.publish_answer(answer)
+        self._log_answer(answer)
 
-    def _log(self, answer: Answer) -> None:
+    def _log_answer(self, answer: Answer) -> None:
         if answer.code:
-            # What happens without a request is called as its code is.
-            what = dict.fromkeys((answer.topic, answer.code))
+            # The topic of an event without a request is its code, which is named once.
+            names = dict.fromkeys((answer.topic, answer.code))
             self.get_logger().warning(
-                f'{": ".join(what)}: {answer.message}', throttle_duration_sec=1.0
+                f'{": ".join(names)}: {answer.message}', throttle_duration_sec=1.0
             )
         elif answer.topic == 'viewer':
-            # Where to look is what somebody at the terminal waits for.
+            # The address of the viewer, for the person at the terminal.
             self.get_logger().info(answer.message)
-
-    # Services
-
-    def _serve(self) -> None:
-        for name, act in {
-            'play': lambda: self._run_at(1.0),
-            'pause': lambda: self._run_at(0.0),
-            'rewind': lambda: self._run_at(-1.0),
-            'fast_forward': lambda: self._run_at(self._values['fast_speed']),
-            'fast_rewind': lambda: self._run_at(-self._values['fast_speed']),
-            'step': self._step,
-            'undo': self.simulation.undo,
-            'redo': self.simulation.redo,
-            'reset': self.simulation.reset,
-            'clear': lambda: self.simulation.perform(DeleteAll()),
-            'load_world': lambda: self.load_world(confined=True),
-            'save_world': self._save,
-        }.items():
-            self.create_service(Trigger, f'~/{name}', self._answering(act))
-
-    def _answering(self, act: Callable[[], str]) -> Callable[..., Trigger.Response]:
-        def callback(_: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
-            try:
-                response.message = act()
-                response.success = True
-                self._follow()
-            except Refusal as refusal:
-                response.message = f'{refusal.code}: {refusal}'
-                response.success = False
-            except PhysSimError as error:
-                response.message = str(error)
-                response.success = False
-            return response
-
-        return callback
-
-    def _run_at(self, speed: float) -> str:
-        self.set_parameters([Parameter('speed', value=speed)])
-        return run_state(speed)
-
-    def _step(self) -> str:
-        if self.simulation.speed != 0:
-            raise PhysSimError('running; pause first')
-        self.advance_frame()
-        return f'at {self.simulation.world.stamp * 1e-9:.6f} s'
-
-    def load_world(self, *, confined: bool) -> str:
-        """
-        Replace the world by that of parameter `world_file`, and say what was loaded.
-
-        :param confined: whether only files below `world_dir` and the shipped worlds may be read
-        :raises BadWorldFile: there is no such file, or it is refused
-        """
-        state, path = self._read_world(confined=confined)
-        message = self.simulation.load(state)
-        return f'{message} from {path.name}'
-
-    def _read_world(self, *, confined: bool) -> tuple[WorldState, Path]:
-        path = world_file.find(
-            self._values['world_file'], world_dir=self._world_dir, confined=confined
-        )
-        simulation = self.simulation
-        state = world_file.load(
-            path, settings=simulation.settings, physics_rate=simulation.physics_rate
-        )
-        return state, path
-
-    def _save(self) -> str:
-        state = self.simulation.save()
-        path = world_file.save(
-            state,
-            self._values['world_file'],
-            world_dir=self._world_dir,
-            physics_rate=self.simulation.physics_rate,
-        )
-        message = f'saved {len(state.bodies)} bodies to {path.name}'
-        if world_file.hides_shipped(path, world_dir=self._world_dir):
-            message += '; from now on it comes before the shipped world of that name'
-        return message
 
     # Parameters
 
@@ -438,56 +372,56 @@ class PhysSimNode(QuietNode):
             return SetParametersResult(successful=False, reason=f'{refusal.code}: {refusal}')
         return SetParametersResult(successful=True)
 
-    def _take_parameters(self, changed: list[Parameter]) -> None:
+    def _apply_parameters(self, changed: list[Parameter]) -> None:
         for parameter in changed:
             self._values[parameter.name] = parameter.value
         changes = parameters.world_changes(changed)
         settings = self.simulation.settings
         if replace(settings, **changes) != settings:
             self.simulation.perform(Configure(changes=changes))
-            # Others may have changed as well, by what waited before.
-            self._followed = None
+            # Requests that waited before may have changed other settings.
+            self._mirrored = None
         names = {parameter.name for parameter in changed}
         if 'speed' in names:
             self.simulation.speed = self._values['speed']
-        self._pen.settings = parameters.drawing_settings(self._values)
-        self._pen.tool = Tool(self._values['tool'])
-        self._streams.show(self._pen.preview)
+        self._session.settings = parameters.drawing_settings(self._values)
+        self._session.tool = Tool(self._values['tool'])
+        self._world_publishers.publish_preview(self._session.preview)
         if 'history' in names:
             self.simulation.history = self._values['history']
         if 'publish_clock' in names:
-            self._streams.publish_clock = self._values['publish_clock']
+            self._world_publishers.publish_clock = self._values['publish_clock']
         if 'viewer' in names and self._started:
             self._open_viewer()
 
-    def _follow(self) -> None:
-        """Let the parameters say what the world has been set to, where time has led to that."""
-        if self.simulation.settings is not self._followed:
-            self._followed = settings = self.simulation.settings
+    def _mirror_settings(self) -> None:
+        """Set the parameters to the settings and speed of the world."""
+        if self.simulation.settings is not self._mirrored:
+            self._mirrored = settings = self.simulation.settings
             self.set_parameters(parameters.world_parameters(settings))
         if self.simulation.speed != self._values['speed']:
             self.set_parameters([Parameter('speed', value=self.simulation.speed)])
 
-    # Watching
+    # Viewer and diagnostics
 
     def _open_viewer(self) -> None:
-        self._viewer.turn_to(ViewerMode(self._values['viewer']), self._values['viewer_url'])
+        self._viewer.open(ViewerMode(self._values['viewer']), self._values['viewer_url'])
 
     def record(self, path: Path) -> None:
         """
-        Write what happens from now on to a file, beside any viewer.
+        Record all frames from now on in a file, beside any viewer.
 
-        :param path: of the `.rrd` file; complete when the node is destroyed
+        :param path: of the `.rrd` file, which is complete when the node is destroyed
         """
         self._viewer.record(str(path))
 
-    def _diagnose(self) -> None:
+    def _publish_diagnostics(self) -> None:
         for answer in self._viewer.poll():
-            self._report(answer)
+            self._report_answer(answer)
         if self.frame is None or self._diagnostics.get_subscription_count() == 0:
             return
         self._diagnostics.publish(
-            self._meter.report(
+            self._statistics.report(
                 self.frame.snapshot,
                 node=self.get_fully_qualified_name(),
                 speed=self.simulation.speed,
@@ -497,32 +431,33 @@ class PhysSimNode(QuietNode):
         )
 
 
-def clear_the_way() -> None:
-    """Keep what runs beside the world in its process from holding it up; before rclpy begins."""
-    # A busy Python thread beside it (the viewer's) would otherwise hold a step of 0.6 ms up for
-    # 6 ms: the default switch interval is 5 ms.
+def reduce_latency() -> None:
+    """Reduce the time that other threads of the process delay a step; before `rclpy.init`."""
+    # With the default switch interval of 5 ms, a busy thread of the viewer delays a step of 0.6 ms
+    # by 6 ms.
     sys.setswitchinterval(0.0005)
-    # Fast DDS then hands messages to the network in a thread of its own, beside the next step.
+    # Fast DDS sends messages in a thread of its own, during the next step.
     os.environ.setdefault('RMW_FASTRTPS_PUBLICATION_MODE', 'ASYNCHRONOUS')
 
 
 def main() -> None:
     """Run the node until it is interrupted."""
-    # All that it is told comes as parameters; what stands elsewhere would be ignored.
+    # All settings are parameters; the parser refuses other arguments, which would be ignored.
     usage = ArgumentParser(
         prog='physsim',
         description='Run a physics world as a ROS 2 node.',
         epilog='Parameters, as config/physsim.yaml lists them, come after --ros-args: '
         'physsim --ros-args -p world_file:=demo -p gravity:="[0.0, -1.62]"',
     )
-    clear_the_way()
+    reduce_latency()
     stopped: list[int] = []
-    # rclpy's own handler raises wherever the interpreter is, which can abort it while it ends.
+    # The signal handlers of rclpy (Jazzy) raise at any point of the program, which can abort its
+    # end.
     try:
         usage.parse_args(remove_ros_args(sys.argv)[1:])
         rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
     except RuntimeError as error:
-        # rcl's own: arguments that it cannot read.
+        # rcl raises it for invalid arguments.
         sys.exit(f'physsim: {error}')
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda received, _: stopped.append(received))
@@ -535,14 +470,15 @@ def main() -> None:
     try:
         executor.add_node(node)
         node.start()
-        # What exists now stays; the collector need not look at it in every frame.
+        # Objects that exist now live until the end: the garbage collector skips them.
         gc.collect()
         gc.freeze()
-        # `spin` of this executor never returns; spin_once ends, and raises what callbacks raise.
+        # EventsExecutor.spin (rclpy 7, Jazzy) never returns; spin_once does, and raises the
+        # exceptions of callbacks.
         while not stopped:
             executor.spin_once(timeout_sec=0.1)
     finally:
-        # A crash too leaves no viewer behind.
+        # Also after an exception, so that no viewer process remains.
         executor.remove_node(node)
         executor.shutdown()
         node.destroy_node()

@@ -13,7 +13,7 @@
 # limitations under the License.
 
 """
-Every ROS parameter, declared once: its default, meaning, unit and range.
+The ROS parameters: default, description, unit and range of each.
 
 Law: a value outside its range is refused with a reason and changes nothing.
 """
@@ -25,15 +25,13 @@ from dataclasses import asdict, dataclass, fields
 import math
 from typing import Any
 
-from physsim_ros.drawing.clicks.tools import Tool
-from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.settings import RANGES as DRAWING_RANGES
-from physsim_ros.model.body_properties import FASTEST
-from physsim_ros.model.colors import color_from
+from physsim_ros.drawing import DRAWING_RANGES, DrawingSettings, Tool
+from physsim_ros.model.checks import FASTEST
+from physsim_ros.model.colors import Color, color_from
 from physsim_ros.model.errors import BadProperty, Malformed
 from physsim_ros.model.settings import RANGES as WORLD_RANGES
 from physsim_ros.model.settings import STRONGEST, WorldSettings
-from physsim_ros.model.shapes import Color, LARGEST
+from physsim_ros.model.shapes import LARGEST
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
 from rcl_interfaces.msg import Parameter as ParameterMessage
 from rcl_interfaces.srv import SetParameters, SetParametersAtomically
@@ -46,21 +44,21 @@ _TYPES = {each.value for each in Type}
 VIEWERS = ('none', 'spawn', 'web', 'connect', 'auto')
 _WORLD = {each.name for each in fields(WorldSettings)}
 _DRAWING = {each.name for each in fields(DrawingSettings)}
-# Of draw_color: each body gets a colour of its own.
+# Value of draw_color with which each body has another colour.
 AUTO = 'auto'
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Spec:
     """
-    What a parameter is.
+    The specification of a parameter.
 
-    :param default: also tells its type
-    :param meaning: one line, with its unit
+    :param default: its value and type
+    :param meaning: description in one line, with the unit
     :param low: least value
     :param high: greatest value
     :param choices: allowed values, empty for any
-    :param read_only: fixed once the node runs
+    :param read_only: whether it is fixed after start
     """
 
     default: Any
@@ -72,7 +70,7 @@ class Spec:
 
     @property
     def kind(self) -> Type:
-        """Return the ROS type."""
+        """Return the type of the parameter."""
         if isinstance(self.default, list):
             return Type.DOUBLE_ARRAY
         kind: Type = Type.from_parameter_value(self.default)
@@ -80,7 +78,7 @@ class Spec:
 
     @property
     def descriptor(self) -> ParameterDescriptor:
-        """Return the description that tools show."""
+        """Return the descriptor for `ros2 param describe`."""
         descriptor = ParameterDescriptor(
             description=self.meaning,
             read_only=self.read_only,
@@ -154,7 +152,7 @@ _OF_NODE = {
     'viewer_url': Spec(default='', meaning='Rerun server to connect to', read_only=True),
     'record_file': Spec(default='', meaning='.rrd file written beside any viewer', read_only=True),
 }
-# What is set of the world and of drawing; defaults and ranges are those of the settings.
+# Parameters of the world and of drawing, whose defaults and ranges are those of the settings.
 _MEANINGS = {
     'iterations': 'solver iterations',
     'gravity': f'of a length up to {STRONGEST:g} [m/s²]',
@@ -178,7 +176,7 @@ _MEANINGS = {
 
 def _of_settings() -> dict[str, Spec]:
     defaults = asdict(WorldSettings()) | asdict(DrawingSettings())
-    # In the words of ROS, which has no nothing.
+    # ROS parameters have no None.
     defaults |= {'bounds': [], 'draw_color': AUTO}
     ranges = WORLD_RANGES | DRAWING_RANGES
     specs = {}
@@ -198,15 +196,16 @@ SPECS: dict[str, Spec] = _OF_NODE | _of_settings()
 
 class ParameterServices(ParameterService):
     """
-    The services that set a node's parameters; a value of no type is refused, as any other.
+    The parameter services of a node; a value of unknown type is refused.
 
-    rclpy's own raise over a type that they do not know, which would end the node.
+    rclpy.parameter_service.ParameterService of ROS 2 Jazzy raises on a type that it does not know,
+    which ends the node. This class can go once rclpy refuses such a value.
     """
 
     def _set_parameters_callback(
         self, request: SetParameters.Request, response: SetParameters.Response
     ) -> SetParameters.Response:
-        _know_types(request.parameters)
+        _replace_unknown_types(request.parameters)
         return super()._set_parameters_callback(request, response)
 
     def _set_parameters_atomically_callback(
@@ -214,12 +213,12 @@ class ParameterServices(ParameterService):
         request: SetParametersAtomically.Request,
         response: SetParametersAtomically.Response,
     ) -> SetParametersAtomically.Response:
-        _know_types(request.parameters)
+        _replace_unknown_types(request.parameters)
         return super()._set_parameters_atomically_callback(request, response)
 
 
-def _know_types(messages: Iterable[ParameterMessage]) -> None:
-    """Let values of unknown types be not set."""
+def _replace_unknown_types(messages: Iterable[ParameterMessage]) -> None:
+    """Replace the types of values that are unknown by NOT_SET, which is refused."""
     for message in messages:
         if message.value.type not in _TYPES:
             message.value.type = Type.NOT_SET.value
@@ -229,39 +228,39 @@ def declare(node: Node) -> dict[str, Any]:
     """
     Declare every parameter on a node and return their values.
 
-    :raises PhysSimError: a value that the node was started with is out of range
+    :raises PhysSimError: an initial value is out of range
     """
     values = {}
     for name, spec in SPECS.items():
         default = Parameter(name, spec.kind, spec.default).value
-        # At first of any type and range: what was given is put right and checked here, and what
-        # is refused is refused in one way.
+        # Declared without type and range: initial values are converted and checked here, so that
+        # all refusals are alike.
         node.declare_parameter(name, default, ParameterDescriptor(dynamic_typing=True))
         given = node.get_parameter(name)
         if given.type_ == Type.NOT_SET:
-            # That is what an empty list on the command line, or in a file, comes as.
+            # rcl passes an empty list of the command line, or of a file, as NOT_SET.
             given = Parameter(name, Type.BYTE_ARRAY, [])
-        parameter = _coerced(given)
+        parameter = _converted(given)
         check(parameter)
         node.set_parameters([parameter])
         node.set_descriptor(name, spec.descriptor)
         values[name] = _plain(parameter.value, spec)
     world_settings(values)
     drawing_settings(values)
-    node.add_pre_set_parameters_callback(coerced)
+    node.add_pre_set_parameters_callback(converted)
     return values
 
 
-def coerced(parameters: Iterable[Parameter]) -> list[Parameter]:
-    """Give numbers, whole as the command line writes them or not, the type of their parameter."""
-    return [_coerced(parameter) for parameter in parameters]
+def converted(parameters: Iterable[Parameter]) -> list[Parameter]:
+    """Return the parameters with integers and empty lists converted to the declared types."""
+    return [_converted(parameter) for parameter in parameters]
 
 
 def check(parameter: Parameter) -> None:
     """
-    Refuse a parameter whose value is of the wrong type or out of range.
+    Check type and range of a parameter.
 
-    :raises BadProperty: it is
+    :raises BadProperty: the type is wrong, or the value is out of range
     :raises Malformed: a number is not finite
     """
     spec = SPECS.get(parameter.name)
@@ -285,7 +284,7 @@ def check(parameter: Parameter) -> None:
 
 
 def world_changes(parameters: Iterable[Parameter]) -> dict[str, Any]:
-    """Return what the parameters among these that are the world's set, as its settings have it."""
+    """Return the settings of the world that parameters change, by name."""
     return {
         parameter.name: _setting(parameter.name, parameter.value)
         for parameter in parameters
@@ -295,9 +294,9 @@ def world_changes(parameters: Iterable[Parameter]) -> dict[str, Any]:
 
 def world_settings(values: Mapping[str, Any]) -> WorldSettings:
     """
-    Return the world's settings among parameter values.
+    Return the settings of the world among parameter values.
 
-    :raises PhysSimError: they do not fit
+    :raises PhysSimError: they are refused
     """
     return WorldSettings(**{name: _setting(name, values[name]) for name in _WORLD})
 
@@ -306,7 +305,7 @@ def drawing_settings(values: Mapping[str, Any]) -> DrawingSettings:
     """
     Return the settings of drawing among parameter values.
 
-    :raises PhysSimError: they do not fit
+    :raises PhysSimError: they are refused
     """
     settings = {name: values[name] for name in _DRAWING}
     settings['draw_velocity'] = tuple(values['draw_velocity'])
@@ -315,28 +314,28 @@ def drawing_settings(values: Mapping[str, Any]) -> DrawingSettings:
 
 
 def world_parameters(settings: WorldSettings) -> list[Parameter]:
-    """Return the parameters that tell of the world's settings."""
+    """Return the parameters that have the settings of the world as their values."""
     parameters = []
     for name in sorted(_WORLD):
         value = getattr(settings, name)
         if isinstance(value, tuple):
             value = list(value)
         parameters.append(Parameter(name, SPECS[name].kind, [] if value is None else value))
-    return coerced(parameters)
+    return converted(parameters)
 
 
-def _coerced(parameter: Parameter) -> Parameter:
+def _converted(parameter: Parameter) -> Parameter:
     spec = SPECS.get(parameter.name)
     if spec is None:
         return parameter
     value = parameter.value
     if spec.kind == Type.DOUBLE and parameter.type_ == Type.INTEGER:
         return Parameter(parameter.name, Type.DOUBLE, float(value))
-    # An empty list has no type of its own; rclpy takes it for bytes, ros2cli for booleans.
+    # An empty list has no type: rclpy sends it as bytes, ros2cli as booleans.
     empty = parameter.type_.name.endswith('_ARRAY') and len(value) == 0
     numbers = parameter.type_ in (Type.DOUBLE_ARRAY, Type.INTEGER_ARRAY)
     if spec.kind == Type.DOUBLE_ARRAY and (empty or numbers):
-        # A list, always: what comes by a message is an array of Python's.
+        # A message holds an array.array; the value is always a list.
         return Parameter(parameter.name, Type.DOUBLE_ARRAY, [float(each) for each in value])
     return parameter
 

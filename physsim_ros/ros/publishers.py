@@ -13,26 +13,27 @@
 # limitations under the License.
 
 """
-Frames and answers to topics: the publishers of the world and their QoS.
+The publishers of the world: topics, types and QoS, and the frames at which each publishes.
 
-Law: a stream that nobody subscribes to costs nothing, and who comes late sees what is so.
+Law: a stream without subscribers is not encoded, and a late subscriber receives the last frame.
 
-The picture is the one exception: its last message is kept for who comes late, so that it goes out
-unseen too, when the scene has changed and every `QUIET` frames.
+The exception is `~/markers`: DDS keeps its last message for late subscribers (transient local).
+It is published without subscribers too, when the scene has changed and every `LATCH_PERIOD`
+frames.
 """
 
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable
 import time
 from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import PoseArray
-from physsim_ros.model.preview import NOTHING, Preview
+from physsim_ros.model.preview import NO_PREVIEW, Preview
 from physsim_ros.model.snapshot import Answer, Frame
-from physsim_ros.ros import encoders, preview_markers
+from physsim_ros.ros import encoders
+from physsim_ros.ros.encoders import Encoder
 from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.publisher import Publisher
@@ -41,79 +42,55 @@ from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import MultiDOFJointState
 from visualization_msgs.msg import MarkerArray
 
-# Frames from one unseen picture to the next: a second of them.
-QUIET = 60
-# The depth of `~/events`. A burst is longer, and what has not arrived when it is pushed out is
-# lost, so that more wait for it.
-KEPT_ANSWERS = 1000
-# Whoever has not taken them after that long has stopped [s]. Fast DDS asks after 3.
-PATIENCE = 5.0
-
-Encode = Callable[[Frame], bytes | None]
+# Frames between messages on `~/markers` without subscribers: one second of them at 60 Hz.
+LATCH_PERIOD = 60
+# Depth of `~/events`. In a longer burst, answers wait until those before have been acknowledged,
+# since a message that is not yet acknowledged is lost when the history is full.
+EVENTS_DEPTH = 1000
+# The longest wait for acknowledgements [s]. Fast DDS repeats a heartbeat every 3 s.
+ACK_TIMEOUT = 5.0
 
 
-class Streams:
+class Publishers:
     """
-    The world's output topics.
+    The publishers of the world.
 
-    :param node: whose topics they are
+    :param node: that owns them
     :param frame_id: name of the world frame
-    :param publish_clock: whether simulation time goes to `clock`
+    :param publish_clock: whether simulation time is published on `clock`
     """
 
     def __init__(self, node: Node, *, frame_id: str, publish_clock: bool) -> None:
-        # Whether the world has been beyond time 0.
-        self._began = False
-        poses, states = encoders.PosesEncoder(frame_id), encoders.StatesEncoder(frame_id)
-        markers, pairs = encoders.MarkersEncoder(frame_id), encoders.ContactsEncoder(frame_id)
+        def stream(kind: Any, topic: str, depth: int, encoder: Encoder) -> _Stream:
+            return _Stream(node.create_publisher(kind, topic, _reliable(depth)), encoder)
 
-        def contacts(frame: Frame) -> bytes | None:
-            # None where nobody had asked yet when the frame was made.
-            return (
-                pairs.encode(frame.snapshot, frame.contacts)
-                if frame.contacts is not None
-                else None
-            )
+        def latched(kind: Any, topic: str) -> Publisher:
+            qos = _reliable(1, DurabilityPolicy.TRANSIENT_LOCAL)
+            return node.create_publisher(kind, topic, qos)
 
-        def clock(frame: Frame) -> bytes | None:
-            # To a node that uses simulation time, 0 means that no clock has come yet: that is so
-            # before the first step, and no more when the world comes back to its beginning.
-            self._began = self._began or frame.snapshot.stamp > 0
-            return encoders.encode_clock(max(1, frame.snapshot.stamp)) if self._began else None
-
-        def publisher(kind: Any, topic: str, depth: int) -> Publisher:
-            return node.create_publisher(kind, topic, _reliable(depth))
-
-        picture = _reliable(1, DurabilityPolicy.TRANSIENT_LOCAL)
-        self._contacts = _Stream(publisher(MultiDOFJointState, '~/contacts', 5), contacts)
-        self._clock = _Stream(publisher(Clock, 'clock', 10), clock)
+        self._clock = stream(Clock, 'clock', 10, encoders.ClockEncoder())
         self._clock.open = publish_clock
-        # Contacts are what happened, not what is so: who comes late has missed them.
-        self._lasting = (
-            self._clock,
-            _Stream(publisher(PoseArray, '~/poses', 5), lambda it: poses.encode(it.snapshot)),
-            _Stream(
-                publisher(MultiDOFJointState, '~/states', 5),
-                lambda it: states.encode(it.snapshot),
-            ),
-            _Picture(
-                node.create_publisher(MarkerArray, '~/markers', picture),
-                lambda it: markers.encode(it.snapshot),
-            ),
+        # Contacts are those of one frame, so a late subscriber does not receive the last ones.
+        self._contacts = stream(
+            MultiDOFJointState, '~/contacts', 5, encoders.ContactsEncoder(frame_id)
         )
+        self._state_streams = (
+            self._clock,
+            stream(PoseArray, '~/poses', 5, encoders.PosesEncoder(frame_id)),
+            stream(MultiDOFJointState, '~/states', 5, encoders.StatesEncoder(frame_id)),
+            _LatchedStream(latched(MarkerArray, '~/markers'), encoders.MarkersEncoder(frame_id)),
+        )
+        self._preview_publisher = latched(MarkerArray, '~/preview')
         self._frame_id = frame_id
-        self._preview = node.create_publisher(MarkerArray, '~/preview', picture)
-        self._shown: Preview = NOTHING
-        self._events = publisher(DiagnosticStatus, '~/events', KEPT_ANSWERS)
-        self._answers: deque[bytes] = deque()
-        # Answers since all were known to have arrived, and until when more of them wait for that.
-        self._unheard = 0
-        self._held_until: float | None = None
-        self._last: Frame | None = None
+        self._preview: Preview = NO_PREVIEW
+        self._frame: Frame | None = None
+        self._events = _EventPublisher(
+            node.create_publisher(DiagnosticStatus, '~/events', _reliable(EVENTS_DEPTH))
+        )
 
     @property
     def publish_clock(self) -> bool:
-        """Whether simulation time goes to `clock`; may be changed at any time."""
+        """Whether simulation time is published on `clock`; may be changed at any time."""
         return self._clock.open
 
     @publish_clock.setter
@@ -122,123 +99,144 @@ class Streams:
 
     @property
     def wants_contacts(self) -> bool:
-        """Whether anybody subscribes to contacts."""
-        return self._contacts.audience > 0
+        """Whether `~/contacts` has subscribers."""
+        return self._contacts.subscriptions > 0
 
-    def publish(self, frame: Frame) -> None:
-        """Publish the answers of a frame, and the streams of it that somebody subscribes to."""
+    def publish_frame(self, frame: Frame) -> None:
+        """Publish the answers of a frame, and those of its streams that have subscribers."""
         for answer in frame.answers:
-            self.report(answer)
-        self.flush()
-        self._last = frame
-        for stream in (*self._lasting, self._contacts):
+            self.publish_answer(answer)
+        self.flush_answers()
+        self._frame = frame
+        for stream in (*self._state_streams, self._contacts):
             stream.publish(frame)
 
-    def welcome(self) -> None:
-        """Publish the last frame again where a subscriber has come since; for idle ticks."""
-        self.flush()
-        if self._last is not None:
-            for stream in self._lasting:
-                stream.welcome(self._last)
+    def publish_to_late_subscribers(self) -> None:
+        """Publish the last frame to later subscribers; called at ticks without a frame."""
+        self.flush_answers()
+        if self._frame is not None:
+            for stream in self._state_streams:
+                stream.publish_to_late_subscribers(self._frame)
 
-    def show(self, preview: Preview) -> None:
-        """Publish what is half drawn where it has changed; who comes late gets the last."""
-        if preview != self._shown:
-            self._shown = preview
-            stamp = self._last.snapshot.stamp if self._last else 0
-            message = preview_markers.markers(preview, frame_id=self._frame_id, stamp=stamp)
-            self._preview.publish(message)
+    def publish_preview(self, preview: Preview) -> None:
+        """Publish a preview if it has changed."""
+        if preview != self._preview:
+            self._preview = preview
+            stamp = self._frame.snapshot.stamp if self._frame else 0
+            message = encoders.preview_message(preview, frame_id=self._frame_id, stamp=stamp)
+            self._preview_publisher.publish(message)
 
-    def report(self, answer: Answer) -> None:
-        """Publish what became of a request, once listeners have kept up with those before."""
-        if self._events.get_subscription_count():
-            self._answers.append(encoders.encode_event(answer))
-            if len(self._answers) == 1:
+    def publish_answer(self, answer: Answer) -> None:
+        """Publish the answer to a request, after those that wait for acknowledgements."""
+        self._events.publish(answer)
+
+    def flush_answers(self) -> None:
+        """Publish the answers that wait for acknowledgements, as far as these have come."""
+        self._events.flush()
+
+
+class _EventPublisher:
+    """
+    Publishes answers, at most `EVENTS_DEPTH` ahead of what subscribers have acknowledged.
+
+    :param publisher: of `~/events`
+    """
+
+    def __init__(self, publisher: Publisher) -> None:
+        self._publisher = publisher
+        self._waiting: deque[bytes] = deque()
+        # Answers since all before were acknowledged, and the time until which more of them wait.
+        self._unacknowledged = 0
+        self._deadline: float | None = None
+
+    def publish(self, answer: Answer) -> None:
+        if self._publisher.get_subscription_count():
+            self._waiting.append(encoders.encode_event(answer))
+            if len(self._waiting) == 1:
                 self.flush()
 
     def flush(self) -> None:
-        """Publish the answers that wait for listeners to keep up; for every tick."""
-        while self._answers and self._keeps_up():
-            self._events.publish(self._answers.popleft())
-            self._unheard += 1
+        while self._waiting and self._has_room():
+            self._publisher.publish(self._waiting.popleft())
+            self._unacknowledged += 1
 
-    def _keeps_up(self) -> bool:
-        """Tell whether one more answer pushes none out that has not arrived."""
-        if self._unheard < KEPT_ANSWERS:
+    def _has_room(self) -> bool:
+        """Return whether one more answer displaces none that is not acknowledged."""
+        if self._unacknowledged < EVENTS_DEPTH:
             return True
         now = time.monotonic()
-        if self._held_until is None:
-            self._held_until = now + PATIENCE
-        if now < self._held_until and not self._events.wait_for_all_acked(Duration()):
+        if self._deadline is None:
+            self._deadline = now + ACK_TIMEOUT
+        if now < self._deadline and not self._publisher.wait_for_all_acked(Duration()):
             return False
-        self._unheard, self._held_until = 0, None
+        self._unacknowledged, self._deadline = 0, None
         return True
 
 
 class _Stream:
     """
-    A topic that frames go to while somebody subscribes.
+    Publishes frames on a topic while it has subscribers.
 
     :param publisher: of the topic
-    :param encode: makes the serialised message of a frame, or None where there is none
+    :param encoder: of frames
 
-    :ivar open: whether anything is published at all
+    :ivar open: whether frames are published at all
     """
 
-    def __init__(self, publisher: Publisher, encode: Encode) -> None:
+    def __init__(self, publisher: Publisher, encoder: Encoder) -> None:
         self.open = True
         self._publisher = publisher
-        self._encode = encode
-        # Subscribers to the last frame.
-        self._heard = 0
+        self._encoder = encoder
+        # Number of subscriptions at the last frame.
+        self._served = 0
 
     @property
-    def audience(self) -> int:
-        """How many subscribe."""
+    def subscriptions(self) -> int:
+        """Number of subscriptions; 0 while closed."""
         return self._publisher.get_subscription_count() if self.open else 0
 
     def publish(self, frame: Frame) -> None:
         """Publish a new frame."""
-        self._heard = self.audience
-        if self._heard:
+        self._served = self.subscriptions
+        if self._served:
             self._send(frame)
 
-    def welcome(self, frame: Frame) -> None:
-        """Publish the last frame again where somebody has missed it."""
-        heard, self._heard = self._heard, self.audience
-        if self._heard > heard:
+    def publish_to_late_subscribers(self, frame: Frame) -> None:
+        """Publish the last frame again if there are more subscriptions since."""
+        served, self._served = self._served, self.subscriptions
+        if self._served > served:
             self._send(frame)
 
     def _send(self, frame: Frame) -> None:
-        message = self._encode(frame)
+        message = self._encoder.encode(frame)
         if message is not None:
             self._publisher.publish(message)
 
 
-class _Picture(_Stream):
-    """A stream whose last message is kept for who comes late."""
+class _LatchedStream(_Stream):
+    """A stream whose last message DDS keeps for late subscribers."""
 
-    def __init__(self, publisher: Publisher, encode: Encode) -> None:
-        super().__init__(publisher, encode)
-        self._kept: Frame | None = None
-        self._quiet = 0
+    def __init__(self, publisher: Publisher, encoder: Encoder) -> None:
+        super().__init__(publisher, encoder)
+        self._latched: Frame | None = None
+        self._age = 0
 
     def publish(self, frame: Frame) -> None:
         super().publish(frame)
-        self._quiet += 1
-        changed = self._kept is None or self._kept.snapshot.scene is not frame.snapshot.scene
-        if changed or self._quiet >= QUIET:
+        self._age += 1
+        changed = self._latched is None or self._latched.snapshot.scene is not frame.snapshot.scene
+        if changed or self._age >= LATCH_PERIOD:
             self._send(frame)
 
-    def welcome(self, frame: Frame) -> None:
-        super().welcome(frame)
-        # The world stands still: from now on the picture that is kept can be the right one.
-        if self._kept is not frame:
+    def publish_to_late_subscribers(self, frame: Frame) -> None:
+        super().publish_to_late_subscribers(frame)
+        # The world is paused: the latched message becomes that of the last frame.
+        if self._latched is not frame:
             self._send(frame)
 
     def _send(self, frame: Frame) -> None:
         super()._send(frame)
-        self._kept, self._quiet = frame, 0
+        self._latched, self._age = frame, 0
 
 
 def _reliable(depth: int, durability: DurabilityPolicy = DurabilityPolicy.VOLATILE) -> QoSProfile:

@@ -13,12 +13,14 @@
 # limitations under the License.
 
 """
-A node that listens to no QoS events.
+A node without QoS event handlers.
 
-Left alone, rclpy has every publisher and subscription listen for QoS that does not fit, to warn of
-it. Whoever reads or clears such an event takes a lock of the middleware's and then one of the
-endpoint's; the middleware's own threads take them the other way round, and both stand still for
-ever (https://github.com/ros2/rmw_fastrtps/pull/890). The other end of a topic still warns.
+By default rclpy (`use_default_callbacks=True`) gives every publisher and subscription a handler of
+incompatible-QoS events, which logs a warning. In rmw_fastrtps of ROS 2 Jazzy, reading such an
+event locks the mutex of the event and then that of the endpoint, while the threads of Fast DDS
+lock them in the opposite order: a deadlock (https://github.com/ros2/rmw_fastrtps/pull/890). The
+other end of the topic still logs the warning. This module can go once that fix is in the oldest
+supported release.
 """
 
 from __future__ import annotations
@@ -31,20 +33,20 @@ from rclpy.publisher import Publisher
 from rclpy.qos import HistoryPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.subscription import Subscription
 
-# A burst of thousands must lose nothing.
+# Reliable, KEEP_ALL: a burst of thousands of messages loses none.
 LOSSLESS = QoSProfile(history=HistoryPolicy.KEEP_ALL, reliability=ReliabilityPolicy.RELIABLE)
 
 
-class QuietNode(Node):
-    """A node whose publishers and subscriptions listen to no QoS events."""
+class NodeWithoutQosEvents(Node):
+    """A node whose publishers and subscriptions have no QoS event handlers."""
 
     def create_publisher(self, *args: Any, **options: Any) -> Publisher:
-        """Create a publisher, as any node does."""
+        """Create a publisher, as `Node.create_publisher` does."""
         options.setdefault('event_callbacks', PublisherEventCallbacks(use_default_callbacks=False))
         return super().create_publisher(*args, **options)
 
     def create_subscription(self, *args: Any, **options: Any) -> Subscription:
-        """Create a subscription, as any node does."""
+        """Create a subscription, as `Node.create_subscription` does."""
         options.setdefault(
             'event_callbacks', SubscriptionEventCallbacks(use_default_callbacks=False)
         )

@@ -25,7 +25,7 @@ from bisect import bisect_left, bisect_right
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from physsim_ros.model.checkpoint import Keyframe, WorldState
+from physsim_ros.model.checkpoint import Checkpoint, WorldState
 from physsim_ros.model.errors import OutOfHistory
 from physsim_ros.model.requests import Request, Restore
 
@@ -60,7 +60,7 @@ class Mark(NamedTuple):
 
     step: int
     serial: int
-    key: Keyframe
+    key: Checkpoint
     digest: str
 
     @property

@@ -27,12 +27,11 @@ import math
 
 from physsim_ros.engine.space import Space
 from physsim_ros.model.errors import Anchored, BadProperty, NothingThere, UnknownBody, UnknownJoint
-from physsim_ros.model.joint_properties import JointKind, JointProperties
+from physsim_ros.model.joints import JointKind, JointProperties
 from physsim_ros.model.names import split_name, WORLD
 from physsim_ros.model.requests import Join
 from physsim_ros.model.scene import Joint, Seat
-from physsim_ros.model.shapes import Point, Pose
-from physsim_ros.model.transform import rotated
+from physsim_ros.model.transform import Point, Pose, rotated
 
 # Points that lie so near to where a joint is drawn are where it is [m]: what is drawn comes back
 # in the digits of a double, and from a person's hand never.
@@ -60,7 +59,7 @@ def join(space: Space, request: Join, points: tuple[Point, ...]) -> tuple[str, s
     kept = old.joint if old is not None and old.joint.kind is request.kind else None
     said = request.properties
     if kept is not None:
-        said = replace(kept.properties, **said.said())
+        said = replace(kept.properties, **said.explicit())
     if kept is not None and (kept.a, kept.b) == (a, b) and _is_at(space, kept, points):
         seat = kept.seat
         if request.properties.phase is not None or request.properties.ratio is not None:

@@ -30,8 +30,8 @@ from physsim_ros.engine.body_pool import BodyPool
 from physsim_ros.engine.checkpoint import restore_checkpoint, take_checkpoint
 from physsim_ros.engine.observation import digest_parts, observe_bodies
 from physsim_ros.engine.space import Space
-from physsim_ros.model.body_properties import HEAVIEST, LIGHTEST
-from physsim_ros.model.checkpoint import BodyState, Keyframe, Motion, WorldState
+from physsim_ros.model.checkpoint import BodyState, Checkpoint, Motion, WorldState
+from physsim_ros.model.checks import HEAVIEST, LIGHTEST
 from physsim_ros.model.colors import color_of
 from physsim_ros.model.errors import (
     Anchored,
@@ -41,7 +41,7 @@ from physsim_ros.model.errors import (
     UnknownFrame,
     WorldFull,
 )
-from physsim_ros.model.joint_properties import JointKind
+from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import split_name
 from physsim_ros.model.requests import (
     Anchor,
@@ -63,9 +63,8 @@ from physsim_ros.model.requests import (
 )
 from physsim_ros.model.scene import Body
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Point, Pose
 from physsim_ros.model.snapshot import Contacts, Snapshot
-from physsim_ros.model.transform import rotated
+from physsim_ros.model.transform import Point, Pose, rotated
 from physsim_ros.simulation import joint_requests
 
 
@@ -234,7 +233,7 @@ class World:
 
     # Going on from a keyframe
 
-    def renew(self) -> Keyframe:
+    def renew(self) -> Checkpoint:
         """
         Go on in a space built anew from what is so, and return that.
 
@@ -248,7 +247,7 @@ class World:
         self._replace_space(space, BodyPool(self._space))
         return key
 
-    def resume(self, key: Keyframe, *, going_over: bool = False) -> None:
+    def resume(self, key: Checkpoint, *, going_over: bool = False) -> None:
         """
         Go back, or forward, to a keyframe.
 
@@ -316,7 +315,7 @@ class World:
                 sensor=False,
                 expires=None,
             )
-        changes = said.said()
+        changes = said.explicit()
         for motion in ('velocity', 'spin'):
             changes.pop(motion, None)
         if said.density is not None:
@@ -473,10 +472,10 @@ def _hand_over(old: Space, new: Space) -> None:
 
 def _check_weight(body: Body) -> None:
     """Refuse a body whose size and density make it too light or too heavy."""
-    if not LIGHTEST <= body.weight <= HEAVIEST:
+    if not LIGHTEST <= body.total_mass <= HEAVIEST:
         field = 'density' if body.mass is None else 'mass'
         raise BadProperty(
-            f'the body would weigh {body.weight:g} kg; {LIGHTEST:g} to {HEAVIEST:g} kg can be '
+            f'the body would weigh {body.total_mass:g} kg; {LIGHTEST:g} to {HEAVIEST:g} kg can be '
             'simulated',
             field=field,
         )

@@ -12,4 +12,22 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Rerun: frames become recordings and pictures. Start with `viewer`, then `recording`."""
+"""
+Rerun: frames become recordings, shown in a window or browser or written to a file.
+
+Not here: topics for RViz and Foxglove (`ros`). Start with `viewer`, then `sink_worker` (threads
+and queues) and `recording` (entities). Other folders import the names below; Rerun itself, which
+takes a second to import, is imported only by the thread of a worker.
+"""
+
+from physsim_ros.view.joint_glyphs import joint_strips, JointLines, segment_corners, symbol_size
+from physsim_ros.view.viewer import Viewer, ViewerMode
+
+__all__ = [
+    'JointLines',
+    'Viewer',
+    'ViewerMode',
+    'joint_strips',
+    'segment_corners',
+    'symbol_size',
+]

@@ -13,9 +13,9 @@
 # limitations under the License.
 
 """
-What a scene is drawn with: flat rectangles, discs and triangles that lie on bodies.
+The geometry of bodies in Rerun: flat rectangles, discs and triangles in body frames.
 
-Law: all of it stays while the world steps; where it is follows from the poses by arrays alone.
+Law: geometry changes only with the scene; positions follow from the poses by array operations.
 """
 
 from __future__ import annotations
@@ -30,49 +30,40 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.model.arrays import Floats, Singles
+from physsim_ros.model.colors import Color
 from physsim_ros.model.scene import Body, Scene
 from physsim_ros.model.settings import Bounds
-from physsim_ros.model.shapes import (
-    Box,
-    Capsule,
-    Circle,
-    Color,
-    Compound,
-    Convex,
-    Disc,
-    Piece,
-    Point,
-    Polygon,
-)
+from physsim_ros.model.shapes import Box, Capsule, Circle, Compound, Convex, Disc, Piece, Polygon
+from physsim_ros.model.transform import Point
 
-# A flat rectangle or disc on a body: x, y [m], yaw [rad] in the body's frame; half extents [m];
-# red, green, blue, alpha, each 0 .. 1. The corner of a triangle has no extent.
-Thing = tuple[float, float, float, float, float, float, float, float, float]
-# What one body is drawn with: (k, 9) float32 of each kind.
-Sketch = dict[str, Singles]
+# A flat rectangle or disc, or a corner of a triangle: x, y [m], yaw [rad] in the body frame; half
+# extents [m], 0 of a corner; red, green, blue, alpha, each 0 .. 1.
+Element = tuple[float, float, float, float, float, float, float, float, float]
+# The elements of one body: (k, 9) float32 of each kind.
+Elements = dict[str, Singles]
 
-# Kinds of things: rectangles, discs, and triangles. Triangles are apart where they are
-# translucent, as only a whole mesh can be.
+# Kinds of elements: rectangles, discs, and triangles. Translucent triangles are a kind of their
+# own, since opacity is that of a whole mesh.
 RECTANGLES = ('boxes', 'marks', 'outlines')
 TRIANGLES = ('polygons', 'ghosts')
-# Entities that hold the kinds, for free and for anchored bodies; what is anchored seldom moves.
+# Entities of the kinds, for free and for anchored bodies: the latter seldom move.
 PLACES = ('world', 'world/anchored')
 # Half the thickness of a body, and the depth over which later bodies lie above earlier ones
 # [units]: enough for the renderer's depth buffer, too little to be seen from the side.
 THICK, DEPTH = 0.01, 0.02
 # Half the width of lines [units].
 FINE = 0.025
-# What is left of the opacity of a sensor.
+# Factor on the opacity of a sensor.
 TRANSLUCENT = 0.4
 DARK, LIGHT = (0.08, 0.08, 0.1, 1.0), (1.0, 1.0, 1.0, 1.0)
-# What Rerun's light leaves of a solid seen from above, in linear light (its lighting.wgsl: 0.2
-# and half of a light from (1, 3, 5)). Meshes without normals are not shaded.
+# Factor of Rerun's shading of a solid seen from above, in linear light (its lighting.wgsl: 0.2 and
+# half of a light from (1, 3, 5)). Meshes without normals are not shaded.
 LIT = 0.2 + 0.5 * 5 / math.sqrt(35)
 
 
 class Tracks(NamedTuple):
     """
-    Where n bodies are in f frames: position [m], and cosine and sine of yaw and of half of it.
+    Poses of n bodies in f frames: position [m], and cosine and sine of yaw and of half of it.
 
     Each is (f, n) float32.
     """
@@ -86,7 +77,7 @@ class Tracks(NamedTuple):
 
     @classmethod
     def of(cls, poses: Floats) -> Tracks:
-        """Return those of poses, (f, n, 3) float64: x, y [m], yaw [rad]."""
+        """Return the tracks of poses, (f, n, 3) float64: x, y [m], yaw [rad]."""
         x, y, half = np.moveaxis(poses, 2, 0)
         cos, sin = np.cos(half / 2), np.sin(half / 2)
         each = (x, y, cos**2 - sin**2, 2 * sin * cos, cos, sin)
@@ -96,11 +87,11 @@ class Tracks(NamedTuple):
 @dataclass(frozen=True, slots=True)
 class Table:
     """
-    The things of one entity.
+    The elements of one entity.
 
     :param kind: of RECTANGLES or TRIANGLES, or discs
-    :param rows: (k,) the bodies they lie on
-    :param spots: (k, 3) float32: x, y [m], yaw [rad] in the body's frame
+    :param rows: (k,) intp: rows of their bodies
+    :param local_poses: (k, 3) float32: x, y [m], yaw [rad] in the body frame
     :param sizes: (k, 3) float32: half extents [m]
     :param colors: (k, 4) uint8
     :param depth: (k,) float32: z [m]
@@ -108,18 +99,18 @@ class Table:
 
     kind: str
     rows: NDArray[np.intp]
-    spots: Singles
+    local_poses: Singles
     sizes: Singles
     colors: NDArray[np.uint8]
     depth: Singles
 
     def centers(self, tracks: Tracks) -> Singles:
-        """Return (f * k, 3) float32: where they are."""
+        """Return the positions of the elements, (f * k, 3) float32 [m]."""
         centers = np.empty((len(tracks.x), len(self.rows), 3), dtype=np.float32)
         centers[..., 0] = tracks.x[:, self.rows]
         centers[..., 1] = tracks.y[:, self.rows]
         centers[..., 2] = self.depth
-        x, y = self.spots[:, 0], self.spots[:, 1]
+        x, y = self.local_poses[:, 0], self.local_poses[:, 1]
         if x.any() or y.any():
             cos, sin = tracks.cos[:, self.rows], tracks.sin[:, self.rows]
             centers[..., 0] += cos * x - sin * y
@@ -127,40 +118,47 @@ class Table:
         return centers.reshape(-1, 3)
 
     def quaternions(self, tracks: Tracks) -> Singles:
-        """Return (f * k, 4) float32: how they are turned."""
+        """Return the rotations of the elements, (f * k, 4) float32: quaternions x, y, z, w."""
         cos, sin = tracks.half_cos[:, self.rows], tracks.half_sin[:, self.rows]
-        turns = np.zeros((*cos.shape, 4), dtype=np.float32)
-        if self.spots[:, 2].any():
-            own_cos, own_sin = np.cos(self.spots[:, 2] / 2), np.sin(self.spots[:, 2] / 2)
+        rotations = np.zeros((*cos.shape, 4), dtype=np.float32)
+        if self.local_poses[:, 2].any():
+            own_cos, own_sin = (
+                np.cos(self.local_poses[:, 2] / 2),
+                np.sin(self.local_poses[:, 2] / 2),
+            )
             cos, sin = cos * own_cos - sin * own_sin, sin * own_cos + cos * own_sin
-        turns[..., 2], turns[..., 3] = sin, cos
-        return turns.reshape(-1, 4)
+        rotations[..., 2], rotations[..., 3] = sin, cos
+        return rotations.reshape(-1, 4)
 
 
-class BodyPicture:
+class BodyGeometry:
     """
-    What a scene is drawn with: all of the picture that stays while the world steps.
+    The geometry of the bodies of one scene.
 
-    :param scene: the bodies
-    :param unit: the length that lines are measured in [m]
-    :param before: the picture before this one; bodies that it knows are not sketched anew
+    :param scene: with the bodies
+    :param unit: length of a unit of the view [m]
+    :param before: the geometry of the scene before; elements of the same bodies are taken from it
+
+    :ivar tables: path of an entity -> its elements, at least one
     """
 
-    def __init__(self, scene: Scene, unit: float, before: BodyPicture | None = None) -> None:
+    def __init__(self, scene: Scene, unit: float, before: BodyGeometry | None = None) -> None:
         self.scene = scene
         self.unit = unit
-        known = before.sketches if before is not None and before.unit == unit else {}
-        # By identity; the body is kept beside its sketch, so that its id stays its own.
-        self.sketches: dict[int, tuple[Body, Sketch]] = {}
+        known = before.known_elements if before is not None and before.unit == unit else {}
+        # By identity; the reference to the body keeps its id from being reused.
+        self.known_elements: dict[int, tuple[Body, Elements]] = {}
         parts: defaultdict[tuple[str, str], list[tuple[int, Singles]]] = defaultdict(list)
         for row, body in enumerate(scene.bodies):
             key = id(body)
-            _, sketch = self.sketches[key] = known.get(key) or (body, _sketch(body, unit))
+            _, elements = self.known_elements[key] = known.get(key) or (
+                body,
+                _elements_of(body, unit),
+            )
             place = PLACES[body.anchored]
-            for kind, part in sketch.items():
+            for kind, part in elements.items():
                 parts[place, kind].append((row, part))
         spacing = DEPTH * unit / max(1, len(scene.bodies))
-        # The entities that there are, by path; none is empty.
         self.tables = {
             f'{place}/{kind}': _table(kind, each, thick=THICK * unit, spacing=spacing)
             for (place, kind), each in parts.items()
@@ -185,28 +183,32 @@ class BodyPicture:
 def _table(kind: str, parts: list[tuple[int, Singles]], *, thick: float, spacing: float) -> Table:
     bodies, arrays = zip(*parts, strict=True)
     rows = np.repeat(bodies, [len(each) for each in arrays])
-    things = np.concatenate(arrays)
+    elements = np.concatenate(arrays)
     depth = rows * spacing
     if kind in TRIANGLES:
         depth += thick
     elif kind in {'marks', 'outlines'}:
-        # Above their own body, below the next one.
+        # Above their body, below the next one.
         thick += spacing / 2
     return Table(
         kind=kind,
         rows=rows,
-        spots=things[:, :3],
-        sizes=np.insert(things[:, 3:5], 2, thick, axis=1),
-        colors=shown(things[:, 5:], shaded=kind not in TRIANGLES),
+        local_poses=elements[:, :3],
+        sizes=np.insert(elements[:, 3:5], 2, thick, axis=1),
+        colors=sent_colors(elements[:, 5:], shaded=kind not in TRIANGLES),
         depth=depth.astype(np.float32),
     )
 
 
-def shown(colors: Singles, *, shaded: bool) -> NDArray[np.uint8]:
+def sent_colors(colors: Singles, *, shaded: bool) -> NDArray[np.uint8]:
     """
-    Return (k, 4) uint8: what to send so that solids and meshes are seen in the colours asked for.
+    Return the colours to send, so that Rerun displays the given ones despite its shading.
 
-    Where a colour is brighter than the light on solids allows, its hue is kept.
+    A colour that is too bright for a shaded solid is darkened; its hue stays.
+
+    :param colors: (k, 4) float32: red, green, blue, alpha, each 0 .. 1
+    :param shaded: whether Rerun shades the geometry
+    :return: (k, 4) uint8
     """
     # https://www.w3.org/TR/css-color-4/#color-conversion-code: sRGB to linear light and back.
     brightest = 1.055 * LIT ** (1 / 2.4) - 0.055
@@ -222,54 +224,54 @@ def shown(colors: Singles, *, shaded: bool) -> NDArray[np.uint8]:
     return levels
 
 
-def _sketch(body: Body, unit: float) -> Sketch:
-    """Return what a body is drawn with: (k, 9) float32 of each kind, see Thing."""
+def _elements_of(body: Body, unit: float) -> Elements:
+    """Return the elements of a body."""
     shape, form = body.shape, body.shape.form
     ghost = body.sensor or body.color[3] < 1
     red, green, blue, alpha = body.color
     color = (red, green, blue, alpha * (TRANSLUCENT if body.sensor else 1.0))
     ink = DARK if ghost or 0.3 * red + 0.6 * green + 0.1 * blue > 0.35 else LIGHT
     fine = FINE * unit
-    things: defaultdict[str, list[Thing]] = defaultdict(list)
+    elements: defaultdict[str, list[Element]] = defaultdict(list)
     for piece in form.pieces:
         match piece:
             case Circle((x, y), radius):
-                things['discs'].append((x, y, 0.0, radius, radius, *color))
+                elements['discs'].append((x, y, 0.0, radius, radius, *color))
             case Capsule(start, end, radius):
-                things['boxes'].append(_bar(start, end, radius, color))
-                things['discs'] += ((*at, 0.0, radius, radius, *color) for at in (start, end))
+                elements['boxes'].append(_bar(start, end, radius, color))
+                elements['discs'] += ((*at, 0.0, radius, radius, *color) for at in (start, end))
             case Convex(corners) if isinstance(shape, Box | Compound):
                 (left, bottom), _, (right, top), _ = corners
                 middle = ((left + right) / 2, (bottom + top) / 2)
                 size = ((right - left) / 2, (top - bottom) / 2)
-                things['boxes'].append((*middle, 0.0, *size, *color))
+                elements['boxes'].append((*middle, 0.0, *size, *color))
             case Convex(corners):
-                things['ghosts' if ghost else 'polygons'] += (
+                elements['ghosts' if ghost else 'polygons'] += (
                     (*corner, 0.0, 0.0, 0.0, *color)
                     for second, third in pairwise(corners[1:])
                     for corner in (corners[0], second, third)
                 )
     if isinstance(shape, Disc) and not body.anchored:
         width = min(fine, 0.1 * shape.radius)
-        things['marks'].append(_bar((0.0, 0.0), (0.9 * shape.radius, 0.0), width, ink))
+        elements['marks'].append(_bar((0.0, 0.0), (0.9 * shape.radius, 0.0), width, ink))
     if body.anchored:
         x, y = min(map(_middle, form.pieces), key=lambda at: math.dist(at, form.centroid))
         arm = min(max(0.4 * form.inner, 0.08 * unit), 0.2 * unit)
         for rise in (arm, -arm):
             ends = (x - arm, y - rise), (x + arm, y + rise)
-            things['marks'].append(_bar(*ends, 1.2 * fine, ink))
+            elements['marks'].append(_bar(*ends, 1.2 * fine, ink))
     if body.sensor or body.kinematic:
         ink = (red, green, blue, 1.0) if body.sensor else ink
-        things['outlines'] += (
+        elements['outlines'] += (
             _bar(start, end, fine, ink, overlap=fine)
             for outline in _outlines(body)
             for start, end in pairwise((*outline, outline[0]))
         )
-    return {kind: np.array(each, dtype=np.float32) for kind, each in things.items()}
+    return {kind: np.array(each, dtype=np.float32) for kind, each in elements.items()}
 
 
-def _bar(start: Point, end: Point, half: float, color: Color, *, overlap: float = 0.0) -> Thing:
-    """Return the rectangle along a line, so much wider to each side and longer at each end."""
+def _bar(start: Point, end: Point, half: float, color: Color, *, overlap: float = 0.0) -> Element:
+    """Return the rectangle along a line, of a half width, longer at each end by `overlap` [m]."""
     (x, y), length = _middle(Capsule(start, end, half)), math.dist(start, end)
     yaw = math.atan2(end[1] - start[1], end[0] - start[0])
     return (x, y, yaw, length / 2 + overlap, half, *color)
@@ -296,6 +298,6 @@ def _outlines(body: Body) -> Iterator[Sequence[Point]]:
             yield piece.vertices
         elif isinstance(piece, Circle):
             (x, y), radius = piece.center, piece.radius
-            # As many sides as still look round at a radius of three units.
+            # 48 sides look round up to a radius of three units.
             angles = np.linspace(0.0, 2 * np.pi, 48, endpoint=False).tolist()
             yield [(x + radius * math.cos(each), y + radius * math.sin(each)) for each in angles]

@@ -13,9 +13,9 @@
 # limitations under the License.
 
 """
-The joints of the world in Rerun: one entity of lines, for many frames at once.
+The joints of a scene in Rerun: one entity of line strips, sent for many frames at once.
 
-Law: a world without joints sends nothing, and what has not moved is not sent again.
+Law: a scene without joints sends nothing, and joints whose bodies did not move are not sent again.
 """
 
 from __future__ import annotations
@@ -25,50 +25,54 @@ from numpy.typing import NDArray
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.scene import Scene
 from physsim_ros.view.body_geometry import FINE
-from physsim_ros.view.joint_glyphs import Linework
+from physsim_ros.view.joint_glyphs import JointLines
 import pyarrow as pa
 import rerun as rr
 
 PATH = 'world/joints'
-# Half the size of the smallest symbol that is still seen [units].
+# Half the size of the smallest visible symbol [units].
 _LEAST = 0.1
 
 
-class JointPicture:
+class JointGeometry:
     """
-    Draws the joints of one scene.
+    The line strips of the joints of one scene, as columns of components.
 
-    :param scene: whose joints they are
-    :param unit: the length that lines are measured in [m]
-    :param height: at which they lie, above all bodies [m]
+    :param scene: with the joints
+    :param unit: length of a unit of the view [m]
+    :param height: z of the strips, above all bodies [m]
     """
 
     def __init__(self, scene: Scene, unit: float, height: float) -> None:
-        self._linework = Linework(scene, least=_LEAST * unit)
+        self._lines = JointLines(scene, least=_LEAST * unit)
         self._height = height
         self._radius = 0.8 * FINE * unit
-        self._moving = np.unique(scene.joint_rows[scene.joint_rows >= 0])
+        self._bodies = np.unique(scene.joint_rows[scene.joint_rows >= 0])
 
-    def stirs(self, stirred: NDArray[np.bool_]) -> bool:
-        """Tell whether a joint has moved where these bodies have."""
-        return bool(stirred[self._moving].any())
+    def has_moved(self, moved: NDArray[np.bool_]) -> bool:
+        """
+        Return whether a body of a joint has moved.
+
+        :param moved: (n,) bool: whether each body has
+        """
+        return bool(moved[self._bodies].any())
 
     def columns(self, poses: Floats, forces: list[Floats]) -> list[rr.ComponentColumn]:
         """
-        Return the lines of each frame.
+        Return the strips of each frame.
 
-        :param poses: (f, n, 3) float64: of the bodies
-        :param forces: (j,) float64 each: of the joints, empty where they are not known
+        :param poses: (f, n, 3) float64: of the bodies, x, y [m], yaw [rad]
+        :param forces: (j,) float64 each: of the joints [N], empty where they are unknown
         """
-        work, frames = self._linework, len(poses)
-        corners = work.corners(poses)
+        lines, frames = self._lines, len(poses)
+        corners = lines.corners(poses)
         places = np.full((frames, corners.shape[1], 3), self._height, dtype=np.float32)
         places[..., :2] = corners
-        colors = np.stack([work.colors(each) for each in forces])[:, work.owner]
+        colors = np.stack([lines.colors(each) for each in forces])[:, lines.owner]
         levels = np.rint(colors * 255).astype(np.uint8).reshape(-1, 4)
-        lengths = [len(work.owner)] * frames
+        lengths = [len(lines.owner)] * frames
         return [
-            rr.ComponentColumn(_STRIPS, _Strips(places, work.lengths), lengths=lengths),
+            rr.ComponentColumn(_STRIPS, _Strips(places, lines.lengths), lengths=lengths),
             rr.ComponentColumn(_COLORS, rr.components.ColorBatch(levels), lengths=lengths),
             rr.ComponentColumn(
                 _RADII,
@@ -79,13 +83,13 @@ class JointPicture:
 
 
 class _Strips:
-    """Lines as Arrow wants them; the SDK's own batch goes through every corner in Python."""
+    """Line strips as an Arrow array; `LineStrip3DBatch` (Rerun 0.41) is a loop in Python."""
 
     def __init__(self, places: NDArray[np.float32], lengths: NDArray[np.intp]) -> None:
         self._places, self._lengths = places, lengths
 
     def as_arrow_array(self) -> pa.Array:
-        """Return a list of corners for each line of each frame."""
+        """Return a list of corners for each strip of each frame."""
         every = np.tile(self._lengths, len(self._places))
         offsets = np.concatenate(([0], np.cumsum(every))).astype(np.int32)
         corner = pa.list_(pa.field('item', pa.float32(), nullable=False), 3)

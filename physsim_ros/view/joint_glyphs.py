@@ -13,11 +13,11 @@
 # limitations under the License.
 
 """
-Joints as lines, so that a person reads the machine: coils, rods, ropes, axles, motors, tracks.
+Joints as line strips: coils, rods, ropes, axles, motors, tracks, toothed wheels.
 
-Laws: what a joint looks like is laid down once a scene, as corners that hang on its two points;
-where they are follows from the poses by arrays alone. A colour tells the force: slate where there
-is none, amber, red where it breaks or holds ten times what hangs on it.
+Laws: the corners of the strips are computed once a scene, relative to the two points of a joint;
+their positions follow from the poses by array operations. The colour is that of the joint's force:
+slate at 0, then amber, red at `break_force` or at ten times the weight of its bodies.
 """
 
 from __future__ import annotations
@@ -29,22 +29,23 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.joint_properties import JointKind
+from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.scene import Body, Joint, Scene
 from physsim_ros.model.transform import turned
 
 # The smallest and the largest half size of a symbol [m].
 SMALL, _LARGE = 0.03, 0.15
-# Turns of a coil, and corners of a turn, of a circle, of a rope.
+# Turns of a coil; corners of a turn of it, of a circle, of a rope.
 _COILS, _COIL_STEPS, _CIRCLE, _ROPE = 7, 8, 16, 12
 _TEETH = 8
-# How far the track of a slider without limits is drawn to each side [symbols].
+# Half the length of the track of a slider without limits [half sizes of its symbol].
 _TRACK = 8.0
-# Colours without force, with a third of what is much, with much: red, green, blue.
+# Colours at no force, at a third of the full-scale force, and at full scale: red, green, blue.
 _SLATE, _AMBER, _RED = (0.25, 0.3, 0.38), (0.93, 0.6, 0.13), (0.84, 0.1, 0.12)
-# Where nothing says what is much: so many times the weight of what hangs there, at least this [N].
-_MUCH, _LEAST = 10.0, 1e-3
+# Full-scale force of a joint without `break_force`: in weights of its heaviest body; and the least
+# one [N].
+_FULL_SCALE, _LEAST = 10.0, 1e-3
 # Standard gravity [m/s²], for worlds without one.
 _WEIGHT = 9.81
 
@@ -52,12 +53,12 @@ _WEIGHT = 9.81
 @dataclass(frozen=True, slots=True)
 class Corner:
     """
-    A corner of a line, as it hangs on the two points of a joint.
+    A corner of a line strip, relative to the two points of a joint.
 
-    :param along: share of the way from the first to the second point
-    :param across: to the left of that way [m]
-    :param sag: share of how far a slack rope hangs down
-    :param arm: beside that, in the frame of a body [m]
+    :param along: share of the segment from the first to the second point
+    :param across: offset to the left of that segment [m]
+    :param sag: share of the sag of a slack rope
+    :param arm: offset in the frame of a body [m]
     :param on_b: whether that body is b, not a
     """
 
@@ -71,40 +72,42 @@ class Corner:
 Strip = list[Corner]
 
 
-class Linework:
+class JointLines:
     """
-    The lines of all joints of a scene.
+    The line strips of all joints of a scene.
 
-    :param scene: whose joints they are
+    :param scene: with the joints
     :param least: half the size of the smallest symbol [m]
 
-    :ivar owner: (s,) the joint of each line
-    :ivar lengths: (s,) how many corners each line has
+    :ivar owner: (s,) intp: index of the joint of each strip
+    :ivar lengths: (s,) intp: number of corners of each strip
     """
 
     def __init__(self, scene: Scene, *, least: float = SMALL) -> None:
         self._scene = scene
         bodies = dict(zip(scene.names, scene.bodies, strict=True))
         corners: list[Corner] = []
-        holders: list[int] = []
+        joints: list[int] = []
         owner: list[int] = []
         lengths: list[int] = []
         for number, joint in enumerate(scene.joints):
-            for strip in strips(joint, size_of(joint, bodies, least=least)):
+            for strip in joint_strips(joint, symbol_size(joint, bodies, least=least)):
                 corners += strip
-                holders += [number] * len(strip)
+                joints += [number] * len(strip)
                 owner.append(number)
                 lengths.append(len(strip))
         self.owner, self.lengths = np.array(owner, np.intp), np.array(lengths, np.intp)
-        self._holders = np.array(holders, np.intp)
+        self._joints = np.array(joints, np.intp)
         self._along = np.array([each.along for each in corners])[:, None]
         self._across = np.array([each.across for each in corners])[:, None]
         self._sag = np.array([each.sag for each in corners])[:, None]
         self._arms = np.array([each.arm for each in corners]).reshape(-1, 2)
         on_b = np.array([each.on_b for each in corners], np.intp)
-        self._rows = scene.joint_rows[self._holders, on_b]
+        self._rows = scene.joint_rows[self._joints, on_b]
         self._seats = _drawn_seats(scene)
-        self._much = np.array([_much(joint, scene, bodies) for joint in scene.joints])
+        self._full_scale = np.array(
+            [_full_scale_force(joint, scene, bodies) for joint in scene.joints]
+        )
         self._rope_lengths = np.array(
             [joint.rest_length if joint.kind is JointKind.ROPE else 0.0 for joint in scene.joints]
         )
@@ -116,62 +119,62 @@ class Linework:
         """
         Return the two points of each joint.
 
-        :param poses: (..., n, 3) float64: of the bodies
+        :param poses: (..., n, 3) float64: of the bodies, x, y [m], yaw [rad]
         :return: (..., j, 2, 2) float64 [m]
         """
         background = np.zeros((*poses.shape[:-2], 1, 3))
-        held = np.concatenate((poses, background), axis=-2)[..., self._scene.joint_rows, :]
-        return held[..., :2] + turned(self._seats, held[..., 2])
+        frames = np.concatenate((poses, background), axis=-2)[..., self._scene.joint_rows, :]
+        return frames[..., :2] + turned(self._seats, frames[..., 2])
 
     def corners(self, poses: Floats) -> Floats:
         """
-        Return every corner of every line, one line after the other.
+        Return all corners of all strips, one strip after the other.
 
-        :param poses: (..., n, 3) float64: of the bodies
+        :param poses: (..., n, 3) float64: of the bodies, x, y [m], yaw [rad]
         :return: (..., c, 2) float64 [m]
         """
         points = self.points(poses)
-        first, way = points[..., 0, :], points[..., 1, :] - points[..., 0, :]
-        length = np.hypot(way[..., 0], way[..., 1])
-        side = np.stack((-way[..., 1], way[..., 0]), axis=-1)
+        first, span = points[..., 0, :], points[..., 1, :] - points[..., 0, :]
+        length = np.hypot(span[..., 0], span[..., 1])
+        side = np.stack((-span[..., 1], span[..., 0]), axis=-1)
         side /= np.maximum(length, 1e-9)[..., None]
-        # A shallow arc of that length: https://en.wikipedia.org/wiki/Parabola#Arc_length.
+        # Depth of a shallow arc of the length of the rope: https://en.wikipedia.org/wiki/Parabola#Arc_length.
         slack = np.maximum(0.0, self._rope_lengths - length)
         depth = np.sqrt(3 / 8 * slack * self._rope_lengths)[..., None] * self._down
-        holders = self._holders
+        joints = self._joints
         background = np.zeros((*poses.shape[:-2], 1))
         yaw = np.concatenate((poses[..., 2], background), axis=-1)[..., self._rows]
-        corners: Floats = first[..., holders, :] + self._along * way[..., holders, :]
-        corners += self._across * side[..., holders, :] + self._sag * depth[..., holders, :]
+        corners: Floats = first[..., joints, :] + self._along * span[..., joints, :]
+        corners += self._across * side[..., joints, :] + self._sag * depth[..., joints, :]
         return corners + turned(self._arms, yaw)
 
     def colors(self, forces: Floats) -> NDArray[np.float32]:
         """
-        Return red, green, blue and alpha of each joint.
+        Return red, green, blue and alpha of each joint, (..., j, 4) float32.
 
-        :param forces: (..., j) float64 [N]; empty where they are not known
+        :param forces: (..., j) float64 [N]; empty where they are unknown
         """
-        joints = len(self._scene.joints)
-        if forces.shape[-1] != joints:
-            forces = np.zeros((*forces.shape[:-1], joints))
-        share = np.clip(forces / self._much, 0.0, 1.0)
+        count = len(self._scene.joints)
+        if forces.shape[-1] != count:
+            forces = np.zeros((*forces.shape[:-1], count))
+        share = np.clip(forces / self._full_scale, 0.0, 1.0)
         colors = np.ones((*share.shape, 4), dtype=np.float32)
         for channel, levels in enumerate(zip(_SLATE, _AMBER, _RED, strict=True)):
             colors[..., channel] = np.interp(share, (0.0, 1 / 3, 1.0), levels)
         return colors
 
 
-def size_of(joint: Joint, bodies: dict[str, Body], *, least: float = SMALL) -> float:
-    """Return half the size of a joint's symbol [m]: in scale with the smaller of its bodies."""
+def symbol_size(joint: Joint, bodies: dict[str, Body], *, least: float = SMALL) -> float:
+    """Return half the size of a joint's symbol [m], in proportion to the smaller of its bodies."""
     forms = [bodies[name].shape.form for name in (joint.a, joint.b) if name != WORLD]
     return max(min(min(form.inner for form in forms) / 3, _LARGE), least)
 
 
-def strips(joint: Joint, size: float) -> list[Strip]:
+def joint_strips(joint: Joint, size: float) -> list[Strip]:
     """
-    Return the lines that a joint is drawn with.
+    Return the line strips of a joint.
 
-    :param size: half that of its symbol [m]
+    :param size: half the size of its symbol [m]
     """
     match joint.kind:
         case JointKind.PIN:
@@ -221,7 +224,7 @@ def _arrow(radius: float, sense: float) -> list[Strip]:
     """Return an arc with a head, counter-clockwise where the sense is positive."""
     angles = (sense * np.linspace(0.0, 1.5 * math.pi, _CIRCLE + 1)).tolist()
     arc = [Corner(arm=(radius * math.cos(each), radius * math.sin(each))) for each in angles]
-    # At the end of the arc straight down, where it goes on to the right or to the left.
+    # The arc ends at its lowest point, with a horizontal tangent.
     x, y = 0.0, -radius
     barb = 0.5 * radius
     head = [(x - barb, y + barb * 0.8), (x, y), (x - barb, y - barb * 0.8)]
@@ -239,9 +242,9 @@ def _coil(size: float) -> Iterator[Corner]:
 
 def _track(joint: Joint, size: float) -> list[Strip]:
     """Return a line with stops, in the frame of b, and the block that slides along it."""
-    seat, said = joint.seat, joint.properties
-    least = -_TRACK * size if said.lower is None else said.lower
-    most = _TRACK * size if said.upper is None else said.upper
+    seat, properties = joint.seat, joint.properties
+    least = -_TRACK * size if properties.lower is None else properties.lower
+    most = _TRACK * size if properties.upper is None else properties.upper
 
     def at(along: float, across: float) -> tuple[float, float]:
         return seat.ux * along - seat.uy * across, seat.uy * along + seat.ux * across
@@ -249,8 +252,8 @@ def _track(joint: Joint, size: float) -> list[Strip]:
     rail = [Corner(1.0, arm=at(end, 0.0), on_b=True) for end in (least, most)]
     stops = [
         [Corner(1.0, arm=at(end, side), on_b=True) for side in (-size, size)]
-        for end, said_so in ((least, said.lower), (most, said.upper))
-        if said_so is not None
+        for end, limit in ((least, properties.lower), (most, properties.upper))
+        if limit is not None
     ]
     corners = ((1.5, 1), (-1.5, 1), (-1.5, -1), (1.5, -1), (1.5, 1))
     block = [Corner(arm=at(x * size, y * size * 0.8), on_b=True) for x, y in corners]
@@ -258,7 +261,7 @@ def _track(joint: Joint, size: float) -> list[Strip]:
 
 
 def _drawn_seats(scene: Scene) -> Floats:
-    """Return (j, 2, 2) float64: where each joint is drawn on its bodies; gears at the middle."""
+    """Return the points of joints in body frames, (j, 2, 2) float64 [m]; of gears, centroids."""
     seats = scene.seats[:, :4].reshape(-1, 2, 2).copy()
     for number, joint in enumerate(scene.joints):
         if joint.kind is JointKind.GEAR:
@@ -268,21 +271,21 @@ def _drawn_seats(scene: Scene) -> Floats:
     return seats
 
 
-def _much(joint: Joint, scene: Scene, bodies: dict[str, Body]) -> float:
-    """Return the force that is shown as the most [N]."""
+def _full_scale_force(joint: Joint, scene: Scene, bodies: dict[str, Body]) -> float:
+    """Return the force of a joint at the end of the colour scale [N]."""
     if joint.properties.break_force:
         return joint.properties.break_force
     weights = [
-        bodies[name].weight
+        bodies[name].total_mass
         for name in (joint.a, joint.b)
         if name != WORLD and not bodies[name].fixed
     ]
-    pull = math.hypot(*scene.settings.gravity) or _WEIGHT
-    return max(_MUCH * pull * max(weights, default=0.0), _LEAST)
+    gravity = math.hypot(*scene.settings.gravity) or _WEIGHT
+    return max(_FULL_SCALE * gravity * max(weights, default=0.0), _LEAST)
 
 
-def segments(lengths: Sequence[int]) -> NDArray[np.intp]:
-    """Return the corners, two by two, of the segments of lines that have so many corners each."""
+def segment_corners(lengths: Sequence[int]) -> NDArray[np.intp]:
+    """Return the two corners of each segment, of strips of so many corners each, (2 s,) intp."""
     pairs: list[int] = []
     first = 0
     for length in lengths:

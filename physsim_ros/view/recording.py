@@ -13,13 +13,10 @@
 # limitations under the License.
 
 """
-The picture of the world in Rerun: its entities, its camera, its plots, and how they are laid out.
+The recording of frames: the entities of the world, the plots and the log, as columns in Rerun.
 
-Law: what changes only with the scene is sent when the scene changes, and again now and then; what
-moves is sent for many frames at once, one entity for each kind of thing.
-
-Everything is a thin solid seen from straight above, by a camera that is the origin of a
-two-dimensional view: that gives filled shapes, y up, and pan and zoom alone.
+Law: components that change only with the scene are sent when it changes, and every `REPEAT`
+frames; positions are sent for many frames at once, in one entity for each kind of geometry.
 """
 
 from __future__ import annotations
@@ -31,50 +28,41 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.model.arrays import Floats, Singles
-from physsim_ros.model.preview import NOTHING
+from physsim_ros.model.preview import NO_PREVIEW
 from physsim_ros.model.settings import Bounds
-from physsim_ros.model.shapes import Point
 from physsim_ros.model.snapshot import Answer, Frame, Snapshot
-from physsim_ros.view import run_state_track
+from physsim_ros.model.transform import Point
+from physsim_ros.view.blueprint import blueprint
 from physsim_ros.view.body_geometry import (
-    BodyPicture,
+    BodyGeometry,
     DEPTH,
     PLACES,
     RECTANGLES,
-    shown,
+    sent_colors,
     Table,
     THICK,
     Tracks,
     TRANSLUCENT,
     TRIANGLES,
 )
-from physsim_ros.view.joint_geometry import JointPicture
+from physsim_ros.view.camera import Camera, pinhole
+from physsim_ros.view.joint_geometry import JointGeometry
 from physsim_ros.view.joint_geometry import PATH as JOINTS
+from physsim_ros.view.run_state_track import RunStateTrack
 import rerun as rr
-import rerun.blueprint as rrb
 
 Times = list[rr.TimeColumn]
-# A component that is sent over and over: its descriptor, and what packs its values.
+# A component: its descriptor, and the batch class of its values.
 Slot = tuple[rr.ComponentDescriptor, Callable[[Any], Any]]
 
-# A server that has reached its memory limit drops old rows, so geometry is repeated [frames].
+# Period of sending geometry again [frames]: a server at its memory limit drops old rows.
 REPEAT = 300
-# The picture's own pixels. The camera stands where 50 of them are one unit, whatever the size of
-# the world, so that neither they nor the bounds of the view ever change.
-WIDTH, HEIGHT, PIXELS = 1600, 1000, 50
-DISTANCE = 20.0
-# What is shown before there is anything: left, bottom, right, top [m].
-NOWHERE = (-10.0, 0.0, 10.0, 12.0)
-MARGIN = 0.08
 # Half the thickness of the walls [units].
 WALL_HALF = 0.1
-# How long the reading of a stroke is seen [frames].
+# Duration of the preview of a stroke [frames].
 LINGER = 180
-# How far back the plots go: ten seconds at 60 Hz [frames].
-PLOTTED = 600
-# Energies are plotted at each so many-th frame.
+# Period of the plots of energies [frames].
 SAMPLE = 6
-PAPER = (250, 250, 247)
 WALL = (0.35, 0.37, 0.4, 1.0)
 CONTACT = (214, 39, 40)
 PREVIEW = (230, 51, 128)
@@ -84,40 +72,39 @@ ENERGIES = {'kinetic': (245, 133, 24), 'potential': (76, 120, 168), 'total': (15
 _NO_POINTS: Floats = np.empty((0, 2))
 
 
-class Picture:
+class FrameRecorder:
     """
-    Draws frames on a recording stream.
+    Logs frames to a recording stream.
 
-    :param recording: where to; blueprint and geometry are sent to it afresh
+    :param recording: stream to log to, a new one: blueprint and styles are sent at once
     """
 
     def __init__(self, recording: rr.RecordingStream) -> None:
         self._recording = recording
-        # Frames drawn: the one timeline that never goes back.
+        # Number of frames so far: the timeline `frame`, which never goes back.
         self._count = 0
         self._due = 0
         self._last: Frame | None = None
-        self._bodies: BodyPicture | None = None
-        self._joints: JointPicture | None = None
-        self._area = NOWHERE
-        self._framed = False
+        self._bodies: BodyGeometry | None = None
+        self._joints: JointGeometry | None = None
+        self._camera = Camera()
         self._touching = False
-        # What is shown of what is half drawn, what was last asked for, and when.
-        self._preview = self._asked = NOTHING
-        self._asked_at = 0
-        # Entities that are not empty, and where the bodies were drawn last.
-        self._drawn: set[str] = set()
+        # The preview in the recording; that of the last frame, and the frame in which it began.
+        self._preview = self._current = NO_PREVIEW
+        self._current_since = 0
+        # Entities with geometry, and the poses of the bodies that were sent last.
+        self._filled: set[str] = set()
         self._poses: Floats = np.empty((0, 3))
-        self._band = run_state_track.Band(recording)
+        self._run_states = RunStateTrack(recording)
         recording.send_blueprint(blueprint())
         self._send_styles()
 
     def draw(self, frames: Sequence[Frame], *, real_time_factor: float) -> None:
         """
-        Draw frames, one after the other; those that show nothing new are left out.
+        Log frames, except those that are equal to the one before.
 
-        :param frames: in order of time, their arrays never written again
-        :param real_time_factor: simulated seconds a second, at the last of them
+        :param frames: in order; their arrays are not changed any more
+        :param real_time_factor: simulation seconds a second, at the last of them
         """
         fresh = []
         for frame in frames:
@@ -140,7 +127,7 @@ class Picture:
         return now.scene is not before.scene or not np.array_equal(now.poses, before.poses)
 
     def _draw_run(self, frames: Sequence[Frame]) -> None:
-        """Draw frames of one scene."""
+        """Log frames of one scene."""
         snapshots = [frame.snapshot for frame in frames]
         scene = snapshots[0].scene
         poses = np.stack([each.poses for each in snapshots])
@@ -149,56 +136,46 @@ class Picture:
         times = _times(snapshots, numbers)
         bodies = self._bodies
         if bodies is None or scene is not bodies.scene:
-            bodies = BodyPicture(scene, _unit(self._area), bodies)
-            self._look_at(bodies, Tracks.of(poses[:1]), snapshots[0].ends)
-            if bodies.unit != _unit(self._area):
-                bodies = BodyPicture(scene, _unit(self._area))
+            bodies = BodyGeometry(scene, self._camera.unit, bodies)
+            self._aim_camera(bodies, Tracks.of(poses[:1]), snapshots[0].ends)
+            if bodies.unit != self._camera.unit:
+                bodies = BodyGeometry(scene, self._camera.unit)
             self._bodies, self._due = bodies, self._count
             above = 2 * (THICK + DEPTH) * bodies.unit
-            self._joints = JointPicture(scene, bodies.unit, above) if scene.joints else None
+            self._joints = JointGeometry(scene, bodies.unit, above) if scene.joints else None
         if self._count >= self._due:
             self._due = self._count + REPEAT
             self._send_geometry(bodies, _times(snapshots[:1], numbers[:1]))
-            stirred = np.ones(len(scene.bodies), dtype=bool)
+            moved = np.ones(len(scene.bodies), dtype=bool)
         else:
-            stirred = (poses != self._poses).any(axis=(0, 2))
+            moved = (poses != self._poses).any(axis=(0, 2))
         self._poses = poses[-1]
         for path, table in bodies.tables.items():
-            if stirred[table.rows].any():
+            if moved[table.rows].any():
                 self._send_tracks(path, table, tracks, times)
-        if self._joints is not None and self._joints.stirs(stirred):
+        if self._joints is not None and self._joints.has_moved(moved):
             columns = self._joints.columns(poses, [each.forces for each in snapshots])
             self._recording.send_columns(JOINTS, times, columns)
         self._send_energy(frames, numbers)
         self._send_contacts(frames, times)
         self._send_previews(frames, numbers)
         self._send_events(frames, numbers)
-        self._band.draw(frames, numbers)
+        self._run_states.draw(frames, numbers)
         self._count += len(frames)
 
-    def _look_at(self, bodies: BodyPicture, tracks: Tracks, ends: Floats) -> None:
-        """Choose what is seen: seldom anew, as a picture that jumps is hard to read."""
+    def _aim_camera(self, bodies: BodyGeometry, tracks: Tracks, ends: Floats) -> None:
         bounds = bodies.scene.settings.bounds
         if bounds is not None:
-            self._area, self._framed = _widened(bounds, MARGIN / 2), True
+            self._camera.show_bounds(bounds)
         elif bodies.scene.bodies:
-            left, bottom, right, top = extent = _around(bodies.extent(tracks), ends)
-            near = _widened(self._area, 0.5)
-            inside = left >= near[0] and bottom >= near[1] and right <= near[2] and top <= near[3]
-            if not self._framed or not inside:
-                self._area, self._framed = _widened(extent, MARGIN), True
+            self._camera.show_bodies(bodies.extent(tracks), ends)
 
     def _send_styles(self) -> None:
-        """Send once what never changes; static rows are never dropped."""
-        wall = shown(np.array([WALL], dtype=np.float32), shaded=True)
+        """Log the constant components as static, which a server never drops."""
+        wall = sent_colors(np.array([WALL], dtype=np.float32), shaded=True)
         faint = (255, 255, 255, round(255 * TRANSLUCENT))
         styles: dict[str, rr.AsComponents] = {
-            'world/camera': rr.Pinhole(
-                focal_length=PIXELS * DISTANCE,
-                width=WIDTH,
-                height=HEIGHT,
-                camera_xyz=rr.ViewCoordinates.RDF,
-            ),
+            'world/camera': pinhole(),
             'world/walls': rr.Boxes3D.from_fields(fill_mode='solid', colors=wall),
             'world/contacts': rr.Points3D.from_fields(
                 radii=rr.Radius.ui_points(2.0), colors=[CONTACT]
@@ -220,8 +197,8 @@ class Picture:
         for path, style in styles.items():
             self._recording.log(path, style, static=True)
 
-    def _send_geometry(self, bodies: BodyPicture, times: Times) -> None:
-        """Send what stays while the world steps, and nothing where there is none any more."""
+    def _send_geometry(self, bodies: BodyGeometry, times: Times) -> None:
+        """Send the components that change only with the scene; clear entities without geometry."""
         for path, table in bodies.tables.items():
             if table.kind in RECTANGLES:
                 columns = rr.Boxes3D.columns(half_sizes=table.sizes, colors=table.colors)
@@ -232,27 +209,23 @@ class Picture:
                     radii=table.sizes[:, 0], lengths=2 * table.sizes[:, 2], colors=table.colors
                 )
             self._recording.send_columns(path, times, columns.partition([len(table.rows)]))
-        gone = self._drawn - bodies.tables.keys() - ({JOINTS} if bodies.scene.joints else set())
+        gone = self._filled - bodies.tables.keys() - ({JOINTS} if bodies.scene.joints else set())
         for path in gone:
             self._recording.send_columns(path, times, rr.Clear.columns(is_recursive=[False]))
-        self._drawn = set(bodies.tables) | ({JOINTS} if bodies.scene.joints else set())
+        self._filled = set(bodies.tables) | ({JOINTS} if bodies.scene.joints else set())
         centers, sizes = _walls(bodies.scene.settings.bounds, bodies.unit)
         walls = rr.Boxes3D.columns(centers=centers, half_sizes=sizes).partition([len(centers)])
         self._recording.send_columns('world/walls', times, walls)
-        left, bottom, right, top = self._area
-        eye = ((left + right) / 2, (bottom + top) / 2, DISTANCE * bodies.unit)
-        # Straight down: the image's x is the world's, its y the world's turned over.
-        camera = rr.Transform3D.columns(translation=[eye], mat3x3=[np.diag((1.0, -1.0, -1.0))])
-        self._recording.send_columns('world/camera', times, camera)
+        self._recording.send_columns('world/camera', times, self._camera.transform())
 
     def _send_tracks(self, path: str, table: Table, tracks: Tracks, times: Times) -> None:
         lengths = [len(table.rows)] * len(tracks.x)
         centers = table.centers(tracks)
         if table.kind in RECTANGLES:
-            turns = table.quaternions(tracks)
+            rotations = table.quaternions(tracks)
             columns = [
                 _column(_BOX_CENTERS, centers, lengths),
-                _column(_BOX_TURNS, turns, lengths),
+                _column(_BOX_ROTATIONS, rotations, lengths),
             ]
         else:
             slot = _CORNERS if table.kind in TRIANGLES else _DISC_CENTERS
@@ -260,7 +233,7 @@ class Picture:
         self._recording.send_columns(path, times, columns)
 
     def _send_energy(self, frames: Sequence[Frame], numbers: Sequence[int]) -> None:
-        """Send now and then, and always the newest: a plot shows no more."""
+        """Send the energies of every `SAMPLE`-th frame and of the last one."""
         last = numbers[-1]
         chosen = {
             number: frame.snapshot
@@ -279,39 +252,39 @@ class Picture:
     def _send_contacts(self, frames: Sequence[Frame], times: Times) -> None:
         points = [_NO_POINTS if each.contacts is None else each.contacts.points for each in frames]
         lengths = [len(each) for each in points]
-        # Empty once more after the last contact, then no more.
+        # An empty row after the last contact, then none.
         if not self._touching and not any(lengths):
             return
         self._touching = lengths[-1] > 0
-        height = np.full((sum(lengths), 1), 2 * (THICK + DEPTH) * _unit(self._area))
+        height = np.full((sum(lengths), 1), 2 * (THICK + DEPTH) * self._camera.unit)
         positions = np.hstack((np.concatenate(points), height)).astype(np.float32)
         columns = rr.Points3D.columns(positions=positions).partition(lengths)
         self._recording.send_columns('world/contacts', times, columns)
 
     def _send_previews(self, frames: Sequence[Frame], numbers: Sequence[int]) -> None:
-        """Send what is half drawn where that has changed, or is to be repeated."""
+        """Send previews that have changed, end after `LINGER` frames, or are due again."""
         for frame, number in zip(frames, numbers, strict=True):
             preview = frame.preview
-            if preview != self._asked:
-                self._asked, self._asked_at = preview, number
-            if not preview.points and number - self._asked_at >= LINGER:
-                preview = NOTHING
-            if preview == self._preview and (preview == NOTHING or number % REPEAT):
+            if preview != self._current:
+                self._current, self._current_since = preview, number
+            if not preview.points and number - self._current_since >= LINGER:
+                preview = NO_PREVIEW
+            if preview == self._preview and (preview == NO_PREVIEW or number % REPEAT):
                 continue
             self._preview = preview
             times = _times([frame.snapshot], [number])
             lines = [self._raised(line) for line in preview.lines]
             strips = rr.LineStrips3D.columns(strips=lines).partition([len(lines)])
             self._recording.send_columns('world/preview/lines', times, strips)
-            # The label stands at a point of its own.
+            # The label has a point of its own.
             points = self._raised([*preview.points, *([preview.top] if preview.label else [])])
             labels = ['' for _ in preview.points] + [preview.label] * bool(preview.label)
             dots = rr.Points3D.columns(positions=points, labels=labels).partition([len(points)])
             self._recording.send_columns('world/preview/points', times, dots)
 
     def _raised(self, points: Sequence[Point]) -> Singles:
-        """Return points of the plane above all that is in the world, (n, 3) float32 [m]."""
-        height = 3 * (THICK + DEPTH) * _unit(self._area)
+        """Return points of the plane raised above all bodies, (n, 3) float32 [m]."""
+        height = 3 * (THICK + DEPTH) * self._camera.unit
         return np.array([(x, y, height) for x, y in points], dtype=np.float32).reshape(-1, 3)
 
     def _send_events(self, frames: Sequence[Frame], numbers: Sequence[int]) -> None:
@@ -330,7 +303,7 @@ class Picture:
 
 
 def _column(slot: Slot, values: NDArray[Any], lengths: list[int]) -> rr.ComponentColumn:
-    """Return values as a column, each row so long; `Archetype.columns` takes twice the time."""
+    """Return values as a column of rows of so many values; `Archetype.columns` is half as fast."""
     descriptor, batch = slot
     return rr.ComponentColumn(descriptor, batch(values), lengths=lengths)
 
@@ -339,7 +312,7 @@ def _slots(columns: rr.ComponentColumnList, *batches: Callable[[Any], Any]) -> l
     return [(column.descriptor, batch) for column, batch in zip(columns, batches, strict=True)]
 
 
-_BOX_CENTERS, _BOX_TURNS = _slots(
+_BOX_CENTERS, _BOX_ROTATIONS = _slots(
     rr.Boxes3D.columns(centers=[(0, 0, 0)], quaternions=[(0, 0, 0, 1)]),
     rr.components.Translation3DBatch,
     rr.components.RotationQuatBatch,
@@ -367,26 +340,6 @@ def _line(answer: Answer) -> str:
     return '  '.join(filter(None, words))
 
 
-def _unit(area: Bounds) -> float:
-    """Return the length that is drawn as 50 pixels [m]: about 1 m for a world of 20 m."""
-    left, bottom, right, top = area
-    return PIXELS * max((right - left) / WIDTH, (top - bottom) / HEIGHT)
-
-
-def _around(area: Bounds, ends: Floats) -> Bounds:
-    """Return an area with the points of joints, (j, 2, 2), in it."""
-    points = ends.reshape(-1, 2)
-    left, bottom = np.minimum(points.min(axis=0, initial=np.inf), area[:2]).tolist()
-    right, top = np.maximum(points.max(axis=0, initial=-np.inf), area[2:]).tolist()
-    return left, bottom, right, top
-
-
-def _widened(area: Bounds, share: float) -> Bounds:
-    left, bottom, right, top = area
-    more = share * max(right - left, top - bottom)
-    return left - more, bottom - more, right + more, top + more
-
-
 def _walls(bounds: Bounds | None, unit: float) -> tuple[Singles, Singles]:
     """Return centres and half extents, (4, 3) float32 [m], of bars just outside the bounds."""
     if bounds is None:
@@ -403,48 +356,3 @@ def _walls(bounds: Bounds | None, unit: float) -> tuple[Singles, Singles]:
     ]
     sizes = [(across, half, thick)] * 2 + [(half, up, thick)] * 2
     return np.array(centers, dtype=np.float32), np.array(sizes, dtype=np.float32)
-
-
-def blueprint() -> rrb.Blueprint:
-    """Return how it is laid out: the world large, the plots and what happened beside it."""
-    recent = rrb.VisibleTimeRange(
-        'frame',
-        start=rrb.TimeRangeBoundary.cursor_relative(seq=-PLOTTED),
-        end=rrb.TimeRangeBoundary.cursor_relative(),
-    )
-    return rrb.Blueprint(
-        rrb.Horizontal(
-            rrb.Spatial2DView(
-                origin='world/camera',
-                contents='world/**',
-                name='World',
-                background=PAPER,
-                visual_bounds=rrb.VisualBounds2D(x_range=(0, WIDTH), y_range=(0, HEIGHT)),
-            ),
-            rrb.Vertical(
-                run_state_track.view(),
-                rrb.TimeSeriesView(
-                    origin='energy',
-                    name='Energy [J]',
-                    time_ranges=recent,
-                    plot_legend=rrb.PlotLegend(corner=rrb.Corner2D.RightTop),
-                ),
-                rrb.TimeSeriesView(
-                    origin='real_time_factor',
-                    name='Real-time factor',
-                    time_ranges=recent,
-                    plot_legend=rrb.PlotLegend(visible=False),
-                ),
-                rrb.TextLogView(
-                    origin='events',
-                    name='Events',
-                    columns=rrb.TextLogColumns(text_log_columns=['loglevel', 'body']),
-                ),
-                row_shares=[2, 3, 2, 2],
-            ),
-            column_shares=[3, 1],
-        ),
-        rrb.BlueprintPanel(state='collapsed'),
-        rrb.SelectionPanel(state='collapsed'),
-        rrb.TimePanel(state='collapsed', timeline='frame', play_state='following'),
-    )

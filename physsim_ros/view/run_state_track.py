@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""The band under the picture: what time did, frame by frame, and where it took another course."""
+"""The track of run states and branches of time, a state timeline in Rerun."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from physsim_ros.model.snapshot import Frame
 import rerun as rr
 import rerun.blueprint as rrb
 
-# What plays is green, what goes back is orange; the faster, the darker.
+# Green while playing, orange while rewinding; the faster, the darker.
 _COLORS = {
     'playing slowly': (160, 205, 150),
     'playing': (84, 162, 75),
@@ -32,40 +32,40 @@ _COLORS = {
     'rewinding': (245, 133, 24),
     'rewinding fast': (190, 80, 10),
 }
-# Events after which things go on differently from before.
-_TURNS = {'branch', '~/undo', '~/redo', '~/reset'}
+# Topics of answers after which a new branch of time begins.
+_BRANCHING = {'branch', '~/undo', '~/redo', '~/reset'}
 
 
-class Band:
+class RunStateTrack:
     """
-    Draws run state and branches on a recording stream.
+    Logs run states and branches of time.
 
-    :param recording: where to
+    :param recording: stream to log to
     """
 
     def __init__(self, recording: rr.RecordingStream) -> None:
         self._recording = recording
         self._state = ''
-        self._courses = 0
+        self._branches = 0
         styles = rr.StateConfiguration(values=list(_COLORS), colors=list(_COLORS.values()))
         recording.log('time/run', styles, static=True)
 
     def draw(self, frames: Sequence[Frame], numbers: Sequence[int]) -> None:
         """
-        Draw what has changed in frames.
+        Log the changes of run state and branch in frames.
 
-        :param numbers: of the frames, on the time line that never goes back
+        :param numbers: of the frames, on the timeline `frame`, which never goes back
         """
         for frame, number in zip(frames, numbers, strict=True):
             state = _state(frame.speed)
             if state != self._state:
                 self._state = state
                 self._send('time/run', state, number)
-            turns = [answer for answer in frame.answers if answer.topic in _TURNS]
-            if turns or self._courses == 0:
-                self._courses += 1
-                said = f': {turns[-1].message}' if turns else ''
-                self._send('time/course', f'{self._courses}{said}', number)
+            branching = [answer for answer in frame.answers if answer.topic in _BRANCHING]
+            if branching or self._branches == 0:
+                self._branches += 1
+                reason = f': {branching[-1].message}' if branching else ''
+                self._send('time/course', f'{self._branches}{reason}', number)
 
     def _send(self, path: str, state: str, number: int) -> None:
         time = [rr.TimeColumn('frame', sequence=[number])]
@@ -73,13 +73,15 @@ class Band:
 
 
 def _state(speed: float) -> str:
-    """Return which state of the band a speed is; Rerun has one colour for each."""
+    """Return the name of the run state of a speed; Rerun has one colour for each."""
     if speed == 0.0:
         return 'paused'
-    way, pace = 'playing' if speed > 0.0 else 'rewinding', abs(speed)
-    return way if pace == 1.0 else f'{way} fast' if pace > 1.0 else f'{way} slowly'
+    direction, pace = 'playing' if speed > 0.0 else 'rewinding', abs(speed)
+    if pace == 1.0:
+        return direction
+    return f'{direction} fast' if pace > 1.0 else f'{direction} slowly'
 
 
-def view() -> rrb.StateTimelineView:
-    """Return the band's place in the layout."""
+def run_state_view() -> rrb.StateTimelineView:
+    """Return the view of the track, for the blueprint."""
     return rrb.StateTimelineView(origin='time', name='Time')

@@ -13,10 +13,10 @@
 # limitations under the License.
 
 """
-A way out for frames: they wait in a bounded queue, and a thread of its own draws them.
+Sinks of frames, each with a bounded queue and a worker thread.
 
-Law: whoever hands a frame in never waits. What cannot be drawn in time is dropped, oldest first,
-and counted; its answers are drawn with the next frame.
+Law: the producer of a frame never blocks. Frames that the worker cannot log in time are dropped,
+oldest first, and counted; their answers are logged with the next frame.
 """
 
 from __future__ import annotations
@@ -31,124 +31,133 @@ from typing import ClassVar, Protocol
 
 from physsim_ros.model.snapshot import Answer, Frame
 
-# Most frames that are drawn at once, and the memory that waiting ones may take [bytes].
+# The greatest number of frames in a batch, and the greatest memory of the queue [bytes].
 BATCH, WAITING_BYTES = 60, 256e6
-# Answers that may wait when their frames have been dropped.
+# The greatest number of waiting answers of dropped frames.
 ANSWERS = 50_000
-# How often to see whether what has been drawn arrives, and how long that may take [s].
-LOOK, PATIENCE = 1.0, 0.5
-# For so long it may be slow without an event [s].
-SLOW = 3.0
+# Period of flushing a sink and checking its endpoint, and timeout of the flush [s].
+CHECK_PERIOD, FLUSH_TIMEOUT = 1.0, 0.5
+# Time after the first flush that timed out at which an event reports it [s].
+STALLED_AFTER = 3.0
 
-Tell = Callable[[Answer], None]
+Report = Callable[[Answer], None]
 
 
-class Canvas(Protocol):
-    """What frames are drawn on."""
+class Sink(Protocol):
+    """A stream that frames are logged to."""
 
     def draw(self, frames: Sequence[Frame], *, real_time_factor: float) -> None:
-        """Draw frames in their order."""
+        """Log frames in order."""
 
-    def flush(self, patience: float) -> None:
+    def flush(self, timeout: float) -> None:
         """
-        Wait until what has been drawn has arrived.
+        Wait until all logged frames have been sent.
 
-        :param patience: at most so long [s]
-        :raises TimeoutError: it has not yet
-        :raises ConnectionError: it never will
+        :param timeout: longest wait [s]
+        :raises TimeoutError: they have not been sent yet
+        :raises ConnectionError: they cannot be sent any more
         """
 
     def close(self) -> None:
-        """Draw no more; only after all has arrived."""
+        """Close the stream; called after a flush."""
 
 
-class Way(ABC):
+class Endpoint(ABC):
     """
-    Where an outlet leads.
+    The receiver of a sink: a file, a server, or a program on this machine.
 
-    `kind` and `where` tell it to people; `code` is that of the event when it is lost. Frames are
-    gathered for `period` [s], `waiting` of them may wait, and the last ones may take `closing`
-    [s]. `again` tells whether it may be opened anew after it was lost.
+    :cvar kind: name of it, for messages
+    :cvar where: address of it, for messages
+    :cvar code: of the event when it is lost
+    :cvar period: time for which frames are gathered into a batch [s]
+    :cvar capacity: greatest number of frames in the queue
+    :cvar closing: longest time for the last frames [s]
+    :cvar reopens: whether it may be opened again after it was lost
     """
 
     kind = ''
     where = ''
     code: ClassVar[str] = 'viewer_lost'
     period: ClassVar[float] = 0.1
-    waiting: ClassVar[int] = 60
+    capacity: ClassVar[int] = 60
     closing: ClassVar[float] = 2.0
-    again: ClassVar[bool] = True
+    reopens: ClassVar[bool] = True
 
     @abstractmethod
-    def begin(self) -> Canvas | None:
+    def open_sink(self) -> Sink | None:
         """
-        Return a fresh canvas there; None where there is nobody yet.
+        Return a new sink; None where the receiver is not there yet.
 
-        :raises ConnectionError: there never can be one
+        :raises ConnectionError: it cannot be opened at all
         """
 
-    def look(self) -> None:  # noqa: B027  most have nothing to look to
-        """See to what was started; called every second."""
+    def check_program(self) -> None:  # noqa: B027  most have no program
+        """Restart or report a program that has ended; called every `CHECK_PERIOD`."""
 
     def close(self) -> None:  # noqa: B027  the same
         """
-        End what was started, if anything was, and start nothing any more.
+        End the program, if there is one, and start none any more.
 
-        Called more than once, and from another thread while `begin` or `look` may still be at it.
+        Called more than once, and from another thread while `open_sink` or `check_program` runs.
         """
 
-    def found(self) -> Answer:
-        """Return the answer that says that it is there."""
+    def opened_answer(self) -> Answer:
+        """Return the answer that reports that it was opened."""
         return Answer(topic='viewer', message=f'{self.kind}: {self.where}')
 
-    def lost(self, why: str) -> Answer:
-        """Return the answer that says that it is not, or not as it was asked for."""
-        return Answer(topic='viewer', message=f'{self.kind}: {self.where}: {why}', code=self.code)
+    def lost_answer(self, reason: str) -> Answer:
+        """Return the answer that reports that it was lost, or is another than was asked for."""
+        message = f'{self.kind}: {self.where}: {reason}'
+        return Answer(topic='viewer', message=message, code=self.code)
 
 
-class Outlet:
+class SinkWorker:
     """
-    Draws frames somewhere.
+    A thread that logs frames to the sinks of an endpoint.
 
-    :param way: where
-    :param tell: takes what happens, from any thread
-    :param after: one that ends, and whose place it takes
+    :param endpoint: to log to
+    :param report: takes answers about the endpoint, from any thread
+    :param after: a worker that has to end before this one begins
     """
 
-    def __init__(self, way: Way, *, tell: Tell, after: Outlet | None = None) -> None:
-        self._way = way
-        self._tell = tell
+    def __init__(
+        self, endpoint: Endpoint, *, report: Report, after: SinkWorker | None = None
+    ) -> None:
+        self._endpoint = endpoint
+        self._report = report
         self._before = after
         self._lock = threading.Lock()
         self._frames: deque[Frame] = deque()
         self._answers: deque[Answer] = deque(maxlen=ANSWERS)
         self._bytes = 0
         self._factor = 0.0
-        self._drawn = self._dropped = 0
+        self._logged = self._dropped = 0
         self._status = 'starting'
-        # Since when nothing arrives any more.
-        self._stuck: float | None = None
-        self._told_stuck = self._told_dropping = False
+        # Steady time of the first flush that timed out; None while flushes succeed [s].
+        self._stalled_since: float | None = None
+        self._stall_reported = self._drops_reported = False
         self._closing = threading.Event()
-        # Set when there is something to do before the period is over.
+        # Set to end the wait for the period.
         self._wake = threading.Event()
-        self._thread = threading.Thread(target=self._run, name=f'viewer {way.kind}', daemon=True)
+        self._thread = threading.Thread(
+            target=self._run, name=f'viewer {endpoint.kind}', daemon=True
+        )
         self._thread.start()
 
     @property
     def state(self) -> str:
-        """Tell where it leads, how it is, and what came through."""
-        counts = f'{self._drawn} frames, {self._dropped} dropped'
-        return f'{self._way.kind}: {self._way.where}, {self._status}, {counts}'
+        """Return address, status and counts of frames, as a sentence."""
+        counts = f'{self._logged} frames, {self._dropped} dropped'
+        return f'{self._endpoint.kind}: {self._endpoint.where}, {self._status}, {counts}'
 
     @property
     def is_open(self) -> bool:
-        """Whether it draws, or will when somebody is there."""
+        """Whether the worker runs."""
         return self._thread.is_alive()
 
-    def put(self, frame: Frame, *, real_time_factor: float) -> None:
-        """Take a frame; where too many wait, the oldest goes, but for its answers."""
-        most = self._way.waiting
+    def put_frame(self, frame: Frame, *, real_time_factor: float) -> None:
+        """Queue a frame; a full queue drops its oldest frame, but not the answers of that."""
+        capacity = self._endpoint.capacity
         if not self.is_open:
             self._dropped += 1
             return
@@ -156,24 +165,24 @@ class Outlet:
             self._factor = real_time_factor
             self._frames.append(frame)
             self._bytes += _size(frame)
-            while len(self._frames) > most or self._bytes > WAITING_BYTES:
+            while len(self._frames) > capacity or self._bytes > WAITING_BYTES:
                 oldest = self._frames.popleft()
                 self._bytes -= _size(oldest)
                 self._answers += oldest.answers
                 self._dropped += 1
-            hurry = len(self._frames) >= min(BATCH, most // 2)
-        if hurry:
+            due = len(self._frames) >= min(BATCH, capacity // 2)
+        if due:
             self._wake.set()
 
     def end(self) -> None:
-        """Draw what waits, then no more."""
+        """Log the frames of the queue, then end the thread."""
         self._closing.set()
         self._wake.set()
 
     def join(self) -> bool:
-        """Wait until it has ended, at most as long as its way is worth; tell whether it has."""
-        self._thread.join(self._way.closing)
-        self._way.close()
+        """Wait for the thread, at most the endpoint's `closing`; return whether it has ended."""
+        self._thread.join(self._endpoint.closing)
+        self._endpoint.close()
         return not self._thread.is_alive()
 
     def _run(self) -> None:
@@ -182,62 +191,63 @@ class Outlet:
                 self._before.join()
                 self._before = None
             while not self._closing.is_set():
-                canvas = self._way.begin()
-                if canvas is None:
+                sink = self._endpoint.open_sink()
+                if sink is None:
                     self._status = 'nobody there'
-                    self._closing.wait(LOOK)
+                    self._closing.wait(CHECK_PERIOD)
                 else:
-                    self._tell(self._way.found())
-                    self._draw_on(canvas)
+                    self._report(self._endpoint.opened_answer())
+                    self._log_to(sink)
             self._status = 'ended'
         except (ConnectionError, ImportError) as error:
-            # Rerun may not be there, or not as it should be.
+            # Rerun may be missing, or be of another version.
             self._status = 'failed'
-            self._tell(self._way.lost(str(error)))
+            self._report(self._endpoint.lost_answer(str(error)))
         except BaseException as error:
             self._status = 'broken'
-            self._tell(self._way.lost(f'{type(error).__name__}: {error}'))
+            self._report(self._endpoint.lost_answer(f'{type(error).__name__}: {error}'))
             raise
         finally:
-            self._way.close()
-            self._let_go()
+            self._endpoint.close()
+            self._drop_queue()
 
-    def _draw_on(self, canvas: Canvas) -> None:
+    def _log_to(self, sink: Sink) -> None:
         """
         Draw until the outlet is closed, or its way is lost and may be found again.
 
         :raises ConnectionError: it is lost for good
         """
-        self._stuck, self._told_stuck, self._told_dropping = None, False, False
-        self._status, dropped, due = 'open', self._dropped, time.monotonic() + LOOK
+        self._stalled_since, self._stall_reported, self._drops_reported = None, False, False
+        self._status, dropped, due = 'open', self._dropped, time.monotonic() + CHECK_PERIOD
         while True:
-            self._wake.wait(self._way.period)
+            self._wake.wait(self._endpoint.period)
             self._wake.clear()
             closing = self._closing.is_set()
-            if self._stuck is None:
-                self._drain(canvas, everything=closing)
-            if closing or self._stuck is not None or time.monotonic() >= due:
-                due = time.monotonic() + LOOK
-                self._way.look()
-                if self._dropped > dropped and not self._told_dropping:
-                    self._told_dropping = True
-                    message = f'{self._way.kind}: {self._way.where}: too slow, frames are missing'
-                    self._tell(Answer(topic='viewer', message=message, code='frames_dropped'))
+            if self._stalled_since is None:
+                self._drain(sink, everything=closing)
+            if closing or self._stalled_since is not None or time.monotonic() >= due:
+                due = time.monotonic() + CHECK_PERIOD
+                self._endpoint.check_program()
+                if self._dropped > dropped and not self._drops_reported:
+                    self._drops_reported = True
+                    endpoint = self._endpoint
+                    message = f'{endpoint.kind}: {endpoint.where}: too slow, frames are missing'
+                    self._report(Answer(topic='viewer', message=message, code='frames_dropped'))
                 try:
-                    self._flush(canvas, self._way.closing / 2 if closing else PATIENCE)
+                    self._flush(sink, self._endpoint.closing / 2 if closing else FLUSH_TIMEOUT)
                 except ConnectionError as error:
-                    if not self._way.again:
+                    if not self._endpoint.reopens:
                         raise
                     self._status = 'lost'
-                    self._tell(self._way.lost(str(error)))
+                    self._report(self._endpoint.lost_answer(str(error)))
                     return
             if closing:
-                if self._stuck is None:
-                    canvas.close()
+                if self._stalled_since is None:
+                    sink.close()
                 return
 
-    def _drain(self, canvas: Canvas, *, everything: bool) -> None:
-        """Draw a batch of what waits, or all of it."""
+    def _drain(self, sink: Sink, *, everything: bool) -> None:
+        """Log one batch of the queue, or all of it."""
         while True:
             with self._lock:
                 frames = [self._frames.popleft() for _ in range(min(BATCH, len(self._frames)))]
@@ -246,47 +256,47 @@ class Outlet:
                     first = frames[0]
                     frames[0] = replace(first, answers=(*self._answers, *first.answers))
                     self._answers.clear()
-                left, factor = len(self._frames), self._factor
+                remaining, factor = len(self._frames), self._factor
             if frames:
-                canvas.draw(frames, real_time_factor=factor)
-                self._drawn += len(frames)
-            if not left:
+                sink.draw(frames, real_time_factor=factor)
+                self._logged += len(frames)
+            if not remaining:
                 return
             if not everything:
                 self._wake.set()
                 return
 
-    def _let_go(self) -> None:
-        """Drop what waits: nobody will draw it."""
+    def _drop_queue(self) -> None:
+        """Drop the frames of the queue."""
         with self._lock:
             self._dropped += len(self._frames)
             self._frames.clear()
             self._answers.clear()
             self._bytes = 0
 
-    def _flush(self, canvas: Canvas, patience: float) -> None:
+    def _flush(self, sink: Sink, timeout: float) -> None:
         """
-        See whether what has been drawn arrives; until it does, no more is drawn.
+        Flush a sink; while that times out, no more frames are logged.
 
-        :raises ConnectionError: it never will
+        :raises ConnectionError: logged frames cannot be sent any more
         """
         try:
-            canvas.flush(patience)
+            sink.flush(timeout)
         except TimeoutError:
             now = time.monotonic()
             self._status = 'takes nothing'
-            self._stuck = now if self._stuck is None else self._stuck
-            if now - self._stuck >= SLOW and not self._told_stuck:
-                self._told_stuck = True
-                self._tell(self._way.lost('it takes nothing any more'))
+            self._stalled_since = now if self._stalled_since is None else self._stalled_since
+            if now - self._stalled_since >= STALLED_AFTER and not self._stall_reported:
+                self._stall_reported = True
+                self._report(self._endpoint.lost_answer('it takes nothing any more'))
         else:
-            self._status, self._stuck = 'open', None
-            if self._told_stuck:
-                self._told_stuck = False
-                self._tell(self._way.found())
+            self._status, self._stalled_since = 'open', None
+            if self._stall_reported:
+                self._stall_reported = False
+                self._report(self._endpoint.opened_answer())
 
 
 def _size(frame: Frame) -> int:
-    """Return what a waiting frame holds, about [bytes]."""
+    """Return the approximate size of a frame in the queue [bytes]."""
     contacts = 0 if frame.contacts is None else frame.contacts.nbytes
     return frame.snapshot.nbytes + contacts + 1000

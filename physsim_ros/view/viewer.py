@@ -13,9 +13,9 @@
 # limitations under the License.
 
 """
-The viewer: where frames are shown and recorded.
+The viewer: frames are shown in a window, on a web page or by another server, and recorded.
 
-Law: nothing that happens to a viewer or a disk slows or stops the world.
+Law: neither a viewer nor a disk that fails or is slow delays the world.
 """
 
 from __future__ import annotations
@@ -36,25 +36,32 @@ from typing import TYPE_CHECKING
 from urllib.parse import quote, urlsplit
 
 from physsim_ros.model.snapshot import Answer, Frame
-from physsim_ros.view.sink_worker import ANSWERS, Canvas, Outlet, PATIENCE, Tell, Way
+from physsim_ros.view.sink_worker import (
+    ANSWERS,
+    Endpoint,
+    FLUSH_TIMEOUT,
+    Report,
+    Sink,
+    SinkWorker,
+)
 
 if TYPE_CHECKING:
     import rerun as rr
 
-# Under which Rerun lists what it is shown.
+# Application id of the recordings in Rerun.
 NAME = 'physsim'
-USUAL_URL = 'rerun+http://127.0.0.1:9876/proxy'
-# What is served to browsers that come late.
-SERVED = '256MiB'
-# A batch is sent on after so long [s]: with Rerun's own 8 ms a software-rendered web viewer falls
-# 18 s behind in 30.
+DEFAULT_URL = 'rerun+http://127.0.0.1:9876/proxy'
+# Memory of a server for late viewers.
+SERVER_MEMORY = '256MiB'
+# Period of Rerun's batcher [s]: at its default of 8 ms a software-rendered web viewer falls 18 s
+# behind within 30 s.
 TICK = 0.1
-# A window that ends with an error before that was never one; nor was a page server that ends [s].
+# Time after its start within which a program that ends was never up [s].
 SETTLING = 10.0
 
 
 class ViewerMode(Enum):
-    """Where frames are shown."""
+    """The kinds of viewer: the values of parameter `viewer`."""
 
     NONE = 'none'
     SPAWN = 'spawn'
@@ -64,36 +71,36 @@ class ViewerMode(Enum):
 
 
 class Viewer:
-    """Shows frames, and records them: nowhere at first."""
+    """Shows frames in at most one viewer, and records them in at most one file."""
 
     def __init__(self) -> None:
         self._events: deque[Answer] = deque(maxlen=ANSWERS)
-        self._file: Outlet | None = None
-        self._window: Outlet | None = None
-        # The window before, which may still be closing.
-        self._closing: Outlet | None = None
+        self._file: SinkWorker | None = None
+        self._window: SinkWorker | None = None
+        # The viewer before, which may still be closing.
+        self._closing: SinkWorker | None = None
         self._shown: tuple[Frame, float] | None = None
 
     @property
     def state(self) -> str:
-        """Tell what is shown where, in a sentence."""
-        return '; '.join(outlet.state for outlet in self._outlets) or 'none'
+        """Return the states of viewer and file, as a sentence."""
+        return '; '.join(worker.state for worker in self._workers) or 'none'
 
     @property
     def is_open(self) -> bool:
-        """Whether frames go anywhere."""
-        return any(outlet.is_open for outlet in self._outlets)
+        """Whether there is a viewer or a file."""
+        return any(worker.is_open for worker in self._workers)
 
     @property
-    def _outlets(self) -> list[Outlet]:
-        return [outlet for outlet in (self._file, self._window) if outlet is not None]
+    def _workers(self) -> list[SinkWorker]:
+        return [worker for worker in (self._file, self._window) if worker is not None]
 
-    def turn_to(self, mode: ViewerMode, url: str = '') -> None:
+    def open(self, mode: ViewerMode, url: str = '') -> None:
         """
-        Show frames elsewhere from now on, the last one too; what is recorded goes on.
+        Open another viewer, which shows the last frame too; the file is not affected.
 
-        :param mode: where
-        :param url: of the Rerun server for CONNECT; '' is the usual one of this machine
+        :param mode: kind of viewer
+        :param url: of the Rerun server for CONNECT; '' is the default one of this machine
         """
         if self._window is not None:
             self._window.end()
@@ -102,54 +109,56 @@ class Viewer:
             mode = ViewerMode.SPAWN if _has_display() else ViewerMode.WEB
         if mode is ViewerMode.NONE:
             return
-        way = (
-            _Client(url or USUAL_URL)
+        endpoint = (
+            _ClientEndpoint(url or DEFAULT_URL)
             if mode is ViewerMode.CONNECT
-            else _Server(native=mode is ViewerMode.SPAWN, tell=self._events.append)
+            else _ServerEndpoint(native=mode is ViewerMode.SPAWN, report=self._events.append)
         )
-        self._window = Outlet(way, tell=self._events.append, after=self._closing)
+        self._window = SinkWorker(endpoint, report=self._events.append, after=self._closing)
         if self._shown is not None:
             frame, factor = self._shown
-            self._window.put(frame, real_time_factor=factor)
+            self._window.put_frame(frame, real_time_factor=factor)
 
     def record(self, path: str) -> None:
-        """Write what is shown from now on to a `.rrd` file, and no more to the one before."""
+        """Record the frames from now on in another `.rrd` file."""
         if self._file is not None:
             self._file.end()
-        self._file = Outlet(_File(path), tell=self._events.append, after=self._file)
+        self._file = SinkWorker(_FileEndpoint(path), report=self._events.append, after=self._file)
 
     def show(self, frame: Frame, *, real_time_factor: float) -> None:
         """
-        Show a frame soon; this never blocks.
+        Queue a frame for viewer and file; never blocks.
 
-        :param frame: its arrays are never written again
-        :param real_time_factor: simulated seconds a second
+        :param frame: its arrays are not changed any more
+        :param real_time_factor: simulation seconds a second
         """
         self._shown = frame, real_time_factor
-        for outlet in self._outlets:
-            outlet.put(frame, real_time_factor=real_time_factor)
+        for worker in self._workers:
+            worker.put_frame(frame, real_time_factor=real_time_factor)
 
     def poll(self) -> tuple[Answer, ...]:
-        """Return what has happened to viewers and files since the last call."""
+        """Return the answers about viewers and files since the last call."""
         return tuple(self._events.popleft() for _ in range(len(self._events)))
 
     def close(self) -> None:
-        """Show and write what waits as far as that goes at once, and end."""
-        outlets = [*self._outlets] if self._closing is None else [*self._outlets, self._closing]
-        for outlet in outlets:
-            outlet.end()
-        ended = [outlet.join() for outlet in outlets]
+        """Log the queued frames, as far as the time for closing allows, and end."""
+        workers = [*self._workers]
+        if self._closing is not None:
+            workers.append(self._closing)
+        for worker in workers:
+            worker.end()
+        ended = [worker.join() for worker in workers]
         if not all(ended) and 'rerun' in sys.modules:
-            # At exit Rerun waits for every viewer, for a frozen one without end.
+            # At exit Rerun (0.41) waits for its recordings, without end where a viewer is frozen.
             sys.modules['rerun'].unregister_shutdown()
 
 
-class _RerunCanvas:
-    """A stream of Rerun's and the picture on it."""
+class _RerunSink:
+    """A recording stream of Rerun, and the recorder of frames on it."""
 
     def __init__(self, *sinks: rr.GrpcSink | rr.GrpcServerSink | rr.FileSink) -> None:
-        # Takes a second the first time, so this runs in the outlet's thread.
-        from physsim_ros.view.recording import Picture
+        # The first import takes a second, so it happens in the thread of the worker.
+        from physsim_ros.view.recording import FrameRecorder
         import rerun as rr
 
         batching = rr.ChunkBatcherConfig(flush_tick=TICK)
@@ -158,16 +167,16 @@ class _RerunCanvas:
             self._recording.set_sinks(*sinks)
         except RuntimeError as error:
             raise ConnectionError(error) from error
-        self._picture = Picture(self._recording)
+        self._recorder = FrameRecorder(self._recording)
 
     def draw(self, frames: Sequence[Frame], *, real_time_factor: float) -> None:
-        self._picture.draw(frames, real_time_factor=real_time_factor)
+        self._recorder.draw(frames, real_time_factor=real_time_factor)
 
-    def flush(self, patience: float) -> None:
+    def flush(self, timeout: float) -> None:
         try:
-            self._recording.flush(timeout_sec=patience)
+            self._recording.flush(timeout_sec=timeout)
         except RuntimeError as error:
-            # Rerun has one class of error for both.
+            # Rerun (0.41) raises RuntimeError for both.
             if 'timed out' in str(error):
                 raise TimeoutError(error) from error
             raise ConnectionError(error) from error
@@ -176,31 +185,31 @@ class _RerunCanvas:
         self._recording.disconnect()
 
 
-class _File(Way):
-    """A file, which is to hold every frame, and takes them as fast as they come."""
+class _FileEndpoint(Endpoint):
+    """A `.rrd` file, for which no frame is dropped."""
 
     kind = 'record'
     code = 'record_failed'
-    period, waiting, closing, again = 0.5, sys.maxsize, 10.0, False
+    period, capacity, closing, reopens = 0.5, sys.maxsize, 10.0, False
 
     def __init__(self, path: str) -> None:
         self.where = path
 
-    def begin(self) -> Canvas:
+    def open_sink(self) -> Sink:
         import rerun as rr
 
-        return _RerunCanvas(rr.FileSink(self.where))
+        return _RerunSink(rr.FileSink(self.where))
 
 
-class _Client(Way):
-    """Somebody else's Rerun server, which may come late and go again."""
+class _ClientEndpoint(Endpoint):
+    """A Rerun server started elsewhere, which may start later than the world and end before it."""
 
     kind = 'connect'
 
     def __init__(self, url: str) -> None:
         self.where = url
 
-    def begin(self) -> Canvas | None:
+    def open_sink(self) -> Sink | None:
         import rerun as rr
 
         try:
@@ -209,43 +218,43 @@ class _Client(Way):
             host, port = address.hostname or '127.0.0.1', address.port or 9876
         except (RuntimeError, ValueError) as error:
             raise ConnectionError(error) from error
-        # Rerun would wait 5 s for nobody, and then keep all that it is given.
-        return _RerunCanvas(sink) if _is_open(host, port) else None
+        # Without a server, GrpcSink (Rerun 0.41) waits 5 s and then keeps all data in memory.
+        return _RerunSink(sink) if _is_open(host, port) else None
 
 
-class _Server(Way):
+class _ServerEndpoint(Endpoint):
     """
-    A server of our own on this machine alone, and a program that shows what it serves.
+    A Rerun server in this process, on loopback only, and a viewer program connected to it.
 
-    :param native: in a window, where one can be had; else on a page
-    :param tell: takes what happens
+    :param native: whether the program is a window, where there is a display; else a web page
+    :param report: takes answers about the program
     """
 
-    def __init__(self, *, native: bool, tell: Tell) -> None:
-        self._tell = tell
+    def __init__(self, *, native: bool, report: Report) -> None:
+        self._report = report
         self.kind = 'spawn' if native else 'web'
         self._uri = ''
         self._program: subprocess.Popen[bytes] | None = None
         self._started = 0.0
-        # Held while a program is started or ended, so that none is started behind `close`.
+        # Guards start and end of the program, so that none is started after `close`.
         self._lock = threading.Lock()
         self._closed = False
 
-    def begin(self) -> Canvas:
+    def open_sink(self) -> Sink:
         import rerun as rr
 
         with self._lock:
-            self._end()
-        sink = rr.GrpcServerSink('127.0.0.1', _free_port(), server_memory_limit=SERVED)
-        stream = _RerunCanvas(sink)
+            self._end_program()
+        sink = rr.GrpcServerSink('127.0.0.1', _free_port(), server_memory_limit=SERVER_MEMORY)
+        rerun_sink = _RerunSink(sink)
         self._uri = sink.uri
         if self.kind == 'spawn' and not _has_display():
             self._fall_back('there is no display')
         else:
-            self._start()
-        return stream
+            self._start_program()
+        return rerun_sink
 
-    def look(self) -> None:
+    def check_program(self) -> None:
         program = self._program
         if program is None or (code := program.poll()) is None:
             return
@@ -253,37 +262,39 @@ class _Server(Way):
         settling = time.monotonic() - self._started < SETTLING
         if self.kind == 'web' and settling:
             self.where = f'any Rerun viewer at {self._uri}'
-            self._tell(self.lost(f'no page could be served ({code})'))
+            self._report(self.lost_answer(f'no page could be served ({code})'))
         elif self.kind == 'web':
-            self._tell(self.lost(f'the page server ended ({code}); it is started again'))
-            self._start()
+            self._report(self.lost_answer(f'the page server ended ({code}); it is started again'))
+            self._start_program()
         elif code and settling:
             self._fall_back(f'no window could be opened ({code})')
         else:
-            self._tell(self.lost(f'the window was closed; another one: rerun {self._uri}'))
+            self._report(
+                self.lost_answer(f'the window was closed; another one: rerun {self._uri}')
+            )
 
     def close(self) -> None:
         with self._lock:
             self._closed = True
-            self._end()
+            self._end_program()
 
-    def _end(self) -> None:
-        """End the program, if there is one; with the lock held."""
+    def _end_program(self) -> None:
+        """End the program, if there is one; the caller holds the lock."""
         program, self._program = self._program, None
         if program is not None:
             program.terminate()
             try:
-                program.wait(PATIENCE)
+                program.wait(FLUSH_TIMEOUT)
             except subprocess.TimeoutExpired:
                 program.kill()
                 program.wait()
 
-    def _fall_back(self, why: str) -> None:
+    def _fall_back(self, reason: str) -> None:
         self.kind = 'web'
-        self._start()
-        self._tell(self.lost(f'{why}, so this page instead'))
+        self._start_program()
+        self._report(self.lost_answer(f'{reason}, so this page instead'))
 
-    def _start(self) -> None:
+    def _start_program(self) -> None:
         if self.kind == 'spawn':
             self.where = f'window on {self._uri}'
             arguments = [f'--connect={self._uri}', '--port=auto', '--hide-welcome-screen']
@@ -291,9 +302,9 @@ class _Server(Way):
             port = _free_port(9090)
             self.where = f'http://127.0.0.1:{port}/?url={quote(self._uri, safe="")}'
             arguments = ['--serve-web', f'--web-viewer-port={port}', self._uri]
-        # On loopback; `rerun.serve_web_viewer` would be open to all the network.
+        # On loopback; `rerun.serve_web_viewer` (0.41) listens on all interfaces.
         command = [_program(), '--bind=127.0.0.1', *arguments]
-        # These two keep it from asking for analytics.
+        # Both variables keep the program from asking about analytics.
         environment = {**os.environ, 'CI': '1', 'RERUN_APP_ONLY': 'true'}
         try:
             with self._lock:
@@ -307,7 +318,7 @@ class _Server(Way):
                     )
         except OSError as error:
             self.where = f'any Rerun viewer at {self._uri}'
-            self._tell(self.lost(f'{command[0]} cannot be run: {error}'))
+            self._report(self.lost_answer(f'{command[0]} cannot be run: {error}'))
         self._started = time.monotonic()
 
 
@@ -317,14 +328,14 @@ def _has_display() -> bool:
 
 def _is_open(host: str, port: int) -> bool:
     try:
-        socket.create_connection((host, port), timeout=PATIENCE).close()
+        socket.create_connection((host, port), timeout=FLUSH_TIMEOUT).close()
     except OSError:
         return False
     return True
 
 
 def _free_port(wanted: int = 0) -> int:
-    """Return a port of this machine that nobody listens on: the one wanted, or any other."""
+    """Return a free TCP port of this machine: the wanted one, or any other."""
     with socket.socket() as probe:
         probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         try:
@@ -336,7 +347,7 @@ def _free_port(wanted: int = 0) -> int:
 
 
 def _program() -> str:
-    """Return the Rerun viewer of the wheel, or what the path has."""
+    """Return the path of the viewer program of the rerun-sdk wheel, or of that on PATH."""
     spec = importlib.util.find_spec('rerun_cli')
     if spec is not None and spec.origin is not None:
         program = Path(spec.origin).with_name('rerun')

@@ -37,7 +37,7 @@ from geometry_msgs.msg import Pose, PoseArray
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.requests import Configure, Spawn
 from physsim_ros.model.shapes import Box, Disc
-from physsim_ros.ros.node import clear_the_way, PhysSimNode
+from physsim_ros.ros.node import PhysSimNode, reduce_latency
 from physsim_ros.simulation.world import World
 from physsim_ros.testing import own_domain
 import pymunk
@@ -231,7 +231,7 @@ def measure(pile: Pile, directory: Path, domain: int) -> None:
 
 def table(counts: list[int]) -> None:
     """Print a row for each count of bodies that lie, and some for a thousand that differ."""
-    clear_the_way()
+    reduce_latency()
     print('A frame of 4 steps of a pile, recorded by Rerun')
     print(
         'bodies  pile     subscribed     pace   bare [ms]  node [ms]  node/bare  naive/bare'

@@ -18,7 +18,7 @@ import statistics
 import time
 
 from physsim_ros.model.body_properties import Properties
-from physsim_ros.model.joint_properties import JointKind
+from physsim_ros.model.joints import JointKind
 from physsim_ros.model.requests import Join, Spawn
 from physsim_ros.model.shapes import Box
 from physsim_ros.simulation.simulation import Simulation

@@ -22,7 +22,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 import numpy as np
 from physsim_ros.drawing.clicks.tools import Tool
-from physsim_ros.drawing.session import Pen
+from physsim_ros.drawing.session import DrawingSession
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.requests import Spawn
@@ -52,7 +52,7 @@ def test_any_stroke_is_read_or_refused_and_leaves_the_world_sound(
     world = World()
     world.apply(Spawn(name='a/0', shape=Disc(radius=0.5)))
     world.apply(Spawn(name='a/1', shape=Box(width=2.0, height=0.5), pose=(0.5, 0.25, 0.3)))
-    pen = Pen(DrawingSettings(sketch_confidence=0.0))
+    pen = DrawingSession(DrawingSettings(sketch_confidence=0.0))
     samples = np.array([*points, *([odd] if with_odd else [])]).reshape(-1, 2)
     before = world.digest()
     try:
@@ -81,7 +81,7 @@ def test_any_clicks_are_drawn_or_refused_and_leave_the_world_sound(
     world = World()
     world.apply(Spawn(name='a/0', shape=Disc(radius=0.5)))
     world.apply(Spawn(name='a/1', shape=Box(width=2.0, height=0.5), pose=(0.5, 0.25, 0.3)))
-    pen = Pen(DrawingSettings(), tool)
+    pen = DrawingSession(DrawingSettings(), tool)
     for taken, clicked, where in actions:
         if taken is not None:
             pen.tool = taken

@@ -19,9 +19,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from physsim_ros.drawing.session import Pen
+from physsim_ros.drawing.session import DrawingSession
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.files import drawing_file
+from physsim_ros.files import find_drawing, load_drawing
 from physsim_ros.model.arrays import Floats
 from physsim_ros.simulation.simulation import Simulation
 import pytest
@@ -36,11 +36,11 @@ class Machine:
 
     def __init__(self, name: str, tremor: float = 0.0) -> None:
         self.simulation = Simulation(speed=0.0)
-        self._pen = Pen(DrawingSettings())
+        self._pen = DrawingSession(DrawingSettings())
         self._random = np.random.default_rng(7)
         self.read: list[str] = []
         self.frame = self.simulation.advance_frame()
-        for stroke in drawing_file.load(drawing_file.find(name)):
+        for stroke in load_drawing(find_drawing(name)):
             self._draw(stroke, tremor)
 
     def _draw(self, stroke: Floats, tremor: float) -> None:
@@ -51,7 +51,7 @@ class Machine:
         extent = min(float(np.ptp(stroke[:, :2], axis=0).max()), 1.0)
         shaken[:, :2] += tremor * extent * np.column_stack(drift)
         reading = self._pen.stroke(shaken, '', self.frame.snapshot)
-        self.read.append(str(reading.what))
+        self.read.append(str(reading.meaning))
         for request in reading.requests:
             self.simulation.submit(request, topic='~/stroke')
         frame = self.simulation.settle()
@@ -143,7 +143,7 @@ def test_a_mass_on_a_spring_goes_up_and_down(tremor: float) -> None:
     assert machine.read == ['wall', 'rectangle', 'spring']
     assert machine.joints == [('spring', 'drawn/1', 'drawn/0')]
     _, mass = range(2)
-    weight = machine.simulation.world.snapshot().scene.bodies[mass].weight
+    weight = machine.simulation.world.snapshot().scene.bodies[mass].total_mass
     stiffness = 100.0
     before = machine.frame.snapshot.poses[mass, 1]
 

@@ -20,9 +20,9 @@ import itertools
 import math
 
 import numpy as np
-from physsim_ros.drawing.scene_query import View
+from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.model.errors import UnknownFrame
-from physsim_ros.model.joint_properties import JointKind
+from physsim_ros.model.joints import JointKind
 from physsim_ros.model.requests import Join
 from physsim_ros.simulation.world import World
 import pytest
@@ -43,7 +43,7 @@ def crowded() -> World:
 
 def test_the_topmost_body_under_a_point_is_the_worlds() -> None:
     world = crowded()
-    view = View(world.snapshot())
+    view = SceneQuery(world.snapshot())
     points = np.random.default_rng(3).uniform((-1.0, -1.0), (3.0, 3.0), (2000, 2)).tolist()
     hits = 0
     for x, y in points:
@@ -58,14 +58,14 @@ def test_all_bodies_under_a_point_are_found_topmost_first() -> None:
     for number in (3, 1, 2):
         spawn(world, f'a/{number}', pose=(0.1 * number, 0.0, 0.0))
     spawn(world, 'a/0', pose=(5.0, 0.0, 0.0))
-    assert View(world.snapshot()).bodies_at((0.0, 0.0)) == ('a/2', 'a/1', 'a/3')
+    assert SceneQuery(world.snapshot()).bodies_at((0.0, 0.0)) == ('a/2', 'a/1', 'a/3')
 
 
 @pytest.mark.parametrize('kind', SHAPES)
 def test_a_body_that_is_near_enough_counts(kind: str) -> None:
     world = World(settings=NOWHERE)
     spawn(world, 'a/0', SHAPES[kind], AT)
-    view = View(world.snapshot())
+    view = SceneQuery(world.snapshot())
     inside = view.in_world('a/0', INSIDE[kind])
     assert view.bodies_at(inside) == ('a/0',)
     # Right of all of it, but for the slack.
@@ -80,14 +80,14 @@ def test_a_body_that_is_near_enough_counts(kind: str) -> None:
 def test_points_go_from_the_world_to_a_body_and_back() -> None:
     world = World(settings=NOWHERE)
     spawn(world, 'a/0', pose=AT)
-    view = View(world.snapshot())
+    view = SceneQuery(world.snapshot())
     ahead = 3.0 + 2 * math.cos(0.7), -2.0 + 2 * math.sin(0.7)
     assert view.in_world('a/0', (2.0, 0.0)) == pytest.approx(ahead)
     assert view.local('a/0', ahead) == pytest.approx((2.0, 0.0))
-    assert view.placed((2.0, 0.0), 'a/0') == view.in_world('a/0', (2.0, 0.0))
-    assert view.placed((2.0, 0.0), '') == (2.0, 0.0)
+    assert view.resolve_point((2.0, 0.0), 'a/0') == view.in_world('a/0', (2.0, 0.0))
+    assert view.resolve_point((2.0, 0.0), '') == (2.0, 0.0)
     with pytest.raises(UnknownFrame):
-        view.placed((2.0, 0.0), 'b/0')
+        view.resolve_point((2.0, 0.0), 'b/0')
 
 
 def test_numbers_lie_above_all_of_their_kind_and_above_those_remembered() -> None:
@@ -98,8 +98,11 @@ def test_numbers_lie_above_all_of_their_kind_and_above_those_remembered() -> Non
         Join(name='drawn/4', kind=JointKind.ROD, points=((0, 0), (1, 0)), a='drawn/7', b='drawn/2')
     )
     snapshot = world.snapshot()
-    assert (View(snapshot).next_body(), View(snapshot).next_joint()) == ('drawn/8', 'drawn/5')
-    remembering = View(snapshot, first=20, first_joint=30)
+    assert (SceneQuery(snapshot).next_body(), SceneQuery(snapshot).next_joint()) == (
+        'drawn/8',
+        'drawn/5',
+    )
+    remembering = SceneQuery(snapshot, first=20, first_joint=30)
     assert (remembering.next_body(), remembering.next_joint()) == ('drawn/20', 'drawn/30')
-    empty = View(World().snapshot())
+    empty = SceneQuery(World().snapshot())
     assert (empty.next_body(), empty.next_joint()) == ('drawn/0', 'drawn/0')

@@ -20,12 +20,13 @@ from collections.abc import Callable
 from typing import Any
 
 from physsim_ros.drawing.clicks.tools import Tool
-from physsim_ros.drawing.session import Pen
+from physsim_ros.drawing.session import DrawingSession
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.model.requests import Command, Configure, Delete, Join, Spawn
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Disc, Point
+from physsim_ros.model.shapes import Disc
 from physsim_ros.model.snapshot import Answer, Frame
+from physsim_ros.model.transform import Point
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
@@ -38,7 +39,7 @@ class Studio:
 
     def __init__(self, state: str) -> None:
         self.simulation = Simulation(settings=WorldSettings(gravity=(0.0, 0.0)))
-        self.pen = Pen(DrawingSettings())
+        self.pen = DrawingSession(DrawingSettings())
         self._now = 0
         self._requests: list[Any] = []
         # One that moves at 1 m/s, and one that stands.

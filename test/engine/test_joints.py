@@ -21,7 +21,7 @@ from typing import Any
 
 import numpy as np
 from physsim_ros.model.errors import Refusal
-from physsim_ros.model.joint_properties import JointKind, JointProperties
+from physsim_ros.model.joints import JointKind, JointProperties
 from physsim_ros.model.requests import (
     Anchor,
     Axle,
@@ -38,7 +38,8 @@ from physsim_ros.model.requests import (
 )
 from physsim_ros.model.scene import Joint
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Box, Disc, Point
+from physsim_ros.model.shapes import Box, Disc
+from physsim_ros.model.transform import Point
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
 import pytest

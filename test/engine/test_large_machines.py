@@ -19,7 +19,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from physsim_ros.model.joint_properties import JointKind
+from physsim_ros.model.joints import JointKind
 from physsim_ros.model.requests import Join
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Disc

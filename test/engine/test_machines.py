@@ -29,7 +29,7 @@ from typing import Any
 from hypothesis import given, Phase, settings, strategies
 import numpy as np
 from physsim_ros.model.errors import Anchored, BadProperty
-from physsim_ros.model.joint_properties import JointKind, JointProperties
+from physsim_ros.model.joints import JointKind, JointProperties
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.requests import (
     Anchor,

@@ -21,7 +21,7 @@ import math
 import numpy as np
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.errors import Anchored, BadProperty
-from physsim_ros.model.joint_properties import JointKind
+from physsim_ros.model.joints import JointKind
 from physsim_ros.model.requests import (
     Anchor,
     Command,

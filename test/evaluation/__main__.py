@@ -27,12 +27,12 @@ import sys
 import time
 
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.strokes.interpretation import Meaning, read
-from physsim_ros.drawing.strokes.recogniser import recognise
-from physsim_ros.drawing.strokes.stroke import stroke
+from physsim_ros.drawing.strokes.interpretation import interpret_stroke
+from physsim_ros.drawing.strokes.recogniser import recognise_form
+from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.errors import Refusal
 
-from .scenes import Scene, scenes
+from .scenes import MEANINGS, Scene, scenes
 
 SEEDS = {'tuning': 1, 'report': 2}
 CLOSED = ('disc', 'rectangle', 'polygon')
@@ -53,7 +53,7 @@ class Tally:
         """Read the stroke of a scene."""
         begun = time.process_time_ns()
         try:
-            what = str(read(scene.samples, scene.view, SETTINGS).what)
+            what = interpret_stroke(scene.samples, scene.view, SETTINGS).meaning
         except Refusal:
             what = _REFUSED
         self.milliseconds.append((time.process_time_ns() - begun) / 1e6)
@@ -67,13 +67,13 @@ class Tally:
         if scene.name in CLOSED and what in CLOSED:
             self.right['disc or polygon'].append((what == 'disc') == (scene.name == 'disc'))
         if scene.name in _CORNERED:
-            found = recognise(stroke(scene.samples))
+            found = recognise_form(resample_stroke(scene.samples))
             exact = bool(found) and len(found[0].points) == scene.figure.corners
             self.corners[_CORNERED[scene.name]].append(exact)
 
     def show(self) -> None:
         """Print the tables."""
-        columns = [*map(str, Meaning), _REFUSED]
+        columns = [*MEANINGS, _REFUSED]
         print(f'{"drawn":<20}' + ''.join(f'{column[:9]:>10}' for column in columns))
         for name, counts in self.readings.items():
             cells = (f'{counts[column] or "·":>10}' for column in columns)
@@ -89,7 +89,7 @@ class Tally:
 
 
 _CORNERED = {'rectangle': 'closed', 'polygon': 'closed', 'line': 'open', 'bent line': 'open'}
-_SIGNS = (Meaning.ANCHOR, Meaning.AXLE, Meaning.DELETION, Meaning.GRAVITY, Meaning.SPRING)
+_SIGNS = ('anchor', 'axle', 'deletion', 'gravity', 'spring')
 
 
 def main(arguments: list[str]) -> None:

@@ -25,8 +25,7 @@ from dataclasses import dataclass
 import math
 
 import numpy as np
-from physsim_ros.drawing.scene_query import View
-from physsim_ros.drawing.strokes.interpretation import Meaning
+from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.model.requests import Spawn
 from physsim_ros.model.shapes import Box, Disc, Shape
 from physsim_ros.simulation.world import World
@@ -52,8 +51,8 @@ class Scene:
     name: str
     figure: Figure
     samples: Floats
-    view: View
-    meaning: Meaning | None
+    view: SceneQuery
+    meaning: str | None
 
 
 def scenes(count: int, seed: int) -> Iterator[Scene]:
@@ -70,7 +69,7 @@ def scenes(count: int, seed: int) -> Iterator[Scene]:
                 name=name,
                 figure=figure,
                 samples=drawn(figure, somebody, rng),
-                view=View(world.snapshot()),
+                view=SceneQuery(world.snapshot()),
                 meaning=meaning,
             )
 
@@ -140,20 +139,22 @@ def _squiggle(rng: Random) -> Figure:
 
 
 _Around = Callable[[Figure, Hand, Random], list[Placed]]
-_KINDS: tuple[tuple[str, Callable[[Random], Figure], Meaning | None, _Around], ...] = (
-    ('disc', figures.disc, Meaning.DISC, _nothing),
-    ('rectangle', figures.rectangle, Meaning.RECTANGLE, _nothing),
-    ('polygon', figures.polygon, Meaning.POLYGON, _nothing),
-    ('line', figures.line, Meaning.WALL, _nothing),
-    ('bent line', figures.bent_line, Meaning.WALL, _nothing),
-    ('curve', figures.curve, Meaning.WALL, _nothing),
-    ('line, 2 bodies', figures.line, Meaning.ROD, _at_ends),
-    ('zigzag, 2 bodies', figures.zigzag, Meaning.SPRING, _at_ends),
-    ('coil, 2 bodies', figures.coil, Meaning.SPRING, _at_ends),
-    ('x, on a body', figures.cross, Meaning.ANCHOR, _under),
-    ('circle, on a body', figures.disc, Meaning.AXLE, _under),
-    ('circle, on 2', figures.disc, Meaning.AXLE, _under_both),
-    ('arrow', figures.arrow, Meaning.GRAVITY, _nothing),
-    ('scribble, on a body', figures.scribble, Meaning.DELETION, _scribbled),
+_KINDS: tuple[tuple[str, Callable[[Random], Figure], str | None, _Around], ...] = (
+    ('disc', figures.disc, 'disc', _nothing),
+    ('rectangle', figures.rectangle, 'rectangle', _nothing),
+    ('polygon', figures.polygon, 'polygon', _nothing),
+    ('line', figures.line, 'wall', _nothing),
+    ('bent line', figures.bent_line, 'wall', _nothing),
+    ('curve', figures.curve, 'wall', _nothing),
+    ('line, 2 bodies', figures.line, 'rod', _at_ends),
+    ('zigzag, 2 bodies', figures.zigzag, 'spring', _at_ends),
+    ('coil, 2 bodies', figures.coil, 'spring', _at_ends),
+    ('x, on a body', figures.cross, 'anchor', _under),
+    ('circle, on a body', figures.disc, 'axle', _under),
+    ('circle, on 2', figures.disc, 'axle', _under_both),
+    ('arrow', figures.arrow, 'gravity', _nothing),
+    ('scribble, on a body', figures.scribble, 'deletion', _scribbled),
     ('squiggle', _squiggle, None, _nothing),
 )
+# All meanings of strokes, in the order of their kinds.
+MEANINGS = tuple(dict.fromkeys(meaning for _, _, meaning, _ in _KINDS if meaning is not None))

@@ -65,6 +65,6 @@ def test_what_was_not_packed_is_refused(text: object) -> None:
 
 
 def test_a_line_that_would_fill_the_memory_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(base64_array, 'MOST', 800)
+    monkeypatch.setattr(base64_array, 'MOST_BYTES', 800)
     with pytest.raises(BadProperty, match='no end'):
         unpack(pack(np.zeros(10_000)), 'it', np.float64)

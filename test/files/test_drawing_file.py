@@ -22,8 +22,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from physsim_ros.files.drawing_file import BadDrawing, find, load, Pace
-from physsim_ros.files.resources import shipped
+from physsim_ros.files import BadDrawing, find_drawing, load_drawing, Pace, shipped
 from physsim_ros.model.arrays import Floats
 from physsim_ros.ros.stroke_reader import MOST_SAMPLES
 import pytest
@@ -41,7 +40,10 @@ def svg(directory: Path, inside: str, root: str = 'viewBox="0 0 100 50"') -> Pat
 def lines(directory: Path, inside: str, root: str = 'viewBox="0 0 100 50"') -> list[Floats]:
     """Return the strokes of an SVG file in its own units, densely sampled."""
     pace = Pace(speed=1.0, rate=100.0)
-    return [stroke[:, :2] for stroke in load(svg(directory, inside, root), scale=1.0, pace=pace)]
+    return [
+        stroke[:, :2]
+        for stroke in load_drawing(svg(directory, inside, root), scale=1.0, pace=pace)
+    ]
 
 
 def written(directory: Path, content: Any) -> Path:
@@ -181,14 +183,14 @@ def test_what_a_browser_does_not_show_is_not_drawn(tmp_path: Path) -> None:
 
 def test_the_pen_goes_at_its_speed_and_is_sampled_at_its_rate(tmp_path: Path) -> None:
     path = svg(tmp_path, '<path d="M 0 50 H 100"/>')
-    (stroke,) = load(path, scale=0.1, pace=Pace(speed=2.0, rate=50.0))
+    (stroke,) = load_drawing(path, scale=0.1, pace=Pace(speed=2.0, rate=50.0))
     assert stroke[-1].tolist() == [10.0, 0.0, 5.0]
     assert len(stroke) == 251
     assert np.diff(stroke[:, 2]) == pytest.approx(1 / 50)
 
 
 def test_small_things_are_drawn_with_enough_samples(tmp_path: Path) -> None:
-    (stroke,) = load(svg(tmp_path, '<circle cx="1" cy="1" r="1"/>'))
+    (stroke,) = load_drawing(svg(tmp_path, '<circle cx="1" cy="1" r="1"/>'))
     assert len(stroke) >= 30
 
 
@@ -196,13 +198,13 @@ def test_however_long_a_line_is_it_has_no_more_samples_than_a_stroke_may_have(
     tmp_path: Path,
 ) -> None:
     points = ' '.join(f'{x},{x % 2}' for x in range(20_000))
-    (stroke,) = load(svg(tmp_path, f'<polyline points="{points}"/>'), scale=1.0)
+    (stroke,) = load_drawing(svg(tmp_path, f'<polyline points="{points}"/>'), scale=1.0)
     assert MOST_SAMPLES / 2 < len(stroke) <= MOST_SAMPLES
     assert stroke[-1, :2] == pytest.approx((19_999, 49))
 
 
 def test_without_a_scale_a_hundred_units_of_a_page_are_a_metre(tmp_path: Path) -> None:
-    (stroke,) = load(svg(tmp_path, '<path d="M 0 50 H 100"/>'))
+    (stroke,) = load_drawing(svg(tmp_path, '<path d="M 0 50 H 100"/>'))
     assert stroke[-1, 0] == pytest.approx(1.0)
 
 
@@ -212,7 +214,7 @@ def test_without_a_scale_a_hundred_units_of_a_page_are_a_metre(tmp_path: Path) -
 @pytest.mark.parametrize('wrapped', [False, True])
 def test_json_is_in_metres_and_y_goes_up(tmp_path: Path, *, wrapped: bool) -> None:
     strokes = [[[0, 0], [1, 2], [3, 4]], [[5, 5], [6, 5]]]
-    first, second = load(written(tmp_path, {'strokes': strokes} if wrapped else strokes))
+    first, second = load_drawing(written(tmp_path, {'strokes': strokes} if wrapped else strokes))
     assert first[-1, :2].tolist() == [3.0, 4.0]
     assert passes(first[:, :2], (0, 0), (1, 2), (3, 4))
     assert second[0, :2].tolist() == [5.0, 5.0]
@@ -220,7 +222,7 @@ def test_json_is_in_metres_and_y_goes_up(tmp_path: Path, *, wrapped: bool) -> No
 
 def test_strokes_that_have_times_keep_their_samples(tmp_path: Path) -> None:
     samples = [[0, 0, 10.0], [1, 2, 10.5], [3, 4, 12.0]]
-    (stroke,) = load(written(tmp_path, [samples]), scale=2.0)
+    (stroke,) = load_drawing(written(tmp_path, [samples]), scale=2.0)
     assert stroke.tolist() == [[0.0, 0.0, 0.0], [2.0, 4.0, 0.5], [6.0, 8.0, 2.0]]
 
 
@@ -235,7 +237,7 @@ def test_an_svg_without_strokes_is_refused(tmp_path: Path, text: str) -> None:
     path = tmp_path / 'bad.svg'
     path.write_text(text)
     with pytest.raises(BadDrawing, match=r'bad\.svg'):
-        load(path)
+        load_drawing(path)
 
 
 @pytest.mark.parametrize(
@@ -264,13 +266,13 @@ def test_an_svg_without_strokes_is_refused(tmp_path: Path, text: str) -> None:
 )
 def test_json_that_is_no_list_of_strokes_is_refused(tmp_path: Path, content: Any) -> None:
     with pytest.raises(BadDrawing):
-        load(written(tmp_path, content))
+        load_drawing(written(tmp_path, content))
 
 
 @pytest.mark.parametrize('root', ['0 0 0 10', '0 0 10', 'a b', ''])
 def test_a_page_that_cannot_be_measured_is_refused(tmp_path: Path, root: str) -> None:
     with pytest.raises(BadDrawing, match=r'drawing\.svg'):
-        load(svg(tmp_path, '<path d="M 0 0 H 5"/>', f'viewBox="{root}"'))
+        load_drawing(svg(tmp_path, '<path d="M 0 0 H 5"/>', f'viewBox="{root}"'))
 
 
 @pytest.mark.parametrize(
@@ -284,14 +286,14 @@ def test_a_page_that_cannot_be_measured_is_refused(tmp_path: Path, root: str) ->
 )
 def test_an_element_that_is_not_as_it_should_be_is_refused(tmp_path: Path, inside: str) -> None:
     with pytest.raises(BadDrawing, match=r'drawing\.svg'):
-        load(svg(tmp_path, inside))
+        load_drawing(svg(tmp_path, inside))
 
 
 def test_brackets_in_brackets_without_end_are_refused(tmp_path: Path) -> None:
     path = tmp_path / 'drawing.json'
     path.write_text('[' * 100_000)
     with pytest.raises(BadDrawing, match='nested'):
-        load(path)
+        load_drawing(path)
 
 
 @pytest.mark.parametrize(
@@ -299,33 +301,33 @@ def test_brackets_in_brackets_without_end_are_refused(tmp_path: Path) -> None:
 )
 def test_no_stroke_reaches_or_takes_for_ever(tmp_path: Path, scale: float, pace: Pace) -> None:
     with pytest.raises(BadDrawing, match='a stroke'):
-        load(svg(tmp_path, '<path d="M 0 0 H 50"/>'), scale=scale, pace=pace)
+        load_drawing(svg(tmp_path, '<path d="M 0 0 H 50"/>'), scale=scale, pace=pace)
 
 
 def test_however_often_a_pen_is_sampled_a_stroke_is_no_longer_than_it_may_be(
     tmp_path: Path,
 ) -> None:
-    (stroke,) = load(svg(tmp_path, '<path d="M 0 0 H 50"/>'), pace=Pace(rate=1e308))
+    (stroke,) = load_drawing(svg(tmp_path, '<path d="M 0 0 H 50"/>'), pace=Pace(rate=1e308))
     assert len(stroke) <= MOST_SAMPLES
 
 
 def test_a_file_that_is_not_there_or_cannot_be_read_is_refused(tmp_path: Path) -> None:
     with pytest.raises(BadDrawing, match='no drawing'):
-        find(str(tmp_path / 'nothing.svg'))
+        find_drawing(str(tmp_path / 'nothing.svg'))
     with pytest.raises(BadDrawing, match='no drawing'):
-        find('nothing')
+        find_drawing('nothing')
     (tmp_path / 'latin.json').write_bytes(b'["\xe9"]')
     with pytest.raises(BadDrawing, match='cannot read'):
-        load(tmp_path / 'latin.json')
+        load_drawing(tmp_path / 'latin.json')
 
 
 @pytest.mark.parametrize(
     ('name', 'strokes'), [('car', 6), ('pendulum', 3), ('spring_and_mass', 3), ('seesaw', 5)]
 )
 def test_the_shipped_drawings_are_found_by_name(name: str, strokes: int) -> None:
-    path = find(name)
+    path = find_drawing(name)
     assert path.parent == shipped('drawings')
-    drawn = load(path)
+    drawn = load_drawing(path)
     assert len(drawn) == strokes
     for stroke in drawn:
         assert (stroke[:, :2] >= 0.0).all()

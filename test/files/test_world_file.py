@@ -24,14 +24,21 @@ import zlib
 from hypothesis import given, settings
 from hypothesis import strategies as st
 import numpy as np
-from physsim_ros.files import world_file
+from physsim_ros.files import (
+    find_world,
+    hides_shipped,
+    load_mapping,
+    load_world,
+    PARAMETERS,
+    save_world,
+    SETTINGS,
+    shipped_worlds,
+)
 from physsim_ros.files.base64_array import pack
-from physsim_ros.files.world_schema import PARAMETERS, SETTINGS
-from physsim_ros.files.yaml12 import load_mapping
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.colors import color_of
 from physsim_ros.model.errors import BadWorldFile, Malformed
-from physsim_ros.model.joint_properties import JointKind, JointProperties
+from physsim_ros.model.joints import JointKind, JointProperties
 from physsim_ros.model.requests import Anchor, Command, Configure, Join, Release, Restore
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Disc
@@ -65,7 +72,7 @@ def write(folder: Path, text: str, name: str = 'w.yaml') -> Path:
 
 
 def load(path: Path, *, rate: float = RATE, **settings: Any) -> WorldState:
-    return world_file.load(path, settings=WorldSettings(**settings), physics_rate=rate)
+    return load_world(path, settings=WorldSettings(**settings), physics_rate=rate)
 
 
 def loaded(text: str, folder: Path, **settings: Any) -> World:
@@ -81,7 +88,7 @@ def restored(state: WorldState) -> World:
 
 def save(world: World | WorldState, folder: Path, name: str = 'w') -> Path:
     state = world.save() if isinstance(world, World) else world
-    return world_file.save(state, name, world_dir=folder, physics_rate=RATE)
+    return save_world(state, name, world_dir=folder, physics_rate=RATE)
 
 
 def refusal_of(text: str, folder: Path, **settings: Any) -> BadWorldFile:
@@ -259,7 +266,7 @@ def test_what_has_fallen_further_than_anyone_may_ask_round_trips(folder: Path) -
     assert pose(world, 'a/0')[1] < -1e7
     assert twist(world, 'a/0')[1] < -1e5
 
-    path = world_file.save(world.save(), 'w', world_dir=folder, physics_rate=60.0)
+    path = save_world(world.save(), 'w', world_dir=folder, physics_rate=60.0)
 
     assert load(path, rate=60.0) == world.save()
 
@@ -896,15 +903,15 @@ def test_a_file_that_is_not_there_is_refused(folder: Path) -> None:
         load(folder / 'nothing.yaml')
     for name in ('nothing', 'nothing.yaml', 'sub/nothing', '/nothing.yaml', '.', '..', '../..'):
         with pytest.raises(BadWorldFile):
-            world_file.find(name, world_dir=folder, confined=False)
+            find_world(name, world_dir=folder, confined=False)
 
 
 def test_where_a_world_is_not_there_those_that_are_are_named(folder: Path) -> None:
     write(folder, 'format: 1', 'mine.yaml')
     write(folder, 'format: 1', '.hidden.yaml')
     with pytest.raises(BadWorldFile) as refused:
-        world_file.find('nothere', world_dir=folder, confined=True)
-    for path in world_file.shipped_worlds().glob('*.yaml'):
+        find_world('nothere', world_dir=folder, confined=True)
+    for path in shipped_worlds().glob('*.yaml'):
         assert path.stem in str(refused.value)
     assert 'mine' in str(refused.value)
     assert 'hidden' not in str(refused.value)
@@ -916,7 +923,7 @@ def test_a_directory_is_no_world(folder: Path) -> None:
     with pytest.raises(BadWorldFile):
         load(folder / 'sub.yaml')
     with pytest.raises(BadWorldFile):
-        world_file.find('sub', world_dir=folder, confined=True)
+        find_world('sub', world_dir=folder, confined=True)
     with pytest.raises(BadWorldFile):
         save(World(), folder, 'sub')
 
@@ -945,7 +952,7 @@ def test_a_name_that_no_file_can_have_is_refused(
     *, name: str, confined: bool, folder: Path
 ) -> None:
     with pytest.raises(BadWorldFile) as refused:
-        world_file.find(name, world_dir=folder, confined=confined)
+        find_world(name, world_dir=folder, confined=confined)
     assert refused.value.field == 'world_file'
     with pytest.raises(BadWorldFile) as refused:
         save(World(), folder, name)
@@ -957,12 +964,12 @@ def test_a_name_that_no_file_can_have_is_refused(
 
 
 def test_a_plain_name_is_a_file_of_the_world_directory_before_a_shipped_one(folder: Path) -> None:
-    shipped = world_file.find('demo', world_dir=folder, confined=True)
-    assert world_file.find('demo.yaml', world_dir=folder, confined=True) == shipped
+    shipped = find_world('demo', world_dir=folder, confined=True)
+    assert find_world('demo.yaml', world_dir=folder, confined=True) == shipped
     own = write(folder, 'format: 1', 'demo.yaml')
 
-    assert shipped == world_file.shipped_worlds() / 'demo.yaml'
-    assert world_file.find('demo', world_dir=folder, confined=True) == own
+    assert shipped == shipped_worlds() / 'demo.yaml'
+    assert find_world('demo', world_dir=folder, confined=True) == own
 
 
 @pytest.mark.parametrize(
@@ -975,15 +982,15 @@ def test_only_what_the_name_of_a_shipped_world_now_means_hides_that(
     (folder / 'sub').mkdir()
     saved = save(World(), folder, name)
 
-    assert world_file.hides_shipped(saved, world_dir=folder) is hides
-    meant = world_file.find('demo', world_dir=folder, confined=True)
+    assert hides_shipped(saved, world_dir=folder) is hides
+    meant = find_world('demo', world_dir=folder, confined=True)
     assert (meant.resolve() == saved) is hides
 
 
 def test_saving_over_a_shipped_world_hides_none() -> None:
-    worlds = world_file.shipped_worlds()
+    worlds = shipped_worlds()
 
-    assert not world_file.hides_shipped(worlds / 'demo.yaml', world_dir=worlds)
+    assert not hides_shipped(worlds / 'demo.yaml', world_dir=worlds)
 
 
 def test_a_path_is_below_the_world_directory(folder: Path) -> None:
@@ -991,12 +998,12 @@ def test_a_path_is_below_the_world_directory(folder: Path) -> None:
     path = write(folder / 'sub', 'format: 1', 'x.world')
 
     for name in ('sub/x.world', 'sub/../sub/x.world', './sub/x.world', str(path)):
-        found = world_file.find(name, world_dir=folder, confined=True)
+        found = find_world(name, world_dir=folder, confined=True)
         assert found.resolve() == path.resolve()
 
 
 def test_the_shipped_demo_loads_and_runs(folder: Path) -> None:
-    path = world_file.find('demo', world_dir=folder, confined=True)
+    path = find_world('demo', world_dir=folder, confined=True)
 
     world = restored(load(path))
 
@@ -1006,10 +1013,10 @@ def test_the_shipped_demo_loads_and_runs(folder: Path) -> None:
     assert_round_trip(world, folder)
 
 
-@pytest.mark.parametrize('path', sorted(world_file.shipped_worlds().glob('*.yaml')),
+@pytest.mark.parametrize('path', sorted(shipped_worlds().glob('*.yaml')),
                          ids=lambda path: path.stem)  # fmt: skip
 def test_every_shipped_world_loads_by_its_name(path: Path, folder: Path) -> None:
-    assert world_file.find(path.stem, world_dir=folder, confined=True) == path
+    assert find_world(path.stem, world_dir=folder, confined=True) == path
     assert load(path).bodies
 
 
@@ -1017,10 +1024,10 @@ def test_a_file_outside_is_read_where_nobody_confines(folder: Path) -> None:
     outside = write(folder.parent, 'format: 1', 'outside.yaml')
 
     for name in ('../outside.yaml', str(outside)):
-        found = world_file.find(name, world_dir=folder, confined=False)
+        found = find_world(name, world_dir=folder, confined=False)
         assert found.resolve() == outside.resolve()
         with pytest.raises(BadWorldFile) as refused:
-            world_file.find(name, world_dir=folder, confined=True)
+            find_world(name, world_dir=folder, confined=True)
         assert 'outside' in str(refused.value)
 
 
@@ -1030,9 +1037,9 @@ def test_a_link_that_leads_outside_is_not_followed_where_confined(folder: Path) 
     (folder / 'sub').symlink_to(folder.parent, target_is_directory=True)
 
     for name in ('link', 'link.yaml', 'sub/outside.yaml'):
-        assert world_file.find(name, world_dir=folder, confined=False).is_file()
+        assert find_world(name, world_dir=folder, confined=False).is_file()
         with pytest.raises(BadWorldFile):
-            world_file.find(name, world_dir=folder, confined=True)
+            find_world(name, world_dir=folder, confined=True)
         with pytest.raises(BadWorldFile):
             save(World(), folder, name)
     assert outside.read_text() == 'format: 1'
@@ -1042,7 +1049,7 @@ def test_a_link_within_the_directory_is_followed(folder: Path) -> None:
     path = write(folder, 'format: 1', 'real.yaml')
     (folder / 'link.yaml').symlink_to(path)
 
-    assert world_file.find('link', world_dir=folder, confined=True).read_text() == 'format: 1'
+    assert find_world('link', world_dir=folder, confined=True).read_text() == 'format: 1'
     save(World(), folder, 'link')
     assert path.read_text().startswith('format: 1\ngravity')
 
@@ -1052,7 +1059,7 @@ def test_links_in_a_circle_are_refused(folder: Path) -> None:
     (folder / 'b.yaml').symlink_to(folder / 'a.yaml')
 
     with pytest.raises(BadWorldFile):
-        world_file.find('a', world_dir=folder, confined=True)
+        find_world('a', world_dir=folder, confined=True)
     with pytest.raises(BadWorldFile):
         save(World(), folder, 'a')
 
@@ -1127,7 +1134,7 @@ def test_a_bug_in_the_middle_of_a_write_leaves_the_old_file(
     def fail(*_: object, **__: object) -> None:
         raise ZeroDivisionError
 
-    monkeypatch.setattr(world_file, 'text_of', fail)
+    monkeypatch.setattr('physsim_ros.files.world_file.text_of', fail)
     spawn(world, 'a/0', DISC)
     with pytest.raises(ZeroDivisionError):
         save(world, folder)
@@ -1234,7 +1241,7 @@ joints:
 
 
 def read_in(path: Path) -> WorldState:
-    return world_file.load(path, settings=WorldSettings(), physics_rate=RATE)
+    return load_world(path, settings=WorldSettings(), physics_rate=RATE)
 
 
 def test_joints_round_trip_to_the_bit_in_the_middle_of_motion(tmp_path: Path) -> None:
@@ -1243,7 +1250,7 @@ def test_joints_round_trip_to_the_bit_in_the_middle_of_motion(tmp_path: Path) ->
     world = World()
     world.apply(Restore(state=read_in(path)))
     world.step(333)
-    saved = world_file.save(world.save(), 'saved', world_dir=tmp_path, physics_rate=RATE)
+    saved = save_world(world.save(), 'saved', world_dir=tmp_path, physics_rate=RATE)
     one, other = World(), World()
     one.apply(Restore(state=world.save()))
     other.apply(Restore(state=read_in(saved)))
@@ -1259,7 +1266,7 @@ def test_a_joint_whose_points_somebody_edited_sits_at_the_new_ones(tmp_path: Pat
     path = tmp_path / 'machine.yaml'
     path.write_text(MACHINE, encoding='utf-8')
     world.apply(Restore(state=read_in(path)))
-    saved = world_file.save(world.save(), 'saved', world_dir=tmp_path, physics_rate=RATE)
+    saved = save_world(world.save(), 'saved', world_dir=tmp_path, physics_rate=RATE)
     text = saved.read_text(encoding='utf-8')
     edited = text.replace('points: [[0.0, 2.0]]', 'points: [[0.25, 2.0]]')
     assert edited != text

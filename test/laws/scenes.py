@@ -18,7 +18,7 @@ import math
 
 import numpy as np
 from physsim_ros.model.body_properties import Properties
-from physsim_ros.model.joint_properties import JointKind, JointProperties
+from physsim_ros.model.joints import JointKind, JointProperties
 from physsim_ros.model.requests import Configure, Join, Spawn
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box

@@ -22,7 +22,7 @@ import subprocess
 import sys
 
 import numpy as np
-from physsim_ros.files import world_file
+from physsim_ros.files import load_world, save_world
 from physsim_ros.model.requests import Anchor, Command, Configure, Delete, Release, Spawn
 from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon
 from physsim_ros.simulation.simulation import Simulation
@@ -329,7 +329,7 @@ def load_and_go_on(*paths):
     """Print the hashes of saved worlds, a line each; that is what another process does."""
     for path in paths:
         sim = simulation()
-        state = world_file.load(Path(path), settings=sim.settings, physics_rate=sim.physics_rate)
+        state = load_world(Path(path), settings=sim.settings, physics_rate=sim.physics_rate)
         sim.begin(state)
         print(*hashes(sim))
 
@@ -355,9 +355,7 @@ def _elsewhere(paths):
 def _save(sim: Simulation, directory, name):
     """Save a world as the node does, and return the path of its file."""
     state = sim.save()
-    return world_file.save(
-        state, f'{name}.yaml', world_dir=directory, physics_rate=sim.physics_rate
-    )
+    return save_world(state, f'{name}.yaml', world_dir=directory, physics_rate=sim.physics_rate)
 
 
 def test_a_saved_world_goes_on_in_another_process_as_it_does_here(report, tmp_path):

@@ -17,7 +17,8 @@
 from dataclasses import fields, FrozenInstanceError
 import math
 
-from physsim_ros.model.body_properties import FASTEST, HEAVIEST, Properties
+from physsim_ros.model.body_properties import Properties
+from physsim_ros.model.checks import FASTEST, HEAVIEST
 from physsim_ros.model.errors import BadProperty, Malformed, Refusal
 from physsim_ros.model.requests import (
     Anchor,

@@ -18,7 +18,7 @@ from dataclasses import FrozenInstanceError, replace
 import math
 from typing import Any
 
-from physsim_ros.model.body_properties import HEAVIEST, LIGHTEST
+from physsim_ros.model.checks import HEAVIEST, LIGHTEST
 from physsim_ros.model.errors import BadProperty, Malformed, Refusal
 from physsim_ros.model.settings import check_setting, STRONGEST, WorldSettings
 from physsim_ros.model.shapes import LARGEST

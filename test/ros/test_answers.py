@@ -20,7 +20,7 @@ from typing import Any
 
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.ros import publishers
-from physsim_ros.ros.publishers import KEPT_ANSWERS, PATIENCE, Streams
+from physsim_ros.ros.publishers import ACK_TIMEOUT, EVENTS_DEPTH, Publishers
 from physsim_ros.testing import PhysSim
 import pytest
 
@@ -47,61 +47,61 @@ class Slow:
 class Bench:
     """The streams of a world, their listener, and the time on the wall."""
 
-    def __init__(self, streams: Streams) -> None:
+    def __init__(self, streams: Publishers) -> None:
         self.streams = streams
         self.slow = Slow()
         self.now = 1000.0
-        streams._events = self.slow  # noqa: SLF001 - a listener is not slow on command
+        streams._events._publisher = self.slow  # noqa: SLF001 - a listener is not slow on command
 
     def report(self, count: int) -> None:
         for number in range(count):
-            self.streams.report(Answer(topic='~/spawn', subject=f'a/{number}'))
+            self.streams.publish_answer(Answer(topic='~/spawn', subject=f'a/{number}'))
 
 
 @pytest.fixture
 def bench(physsim: PhysSim, monkeypatch: pytest.MonkeyPatch) -> Bench:
-    bench = Bench(physsim.node._streams)  # noqa: SLF001
+    bench = Bench(physsim.node._world_publishers)  # noqa: SLF001
     monkeypatch.setattr(publishers.time, 'monotonic', lambda: bench.now)
     return bench
 
 
 def test_answers_go_out_at_once_while_listeners_keep_up(bench: Bench) -> None:
-    bench.report(3 * KEPT_ANSWERS)
-    assert len(bench.slow.sent) == 3 * KEPT_ANSWERS
+    bench.report(3 * EVENTS_DEPTH)
+    assert len(bench.slow.sent) == 3 * EVENTS_DEPTH
 
 
 def test_a_burst_waits_for_a_listener_that_has_not_taken_the_last(bench: Bench) -> None:
     bench.slow.taken = False
-    bench.report(2 * KEPT_ANSWERS + 7)
-    assert len(bench.slow.sent) == KEPT_ANSWERS
+    bench.report(2 * EVENTS_DEPTH + 7)
+    assert len(bench.slow.sent) == EVENTS_DEPTH
     # Asking costs a fifth of a millisecond: once a tick, not once an answer.
     assert bench.slow.asked == 1
-    bench.streams.flush()
-    assert len(bench.slow.sent) == KEPT_ANSWERS
+    bench.streams.flush_answers()
+    assert len(bench.slow.sent) == EVENTS_DEPTH
     bench.slow.taken = True
-    bench.streams.welcome()
-    assert len(bench.slow.sent) == 2 * KEPT_ANSWERS + 7
-    names = [f'a/{number}'.encode() for number in range(2 * KEPT_ANSWERS + 7)]
+    bench.streams.publish_to_late_subscribers()
+    assert len(bench.slow.sent) == 2 * EVENTS_DEPTH + 7
+    names = [f'a/{number}'.encode() for number in range(2 * EVENTS_DEPTH + 7)]
     assert all(name in message for name, message in zip(names, bench.slow.sent, strict=True))
 
 
 def test_a_listener_that_has_stopped_holds_nobody_up_for_long(bench: Bench) -> None:
     bench.slow.taken = False
-    bench.report(3 * KEPT_ANSWERS)
-    bench.now += PATIENCE - 0.1
-    bench.streams.flush()
-    assert len(bench.slow.sent) == KEPT_ANSWERS
+    bench.report(3 * EVENTS_DEPTH)
+    bench.now += ACK_TIMEOUT - 0.1
+    bench.streams.flush_answers()
+    assert len(bench.slow.sent) == EVENTS_DEPTH
     bench.now += 0.2
-    bench.streams.flush()
-    assert len(bench.slow.sent) == 2 * KEPT_ANSWERS
-    bench.now += PATIENCE + 0.1
-    bench.streams.flush()
-    assert len(bench.slow.sent) == 3 * KEPT_ANSWERS
+    bench.streams.flush_answers()
+    assert len(bench.slow.sent) == 2 * EVENTS_DEPTH
+    bench.now += ACK_TIMEOUT + 0.1
+    bench.streams.flush_answers()
+    assert len(bench.slow.sent) == 3 * EVENTS_DEPTH
 
 
 def test_an_answer_goes_out_before_the_frame_that_shows_it(bench: Bench, physsim: PhysSim) -> None:
     bench.slow.taken = False
-    bench.report(KEPT_ANSWERS + 1)
+    bench.report(EVENTS_DEPTH + 1)
     bench.slow.taken = True
     physsim.node.advance_frame()
-    assert len(bench.slow.sent) == KEPT_ANSWERS + 1
+    assert len(bench.slow.sent) == EVENTS_DEPTH + 1

@@ -314,7 +314,7 @@ def test_many_clicks_at_once_are_all_answered_in_order(client: Client) -> None:
         publisher.publish(point(3.0 * number, 0.0))
         publisher.publish(point(3.0 * number + 1.0, 0.0))
     client.physsim.settle()
-    client.physsim.node.apply()
+    client.physsim.node.apply_requests()
     client.physsim.settle()
     done = [event.hardware_id for event in client.events if event.hardware_id]
     assert done == [f'drawn/{number}' for number in range(100)]

@@ -23,7 +23,7 @@ import numpy as np
 from physsim_ros.model.requests import Spawn
 from physsim_ros.model.shapes import Disc
 from physsim_ros.model.snapshot import Snapshot
-from physsim_ros.ros.diagnostics import Meter
+from physsim_ros.ros.diagnostics import FrameStatistics
 from physsim_ros.simulation.world import World
 import pytest
 
@@ -42,7 +42,7 @@ def snapshot_of(bodies: int = 0, *, stamp: int = 0) -> Snapshot:
 
 
 def report(
-    meter: Meter, snapshot: Snapshot, *, speed: float = 1.0, late: int = 0
+    meter: FrameStatistics, snapshot: Snapshot, *, speed: float = 1.0, late: int = 0
 ) -> DiagnosticArray:
     return meter.report(snapshot, speed=speed, late_frames=late, viewer='none', node='/it/physsim')
 
@@ -52,7 +52,7 @@ def values_of(array: DiagnosticArray) -> dict[str, str]:
     return {pair.key: pair.value for pair in status.values}
 
 
-def run(meter: Meter, frames: int, *, pace: float = 1.0, began: float = 0.0) -> None:
+def run(meter: FrameStatistics, frames: int, *, pace: float = 1.0, began: float = 0.0) -> None:
     """Add frames at 60 Hz whose simulation time passes at a pace."""
     for frame in range(frames):
         meter.add(
@@ -65,16 +65,16 @@ def run(meter: Meter, frames: int, *, pace: float = 1.0, began: float = 0.0) -> 
 
 @pytest.mark.parametrize('pace', [0.5, 1.0, 4.0])
 def test_the_real_time_factor_comes_to_the_pace_of_time(pace: float) -> None:
-    meter = Meter()
+    meter = FrameStatistics()
     run(meter, 600, pace=pace)
     # After ten of its smoothing times a twentieth of a thousandth is missing.
     assert meter.real_time_factor == pytest.approx(pace, rel=1e-4)
 
 
 def test_the_real_time_factor_of_a_paused_world_is_0() -> None:
-    meter = Meter()
+    meter = FrameStatistics()
     run(meter, 600)
-    meter.pause()
+    meter.reset_pace()
     assert meter.real_time_factor == 0.0
     # The pause itself does not count as slow.
     run(meter, 600, began=1e15)
@@ -82,7 +82,7 @@ def test_the_real_time_factor_of_a_paused_world_is_0() -> None:
 
 
 def test_a_report_tells_of_the_second_that_has_passed() -> None:
-    meter = Meter()
+    meter = FrameStatistics()
     run(meter, 60)
     values = values_of(report(meter, snapshot_of(2)))
     assert values['bodies'] == '2'
@@ -95,7 +95,7 @@ def test_a_report_tells_of_the_second_that_has_passed() -> None:
 
 
 def test_a_report_tells_energy_and_momentum() -> None:
-    values = values_of(report(Meter(), snapshot_of(2)))
+    values = values_of(report(FrameStatistics(), snapshot_of(2)))
     mass = math.pi / 4
     kinetic = 2 * (mass * 25.0 / 2 + mass * 0.5**2 / 2 * 2.0**2 / 2)
     # J, kg m/s; six digits are told
@@ -106,12 +106,12 @@ def test_a_report_tells_energy_and_momentum() -> None:
 
 
 def test_a_report_is_stamped_with_simulation_time() -> None:
-    stamp = report(Meter(), snapshot_of(stamp=12_345_678_901)).header.stamp
+    stamp = report(FrameStatistics(), snapshot_of(stamp=12_345_678_901)).header.stamp
     assert (stamp.sec, stamp.nanosec) == (12, 345_678_901)
 
 
 def test_late_frames_are_a_warning_in_the_second_in_which_they_come() -> None:
-    meter = Meter()
+    meter = FrameStatistics()
     levels = []
     for late in (0, 5, 5, 7, 7):
         run(meter, 60)
@@ -123,12 +123,12 @@ def test_late_frames_are_a_warning_in_the_second_in_which_they_come() -> None:
 
 
 def test_a_paused_world_says_so() -> None:
-    (status,) = report(Meter(), snapshot_of(), speed=0.0).status
+    (status,) = report(FrameStatistics(), snapshot_of(), speed=0.0).status
     assert status.message == 'paused'
     assert status.level == DiagnosticStatus.OK
 
 
 def test_a_world_without_bodies_has_its_diagnostics_too() -> None:
-    values = values_of(report(Meter(), snapshot_of()))
+    values = values_of(report(FrameStatistics(), snapshot_of()))
     assert values['bodies'] == '0'
     assert float(values['kinetic energy [J]']) == 0.0

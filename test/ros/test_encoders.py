@@ -36,9 +36,10 @@ import numpy as np
 from physsim_ros.model.scene import Body, Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon, Triangles
-from physsim_ros.model.snapshot import Answer, Contacts, Snapshot
+from physsim_ros.model.snapshot import Answer, Contacts, Frame, Snapshot
 from physsim_ros.ros import encoders
 from physsim_ros.ros.conversions import body_request
+from physsim_ros.ros.encoders.marker_symbols import body_symbols
 import pytest
 from rclpy.serialization import deserialize_message, serialize_message
 from rosgraph_msgs.msg import Clock
@@ -99,6 +100,10 @@ def snapshot_of(bodies, seed=0, stamp=12_345_678_901, bounds=None):
     rng = np.random.default_rng(seed)
     scene = Scene(bodies=tuple(bodies), settings=WorldSettings(bounds=bounds))
     return moved(scene, rng, stamp)
+
+
+def frame_of(snapshot, contacts=None):
+    return Frame(snapshot=snapshot, contacts=contacts)
 
 
 def moved(scene, rng, stamp=12_345_678_901):
@@ -213,7 +218,7 @@ def marker_array(snapshot, frame_id='world', text=PLAIN_TEXT):
 
 
 def picture(encoder, snapshot):
-    return decoded(encoder.encode(snapshot), MarkerArray).markers
+    return decoded(encoder.encode(frame_of(snapshot)), MarkerArray).markers
 
 
 def drawn(markers, action=Marker.ADD):
@@ -223,9 +228,9 @@ def drawn(markers, action=Marker.ADD):
 @pytest.mark.parametrize('count', [0, 1, 2, 500])
 def test_any_number_of_bodies_is_encoded_as_rclpy_does(count):
     snapshot = snapshot_of(bodies_named(*['body'] * count))
-    check_same(encoders.PosesEncoder('world').encode(snapshot), pose_array(snapshot))
-    check_same(encoders.StatesEncoder('world').encode(snapshot), body_states(snapshot))
-    check_same(encoders.MarkersEncoder('world').encode(snapshot), marker_array(snapshot))
+    check_same(encoders.PosesEncoder('world').encode(frame_of(snapshot)), pose_array(snapshot))
+    check_same(encoders.StatesEncoder('world').encode(frame_of(snapshot)), body_states(snapshot))
+    check_same(encoders.MarkersEncoder('world').encode(frame_of(snapshot)), marker_array(snapshot))
 
 
 @settings(deadline=None)
@@ -234,13 +239,22 @@ def test_names_of_any_length_are_encoded_as_rclpy_does(namespaces, frame_id):
     snapshot = snapshot_of(bodies_named(*namespaces))
     count = len(namespaces)
     contacts = contacts_of([(a, b) for a in range(count) for b in range(-1, count) if a != b])
-    check_same(encoders.PosesEncoder(frame_id).encode(snapshot), pose_array(snapshot, frame_id))
-    check_same(encoders.StatesEncoder(frame_id).encode(snapshot), body_states(snapshot, frame_id))
     check_same(
-        encoders.MarkersEncoder(frame_id).encode(snapshot), marker_array(snapshot, frame_id)
+        encoders.PosesEncoder(frame_id).encode(frame_of(snapshot)), pose_array(snapshot, frame_id)
+    )
+    check_same(
+        encoders.StatesEncoder(frame_id).encode(frame_of(snapshot)),
+        body_states(snapshot, frame_id),
+    )
+    check_same(
+        encoders.MarkersEncoder(frame_id).encode(frame_of(snapshot)),
+        marker_array(snapshot, frame_id),
     )
     check_contacts(
-        encoders.ContactsEncoder(frame_id).encode(snapshot, contacts), snapshot, contacts, frame_id
+        encoders.ContactsEncoder(frame_id).encode(frame_of(snapshot, contacts)),
+        snapshot,
+        contacts,
+        frame_id,
     )
 
 
@@ -248,10 +262,16 @@ def test_a_name_of_every_length_is_encoded_as_rclpy_does():
     for length in range(1, 41):
         snapshot = snapshot_of(bodies_named('n' * length, 'm'))
         contacts = contacts_of([(0, 1)])
-        check_same(encoders.StatesEncoder('world').encode(snapshot), body_states(snapshot))
-        check_same(encoders.MarkersEncoder('world').encode(snapshot), marker_array(snapshot))
+        check_same(
+            encoders.StatesEncoder('world').encode(frame_of(snapshot)), body_states(snapshot)
+        )
+        check_same(
+            encoders.MarkersEncoder('world').encode(frame_of(snapshot)), marker_array(snapshot)
+        )
         check_contacts(
-            encoders.ContactsEncoder('world').encode(snapshot, contacts), snapshot, contacts
+            encoders.ContactsEncoder('world').encode(frame_of(snapshot, contacts)),
+            snapshot,
+            contacts,
         )
 
 
@@ -263,7 +283,7 @@ def test_what_was_returned_stays_as_it_was_when_the_next_frame_is_written():
         (encoders.StatesEncoder('world'), body_states),
         (encoders.MarkersEncoder('world'), marker_array),
     ):
-        messages = [encoder.encode(first), encoder.encode(second)]
+        messages = [encoder.encode(frame_of(first)), encoder.encode(frame_of(second))]
         check_same(messages[0], expected(first))
         check_same(messages[1], expected(second))
 
@@ -276,7 +296,7 @@ def test_a_changed_scene_is_encoded_anew():
     ):
         for bodies in (few, many, (), few):
             snapshot = snapshot_of(bodies)
-            check_same(encoder.encode(snapshot), expected(snapshot))
+            check_same(encoder.encode(frame_of(snapshot)), expected(snapshot))
 
 
 def test_contacts_follow_their_pairs_and_their_scene():
@@ -292,13 +312,13 @@ def test_contacts_follow_their_pairs_and_their_scene():
         (second, contacts_of([])),
     ]
     for snapshot, contacts in steps:
-        check_contacts(encoder.encode(snapshot, contacts), snapshot, contacts)
+        check_contacts(encoder.encode(frame_of(snapshot, contacts)), snapshot, contacts)
 
 
 def test_a_contact_turns_the_x_axis_onto_its_normal():
     snapshot, contacts = snapshot_of(bodies_named('a', 'b')), contacts_of([(0, 1)] * 50)
     contacts.normals[:6] = [(1, 0), (0, 1), (-1, 0), (0, -1), (1, 1e-9), (-1, -1e-9)]
-    data = encoders.ContactsEncoder('world').encode(snapshot, contacts)
+    data = encoders.ContactsEncoder('world').encode(frame_of(snapshot, contacts))
     for transform, normal in zip(
         decoded(data, MultiDOFJointState).transforms, contacts.normals, strict=True
     ):
@@ -308,12 +328,12 @@ def test_a_contact_turns_the_x_axis_onto_its_normal():
 
 
 def test_names_of_pairs_stay_right_when_the_store_of_them_is_full(monkeypatch):
-    monkeypatch.setattr(encoders, '_MOST_PAIRS', 3)
+    monkeypatch.setattr(encoders.contacts, '_MOST_PAIRS', 3)
     encoder = encoders.ContactsEncoder('world')
     snapshot = snapshot_of(bodies_named('a', 'b', 'c'))
     for pairs in ([(0, 1), (0, 2)], [(1, 2), (0, -1)], [(0, 1), (2, -1)]):
         contacts = contacts_of(pairs)
-        check_contacts(encoder.encode(snapshot, contacts), snapshot, contacts)
+        check_contacts(encoder.encode(frame_of(snapshot, contacts)), snapshot, contacts)
     # Emptied once: what is left is what has touched since.
     assert len(encoder._names) == 2  # noqa: SLF001  (its size is what the test is about)
 
@@ -367,7 +387,7 @@ def test_the_text_of_a_marker_gives_back_the_properties_of_its_body(body, role):
         body = replace(body, **{role: True})
         expected[role] = True
     marker, *_ = picture(encoders.MarkersEncoder('world'), snapshot_of([body]))
-    assert body_request(marker, frame_id='world').properties.said() == expected
+    assert body_request(marker, frame_id='world').properties.explicit() == expected
     # PyYAML by itself reads YAML 1.1, in which 1e-09 is a string.
     assert yaml.safe_load(marker.text) == expected
 
@@ -433,20 +453,20 @@ def test_what_has_gone_is_deleted_in_sixty_messages_and_then_no_more():
     encoder = encoders.MarkersEncoder('world')
     before = snapshot_of([replace(PLAIN, anchored=True), *bodies_named('a', 'b')])
     after = snapshot_of(bodies_named('a', 'b'))
-    encoder.encode(before)
+    encoder.encode(frame_of(before))
     for _ in range(60):
         markers = picture(encoder, after)
         assert drawn(markers) == ['a/0', 'b/1']
         assert drawn(markers, Marker.DELETE) == ['body/0', 'anchor:body/0']
         assert all(marker.header == header(after) for marker in markers)
-    check_same(encoder.encode(after), marker_array(after))
+    check_same(encoder.encode(frame_of(after)), marker_array(after))
 
 
 def test_deletions_run_out_one_after_the_other():
     encoder = encoders.MarkersEncoder('world')
     bodies = bodies_named('a', 'b', 'c')
-    encoder.encode(snapshot_of(bodies))
-    encoder.encode(snapshot_of(bodies[1:]))
+    encoder.encode(frame_of(snapshot_of(bodies)))
+    encoder.encode(frame_of(snapshot_of(bodies[1:])))
     last = snapshot_of(bodies[2:])
     expected = [['a/0', 'b/1']] * (encoders.DELETE_REPEATS - 1) + [['b/1'], [], []]
     assert [drawn(picture(encoder, last), Marker.DELETE) for _ in expected] == expected
@@ -455,16 +475,16 @@ def test_deletions_run_out_one_after_the_other():
 def test_what_comes_back_is_deleted_no_more():
     encoder = encoders.MarkersEncoder('world')
     bodies = bodies_named('a', 'b')
-    encoder.encode(snapshot_of(bodies))
+    encoder.encode(frame_of(snapshot_of(bodies)))
     assert drawn(picture(encoder, snapshot_of(bodies[:1])), Marker.DELETE) == ['b/1']
     both = snapshot_of(bodies)
     for _ in range(encoders.DELETE_REPEATS + 1):
-        check_same(encoder.encode(both), marker_array(both))
+        check_same(encoder.encode(frame_of(both)), marker_array(both))
 
 
 def test_a_released_body_loses_only_its_symbol():
     encoder = encoders.MarkersEncoder('world')
-    encoder.encode(snapshot_of([replace(PLAIN, anchored=True)]))
+    encoder.encode(frame_of(snapshot_of([replace(PLAIN, anchored=True)])))
     markers = picture(encoder, snapshot_of([PLAIN]))
     assert drawn(markers) == ['body/0']
     assert drawn(markers, Marker.DELETE) == ['anchor:body/0']
@@ -472,15 +492,17 @@ def test_a_released_body_loses_only_its_symbol():
 
 def test_only_bodies_that_are_new_or_different_are_drawn_again(monkeypatch):
     asked = []
-    symbols = encoders.symbols
-    monkeypatch.setattr(encoders, 'symbols', lambda body: asked.append(body.name) or symbols(body))
+    monkeypatch.setattr(
+        'physsim_ros.ros.encoders.markers.body_symbols',
+        lambda body: asked.append(body.name) or body_symbols(body),
+    )
     encoder = encoders.MarkersEncoder('world')
     first, second = bodies_named('a', 'b')
-    encoder.encode(snapshot_of([first, second]))
+    encoder.encode(frame_of(snapshot_of([first, second])))
     asked.clear()
     same, red = replace(first), replace(second, color=(1.0, 0.0, 0.0, 1.0))
     snapshot = snapshot_of([same, red, replace(PLAIN, name='c/2')])
-    check_same(encoder.encode(snapshot), marker_array(snapshot))
+    check_same(encoder.encode(frame_of(snapshot)), marker_array(snapshot))
     assert asked == ['b/1', 'c/2']
 
 

@@ -268,11 +268,11 @@ class Fuzzed:
         assert len(snapshot.forces) == len(snapshot.scene.joints)
         assert len(set(snapshot.scene.names)) == len(snapshot.poses) == len(snapshot.twists)
         for encoder in self._encoders:
-            encoder.encode(snapshot)
+            encoder.encode(frame)
         assert frame.contacts is not None
         assert np.isfinite(frame.contacts.impulses).all()
         assert np.isfinite(frame.contacts.points).all()
-        self._contacts.encode(snapshot, frame.contacts)
+        self._contacts.encode(frame)
 
 
 def test_thousands_of_arbitrary_messages_leave_a_world_that_goes_on() -> None:

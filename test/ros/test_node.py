@@ -370,6 +370,6 @@ def test_a_bug_in_the_world_is_loud(physsim: PhysSim, monkeypatch: pytest.Monkey
     def fail(*_: object, **__: object) -> None:
         raise ZeroDivisionError
 
-    monkeypatch.setattr(PhysSimNode, 'deliver', fail)
+    monkeypatch.setattr(PhysSimNode, 'publish_frame', fail)
     with pytest.raises(ZeroDivisionError):
         physsim.step()

@@ -28,7 +28,7 @@ from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Disc
 from physsim_ros.model.snapshot import Answer, Contacts, Frame, Snapshot
 from physsim_ros.ros import encoders
-from physsim_ros.ros.publishers import QUIET, Streams
+from physsim_ros.ros.publishers import LATCH_PERIOD, Publishers
 import pytest
 import rclpy
 from rclpy.context import Context
@@ -58,7 +58,7 @@ class Bench:
         self.listener = Node('listener', context=context)
         self.executor.add_node(self.world)
         self.executor.add_node(self.listener)
-        self.streams = Streams(self.world, frame_id='map', publish_clock=True)
+        self.streams = Publishers(self.world, frame_id='map', publish_clock=True)
         self.publishers = {publisher.topic_name: publisher for publisher in self.world.publishers}
 
     def listen(self, topic, durability=DurabilityPolicy.VOLATILE):
@@ -156,8 +156,10 @@ def encoded(monkeypatch):
         original = getattr(owner, name)
 
         def wrapper(*args):
-            calls.append(label)
-            return original(*args)
+            message = original(*args)
+            if message is not None:
+                calls.append(label)
+            return message
 
         monkeypatch.setattr(owner, name, wrapper)
 
@@ -165,7 +167,7 @@ def encoded(monkeypatch):
     spy(encoders.StatesEncoder, 'encode', 'states')
     spy(encoders.ContactsEncoder, 'encode', 'contacts')
     spy(encoders.MarkersEncoder, 'encode', 'markers')
-    spy(encoders, 'encode_clock', 'clock')
+    spy(encoders.ClockEncoder, 'encode', 'clock')
     spy(encoders, 'encode_event', 'event')
     return calls
 
@@ -194,8 +196,8 @@ def test_each_stream_has_the_type_and_qos_of_the_contract(bench, topic, durabili
 def test_who_listens_gets_every_stream_of_a_frame(bench):
     received = {topic: bench.listen(topic) for topic in ALL}
     frame = frame_of(scene_of('a/0', 'b/1'), step=3, contacts=touching())
-    bench.streams.publish(frame)
-    bench.streams.report(Answer(topic='~/spawn', subject='a/0', message='a/0 is there'))
+    bench.streams.publish_frame(frame)
+    bench.streams.publish_answer(Answer(topic='~/spawn', subject='a/0', message='a/0 is there'))
     bench.spin_until(lambda: all(received.values()))
     assert [pose.position.x for pose in received['/physsim/poses'][0].poses] == [3.0, 3.0]
     assert received['/physsim/states'][0].joint_names == ['a/0', 'b/1']
@@ -210,9 +212,9 @@ def test_who_listens_gets_every_stream_of_a_frame(bench):
 
 def test_where_nobody_listens_nothing_is_built_but_a_rare_picture(bench, encoded):
     scene = scene_of('a/0', 'b/1')
-    for step in range(1, 2 * QUIET + 1):
-        bench.streams.publish(frame_of(scene, step, touching()))
-        bench.streams.report(Answer(topic='~/spawn'))
+    for step in range(1, 2 * LATCH_PERIOD + 1):
+        bench.streams.publish_frame(frame_of(scene, step, touching()))
+        bench.streams.publish_answer(Answer(topic='~/spawn'))
     assert encoded == ['markers'] * 2
 
 
@@ -220,21 +222,21 @@ def test_only_what_somebody_listens_to_is_built(bench, encoded):
     bench.listen('/physsim/states')
     scene = scene_of('a/0', 'b/1')
     for step in range(1, 11):
-        bench.streams.publish(frame_of(scene, step, touching()))
+        bench.streams.publish_frame(frame_of(scene, step, touching()))
     assert encoded.count('states') == 10
     assert set(encoded) == {'states', 'markers'}
 
 
 def test_an_unseen_picture_is_kept_up_with_a_changing_scene(bench, encoded):
     for step in range(1, 6):
-        bench.streams.publish(frame_of(scene_of(f'a/{step}'), step))
+        bench.streams.publish_frame(frame_of(scene_of(f'a/{step}'), step))
     assert encoded == ['markers'] * 5
 
 
 def test_a_late_listener_gets_the_whole_picture_of_the_last_scene(bench):
     scene = scene_of('a/0')
-    bench.streams.publish(frame_of(scene_of()))
-    bench.streams.publish(frame_of(scene))
+    bench.streams.publish_frame(frame_of(scene_of()))
+    bench.streams.publish_frame(frame_of(scene))
     pictures = bench.listen('/physsim/markers', DurabilityPolicy.TRANSIENT_LOCAL)
     bench.spin_until(lambda: pictures)
     assert [marker.ns for marker in pictures[0].markers] == ['a']
@@ -242,19 +244,19 @@ def test_a_late_listener_gets_the_whole_picture_of_the_last_scene(bench):
 
 def test_a_listener_that_comes_late_to_a_running_world_gets_the_next_picture(bench):
     scene = scene_of('a/0')
-    bench.streams.publish(frame_of(scene, 1))
+    bench.streams.publish_frame(frame_of(scene, 1))
     pictures = bench.listen('/physsim/markers', DurabilityPolicy.TRANSIENT_LOCAL)
     # The picture that was kept comes first, unless the next one has overtaken it.
-    bench.streams.publish(frame_of(scene, 2))
+    bench.streams.publish_frame(frame_of(scene, 2))
     bench.spin_until(lambda: pictures and pictures[-1].markers[0].pose.position.x == 2.0)
 
 
 def test_a_world_that_stands_still_keeps_the_right_picture_for_late_listeners(bench, encoded):
     scene = scene_of('a/0')
     for step in (1, 2, 3):
-        bench.streams.publish(frame_of(scene, step))
+        bench.streams.publish_frame(frame_of(scene, step))
     for _ in range(100):
-        bench.streams.welcome()
+        bench.streams.publish_to_late_subscribers()
     assert encoded == ['markers'] * 2
     pictures = bench.listen('/physsim/markers', DurabilityPolicy.TRANSIENT_LOCAL)
     bench.spin_until(lambda: pictures)
@@ -265,11 +267,11 @@ def test_a_world_that_stands_still_keeps_the_right_picture_for_late_listeners(be
     'topic', ['/physsim/poses', '/physsim/states', '/physsim/markers', '/clock']
 )
 def test_a_listener_that_comes_late_to_a_paused_world_is_welcomed_once(bench, topic):
-    bench.streams.publish(frame_of(scene_of('a/0'), 2))
-    bench.streams.welcome()
+    bench.streams.publish_frame(frame_of(scene_of('a/0'), 2))
+    bench.streams.publish_to_late_subscribers()
     received = bench.listen(topic)
     for _ in range(5):
-        bench.streams.welcome()
+        bench.streams.publish_to_late_subscribers()
     bench.settle()
     assert len(received) == 1
 
@@ -277,9 +279,9 @@ def test_a_listener_that_comes_late_to_a_paused_world_is_welcomed_once(bench, to
 def test_contacts_are_not_told_twice(bench):
     frame = frame_of(scene_of('a/0', 'b/1'), contacts=touching())
     early = bench.listen('/physsim/contacts')
-    bench.streams.publish(frame)
+    bench.streams.publish_frame(frame)
     late = bench.listen('/physsim/contacts')
-    bench.streams.welcome()
+    bench.streams.publish_to_late_subscribers()
     bench.settle()
     assert (len(early), len(late)) == (1, 0)
 
@@ -292,7 +294,7 @@ def test_contacts_are_wanted_while_somebody_listens(bench):
 
 def test_a_frame_without_contacts_gives_no_message_of_them(bench, encoded):
     bench.listen('/physsim/contacts')
-    bench.streams.publish(frame_of(scene_of('a/0')))
+    bench.streams.publish_frame(frame_of(scene_of('a/0')))
     assert 'contacts' not in encoded
 
 
@@ -300,7 +302,7 @@ def test_the_clock_is_never_0_and_follows_the_world_back(bench):
     clocks = bench.listen('/clock')
     scene = scene_of()
     for step in (0, 5, 4, 0, 1):
-        bench.streams.publish(frame_of(scene, step))
+        bench.streams.publish_frame(frame_of(scene, step))
     bench.settle()
     stamps = [message.clock.nanosec for message in clocks]
     assert stamps[2] == 1
@@ -312,26 +314,26 @@ def test_the_clock_can_be_switched_off_and_on(bench):
     scene = scene_of()
     assert bench.streams.publish_clock
     bench.streams.publish_clock = False
-    bench.streams.publish(frame_of(scene, 1))
-    bench.streams.publish(frame_of(scene, 2))
-    bench.streams.welcome()
+    bench.streams.publish_frame(frame_of(scene, 1))
+    bench.streams.publish_frame(frame_of(scene, 2))
+    bench.streams.publish_to_late_subscribers()
     bench.streams.publish_clock = True
-    bench.streams.welcome()
-    bench.streams.publish(frame_of(scene, 3))
+    bench.streams.publish_to_late_subscribers()
+    bench.streams.publish_frame(frame_of(scene, 3))
     bench.settle()
     assert [message.clock.nanosec // 1_000_000 for message in clocks] == [2, 3]
 
 
 def test_the_clock_may_be_off_from_the_start(bench):
-    streams = Streams(bench.listener, frame_id='map', publish_clock=False)
+    streams = Publishers(bench.listener, frame_id='map', publish_clock=False)
     assert not streams.publish_clock
 
 
 def test_a_refusal_is_reported_with_its_code_and_field(bench):
     events = bench.listen('/physsim/events')
     answer = Answer(topic='~/spawn', subject='a/0', message='too small')
-    bench.streams.report(answer)
-    bench.streams.report(replace(answer, code='bad_size', field='scale'))
+    bench.streams.publish_answer(answer)
+    bench.streams.publish_answer(replace(answer, code='bad_size', field='scale'))
     bench.spin_until(lambda: len(events) == 2)
     good, bad = events
     assert good.level == DiagnosticStatus.OK
@@ -344,15 +346,15 @@ def test_a_refusal_is_reported_with_its_code_and_field(bench):
 def test_a_burst_of_answers_arrives_whole_and_in_order(bench):
     events = bench.listen('/physsim/events')
     for number in range(500):
-        bench.streams.report(Answer(topic='~/spawn', message=str(number)))
+        bench.streams.publish_answer(Answer(topic='~/spawn', message=str(number)))
     bench.spin_until(lambda: len(events) == 500)
     assert [event.message for event in events] == [str(number) for number in range(500)]
 
 
 def test_what_has_gone_reaches_the_listener_as_a_deletion(bench):
     pictures = bench.listen('/physsim/markers')
-    bench.streams.publish(frame_of(scene_of('a/0', 'b/1'), 1))
-    bench.streams.publish(frame_of(scene_of('a/0'), 2))
+    bench.streams.publish_frame(frame_of(scene_of('a/0', 'b/1'), 1))
+    bench.streams.publish_frame(frame_of(scene_of('a/0'), 2))
     # The keeper of one message may drop the first picture; the last one always comes.
     bench.spin_until(lambda: pictures and pictures[-1].markers[0].pose.position.x == 2.0)
     kept, gone = pictures[-1].markers

@@ -198,9 +198,9 @@ def test_a_change_takes_the_keys_that_it_names_and_no_others(physsim: PhysSim) -
     physsim.spawn(box(text='{velocity: [0, 0]}'))
     assert physsim.twist('body/0') == pytest.approx((0.0, 0.0, -1.0))
     physsim.spawn(box(text='{mass: 7}'))
-    assert body_of(physsim, 'body/0').weight == 7.0
+    assert body_of(physsim, 'body/0').total_mass == 7.0
     physsim.spawn(box(text='{density: 2}'))
-    assert body_of(physsim, 'body/0').weight == 2.0
+    assert body_of(physsim, 'body/0').total_mass == 2.0
 
 
 @pytest.mark.parametrize('when', ['at birth', 'later'])

@@ -23,7 +23,7 @@ from hypothesis import strategies as st
 import numpy as np
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.errors import Refusal
-from physsim_ros.model.joint_properties import JointKind, JointProperties, KNOWN
+from physsim_ros.model.joints import JointKind, JointProperties
 from physsim_ros.model.requests import (
     Anchor,
     Axle,
@@ -186,7 +186,9 @@ def joins(draw: st.DrawFn, words: Words) -> Ask:
     kind = draw(st.sampled_from(list(JointKind)))
     points = tuple(draw(words.points) for _ in range(kind.points))
     number = st.one_of(words.numbers, words.lengths)
-    said: dict[str, Any] = draw(st.dictionaries(st.sampled_from(KNOWN[kind]), number, max_size=3))
+    said: dict[str, Any] = draw(
+        st.dictionaries(st.sampled_from(list(kind.schema.properties)), number, max_size=3)
+    )
     said.pop('collide', None)
     if draw(st.booleans()):
         said['collide'] = draw(st.booleans())

@@ -22,9 +22,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from physsim_ros.files import world_file
+from physsim_ros.files import load_world, save_world
 from physsim_ros.model.errors import OutOfHistory
-from physsim_ros.model.joint_properties import JointKind, JointProperties
+from physsim_ros.model.joints import JointKind, JointProperties
 from physsim_ros.model.requests import (
     Anchor,
     Command,
@@ -855,8 +855,8 @@ def test_a_joint_whose_bodies_were_anchored_later_loads_again(tmp_path: Path) ->
     driven.ask(Anchor(point=(0.0, 5.0)))
     driven.settle()
     state = driven.simulation.save()
-    path = world_file.save(state, 'it', world_dir=tmp_path, physics_rate=240.0)
-    assert world_file.load(path, settings=FLOOR, physics_rate=240.0).joints == state.joints
+    path = save_world(state, 'it', world_dir=tmp_path, physics_rate=240.0)
+    assert load_world(path, settings=FLOOR, physics_rate=240.0).joints == state.joints
 
 
 @pytest.mark.parametrize('names', [None, 'a/0', 'a/4'])

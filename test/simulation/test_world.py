@@ -114,7 +114,7 @@ def test_what_is_not_said_comes_from_the_settings() -> None:
         name='a/7', shape=DISC, color=color_of('a/7'), mass=None, density=3.0, friction=0.1,
         elasticity=0.2, anchored=False, kinematic=False, group=0, sensor=False, expires=None,
     )  # fmt: skip
-    assert body(world, 'a/7').weight == pytest.approx(3.0 * math.pi / 4, rel=1e-12)
+    assert body(world, 'a/7').total_mass == pytest.approx(3.0 * math.pi / 4, rel=1e-12)
 
 
 @pytest.mark.parametrize('shape', SHAPES.values(), ids=SHAPES.keys())

@@ -23,12 +23,12 @@ from pathlib import Path
 import time
 
 import numpy as np
-from physsim_ros.model.preview import NOTHING, Preview
+from physsim_ros.model.preview import NO_PREVIEW, Preview
 from physsim_ros.model.scene import Body, Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon, Triangles
 from physsim_ros.model.snapshot import Answer, Contacts, Frame, Snapshot
-from physsim_ros.view.recording import LINGER, Picture, REPEAT
+from physsim_ros.view.recording import FrameRecorder, LINGER, REPEAT
 import pytest
 
 from ..rerun_program import free_port, is_open, rerun
@@ -95,7 +95,7 @@ class Recording:
         self.path = path
         self._stream = rr.RecordingStream('test')
         self._stream.set_sinks(rr.FileSink(path))
-        self.picture = Picture(self._stream)
+        self.picture = FrameRecorder(self._stream)
 
     def draw(self, *frames, real_time_factor=1.0):
         self.picture.draw(frames, real_time_factor=real_time_factor)
@@ -439,7 +439,7 @@ def eyes(recording):
 def test_what_is_half_drawn_lies_over_the_world_until_it_is_dropped(recording):
     box, half = scene(body()), Preview(lines=(((0, 0), (3, 4)),), points=((3, 4),), label='wall')
     # Nothing moves: a preview alone is something new to see.
-    for preview in (NOTHING, half, half, NOTHING):
+    for preview in (NO_PREVIEW, half, half, NO_PREVIEW):
         recording.draw(frame(box, [(0, 0, 0)], moved=False, preview=preview))
 
     (shown, cleared) = recording.rows('world/preview/lines', 'LineStrips3D:strips')

@@ -22,7 +22,7 @@ import numpy as np
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer, Frame, Snapshot
-from physsim_ros.view.run_state_track import Band
+from physsim_ros.view.run_state_track import RunStateTrack
 import pytest
 
 rr = pytest.importorskip('rerun')
@@ -42,10 +42,10 @@ def drawn(path: Path, *batches: list[Frame]) -> dict[str, list[tuple[int, str]]]
     """Draw frames, and return what stands in the recording: number and state by entity."""
     recording = rr.RecordingStream('test', recording_id='band')
     recording.save(path)
-    band = Band(recording)
+    track = RunStateTrack(recording)
     number = 0
     for frames in batches:
-        band.draw(frames, range(number, number + len(frames)))
+        track.draw(frames, range(number, number + len(frames)))
         number += len(frames)
     recording.flush()
     recording.disconnect()
@@ -80,7 +80,7 @@ def styles(path: Path) -> dict[str, int]:
     """Draw nothing, and return the colours of states that stand in the recording."""
     recording = rr.RecordingStream('test', recording_id='band')
     recording.save(path)
-    Band(recording)
+    RunStateTrack(recording)
     recording.flush()
     recording.disconnect()
     (batch,) = (

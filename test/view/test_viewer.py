@@ -35,8 +35,8 @@ from physsim_ros.model.scene import Body, Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box
 from physsim_ros.model.snapshot import Answer, Frame, Snapshot
-from physsim_ros.view.sink_worker import Outlet, Way
-from physsim_ros.view.viewer import Viewer, ViewerMode
+from physsim_ros.view import Viewer, ViewerMode
+from physsim_ros.view.sink_worker import Endpoint, SinkWorker
 import pytest
 
 from ..rerun_program import free_port, is_open, rerun
@@ -157,7 +157,7 @@ def viewers():
         made.append(viewer)
         if record_file:
             viewer.record(record_file)
-        viewer.turn_to(mode, url)
+        viewer.open(mode, url)
         return viewer
 
     yield make
@@ -266,11 +266,11 @@ def test_what_is_recorded_goes_on_when_the_viewer_changes(viewers, server, tmp_p
     path = tmp_path / 'it.rrd'
     viewer = viewers(record_file=str(path))
     viewer.show(frame(0, 'first'), real_time_factor=1.0)
-    viewer.turn_to(ViewerMode.CONNECT, server.url)
+    viewer.open(ViewerMode.CONNECT, server.url)
     viewer.show(frame(4, 'second'), real_time_factor=1.0)
     # The one before is in the new viewer too: the world may stand still.
     server.wait_for('/events', 2)
-    viewer.turn_to(ViewerMode.NONE)
+    viewer.open(ViewerMode.NONE)
     viewer.show(frame(8, 'third'), real_time_factor=1.0)
     assert 'connect' not in viewer.state
     viewer.close()
@@ -306,7 +306,7 @@ def test_nothing_is_left_running_after_closing(viewers):
 @pytest.fixture
 def impatient(monkeypatch):
     """Make closing give up at once on a viewer that has not ended."""
-    monkeypatch.setattr('physsim_ros.view.viewer._Server.closing', 0.0)
+    monkeypatch.setattr('physsim_ros.view.viewer._ServerEndpoint.closing', 0.0)
 
 
 def test_nothing_is_started_after_closing(viewers, monkeypatch, impatient):
@@ -332,7 +332,7 @@ def test_nothing_is_started_after_closing(viewers, monkeypatch, impatient):
 
 def test_what_is_just_being_started_is_ended_by_closing(viewers, monkeypatch, impatient):
     began, closed, started = threading.Event(), threading.Event(), []
-    start, join = subprocess.Popen, Outlet.join
+    start, join = subprocess.Popen, SinkWorker.join
 
     def slowly(*arguments, **options):
         began.set()
@@ -340,15 +340,15 @@ def test_what_is_just_being_started_is_ended_by_closing(viewers, monkeypatch, im
         started.append(start(*arguments, **options))
         return started[0]
 
-    def joins(outlet):
+    def joins(worker):
         closed.set()
-        return join(outlet)
+        return join(worker)
 
     monkeypatch.setattr('physsim_ros.view.viewer._program', lambda: shutil.which('yes'))
     monkeypatch.setattr('subprocess.Popen', slowly)
     viewer = viewers(mode=ViewerMode.WEB)
     assert began.wait(PATIENCE)
-    monkeypatch.setattr(Outlet, 'join', joins)
+    monkeypatch.setattr(SinkWorker, 'join', joins)
 
     viewer.close()
 
@@ -468,13 +468,13 @@ def test_a_server_that_goes_and_comes_again_is_found_again(viewers, server):
 # The whole life of a process whose viewer freezes: a frozen one would keep this one from ending.
 FROZEN = """
     import os, signal, sys, threading
-    from test.test_viewer import bulk, Events, frame, until
-    from physsim_ros.view.viewer import Viewer, ViewerMode
+    from test.view.test_viewer import bulk, Events, frame, until
+    from physsim_ros.view import Viewer, ViewerMode
 
     url, path, server = sys.argv[1], sys.argv[2], int(sys.argv[3])
     viewer = Viewer()
     viewer.record(path)
-    viewer.turn_to(ViewerMode.CONNECT, url)
+    viewer.open(ViewerMode.CONNECT, url)
     events = Events(viewer)
     until(lambda: viewer.state.count(', open,') == 2)
     os.kill(server, signal.SIGSTOP)
@@ -531,16 +531,16 @@ def test_a_viewer_that_thaws_is_shown_what_is_new(viewers, server):
 # The queue
 
 
-class Blocked(Way):
-    """A way that takes nothing until it is told to."""
+class Blocked(Endpoint):
+    """An endpoint that takes nothing until it is released."""
 
-    kind, where, waiting = 'blocked', 'here', 10
+    kind, where, capacity = 'blocked', 'here', 10
 
     def __init__(self):
         self.entered, self.release = threading.Event(), threading.Event()
         self.drawn = []
 
-    def begin(self):
+    def open_sink(self):
         return self
 
     def draw(self, frames, **_):
@@ -553,94 +553,94 @@ class Blocked(Way):
 
 
 def test_a_full_queue_drops_the_oldest_frames_and_keeps_all_answers():
-    way, told = Blocked(), []
-    outlet = Outlet(way, tell=told.append)
-    outlet.put(frame(0, 'answer 0'), real_time_factor=1.0)
-    assert way.entered.wait(PATIENCE)
+    endpoint, told = Blocked(), []
+    worker = SinkWorker(endpoint, report=told.append)
+    worker.put_frame(frame(0, 'answer 0'), real_time_factor=1.0)
+    assert endpoint.entered.wait(PATIENCE)
 
     for step in range(1, 101):
-        outlet.put(frame(step, f'answer {step}'), real_time_factor=1.0)
-    way.release.set()
-    outlet.end()
+        worker.put_frame(frame(step, f'answer {step}'), real_time_factor=1.0)
+    endpoint.release.set()
+    worker.end()
 
-    assert outlet.join()
-    assert [each.snapshot.step for each in way.drawn] == [0, *range(91, 101)]
-    answers = [answer.message for each in way.drawn for answer in each.answers]
+    assert worker.join()
+    assert [each.snapshot.step for each in endpoint.drawn] == [0, *range(91, 101)]
+    answers = [answer.message for each in endpoint.drawn for answer in each.answers]
     assert answers == [f'answer {step}' for step in range(101)]
-    assert '11 frames, 90 dropped' in outlet.state
+    assert '11 frames, 90 dropped' in worker.state
     assert [each.code for each in told] == ['', 'frames_dropped']
 
 
 def test_putting_a_frame_never_waits_for_drawing():
-    way = Blocked()
-    outlet = Outlet(way, tell=lambda _: None)
-    outlet.put(frame(0), real_time_factor=1.0)
-    assert way.entered.wait(PATIENCE)
+    endpoint = Blocked()
+    worker = SinkWorker(endpoint, report=lambda _: None)
+    worker.put_frame(frame(0), real_time_factor=1.0)
+    assert endpoint.entered.wait(PATIENCE)
 
-    outlet.put(frame(1), real_time_factor=1.0)
-    assert not way.release.is_set()
-    way.release.set()
-    outlet.end()
+    worker.put_frame(frame(1), real_time_factor=1.0)
+    assert not endpoint.release.is_set()
+    endpoint.release.set()
+    worker.end()
 
-    assert outlet.join()
+    assert worker.join()
 
 
 def test_closing_gives_up_on_one_that_never_draws():
-    way = Blocked()
-    outlet = Outlet(way, tell=lambda _: None)
-    outlet.put(frame(0), real_time_factor=1.0)
-    assert way.entered.wait(PATIENCE)
+    endpoint = Blocked()
+    worker = SinkWorker(endpoint, report=lambda _: None)
+    worker.put_frame(frame(0), real_time_factor=1.0)
+    assert endpoint.entered.wait(PATIENCE)
 
-    outlet.end()
+    worker.end()
 
-    assert not outlet.join()
-    way.release.set()
+    assert not worker.join()
+    endpoint.release.set()
 
 
 @pytest.mark.filterwarnings('ignore::pytest.PytestUnhandledThreadExceptionWarning')
 def test_a_bug_in_drawing_is_told_and_nothing_is_open_any_more():
-    class Buggy(Way):
+    class Buggy(Endpoint):
         kind = 'buggy'
 
-        def begin(self):
+        def open_sink(self):
             raise ZeroDivisionError('by zero')
 
     told = []
-    outlet = Outlet(Buggy(), tell=told.append)
+    worker = SinkWorker(Buggy(), report=told.append)
 
-    assert outlet.join()
-    assert not outlet.is_open
+    assert worker.join()
+    assert not worker.is_open
     (answer,) = told
     assert answer.code == 'viewer_lost'
     assert 'ZeroDivisionError: by zero' in answer.message
 
 
 def test_what_waited_for_a_way_that_failed_is_let_go():
-    class Failing(Way):
+    class Failing(Endpoint):
         kind = 'failing'
 
         def __init__(self):
             self.release = threading.Event()
 
-        def begin(self):
+        def open_sink(self):
             assert self.release.wait(PATIENCE)
             raise ConnectionError('there never can be one')
 
-    way = Failing()
-    outlet = Outlet(way, tell=lambda _: None)
+    endpoint = Failing()
+    worker = SinkWorker(endpoint, report=lambda _: None)
     waiting = frame(0, 'answer')
     kept = weakref.ref(waiting.snapshot)
-    outlet.put(waiting, real_time_factor=1.0)
+    worker.put_frame(waiting, real_time_factor=1.0)
     del waiting
 
-    way.release.set()
+    endpoint.release.set()
 
-    assert outlet.join()
+    assert worker.join()
     assert kept() is None
-    assert 'failed, 0 frames, 1 dropped' in outlet.state
+    assert 'failed, 0 frames, 1 dropped' in worker.state
 
 
 def test_importing_the_viewer_does_not_import_rerun():
-    check = 'import sys, physsim_ros.viewer; sys.exit("rerun" in sys.modules)'
+    check = 'import sys, physsim_ros.view; sys.exit("rerun" in sys.modules)'
 
     assert subprocess.run([sys.executable, '-c', check], check=False).returncode == 0

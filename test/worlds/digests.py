@@ -20,17 +20,15 @@ Digests of every shipped world and drawing, which tell whether a change moves an
 
 from pathlib import Path
 
-from physsim_ros.drawing.session import Pen
-from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.files import drawing_file, world_file
-from physsim_ros.files.resources import shipped
+from physsim_ros.drawing import DrawingSession, DrawingSettings
+from physsim_ros.files import find_drawing, load_drawing, shipped, shipped_worlds
 from physsim_ros.simulation.simulation import Simulation
 import yaml
 
 from .film import simulation
 
 DIGESTS = Path(__file__).with_name('digests.yaml')
-WORLDS = sorted(path.stem for path in world_file.shipped_worlds().glob('*.yaml'))
+WORLDS = sorted(path.stem for path in shipped_worlds().glob('*.yaml'))
 DRAWINGS = sorted(path.stem for path in shipped('drawings').glob('*.svg'))
 SCENES = [f'worlds/{name}' for name in WORLDS] + [f'drawings/{name}' for name in DRAWINGS]
 # Simulation time at which digests are taken [s]; the rewind goes from the last to the first.
@@ -42,9 +40,9 @@ def scene(name):
     folder, _, name = name.partition('/')
     if folder == 'worlds':
         return simulation(name)
-    sim, pen = Simulation(speed=0.0), Pen(DrawingSettings())
+    sim, pen = Simulation(speed=0.0), DrawingSession(DrawingSettings())
     frame = sim.advance_frame()
-    for stroke in drawing_file.load(drawing_file.find(name)):
+    for stroke in load_drawing(find_drawing(name)):
         for request in pen.stroke(stroke, '', frame.snapshot).requests:
             sim.submit(request, topic='~/stroke')
         frame = sim.settle() or frame

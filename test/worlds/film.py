@@ -17,7 +17,7 @@
 from pathlib import Path
 
 import numpy as np
-from physsim_ros.files import world_file
+from physsim_ros.files import find_world, load_world
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.simulation.simulation import Simulation
 
@@ -28,8 +28,8 @@ FRAMES = 60
 
 def state_of(name):
     """Return the state that a world of the package begins with."""
-    path = world_file.find(name, world_dir=Path('nowhere'), confined=True)
-    return world_file.load(path, settings=WorldSettings(), physics_rate=RATE)
+    path = find_world(name, world_dir=Path('nowhere'), confined=True)
+    return load_world(path, settings=WorldSettings(), physics_rate=RATE)
 
 
 def simulation(name):
@@ -72,7 +72,7 @@ class Film:
     def weight(self, *namespaces):
         """Return what all bodies of these namespaces weigh together [kg]."""
         bodies = self.frames[0].scene.bodies
-        return sum(body.weight for body in bodies if body.name.partition('/')[0] in namespaces)
+        return sum(body.total_mass for body in bodies if body.name.partition('/')[0] in namespaces)
 
 
 def at(seconds):

@@ -16,7 +16,7 @@
 
 from pathlib import Path
 
-from physsim_ros.files import world_file
+from physsim_ros.files import load_world, save_world, shipped_worlds
 from physsim_ros.model.requests import Restore
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.simulation.world import World
@@ -29,7 +29,7 @@ FAMOUS = (
     'newtons_cradle', 'pendulums', 'incline', 'dominoes', 'bridge', 'car', 'gear_train',
     'catapult', 'galton',
 )  # fmt: skip
-WORLDS = sorted(path.stem for path in world_file.shipped_worlds().glob('*.yaml'))
+WORLDS = sorted(path.stem for path in shipped_worlds().glob('*.yaml'))
 
 
 def world_of(state):
@@ -75,8 +75,8 @@ def test_it_is_saved_and_loaded_to_the_bit(name, tmp_path):
     world.step(30)
     state = world.save()
 
-    path = world_file.save(state, 'saved', world_dir=tmp_path, physics_rate=RATE)
-    again = world_file.load(path, settings=WorldSettings(), physics_rate=RATE)
+    path = save_world(state, 'saved', world_dir=tmp_path, physics_rate=RATE)
+    again = load_world(path, settings=WorldSettings(), physics_rate=RATE)
 
     assert again == state
     one, other = world_of(state), world_of(again)

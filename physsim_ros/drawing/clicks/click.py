@@ -13,9 +13,9 @@
 # limitations under the License.
 
 """
-Clicks as they were made, and what of them nobody can have meant.
+Clicks with the bodies that they hit, and the least lengths that clicks can draw.
 
-Law: a click holds what it hit, and where on it; that may move on, or go, before the next click.
+Law: a click is fixed to the body that it hit; the body may move, or be deleted, before the next.
 """
 
 from __future__ import annotations
@@ -24,19 +24,20 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 import math
 
-from physsim_ros.drawing.scene_query import View
+from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.model.errors import BadSize, NothingThere, UnknownBody
-from physsim_ros.model.shapes import Point, SMALLEST
+from physsim_ros.model.shapes import SMALLEST
+from physsim_ros.model.transform import Point
 
-# What is shorter than that share of `snap`, 15 mm as it stands, is a slip of the hand.
+# The least length that clicks can draw, in shares of `snap`: 15 mm by default.
 SLIP = 0.1
 
 
 @dataclass(frozen=True, slots=True)
 class Click:
     """
-    A click as it was made.
+    A click.
 
     :param point: in the world [m]
     :param body: the topmost body under it; '' where there is none
@@ -48,51 +49,51 @@ class Click:
     local: Point = (0.0, 0.0)
 
     @classmethod
-    def on(cls, view: View, point: Point) -> Click:
-        """Make a click at a point of the world [m]."""
-        for name in view.bodies_at(point):
-            return cls(point, name, view.local(name, point))
+    def at_point(cls, scene: SceneQuery, point: Point) -> Click:
+        """Return a click at a point of the world [m]."""
+        for name in scene.bodies_at(point):
+            return cls(point, name, scene.local(name, point))
         return cls(point)
 
-    def hit(self, view: View) -> str:
+    def hit_body(self, scene: SceneQuery) -> str:
         """
-        Return the body that was clicked.
+        Return the name of the body that the click hit.
 
-        :raises NothingThere: there was none
-        :raises UnknownBody: it has gone since
+        :raises NothingThere: it hit none
+        :raises UnknownBody: the body has been deleted since
         """
         if not self.body:
             x, y = self.point
             raise NothingThere(f'there is no body at ({x:g}, {y:g})', field='point')
-        if self.body not in view.names:
+        if self.body not in scene.names:
             raise UnknownBody(f'{self.body} is not there any more', field='point')
         return self.body
 
-    def now(self, view: View) -> Point:
+    def current_point(self, scene: SceneQuery) -> Point:
         """
-        Return where the place that was clicked is now: on a body, or in the world [m].
+        Return the clicked point, moved with the body that the click hit [m].
 
-        :raises UnknownBody: the body has gone since
+        :raises UnknownBody: the body has been deleted since
         """
-        return view.in_world(self.hit(view), self.local) if self.body else self.point
+        return scene.in_world(self.hit_body(scene), self.local) if self.body else self.point
 
 
-def span(start: Point, end: Point, settings: DrawingSettings, what: str) -> float:
+def checked_distance(start: Point, end: Point, settings: DrawingSettings, what: str) -> float:
     """
     Return the distance of two points [m].
 
-    :param what: lies between them, for the sentence of the refusal
-    :raises BadSize: it is too short to be meant
+    :param what: name of the distance, for the message of the refusal
+    :raises BadSize: it is below the least length that clicks can draw
     """
-    return meant(math.dist(start, end), settings, what)
+    return checked_length(math.dist(start, end), settings, what)
 
 
-def meant(length: float, settings: DrawingSettings, what: str) -> float:
+def checked_length(length: float, settings: DrawingSettings, what: str) -> float:
     """
     Return a length [m].
 
-    :param what: has it, for the sentence of the refusal
-    :raises BadSize: it is too short to be meant
+    :param what: name of the length, for the message of the refusal
+    :raises BadSize: it is below the least length that clicks can draw
     """
     least = _least(settings)
     if length < least:
@@ -103,8 +104,8 @@ def meant(length: float, settings: DrawingSettings, what: str) -> float:
     return length
 
 
-def distinct(points: Sequence[Point], settings: DrawingSettings) -> list[Point]:
-    """Return the points without those that repeat the one before: clicked twice by a slip."""
+def without_repeats(points: Sequence[Point], settings: DrawingSettings) -> list[Point]:
+    """Return the points without those that repeat the point before."""
     least = _least(settings)
     return [
         point

@@ -15,8 +15,8 @@
 """
 A gesture: the clicks of one tool, from the first to the one that ends it.
 
-Laws: a click is fixed to the world as it lies when it is made. What was drawn wrong is dropped
-whole, so that a tool starts afresh; a click that is no point at all leaves the gesture as it was.
+Laws: a click is resolved in the world at the time at which it is made. A gesture that cannot be
+drawn is dropped as a whole; a click that is not a finite point leaves the gesture as it was.
 """
 
 from __future__ import annotations
@@ -24,68 +24,70 @@ from __future__ import annotations
 import math
 
 from physsim_ros.drawing.clicks.click import Click
-from physsim_ros.drawing.clicks.tools import Step, Tool, TOOLS
-from physsim_ros.drawing.scene_query import View
+from physsim_ros.drawing.clicks.tools import ClickResult, Tool, TOOLS
+from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.model.preview import Line, Preview
 from physsim_ros.model.requests import check_point
-from physsim_ros.model.shapes import Point
+from physsim_ros.model.transform import Point
 
-# Corners of the ring about a polygon's first corner.
-_RING = 24
+# Number of corners of the circle around the first corner of a polygon.
+_CIRCLE_CORNERS = 24
 
 
 class Gesture:
     """
-    What has been clicked so far with a tool.
+    The clicks so far with a tool.
 
-    :param tool: in hand
+    :param tool: of the gesture
     """
 
     def __init__(self, tool: Tool = Tool.NONE) -> None:
         self.tool = tool
         self._clicks: tuple[Click, ...] = ()
 
-    def click(self, point: Point, frame: str, view: View, settings: DrawingSettings) -> Step:
+    def click(
+        self, point: Point, frame: str, scene: SceneQuery, settings: DrawingSettings
+    ) -> ClickResult:
         """
-        Take a click.
+        Add a click.
 
         :param point: [m]
-        :param frame: of the point: '' for the world, or a body's name
-        :param view: the world that is clicked on
+        :param frame: of the point: '' for the world, or the name of a body
+        :param scene: the world that was clicked
         :param settings: of drawing
-        :return: the requests that end the gesture, or which click comes next
+        :return: the requests that end the gesture, or a message about the next click
         :raises Malformed: the point is not finite; the gesture stays as it was
         :raises UnknownFrame: there is no such frame; the gesture stays as it was
-        :raises Refusal: the gesture is nothing that can be drawn; it is dropped
+        :raises Refusal: the gesture cannot be drawn; it is dropped
         """
         if self.tool is Tool.NONE:
-            return Step(message='ignored: no tool is in hand; parameter tool takes one')
+            return ClickResult(message='ignored: no tool is in hand; parameter tool takes one')
         check_point(point, 'point')
-        where = view.placed(point, frame)
-        check_point(where, 'point')
-        clicks = (*self._clicks, Click.on(view, where))
-        # Unless the tool wants more of it, the gesture is over, refused or not.
+        in_world = scene.resolve_point(point, frame)
+        check_point(in_world, 'point')
+        clicks = (*self._clicks, Click.at_point(scene, in_world))
+        # The gesture is over, refused or not, unless the tool needs more clicks.
         self._clicks = ()
-        step = TOOLS[self.tool](clicks, view, settings)
+        step = TOOLS[self.tool](clicks, scene, settings)
         if not step.requests:
             self._clicks = clicks
         return step
 
     def preview(self, settings: DrawingSettings) -> Preview:
-        """Return what has been clicked, to be shown."""
+        """Return the preview of the clicks so far."""
         points = tuple(click.point for click in self._clicks)
         if not points:
             return Preview()
         lines: list[Line] = [points] if len(points) > 1 else []
         if self.tool is Tool.POLYGON:
-            lines.append(_ring(points[0], settings.snap))
+            lines.append(_circle(points[0], settings.snap))
         return Preview(lines=tuple(lines), points=points, label=str(self.tool))
 
 
-def _ring(center: Point, radius: float) -> Line:
-    """Return a circle as a closed line: within it, a click closes a polygon."""
-    angles = [math.tau * corner / _RING for corner in range(_RING + 1)]
+def _circle(center: Point, radius: float) -> Line:
+    """Return a circle as a closed line; a click within it closes a polygon."""
+    angles = [math.tau * corner / _CIRCLE_CORNERS for corner in range(_CIRCLE_CORNERS + 1)]
     return tuple(
         (center[0] + radius * math.cos(angle), center[1] + radius * math.sin(angle))
         for angle in angles

@@ -13,10 +13,10 @@
 # limitations under the License.
 
 """
-The tools of drawing by clicks: what the clicks of a gesture, from its first, make.
+The tools of drawing by clicks: each maps the clicks of a gesture to requests.
 
-Law: a tool reads clicks and a view of the world, and changes neither. While it wants more clicks
-it says which; with the last one it gives the requests; a gesture that is no shape is refused.
+Law: a tool changes neither clicks nor scene. It returns a message about the next click, or, with
+the last one, the requests; a gesture that has no valid geometry is refused.
 """
 
 from __future__ import annotations
@@ -27,11 +27,16 @@ from enum import StrEnum
 import math
 
 from physsim_ros.drawing import body_requests
-from physsim_ros.drawing.clicks.click import Click, distinct, meant, span
-from physsim_ros.drawing.scene_query import View
+from physsim_ros.drawing.clicks.click import (
+    checked_distance,
+    checked_length,
+    Click,
+    without_repeats,
+)
+from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.model.errors import Anchored, NothingThere
-from physsim_ros.model.joint_properties import JointKind
+from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.requests import (
     Anchor,
@@ -44,11 +49,11 @@ from physsim_ros.model.requests import (
     Release,
     Request,
 )
-from physsim_ros.model.shapes import Point
+from physsim_ros.model.transform import Point
 
 
 class Tool(StrEnum):
-    """What a click can be made with: the values of parameter `tool`."""
+    """The tools of clicks: the values of parameter `tool`."""
 
     NONE = 'none'
     CIRCLE = 'circle'
@@ -69,141 +74,147 @@ class Tool(StrEnum):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Step:
+class ClickResult:
     """
-    What a click led to.
+    The result of a click.
 
-    :param requests: what to submit; none while the gesture goes on
-    :param message: what was done so far, and which click comes next
+    :param requests: to be submitted; none while the gesture needs more clicks
+    :param message: the clicks so far, and the next click
     """
 
     requests: tuple[Request, ...] = ()
     message: str = ''
 
 
-def circle(clicks: Sequence[Click], view: View, settings: DrawingSettings) -> Step:
+def circle(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings) -> ClickResult:
     """Draw a disc: its centre, then a point on its rim."""
     if len(clicks) < 2:
-        return _more('the centre is set', 'a point on the rim')
+        return _next_click('the centre is set', 'a point on the rim')
     center, rim = _points(clicks)
-    radius = span(center, rim, settings, 'the radius')
-    return _done(body_requests.disc(view.next_body(), center, radius, settings))
+    radius = checked_distance(center, rim, settings, 'the radius')
+    return _finished(body_requests.disc(scene.next_body(), center, radius, settings))
 
 
-def circle_diameter(clicks: Sequence[Click], view: View, settings: DrawingSettings) -> Step:
+def circle_diameter(
+    clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings
+) -> ClickResult:
     """Draw a disc: one end of a diameter, then the other."""
     if len(clicks) < 2:
-        return _more('an end of a diameter is set', 'the other end')
+        return _next_click('an end of a diameter is set', 'the other end')
     start, end = _points(clicks)
-    radius = span(start, end, settings, 'the diameter') / 2
-    return _done(body_requests.disc(view.next_body(), _middle(start, end), radius, settings))
+    radius = checked_distance(start, end, settings, 'the diameter') / 2
+    return _finished(body_requests.disc(scene.next_body(), _middle(start, end), radius, settings))
 
 
-def rectangle(clicks: Sequence[Click], view: View, settings: DrawingSettings) -> Step:
+def rectangle(
+    clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings
+) -> ClickResult:
     """Draw a rectangle: a corner, the next corner, then a point of the side across."""
     if len(clicks) < 2:
-        return _more('a corner is set', 'the next corner')
+        return _next_click('a corner is set', 'the next corner')
     start, end, *rest = _points(clicks)
-    width = span(start, end, settings, 'the first side')
+    width = checked_distance(start, end, settings, 'the first side')
     if not rest:
-        return _more('a side is set', 'a point of the side across')
+        return _next_click('a side is set', 'a point of the side across')
     along = (end[0] - start[0]) / width, (end[1] - start[1]) / width
     # To the left of the first side, or, where it is negative, to the right.
     height = along[0] * (rest[0][1] - start[1]) - along[1] * (rest[0][0] - start[0])
-    meant(abs(height), settings, 'the second side')
+    checked_length(abs(height), settings, 'the second side')
     x, y = _middle(start, end)
     center = x - along[1] * height / 2, y + along[0] * height / 2
     yaw = math.atan2(along[1], along[0])
-    name = view.next_body()
-    return _done(body_requests.rectangle(name, (*center, yaw), width, abs(height), settings))
+    name = scene.next_body()
+    return _finished(body_requests.rectangle(name, (*center, yaw), width, abs(height), settings))
 
 
-def polygon(clicks: Sequence[Click], view: View, settings: DrawingSettings) -> Step:
+def polygon(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings) -> ClickResult:
     """Draw a polygon: corner after corner; a click on the first one closes it."""
     points = _points(clicks)
     if len(points) > 1 and math.dist(points[0], points[-1]) <= settings.snap:
-        corners = distinct(points[:-1], settings)
-        return _done(body_requests.polygon(view.next_body(), corners, settings))
-    count = len(distinct(points, settings))
+        corners = without_repeats(points[:-1], settings)
+        return _finished(body_requests.polygon(scene.next_body(), corners, settings))
+    count = len(without_repeats(points, settings))
     said = 'a corner is set' if count == 1 else f'{count} corners are set'
-    return _more(said, 'the next corner, or the first one again to close it')
+    return _next_click(said, 'the next corner, or the first one again to close it')
 
 
-def wall(clicks: Sequence[Click], view: View, settings: DrawingSettings) -> Step:
+def wall(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings) -> ClickResult:
     """Draw a wall: one end, then the other."""
     if len(clicks) < 2:
-        return _more('an end is set', 'the other end')
+        return _next_click('an end is set', 'the other end')
     start, end = _points(clicks)
-    span(start, end, settings, 'the wall')
-    return _done(body_requests.wall(view.next_body(), (start, end), settings))
+    checked_distance(start, end, settings, 'the wall')
+    return _finished(body_requests.wall(scene.next_body(), (start, end), settings))
 
 
-def anchor(clicks: Sequence[Click], _view: View, _settings: DrawingSettings) -> Step:
+def anchor(clicks: Sequence[Click], _scene: SceneQuery, _settings: DrawingSettings) -> ClickResult:
     """Fix the body under the click to the background."""
-    return _done(Anchor(point=clicks[0].point))
+    return _finished(Anchor(point=clicks[0].point))
 
 
-def release(clicks: Sequence[Click], _view: View, _settings: DrawingSettings) -> Step:
+def release(
+    clicks: Sequence[Click], _scene: SceneQuery, _settings: DrawingSettings
+) -> ClickResult:
     """Free the body under the click from the background, pins and axles."""
-    return _done(Release(point=clicks[0].point))
+    return _finished(Release(point=clicks[0].point))
 
 
-def pin(clicks: Sequence[Click], _view: View, _settings: DrawingSettings) -> Step:
+def pin(clicks: Sequence[Click], _scene: SceneQuery, _settings: DrawingSettings) -> ClickResult:
     """Weld the two bodies under the click, or the one to the background."""
-    return _done(Pin(point=clicks[0].point))
+    return _finished(Pin(point=clicks[0].point))
 
 
-def axle(clicks: Sequence[Click], _view: View, _settings: DrawingSettings) -> Step:
-    """Let the two bodies under the click turn about it, or the one about the background."""
-    return _done(Axle(point=clicks[0].point))
+def axle(clicks: Sequence[Click], _scene: SceneQuery, _settings: DrawingSettings) -> ClickResult:
+    """Join the two bodies under the click by an axle, or the one to the background."""
+    return _finished(Axle(point=clicks[0].point))
 
 
-def delete(clicks: Sequence[Click], view: View, _settings: DrawingSettings) -> Step:
+def delete(clicks: Sequence[Click], scene: SceneQuery, _settings: DrawingSettings) -> ClickResult:
     """Delete the body under the click."""
-    return _done(Delete(name=clicks[0].hit(view)))
+    return _finished(Delete(name=clicks[0].hit_body(scene)))
 
 
-def spring(clicks: Sequence[Click], view: View, settings: DrawingSettings) -> Step:
+def spring(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings) -> ClickResult:
     """Join two points by a spring: one end, then the other."""
-    return _join(JointKind.SPRING, clicks, view, settings)
+    return _join(JointKind.SPRING, clicks, scene, settings)
 
 
-def rod(clicks: Sequence[Click], view: View, settings: DrawingSettings) -> Step:
+def rod(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings) -> ClickResult:
     """Join two points by a rod: one end, then the other."""
-    return _join(JointKind.ROD, clicks, view, settings)
+    return _join(JointKind.ROD, clicks, scene, settings)
 
 
-def rope(clicks: Sequence[Click], view: View, settings: DrawingSettings) -> Step:
+def rope(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings) -> ClickResult:
     """Join two points by a rope: one end, then the other."""
-    return _join(JointKind.ROPE, clicks, view, settings)
+    return _join(JointKind.ROPE, clicks, scene, settings)
 
 
-def velocity(clicks: Sequence[Click], view: View, settings: DrawingSettings) -> Step:
-    """Give a body a velocity: the body, then the tip of an arrow from there, 1 m for 1 m/s."""
-    name = clicks[0].hit(view)
-    if view.body(name).anchored:
+def velocity(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings) -> ClickResult:
+    """Set the velocity of a body: the body, then the tip of an arrow from there, 1 m for 1 m/s."""
+    name = clicks[0].hit_body(scene)
+    if scene.body(name).anchored:
         raise Anchored(f'{name} is anchored; it has no velocity', field='point')
     if len(clicks) < 2:
-        return _more(f'the arrow begins on {name}', 'its tip, 1 m for 1 m/s')
+        return _next_click(f'the arrow begins on {name}', 'its tip, 1 m for 1 m/s')
     tail, tip = _points(clicks)
-    span(tail, tip, settings, 'the arrow')
-    spin = view.twist(name)[2]
+    checked_distance(tail, tip, settings, 'the arrow')
+    spin = scene.twist(name)[2]
     twist = (tip[0] - tail[0], tip[1] - tail[1], spin)
-    return _done(Command(names=(name,), twists=(twist,)))
+    return _finished(Command(names=(name,), twists=(twist,)))
 
 
-def gravity(clicks: Sequence[Click], view: View, settings: DrawingSettings) -> Step:
-    """Turn gravity: the tail of an arrow, then its tip; how strong it is stays."""
-    strength = view.gravity_strength()
+def gravity(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings) -> ClickResult:
+    """Turn gravity: the tail of an arrow, then its tip; its magnitude stays."""
+    strength = scene.gravity_strength()
     if len(clicks) < 2:
-        return _more('the arrow begins there', 'its tip')
+        return _next_click('the arrow begins there', 'its tip')
     tail, tip = _points(clicks)
-    share = strength / span(tail, tip, settings, 'the arrow')
+    share = strength / checked_distance(tail, tip, settings, 'the arrow')
     turned = (tip[0] - tail[0]) * share, (tip[1] - tail[1]) * share
-    return _done(Configure(changes={'gravity': turned}))
+    return _finished(Configure(changes={'gravity': turned}))
 
 
-Draw = Callable[[Sequence[Click], View, DrawingSettings], Step]
+Draw = Callable[[Sequence[Click], SceneQuery, DrawingSettings], ClickResult]
 
 TOOLS: dict[Tool, Draw] = {
     Tool.CIRCLE: circle,
@@ -224,20 +235,22 @@ TOOLS: dict[Tool, Draw] = {
 }
 
 
-def _join(kind: JointKind, clicks: Sequence[Click], view: View, settings: DrawingSettings) -> Step:
-    """Join what was clicked first to what was clicked then, one of them a body."""
+def _join(
+    kind: JointKind, clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings
+) -> ClickResult:
+    """Join the body, or the background, under the first click to that under the second."""
     if len(clicks) < 2:
         where = clicks[0].body or 'the background'
-        return _more(f'the {kind} begins on {where}', 'its other end')
-    # A body keeps the place that was clicked, wherever it has gone since.
-    ends = [(click.now(view), click.body or WORLD) for click in clicks]
+        return _next_click(f'the {kind} begins on {where}', 'its other end')
+    # Each end stays at its place on the body that was clicked, which may have moved since.
+    ends = [(click.current_point(scene), click.body or WORLD) for click in clicks]
     if ends[0][1] == WORLD:
         ends.reverse()
     (start, a), (end, b) = ends
     if a == WORLD:
         raise NothingThere(f'there is no body at either end of the {kind}', field='point')
-    span(start, end, settings, f'the {kind}')
-    return _done(Join(name=view.next_joint(), kind=kind, points=(start, end), a=a, b=b))
+    checked_distance(start, end, settings, f'the {kind}')
+    return _finished(Join(name=scene.next_joint(), kind=kind, points=(start, end), a=a, b=b))
 
 
 def _points(clicks: Sequence[Click]) -> list[Point]:
@@ -248,9 +261,9 @@ def _middle(start: Point, end: Point) -> Point:
     return (start[0] + end[0]) / 2, (start[1] + end[1]) / 2
 
 
-def _more(said: str, wanted: str) -> Step:
-    return Step(message=f'{said}; next: {wanted}')
+def _next_click(said: str, wanted: str) -> ClickResult:
+    return ClickResult(message=f'{said}; next: {wanted}')
 
 
-def _done(*requests: Request) -> Step:
-    return Step(requests=requests)
+def _finished(*requests: Request) -> ClickResult:
+    return ClickResult(requests=requests)

@@ -13,7 +13,8 @@
 # limitations under the License.
 
 """
-Freehand strokes: recognised, read in their context, made into requests.
+Freehand strokes: resampled, recognised, interpreted in the scene, regularised into requests.
 
-Start with `interpretation`; `recogniser` ranks what a stroke looks like.
+Not here: clicks (`clicks`), and the session that both belong to (`drawing.session`). Start with
+`interpretation`, then `recogniser`; `glyphs` has one file for each sign.
 """

@@ -13,77 +13,128 @@
 # limitations under the License.
 
 """
-Closed strokes: disc, rectangle, polygon.
+Closed strokes: disc, rectangle and polygon, or, small and on a body, an axle.
 
-Law: a closed stroke that does not cross itself is a solid; what is neither round nor sided is an
-outline of its own.
+Law: a closed stroke that does not cross itself is a body; one that is neither round nor made of
+straight sides is a polygon along the stroke.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 import math
 
 import numpy as np
-from physsim_ros.drawing.strokes import corner_detection
+from physsim_ros.drawing.strokes import corner_detection, request_builder
+from physsim_ros.drawing.strokes.context import Context, Interpretation
+from physsim_ros.drawing.strokes.features import Features
 from physsim_ros.drawing.strokes.fitting import rectangle, traced
-from physsim_ros.drawing.strokes.glyphs import Swings
-from physsim_ros.drawing.strokes.hypothesis import Candidate, falls, LEAST, Primitive, rises
-from physsim_ros.drawing.strokes.polyline import angles, smoothed, turns, widened
-from physsim_ros.drawing.strokes.stroke import Stroke
-from physsim_ros.model import polygon
+from physsim_ros.drawing.strokes.glyphs import axle
+from physsim_ros.drawing.strokes.hypothesis import falls, Hypothesis, LEAST, rises
+from physsim_ros.drawing.strokes.polyline import angles, point_of, smoothed, turns, widened
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.polygon import cross
+from physsim_ros.model.shapes import crosses_itself, is_convex, signed_area
+from physsim_ros.model.transform import cross
 
-# So many corners that are all alike are a circle's samples; the weight of an outline of no shape.
-MANY, BLOB = 9, 0.8
+DISC, RECTANGLE, POLYGON = 'disc', 'rectangle', 'polygon'
+# The least number of equal corners that are the samples of a circle.
+MANY = 9
+# Factor on the weight of an outline that is neither round nor made of straight sides.
+BLOB = 0.8
 
 
-def solids(stroke: Stroke, swings: Swings, plain: float) -> Iterator[Candidate]:
-    """Yield disc, rectangle and polygon."""
-    closed = plain * falls(stroke.gap, 0.13, 0.01) * falls(swings.count, 4.5, 0.25)
+def hypotheses(features: Features, plain: float) -> Iterator[Hypothesis]:
+    """
+    Yield disc, rectangle and polygon.
+
+    The points of a disc are its centre and a point on its rim; those of the others are corners.
+
+    :param plain: weight of the stroke being no sign
+    """
+    stroke = features.stroke
+    closed = plain * falls(stroke.gap, 0.13, 0.01) * features.swings.absence
     if stroke.outline is None or closed < LEAST:
         return
     center, radius, error, aspect = roundness(stroke.outline)
     outline, narrow = widened(stroke.outline)
     at = corner_detection.corners(outline, closed=True, gap=stroke.gap)
     found = corner_detection.vertices(outline, at, closed=True) @ narrow
-    simple = len(at) >= 3 and not polygon.crosses_itself(found)
-    # What sides leave unexplained, beside what a circle does; a hexagon's is a fifth.
+    simple = len(at) >= 3 and not crosses_itself(found)
+    # Residual of the sides, compared with that of a circle; a hexagon's is a fifth of it.
     size = float(np.hypot(*np.ptp(outline, axis=0)))
-    left = corner_detection.side_error(outline, at) / size if len(at) >= 3 else 1.0
-    once = _once_around(stroke.outline - center)
+    residual = corner_detection.side_error(outline, at) / size if len(at) >= 3 else 1.0
+    once = _winds_once(stroke.outline - center)
     bend = turns(smoothed(outline, 2.5, closed=True), 6, closed=True)
     sharpness = float(np.sort(np.abs(bend))[-8:].mean() / np.abs(bend).mean())
-    ratio = math.log(max(left, 1e-6) / max(error, 1e-6) / 0.19)
+    ratio = math.log(max(residual, 1e-6) / max(error, 1e-6) / 0.19)
     evidence = ratio + 1.5 * math.log(2.25 / sharpness)
     round_ = rises(evidence, 0.0, 0.3) * rises(aspect, 0.55, 0.04)
-    if len(at) >= MANY and polygon.is_convex(_counterclockwise(found)):
-        # Nobody draws so many equal corners: they are the samples of a quick circle.
+    if len(at) >= MANY and is_convex(_counterclockwise(found)):
+        # So many equal corners are the samples of a circle that was drawn quickly.
         round_ = max(round_, falls(error, 0.04, 0.004))
     disc = closed * once * round_ * falls(error, 0.085, 0.015)
-    sided = closed * (1.0 - round_) * falls(left, 0.022, 0.003) if simple else 0.0
-    # Thinner than that it is a line, drawn to and fro.
+    sided = closed * (1.0 - round_) * falls(residual, 0.022, 0.003) if simple else 0.0
+    # A thinner outline is a line, drawn to and fro.
     broad = rises(aspect, 0.02, 0.003)
     square = squareness(found) if len(at) == 4 else 0.0
     rim = center + np.array((radius, 0.0))
-    yield Candidate(primitive=Primitive.DISC, weight=disc, points=np.array((center, rim)))
-    yield Candidate(primitive=Primitive.RECTANGLE, weight=broad * sided * square, points=found)
+    yield Hypothesis(primitive=DISC, weight=disc, points=np.array((center, rim)))
+    yield Hypothesis(primitive=RECTANGLE, weight=broad * sided * square, points=found)
     blob = BLOB * (closed - disc - sided)
     sided *= 1.0 - square
     if blob > max(sided, LEAST):
-        # Neither round nor sided: any other outline, as it was drawn.
+        # Neither round nor sided: a polygon along the stroke.
         found = traced(stroke.outline)
-        sided = 0.0 if polygon.crosses_itself(found) else blob
-    yield Candidate(primitive=Primitive.POLYGON, weight=broad * sided, points=found)
+        sided = 0.0 if crosses_itself(found) else blob
+    yield Hypothesis(primitive=POLYGON, weight=broad * sided, points=found)
+
+
+def disc_interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[Interpretation]:
+    """Yield axle and disc."""
+    points = hypothesis.points
+    center, radius = point_of(points[0]), math.dist(*points)
+    share = axle.share_of(center, radius, context)
+    yield axle.interpretation(center, radius, context, weight=hypothesis.weight * share)
+    yield Interpretation(
+        meaning='disc',
+        weight=hypothesis.weight * (1.0 - share),
+        build=partial(request_builder.disc, points, context),
+    )
+
+
+def rectangle_interpretations(
+    hypothesis: Hypothesis, context: Context
+) -> Iterator[Interpretation]:
+    """Yield a rectangle."""
+    yield Interpretation(
+        meaning='rectangle',
+        weight=hypothesis.weight,
+        build=partial(request_builder.rectangle, hypothesis.points, context),
+    )
+
+
+def polygon_interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[Interpretation]:
+    """Yield axle and polygon: small circles are drawn with corners."""
+    points = hypothesis.points
+    center, radius = points.mean(axis=0), float(np.hypot(*np.ptp(points, axis=0))) / 3
+    share = axle.share_of(point_of(center), radius, context, corners=len(points))
+    weight, shown = hypothesis.weight * share, math.dist(center, points[0])
+    yield axle.interpretation(point_of(center), shown, context, weight=weight)
+    yield Interpretation(
+        meaning='polygon',
+        weight=hypothesis.weight * (1.0 - share),
+        build=partial(request_builder.polygon, points, context),
+    )
 
 
 def roundness(outline: Floats) -> tuple[Floats, float, float, float]:
     """
-    Tell how round a closed way is.
+    Return how round a closed polyline is.
 
-    :return: its centre; its mean radius [m]; how much the radius varies once the ellipse that it
-        might be is stretched to a circle, as a share; the ellipse's lesser axis by its greater
+    :return: its centre [m]; its mean radius [m]; the standard deviation of the radius, in shares
+        of it, once the ellipse of the same moments is stretched to a circle; the lesser axis of
+        that ellipse by the greater
     """
     following = np.roll(outline, -1, axis=0)
     base = outline.mean(axis=0)
@@ -101,22 +152,22 @@ def roundness(outline: Floats) -> tuple[Floats, float, float, float]:
 
 
 def squareness(found: Floats) -> float:
-    """Return how much four corners look like a rectangle's, 0 .. 1."""
+    """Return how well four corners fit a rectangle, 0 .. 1."""
     nearest = rectangle(found)
     sides = np.roll(found, -1, axis=0) - found
     lengths = np.hypot(*(np.roll(nearest, -1, axis=0) - nearest).T)
     off = float(np.hypot(*(nearest - found).T).mean() / lengths.mean())
     slants = np.abs(np.abs(angles(np.roll(sides, 1, axis=0), sides)) - math.pi / 2)
-    # A short side's direction is hard to draw; its ends are not.
+    # The direction of a short side is less exact than its ends.
     slant = float(slants.mean()) * min(1.0, float(lengths.min() / lengths.max()) / 0.3)
     return falls(off, 0.115, 0.006) * falls(slant, 0.3, 0.012)
 
 
-def _once_around(away: Floats) -> float:
-    """Return how much a way looks like going round the origin once."""
+def _winds_once(away: Floats) -> float:
+    """Return how well the winding number of a closed polyline fits ±1, 0 .. 1."""
     turn = float(angles(away, np.roll(away, -1, axis=0)).sum()) / (2 * math.pi)
     return falls(abs(abs(turn) - 1.0), 0.4, 0.05)
 
 
 def _counterclockwise(found: Floats) -> Floats:
-    return found if polygon.signed_area(found) > 0 else found[::-1]
+    return found if signed_area(found) > 0 else found[::-1]

@@ -13,11 +13,11 @@
 # limitations under the License.
 
 """
-The corners of a way: those that a person meant, and where they lie.
+Corner detection: the intended corners of a stroke, and their positions.
 
-Candidates are looked for where the pen turns within a short way, as ShortStraw does (Wolin, Eoff
-and Hammond, 2008). Which of them are meant is decided by all of them at once: the fewest straight
-sides that explain the way.
+Candidates are points at which the stroke turns over a short distance, as in ShortStraw (Wolin,
+Eoff and Hammond, 2008). The corners among them minimise the residual of straight sides plus a
+cost for each corner, by dynamic programming over all candidates.
 """
 
 from __future__ import annotations
@@ -30,34 +30,33 @@ from physsim_ros.drawing.strokes.fitting import line
 from physsim_ros.drawing.strokes.polyline import angles, smoothed, turns
 from physsim_ros.drawing.strokes.stroke import HOOK, HOOK_TURN
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.polygon import cross
-from physsim_ros.model.shapes import Point
+from physsim_ros.model.transform import cross, Point
 
-# Smoothing before corners are looked for, and the arms of the angle there [points].
+# Standard deviation of the Gaussian before detection, and arms of the turning angle [points].
 SMOOTHING, ARM = 1.2, 5
-# The least turn that may be a corner, and the least that is one [rad].
+# The least turn of a candidate, and the least turn of a corner [rad].
 CANDIDATE_TURN, CORNER_TURN = 0.3, 0.42
-# The greatest turn at which two sides still meet in a point [rad].
+# The greatest turn at which the lines of two sides are intersected [rad].
 SHARPEST = 2.6
-# The most candidates that are weighed against one another.
+# The greatest number of candidates: the cost of the search grows with its square.
 CANDIDATES = 28
-# What a corner has to save to be worth it: mean square distance, in shares of the size squared.
+# Cost of a corner: mean square distance, in shares of the size squared.
 CORNER_COST = 0.0075**2
-# A straight side gets at least that share of its length from one end to the other.
+# The least distance between the ends of a side, in shares of the length along the stroke.
 ASTRAY = 0.75
-# What is left of an end that is bent off is no longer than this share of the length.
+# The greatest length of an end that bends off by mistake, in shares of the length.
 STUB = 0.07
-# How near to the gap in a closed way a side that only bridges it begins and ends, in shares of
-# the length, and how far its ends may slip past one another.
+# The greatest distance from the gap of a closed stroke at which a side that only bridges it begins
+# and ends, and the greatest overlap of the ends, in shares of the length.
 SEAM, SLIP = 0.03, 0.045
 
 
 def corners(points: Floats, *, closed: bool, gap: float = 0.0) -> list[int]:
     """
-    Return which points are corners; of an open way, the ends are.
+    Return the indices of the corners; the ends of an open polyline are corners.
 
-    :param points: (n, 2) float64: evenly spaced; of a closed way, the first not repeated
-    :param gap: in shares of a closed way, what at its end was not drawn
+    :param points: (n, 2) float64: evenly spaced; of a closed polyline, the first not repeated
+    :param gap: of a closed polyline, the undrawn share of its length, at its end
     """
     count = len(points)
     smooth = smoothed(points, SMOOTHING, closed=closed)
@@ -65,21 +64,21 @@ def corners(points: Floats, *, closed: bool, gap: float = 0.0) -> list[int]:
     places = _peaks(turn, closed=closed)
     if not closed:
         inner = places[(places > 2) & (places < count - 3)]
-        return _meant(smooth, np.array([0, *inner, count - 1]))
+        return _corners_among(smooth, np.array([0, *inner, count - 1]))
     if len(places) < 2:
         return list(map(int, places))
-    # Opened at the sharpest corner, which certainly is one.
+    # Opened at the sharpest candidate, which is a corner.
     start = places[turn[places].argmax()]
-    way = np.roll(smooth, -start, axis=0)
+    path = np.roll(smooth, -start, axis=0)
     opened = np.array([*np.sort((places - start) % count), count])
-    chosen = _meant(np.vstack((way, way[:1])), opened)
+    chosen = _corners_among(np.vstack((path, path[:1])), opened)
     at = sorted((each + int(start)) % count for each in chosen[:-1])
     return _without_seam(smooth, at, gap)
 
 
 def vertices(points: Floats, at: list[int], *, closed: bool) -> Floats:
     """
-    Return where the sides between corners meet: sharp, however round the pen took them.
+    Return the intersections of the sides between corners, (k, 2) float64 [m]: sharp corners.
 
     :param at: the corners, as `corners` returns them
     """
@@ -90,7 +89,7 @@ def vertices(points: Floats, at: list[int], *, closed: bool) -> Floats:
     lines = []
     for first, last in zip(at, at[1:] + at[:1], strict=True):
         span = (last - first) % total
-        # The fifths next to the corners may be round.
+        # The fifths of a side next to its corners may be round.
         rows = np.arange(first + span // 5, first + span - span // 5 + 1) % total
         lines.append(line(points[rows]))
     if not closed:
@@ -99,30 +98,30 @@ def vertices(points: Floats, at: list[int], *, closed: bool) -> Floats:
     for corner in range(0 if closed else 1, count if closed else count - 1):
         (p, u, _), (q, v, _) = lines[corner - 1], lines[corner]
         sine = float(cross(u, v))
-        # Nearly parallel lines meet anywhere.
+        # The intersection of nearly parallel lines is ill-conditioned.
         if abs(sine) > 0.3:
             found[corner] = p + u * (cross(q - p, v) / sine)
     return found
 
 
 def bends_of(points: Floats) -> Floats:
-    """Return the ends and bends of an open way."""
+    """Return the ends and bends of an open stroke, (k, 2) float64 [m]."""
     at = _without_stubs(points, corners(points, closed=False))
     return vertices(points, at, closed=False)
 
 
 def side_error(outline: Floats, at: list[int]) -> float:
-    """Return how far a closed way lies from the sides between its corners, root mean square."""
-    way = np.vstack((outline, outline[: at[0] + 1]))
+    """Return the distance of a closed stroke from the sides between its corners (rms) [m]."""
+    path = np.vstack((outline, outline[: at[0] + 1]))
     ends = np.array([*at, at[0] + len(outline)])
-    return math.sqrt(float(np.diagonal(_errors(way, ends), 1).sum()) / len(outline))
+    return math.sqrt(float(np.diagonal(_errors(path, ends), 1).sum()) / len(outline))
 
 
 def _without_stubs(points: Floats, at: list[int]) -> list[int]:
-    """Return the corners of an open way without ends that are too short to be meant."""
+    """Return the corners of an open stroke without those of ends that bend off by mistake."""
     kept = list(at)
     for _ in range(2):
-        # From the other end in the second round, and so the right way round after both.
+        # Each round reverses the order: one end each, and the order is restored.
         kept.reverse()
         if len(kept) > 2:
             a, b = np.diff(points[kept[-3:]], axis=0)
@@ -133,7 +132,7 @@ def _without_stubs(points: Floats, at: list[int]) -> list[int]:
 
 
 def _peaks(turn: NDArray[np.float64], *, closed: bool) -> NDArray[np.intp]:
-    """Return where the way turns most, at most so many places."""
+    """Return the indices of the local maxima of the turn, at most `CANDIDATES`."""
     around = np.pad(turn, 2, mode='wrap' if closed else 'constant')
     highest = np.max([around[:-4], around[1:-3], around[3:-1], around[4:]], axis=0)
     places = np.flatnonzero((turn >= highest) & (turn > CANDIDATE_TURN))
@@ -142,38 +141,37 @@ def _peaks(turn: NDArray[np.float64], *, closed: bool) -> NDArray[np.intp]:
     return places
 
 
-def _meant(way: Floats, places: NDArray[np.intp]) -> list[int]:
+def _corners_among(path: Floats, places: NDArray[np.intp]) -> list[int]:
     """
-    Return those of the places at which sides begin and end that are meant, the ends among them.
+    Return the indices of the corners among candidates, the ends included.
 
-    All choices are weighed; a corner has to pay for itself, and what is left of corners that
-    hardly turn is dropped.
+    Corners minimise residual and cost; those that turn by less than `CORNER_TURN` are dropped.
     """
     if len(places) > 2:
-        places = places[_fewest(_errors(way, places), way)]
+        places = places[_least_cost(_errors(path, places), path)]
     kept: list[int] = places.tolist()
-    points: list[tuple[float, float]] = list(map(tuple, way[kept].tolist()))
+    points: list[tuple[float, float]] = list(map(tuple, path[kept].tolist()))
     turning = [_turn(*around) for around in zip(points, points[1:], points[2:], strict=False)]
     while turning and min(turning) <= CORNER_TURN:
         least = turning.index(min(turning))
         del kept[least + 1], points[least + 1], turning[least]
-        # Those beside it turn by more now.
+        # Its neighbours turn by more without it.
         for corner in range(max(least, 1), min(least + 2, len(points) - 1)):
             before, after = points[corner - 1], points[corner + 1]
             turning[corner - 1] = _turn(before, points[corner], after)
     return kept
 
 
-def _fewest(errors: NDArray[np.float64], way: Floats) -> list[int]:
-    """Return which places to keep, where each costs as much as it has to save."""
-    cost = CORNER_COST * float((np.ptp(way, axis=0) ** 2).sum()) * len(way)
-    # Dynamic programming: the cheapest way to each place, over the last one before it.
+def _least_cost(errors: NDArray[np.float64], path: Floats) -> list[int]:
+    """Return the candidates of least residual and cost."""
+    cost = CORNER_COST * float((np.ptp(path, axis=0) ** 2).sum()) * len(path)
+    # Dynamic programming: the least total to each candidate, over the candidate before it.
     total, before = [0.0], [0]
     for end, row in enumerate(errors.T.tolist()[1:], 1):
-        ways = [known + error for known, error in zip(total, row[:end], strict=True)]
-        least = min(ways)
+        totals = [known + error for known, error in zip(total, row[:end], strict=True)]
+        least = min(totals)
         total.append(least + cost)
-        before.append(ways.index(least))
+        before.append(totals.index(least))
     chosen = [len(before) - 1]
     while chosen[-1] > 0:
         chosen.append(before[chosen[-1]])
@@ -181,14 +179,14 @@ def _fewest(errors: NDArray[np.float64], way: Floats) -> list[int]:
 
 
 def _turn(a: Point, b: Point, c: Point) -> float:
-    """Return by how much a way from a over b to c turns there, 0 .. π [rad]."""
+    """Return the turning angle at b of the polyline a, b, c, 0 .. π [rad]."""
     (ux, uy), (vx, vy) = (b[0] - a[0], b[1] - a[1]), (c[0] - b[0], c[1] - b[1])
     return abs(math.atan2(ux * vy - uy * vx, ux * vx + uy * vy))
 
 
-def _without_seam(way: Floats, at: list[int], gap: float) -> list[int]:
-    """Drop the corners of a side that only bridges the ends of a closed way, and was not drawn."""
-    count = len(way)
+def _without_seam(path: Floats, at: list[int], gap: float) -> list[int]:
+    """Drop the corners of a side that only bridges the gap of a closed stroke."""
+    count = len(path)
     near = round(SEAM * count)
     # The gap is at the end; a side that bridges it begins there and ends at the beginning.
     bridge = [each for each in at if each >= count * (1.0 - gap / (1.0 + gap)) - near]
@@ -196,34 +194,34 @@ def _without_seam(way: Floats, at: list[int], gap: float) -> list[int]:
     if len(at) < 4 or first == last or last > near:
         return at
     kept = [each for each in at if each > last and each < first]
-    into, out = way[first] - way[kept[-1]], way[kept[0]] - way[last]
+    into, out = path[first] - path[kept[-1]], path[kept[0]] - path[last]
     turn = abs(float(angles(into, out)))
     if turn > SHARPEST or (turn < CORNER_TURN and gap > SLIP):
-        # The sides beside it run on, or back, beside one another: what is between was meant.
+        # Its neighbours are nearly parallel, so that they do not meet: the side was drawn.
         return at
     return [*kept, first] if turn > CORNER_TURN else kept
 
 
-def _errors(way: Floats, places: NDArray[np.intp]) -> NDArray[np.float64]:
+def _errors(path: Floats, places: NDArray[np.intp]) -> NDArray[np.float64]:
     """
-    Return how badly one straight side explains the way between each two places.
+    Return the residual of one straight side between each two candidates.
 
-    :return: (k, k) float64: sum of squared distances from the straight line that is nearest [m²]
+    :return: (k, k) float64: sum of squared distances from the line of least squares [m²]
     """
-    x, y = (way - way.mean(axis=0)).T
-    sums = np.zeros((5, len(way) + 1))
+    x, y = (path - path.mean(axis=0)).T
+    sums = np.zeros((5, len(path) + 1))
     np.cumsum((x, y, x * x, x * y, y * y), axis=1, out=sums[:, 1:])
-    # The point next to a corner may be round.
+    # Without the point next to a corner, which may be round.
     first = sums[:, places + 1][:, :, None]
     last = sums[:, places][:, None, :]
     number = np.maximum(places[None, :] - places[:, None] - 1, 1)
     sx, sy, sxx, sxy, syy = last - first
     xx, xy, yy = sxx - sx * sx / number, sxy - sx * sy / number, syy - sy * sy / number
     least = np.maximum((xx + yy) / 2 - np.hypot((xx - yy) / 2, xy), 0.0)
-    # Back on its own line a way leaves no distance from it, but gets nowhere.
-    ends = way[places]
+    # A stroke back along the same line has no residual, but its ends lie too close together.
+    ends = path[places]
     chord = np.hypot(*(ends[None] - ends[:, None]).transpose(2, 0, 1))
-    steps = np.concatenate(([0.0], np.cumsum(np.hypot(*np.diff(way, axis=0).T))))[places]
+    steps = np.concatenate(([0.0], np.cumsum(np.hypot(*np.diff(path, axis=0).T))))[places]
     astray = np.maximum(ASTRAY * (steps[None] - steps[:, None]) - chord, 0.0)
     wrong: NDArray[np.float64] = least + number * astray**2
     return wrong

@@ -13,9 +13,9 @@
 # limitations under the License.
 
 """
-What fits points best: a straight line, a rectangle, a curve of few points.
+Least-squares fits to points: a straight line, a rectangle, a curve of few points.
 
-Law: a fit says nothing about whether it is a good one; whoever asks measures that.
+Law: a fit does not judge itself; the caller measures the residual.
 """
 
 from __future__ import annotations
@@ -27,15 +27,15 @@ import numpy as np
 from physsim_ros.drawing.strokes.polyline import COUNT, smoothed, spaced
 from physsim_ros.model.arrays import Floats
 
-# How far straight sides may be from an open way, root mean square, before it counts as a curve;
-# and how far the points of a curve are. Both in shares of its size.
+# The greatest distance of an open stroke from straight sides, root mean square, at which it is no
+# curve; and the tolerance to which a curve is simplified. Both in shares of its size.
 CURVED, FINE = 0.013, 0.006
-# Smoothing of what is traced [points].
+# Smoothing before a curve is simplified: standard deviation of the Gaussian [points].
 SMOOTHING = 1.2
 
 
 def line(points: Floats) -> tuple[Floats, Floats, float]:
-    """Return the straight line nearest to points: its middle, its direction, how far off [m]."""
+    """Return the line of least squares: a point on it, its direction, the residual (rms) [m]."""
     middle = points.mean(axis=0)
     away = points - middle
     (xx, xy), (_, yy) = (away.T @ away).tolist()
@@ -46,10 +46,10 @@ def line(points: Floats) -> tuple[Floats, Floats, float]:
 
 
 def rectangle(corners: Floats) -> Floats:
-    """Return the rectangle that is nearest to four corners, in their order."""
+    """Return the corners of the rectangle nearest to four corners, in their order."""
     middle = corners.mean(axis=0)
     sides = np.roll(corners, -1, axis=0) - corners
-    # Four times its angle is the same for all sides of a rectangle; the long ones count most.
+    # Four times the angle is the same for all sides of a rectangle; sides weigh by their length².
     quadruple = (sides[:, 0] + 1j * sides[:, 1]) ** 4
     quadruple /= np.maximum(np.abs(quadruple), 1e-300) ** 0.5
     angle = float(np.angle(quadruple.sum())) / 4
@@ -62,44 +62,44 @@ def rectangle(corners: Floats) -> Floats:
 
 def simplified(points: Floats, bends: Floats) -> Floats | None:
     """
-    Return a curve as few enough points, or None where straight sides explain it.
+    Return a curve of few points, or None where straight sides fit the stroke.
 
-    :param points: (n, 2) float64: of an open way, evenly spaced
+    :param points: (n, 2) float64: of an open stroke, evenly spaced
     :param bends: (n, 2) float64: ends and bends of the sides
     """
     size = float(np.hypot(*np.ptp(points, axis=0)))
-    way = smoothed(points, SMOOTHING, closed=False)
-    off = np.min([_off(way, *side) for side in itertools.pairwise(bends)], axis=0)
+    path = smoothed(points, SMOOTHING, closed=False)
+    off = np.min([_off(path, *side) for side in itertools.pairwise(bends)], axis=0)
     if math.sqrt(float((off**2).mean())) <= CURVED * size:
         return None
-    return _traced(way, FINE * size)
+    return _traced(path, FINE * size)
 
 
 def traced(outline: Floats) -> Floats:
-    """Return a closed way as few enough points."""
-    way = spaced(np.vstack((outline, outline[:1])), COUNT + 1)[:-1]
-    way = smoothed(way, SMOOTHING, closed=True)
-    size = float(np.hypot(*np.ptp(way, axis=0)))
-    # From one of the points that lie farthest out.
-    way = np.roll(way, -int(((way - way.mean(axis=0)) ** 2).sum(axis=1).argmax()), axis=0)
-    return _traced(np.vstack((way, way[:1])), FINE * size)[:-1]
+    """Return a closed polyline simplified to few points."""
+    path = spaced(np.vstack((outline, outline[:1])), COUNT + 1)[:-1]
+    path = smoothed(path, SMOOTHING, closed=True)
+    size = float(np.hypot(*np.ptp(path, axis=0)))
+    # Starting at the point farthest from the middle, which is a corner of the result.
+    path = np.roll(path, -int(((path - path.mean(axis=0)) ** 2).sum(axis=1).argmax()), axis=0)
+    return _traced(np.vstack((path, path[:1])), FINE * size)[:-1]
 
 
-def _traced(way: Floats, tolerance: float) -> Floats:
-    """Keep the points without which a way would be too far off: Ramer, Douglas and Peucker."""
-    kept, parts = {0, len(way) - 1}, [(0, len(way) - 1)]
+def _traced(path: Floats, tolerance: float) -> Floats:
+    """Return a polyline simplified by the Ramer-Douglas-Peucker algorithm."""
+    kept, parts = {0, len(path) - 1}, [(0, len(path) - 1)]
     while parts:
         first, last = parts.pop()
-        off = _off(way[slice(first, last + 1)], way[first], way[last])
+        off = _off(path[slice(first, last + 1)], path[first], path[last])
         furthest = first + int(off.argmax())
         if off.max() > tolerance:
             kept.add(furthest)
             parts += [(first, furthest), (furthest, last)]
-    return way[sorted(kept)]
+    return path[sorted(kept)]
 
 
 def _off(points: Floats, start: Floats, end: Floats) -> Floats:
-    """Return how far points lie from a segment [m]."""
+    """Return the distances of points from a segment, (n,) float64 [m]."""
     along = end - start
     share = np.clip((points - start) @ along / max(float(along @ along), 1e-300), 0.0, 1.0)
     away = points - start - share[:, None] * along

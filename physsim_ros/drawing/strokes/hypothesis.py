@@ -13,59 +13,44 @@
 # limitations under the License.
 
 """
-What a stroke could be, and how much it looks like that.
+Hypotheses: the forms that a stroke can have, each with a weight.
 
-A weight is a product of soft conditions, each half fulfilled at its limit. The limits lie between
-what hands draw; `make evaluate` shows how well.
+A weight is a product of soft conditions (logistic functions), each 0.5 at its limit. The limits
+lie between the figures of the hand-drawn forms that they separate; `make evaluate` measures how
+often a form is recognised.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from enum import StrEnum
 import math
 
 from physsim_ros.model.arrays import Floats
 
-# Weights below are not worth telling.
+# Hypotheses and interpretations of a lower weight are dropped.
 LEAST = 0.04
 
 
-class Primitive(StrEnum):
-    """What a stroke can look like."""
-
-    DISC = 'disc'
-    RECTANGLE = 'rectangle'
-    POLYGON = 'polygon'
-    LINE = 'line'
-    ZIGZAG = 'zigzag'
-    CROSS = 'x'
-    ARROW = 'arrow'
-    SCRIBBLE = 'scribble'
-
-
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Candidate:
+class Hypothesis:
     """
-    What a stroke could be.
+    A form that a stroke may have.
 
-    :param primitive: what
-    :param weight: how well it looks like that, 0 .. 1
-    :param points: (n, 2) float64, in the world [m]: of a disc, its centre and a point on its rim;
-        of a rectangle or polygon, the corners; of a line, ends and bends; of a zigzag, its ends;
-        of an x, where its lines cross; of an arrow, tail and tip; of a scribble, its way
+    :param primitive: name of the form: `disc`, `line`, `arrow` and so on; its module defines it
+    :param weight: how well the stroke fits the form, 0 .. 1
+    :param points: (n, 2) float64: the points that describe the form, in the world [m]
     """
 
-    primitive: Primitive
+    primitive: str
     weight: float
     points: Floats
 
 
 def rises(value: float, limit: float, width: float) -> float:
-    """Return a soft condition: 0 far below a limit, a half there, 1 far above."""
+    """Return the logistic function: 0 far below a limit, 0.5 there, 1 far above."""
     return 1.0 / (1.0 + math.exp(min(max((limit - value) / width, -50.0), 50.0)))
 
 
 def falls(value: float, limit: float, width: float) -> float:
-    """Return a soft condition: 1 far below a limit, a half there, 0 far above."""
+    """Return the logistic function: 1 far below a limit, 0.5 there, 0 far above."""
     return rises(-value, -limit, width)

@@ -13,9 +13,9 @@
 # limitations under the License.
 
 """
-What a pen goes over: the bodies that a scribble is meant for, and those a spring only touches.
+Overlap of a stroke with bodies: those that a scribble covers, and those that it only crosses.
 
-Law: what is touched in passing stays.
+Law: a body that the stroke only crosses is not covered.
 """
 
 from __future__ import annotations
@@ -24,62 +24,64 @@ from collections.abc import Iterable
 
 import numpy as np
 from numpy.typing import NDArray
-from physsim_ros.drawing.scene_query import View
+from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.snapping import End
 from physsim_ros.model.arrays import Floats
 
-# Every so manieth point of a stroke is looked at: 43 places, 8 to 10 for each swing of a scribble.
-_EVERY = 3
-# Name of a body -> at which of these places the pen is upon it.
-Over = dict[str, NDArray[np.bool_]]
-# A body is meant where that share of the stroke lies upon it, or where it is swept over: its
-# middle lies within the stroke, which is about as large, and the pen goes over it that often.
-MEANT, AS_LARGE, SWEPT = 0.3, 0.75, 2
+# Stride of the points that are tested: 43 of a stroke, 8 to 10 of each swing of a scribble.
+_STRIDE = 3
+# Name of a body -> which of these points lie on it, (43,) bool.
+Crossed = dict[str, NDArray[np.bool_]]
+# The least share of the stroke on a body that is covered.
+COVERING = 0.3
+# Of a body with a smaller share, whose centroid lies in the bounding box of the stroke: its
+# greatest outer radius, in diagonals of that box, and the least number of entries of the stroke.
+AS_LARGE, LEAST_ENTRIES = 0.75, 2
 
 
-def bodies_under(points: Floats, over: Over, view: View) -> tuple[str, ...]:
+def covered_bodies(points: Floats, crossed: Crossed, scene: SceneQuery) -> tuple[str, ...]:
     """
-    Return the bodies that a scribble is meant for, in spawn order.
+    Return the names of the bodies that a stroke covers, in spawn order.
 
     :param points: (n, 2) float64: of the stroke [m]
-    :param over: what `passed` says of them
+    :param crossed: the bodies that it crosses, by `crossed_bodies`
     """
     low, high = points.min(axis=0), points.max(axis=0)
     reach = AS_LARGE * float(np.hypot(*(high - low)))
-    meant = set()
-    for name, hits in over.items():
-        form = view.body(name).shape.form
-        middle = view.in_world(name, form.centroid)
+    covered = set()
+    for name, hits in crossed.items():
+        form = scene.body(name).shape.form
+        middle = scene.in_world(name, form.centroid)
         within = bool(((middle >= low) & (middle <= high)).all()) and form.outer <= reach
-        if hits.mean() >= MEANT or (within and _entries(hits) >= SWEPT):
-            meant.add(name)
-    if not meant and over:
-        # Across a long wall: only little of either lies upon the other.
-        most = max(over, key=lambda name: _entries(over[name]))
-        if _entries(over[most]) >= SWEPT:
-            meant.add(most)
-    return tuple(name for name in view.names if name in meant)
+        if hits.mean() >= COVERING or (within and _entries(hits) >= LEAST_ENTRIES):
+            covered.add(name)
+    if not covered and crossed:
+        # Of a scribble across a long wall, only little of either lies on the other.
+        most = max(crossed, key=lambda name: _entries(crossed[name]))
+        if _entries(crossed[most]) >= LEAST_ENTRIES:
+            covered.add(most)
+    return tuple(name for name in scene.names if name in covered)
 
 
 def _entries(hits: NDArray[np.bool_]) -> int:
-    """Return how often the pen comes upon a body."""
+    """Return how many times a stroke enters a body."""
     return int(np.count_nonzero(hits[1:] & ~hits[:-1]) + hits[0])
 
 
-def share_under(over: Over, ends: Iterable[End]) -> float:
-    """Return the share of a stroke that lies upon the bodies at its ends."""
-    hits = [over[end.body] for end in ends if end.body in over]
+def share_on(crossed: Crossed, ends: Iterable[End]) -> float:
+    """Return the share of a stroke that lies on the bodies at its ends, 0 .. 1."""
+    hits = [crossed[end.body] for end in ends if end.body in crossed]
     return float(np.any(hits, axis=0).mean()) if hits else 0.0
 
 
-def passed(points: Floats, view: View) -> Over:
-    """Return for each body that the pen goes over, at which places it does."""
+def crossed_bodies(points: Floats, scene: SceneQuery) -> Crossed:
+    """Return the bodies that a stroke crosses, each with the points that lie on it."""
     low, high = points.min(axis=0), points.max(axis=0)
     x, y = ((low + high) / 2).tolist()
     reach = float(np.hypot(*(high - low))) / 2
-    over: Over = {}
-    for name in view.bodies_at((x, y), reach):
-        hits = view.covers(name, points[::_EVERY])
+    crossed: Crossed = {}
+    for name in scene.bodies_at((x, y), reach):
+        hits = scene.covers(name, points[::_STRIDE])
         if hits.any():
-            over[name] = hits
-    return over
+            crossed[name] = hits
+    return crossed

@@ -13,9 +13,9 @@
 # limitations under the License.
 
 """
-Ways of a pen as rows of points: how they are spaced, smoothed, and where they turn.
+Polylines, (n, 2) float64 [m]: resampling, smoothing, stretching, turning angles.
 
-Law: every function returns a way of its own; none changes what it is given.
+Law: every function returns a fresh array; none changes its arguments.
 """
 
 from __future__ import annotations
@@ -24,19 +24,18 @@ import math
 
 import numpy as np
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.polygon import cross
+from physsim_ros.model.transform import cross, Point
 
-# Points of an evenly spaced way: a dozen for each side of a star of five points.
+# Number of points of a resampled stroke: a dozen for each side of a five-pointed star.
 COUNT = 128
-# Narrow outlines are made at least that wide, in shares of their length, but at most so many
-# times wider.
+# The least width of an outline after stretching, in shares of its length, and the greatest factor.
 WIDE, WIDEST = 0.3, 10.0
 
 
-def spaced(way: Floats, count: int) -> Floats:
-    """Return points along a way, the same distance apart."""
-    x, y = way.T
-    length = np.zeros(len(way))
+def spaced(path: Floats, count: int) -> Floats:
+    """Return points along a polyline at equal distances."""
+    x, y = path.T
+    length = np.zeros(len(path))
     np.hypot(np.diff(x), np.diff(y)).cumsum(out=length[1:])
     at = np.arange(count) * (length[-1] / (count - 1))
     points = np.empty((count, 2))
@@ -45,14 +44,14 @@ def spaced(way: Floats, count: int) -> Floats:
 
 
 def smoothed(points: Floats, width: float, *, closed: bool) -> Floats:
-    """Return points with what is shorter than a few of them taken out."""
+    """Return points smoothed by a Gaussian whose standard deviation is `width` [points]."""
     reach = math.ceil(3 * width)
     kernel = np.exp(-0.5 * (np.arange(-reach, reach + 1) / width) ** 2)
     kernel /= kernel.sum()
     if closed:
         first, last = points[-reach:], points[:reach]
     else:
-        # Mirrored about the ends, which so stay where they are.
+        # Reflected at the ends, so that these do not move.
         first = 2 * points[0] - points[reach:0:-1]
         last = 2 * points[-1] - points[::-1][slice(1, reach + 1)]
     padded = np.vstack((first, points, last))
@@ -61,26 +60,26 @@ def smoothed(points: Floats, width: float, *, closed: bool) -> Floats:
 
 def widened(outline: Floats) -> tuple[Floats, Floats]:
     """
-    Return a closed way, made so wide that corners at its narrow ends can be told apart.
+    Return a closed polyline stretched across, so that corners at its narrow ends lie apart.
 
-    :return: the way, evenly spaced; and the (2, 2) matrix that makes points of it narrow again
+    :return: the polyline, evenly spaced; and the (2, 2) matrix that undoes the stretching
     """
     away = outline - outline.mean(axis=0)
     squares, axes = np.linalg.eigh(away.T @ away)
     aspect = math.sqrt(max(float(squares[0]), 0.0) / float(squares[1]))
     stretch = min(max(WIDE / max(aspect, 1e-6), 1.0), WIDEST)
-    # Straight lines stay straight.
+    # A linear map: straight lines stay straight.
     wide = axes @ np.diag((stretch, 1.0)) @ axes.T
     narrow: Floats = axes @ np.diag((1.0 / stretch, 1.0)) @ axes.T
-    way = outline @ wide
-    return spaced(np.vstack((way, way[:1])), COUNT + 1)[:-1], narrow
+    path = outline @ wide
+    return spaced(np.vstack((path, path[:1])), COUNT + 1)[:-1], narrow
 
 
 def turns(points: Floats, arm: int, *, closed: bool) -> Floats:
     """
-    Return by how much the way turns at each point, seen over arms of some points [rad].
+    Return the turning angle of a polyline at each point [rad], over arms of `arm` points.
 
-    Towards the ends of an open way the arms get shorter; the ends themselves do not turn.
+    Near the ends of an open polyline the arms are shorter; at the ends the angle is 0.
     """
     count = len(points)
     at = np.arange(count)
@@ -91,6 +90,12 @@ def turns(points: Floats, arm: int, *, closed: bool) -> Floats:
 
 
 def angles(a: Floats, b: Floats) -> Floats:
-    """Return by how much one direction turns into another [rad], counter-clockwise."""
+    """Return the angles from directions a to directions b [rad], counter-clockwise."""
     result: Floats = np.arctan2(cross(a, b), a[..., 0] * b[..., 0] + a[..., 1] * b[..., 1])
     return result
+
+
+def point_of(row: Floats) -> Point:
+    """Return a row of an array as a point."""
+    x, y = row.tolist()
+    return x, y

@@ -13,10 +13,10 @@
 # limitations under the License.
 
 """
-What a person meant by what they drew: right angles, level lines, equal sides.
+Regularisation (beautification): right angles, horizontal and vertical lines, equal sides.
 
-Law: a tolerance says how far from regular is still meant so: an angle [rad], or a share of a
-length. With a tolerance of 0 everything stays as it is.
+Law: only deviations below the tolerance, an angle [rad] or a share of a length, are removed. With
+a tolerance of 0 nothing changes.
 """
 
 from __future__ import annotations
@@ -26,13 +26,13 @@ import math
 import numpy as np
 from physsim_ros.drawing.strokes import fitting
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.polygon import cross, crosses_itself
-from physsim_ros.model.shapes import Pose
+from physsim_ros.model.shapes import crosses_itself
+from physsim_ros.model.transform import cross, Pose
 
 
 def rectangle(corners: Floats, tolerance: float) -> tuple[Pose, float, float]:
     """
-    Return the rectangle that four corners mean.
+    Return the regularised rectangle of four corners.
 
     :return: its centre and the yaw of its width, -π/4 .. π/4; its width and height [m]
     """
@@ -53,7 +53,7 @@ def rectangle(corners: Floats, tolerance: float) -> tuple[Pose, float, float]:
 
 
 def polygon_outline(corners: Floats, tolerance: float) -> Floats:
-    """Return the outline that corners mean: regular if it may be, else with straight angles."""
+    """Return the regularised outline of corners: a regular polygon, else with right angles."""
     if tolerance == 0.0:
         return corners
     regular = _regular(corners, tolerance)
@@ -62,21 +62,21 @@ def polygon_outline(corners: Floats, tolerance: float) -> Floats:
     straightened = _squared(corners, tolerance)
     if len(corners) == 3 and not _has_right_angle(straightened):
         straightened = _isosceles(straightened, tolerance)
-    # What folds over was not meant.
+    # An outline that would cross itself stays as it was drawn.
     return corners if crosses_itself(straightened) else straightened
 
 
 def line(points: Floats, tolerance: float) -> Floats:
-    """Return the line that ends and bends mean: sides level and upright where they nearly are."""
+    """Return a polyline with nearly horizontal and vertical sides made so."""
     made = points.copy()
     sides = np.diff(points, axis=0)
     for axis in (0, 1):
-        # Sides that hardly change in an axis do not change in it at all.
-        still = np.abs(sides[:, axis]) <= math.sin(tolerance) * np.hypot(*sides.T)
+        # Sides that hardly change along an axis.
+        level = np.abs(sides[:, axis]) <= math.sin(tolerance) * np.hypot(*sides.T)
         first = 0
-        while first < len(still):
+        while first < len(level):
             last = first
-            while last < len(still) and still[last]:
+            while last < len(level) and level[last]:
                 last += 1
             if last > first:
                 run = slice(first, last + 1)
@@ -86,7 +86,7 @@ def line(points: Floats, tolerance: float) -> Floats:
 
 
 def _regular(corners: Floats, tolerance: float) -> Floats | None:
-    """Return the regular polygon that corners mean, if they do."""
+    """Return the nearest regular polygon, or None where the corners deviate too far from it."""
     count = len(corners)
     middle = corners.mean(axis=0)
     away = corners - middle
@@ -95,13 +95,13 @@ def _regular(corners: Floats, tolerance: float) -> Floats | None:
     turn = 2 * math.pi / count
     if cross(away, np.roll(away, -1, axis=0)).sum() < 0:
         turn = -turn
-    # Each corner says where the first one lies.
+    # The angle of the first corner, estimated from each corner.
     firsts = np.exp(1j * (angles - turn * np.arange(count)))
     first = float(np.angle(firsts.sum()))
     off = np.abs(np.angle(firsts * np.exp(-1j * first)))
     if off.max() > tolerance or np.ptp(radii) > 2 * tolerance * radii.mean():
         return None
-    # A side that is nearly level or upright is so.
+    # A nearly horizontal or vertical side is made so.
     normals = first + turn * (np.arange(count) + 0.5)
     slants = normals - np.round(normals / (math.pi / 2)) * math.pi / 2
     slant = float(slants[np.abs(slants).argmin()])
@@ -113,12 +113,12 @@ def _regular(corners: Floats, tolerance: float) -> Floats | None:
 
 
 def _squared(corners: Floats, tolerance: float) -> Floats:
-    """Return corners whose sides run level, upright, or at right angles where they nearly do."""
+    """Return corners with sides made horizontal, vertical or perpendicular that nearly are."""
     following = np.roll(corners, -1, axis=0)
     sides = following - corners
     angles = np.arctan2(sides[:, 1], sides[:, 0])
     lengths = np.hypot(*sides.T)
-    # The direction that most of the way has, quarter turns left out.
+    # The dominant direction modulo a quarter turn, sides weighed by their length².
     base = float(np.angle((lengths**2 * np.exp(4j * angles)).sum())) / 4
     if abs(base) <= tolerance:
         base = 0.0
@@ -132,7 +132,7 @@ def _squared(corners: Floats, tolerance: float) -> Floats:
     for corner in range(len(corners)):
         (p, u), (q, v) = ((middles[side], along[side]) for side in (corner - 1, corner))
         sine = float(cross(u, v))
-        # Nearly parallel lines meet anywhere.
+        # The intersection of nearly parallel lines is ill-conditioned.
         if abs(sine) > 0.3:
             made[corner] = p + u * (float(cross(q - p, v)) / sine)
     moved = np.hypot(*(made - corners).T)
@@ -147,13 +147,13 @@ def _has_right_angle(corners: Floats) -> bool:
 
 
 def _isosceles(corners: Floats, tolerance: float) -> Floats:
-    """Return a triangle whose two sides are equal where two nearly are."""
+    """Return a triangle with two nearly equal sides made equal."""
     sides = np.hypot(*(np.roll(corners, -1, axis=0) - corners).T)
-    # How much the two sides at each corner differ.
+    # Relative difference of the two sides at each corner.
     ahead, behind = sides, np.roll(sides, 1)
-    apart = np.abs(ahead - behind) / np.maximum(ahead, behind)
-    apex = int(apart.argmin())
-    if apart[apex] > tolerance:
+    difference = np.abs(ahead - behind) / np.maximum(ahead, behind)
+    apex = int(difference.argmin())
+    if difference[apex] > tolerance:
         return corners
     base = corners[[apex - 1, (apex + 1) % 3]]
     along = (base[1] - base[0]) / np.hypot(*(base[1] - base[0]))

@@ -13,10 +13,10 @@
 # limitations under the License.
 
 """
-A stroke as geometry: evenly spaced, without hooks, closed or open.
+Resampling of a stroke: evenly spaced points without hooks, and the outline where it is closed.
 
-Law: the samples' own spacing and number have no say. A click has no speed, and a mouse that is
-read 200 times a second draws the same square as one that is read 20 times.
+Law: number and spacing of the samples do not matter. The path of a mouse that is sampled at 200 Hz
+is the same square as that of one sampled at 20 Hz.
 """
 
 from __future__ import annotations
@@ -31,29 +31,29 @@ from physsim_ros.model.errors import BadSize, Malformed
 from physsim_ros.model.requests import FARTHEST
 from physsim_ros.model.shapes import SMALLEST
 
-# Where more points are needed, for the ends of something narrow: so many times more.
+# Factor of the finer resampling, for the ends of narrow outlines, and its number of points.
 FINER = 4
 FINELY = FINER * (COUNT - 1) + 1
-# A hook is no longer than this share of the stroke's size, and turns by more than that [rad].
+# The greatest length of a hook, in shares of the stroke's size, and its least turn [rad].
 HOOK, HOOK_TURN = 0.1, 1.2
-# What may be cut off a closed stroke at either end, where it was drawn twice, in shares of its
-# length; and the gap there from which on it is not worth asking whether it is closed.
-TWICE, GAP = 0.14, 0.18
-# How much of a way has to be cut off to be worth a gap of one metre.
-KEEPING = 0.6
+# The longest overlap that is cut off at either end of a closed stroke, and the greatest gap
+# between its ends, in shares of its length.
+OVERLAP, GAP = 0.14, 0.18
+# Cost of a length that is cut off, in lengths of gap.
+CUT_COST = 0.6
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Stroke:
     """
-    A stroke, evenly spaced.
+    A stroke of evenly spaced points.
 
-    :param points: (COUNT, 2) float64: the whole way, hooks cut off [m]
-    :param outline: (FINELY - 1, 2) float64: the way closed, the first point not repeated, what
-        was drawn twice cut off [m]; None where the ends lie far apart
+    :param points: (COUNT, 2) float64: the stroke without hooks [m]
+    :param outline: (FINELY - 1, 2) float64: the stroke closed, overlapping ends cut off, the first
+        point not repeated [m]; None where the gap between the ends is too large
     :param gap: between the ends, in shares of the length
-    :param size: diagonal of the rectangle around it [m]
-    :param length: of its way [m]
+    :param size: diagonal of its bounding box [m]
+    :param length: arc length [m]
     """
 
     points: Floats
@@ -63,18 +63,18 @@ class Stroke:
     length: float
 
 
-def stroke(samples: Floats) -> Stroke:
+def resample_stroke(samples: Floats) -> Stroke:
     """
-    Make a stroke of a pen's samples.
+    Return the stroke through the samples of a pen.
 
-    :param samples: (n, 2) float64: x, y [m]; or (n, 3), the third column the time of each, which
-        puts them in order
+    :param samples: (n, 2) float64: x, y [m]; or (n, 3), the third column the time of each, by
+        which they are ordered
     :raises Malformed: there are none, or one is not finite
-    :raises BadSize: all are in one place, or one is too far away
+    :raises BadSize: all are at one point, or one is too far away
     """
-    way = spaced(_without_hooks(spaced(_checked(samples), FINELY)), FINELY)
-    points = way[::FINER]
-    outline, gap = _outline(points, way)
+    path = spaced(_without_hooks(spaced(_checked(samples), FINELY)), FINELY)
+    points = path[::FINER]
+    outline, gap = _outline(points, path)
     return Stroke(
         points=points,
         outline=outline,
@@ -85,11 +85,10 @@ def stroke(samples: Floats) -> Stroke:
 
 
 def _checked(samples: Floats) -> Floats:
-    """Return the samples' places, those that repeat the one before left out."""
+    """Return the positions of the samples, in order, (n, 2) float64 [m]."""
     if len(samples) == 0:
         raise Malformed('the stroke has no samples', field='poses')
     if samples.shape[1] > 2 and (np.diff(samples[:, 2]) < 0.0).any():
-        # They came in another order than the pen went.
         samples = samples[np.argsort(samples[:, 2], kind='stable')]
     places = samples[:, :2]
     if not np.isfinite(places).all():
@@ -103,48 +102,48 @@ def _checked(samples: Floats) -> Floats:
     return places
 
 
-def _without_hooks(way: Floats) -> Floats:
-    """Cut off the flicks of a pen that was set down before it rested, or lifted late."""
-    points = way[::FINER]
+def _without_hooks(path: Floats) -> Floats:
+    """Return a stroke without the short sharp turns at its ends that a moving pen leaves."""
+    points = path[::FINER]
     x, y = points.T
     size = math.hypot(float(np.ptp(x)), float(np.ptp(y)))
     reach = int(HOOK * size / float(np.hypot(np.diff(x), np.diff(y)).mean()))
     if reach < 2:
-        return way
+        return path
     first, last = _hook(points, reach), len(points) - 1 - _hook(points[::-1], reach)
     kept = slice(FINER * first, FINER * last + 1)
-    return way[kept] if last - first > len(points) // 2 else way
+    return path[kept] if last - first > len(points) // 2 else path
 
 
 def _hook(points: Floats, reach: int) -> int:
-    """Return how many points at the beginning, of so many at most, are a hook."""
+    """Return the number of points of a hook at the beginning, at most `reach`."""
     at = np.arange(1, reach + 1)
     a = points[at] - points[0]
     b = points[at + np.maximum(at, 4)] - points[at]
     turn = np.abs(angles(a, b))
     sharpest = int(turn.argmax())
-    # Where it still gets sharper at the end, what turns is longer than a hook.
+    # A turn that is sharpest at the last point belongs to something longer than a hook.
     return sharpest + 1 if turn[sharpest] > HOOK_TURN and sharpest < reach - 1 else 0
 
 
-def _outline(points: Floats, way: Floats) -> tuple[Floats | None, float]:
+def _outline(points: Floats, path: Floats) -> tuple[Floats | None, float]:
     """
-    Return the closed way that a stroke makes, if it makes one, and the gap in it.
+    Return the closed outline of a stroke, or None, and the gap in it in shares of the length.
 
     :param points: evenly spaced
-    :param way: the same, with more points
+    :param path: the same, with FINER times the points
     """
     count = len(points)
     step = float(np.hypot(*np.diff(points, axis=0).T).mean())
-    ends = int(TWICE * count)
+    ends = int(OVERLAP * count)
     head, tail = points[:ends], points[-ends:]
-    apart = np.hypot(*(head[:, None] - tail[None]).transpose(2, 0, 1))
-    # Points that are cut off before a place of the head, and after one of the tail.
+    gaps = np.hypot(*(head[:, None] - tail[None]).transpose(2, 0, 1))
+    # Number of points before a point of the head and after a point of the tail.
     cut = np.arange(ends)[:, None] + np.arange(ends)[None, ::-1]
-    best = int((apart + KEEPING * step * cut).argmin())
+    best = int((gaps + CUT_COST * step * cut).argmin())
     first, last = divmod(best, ends)
-    gap = float(apart[first, last]) / (step * (count - 1))
+    gap = float(gaps[first, last]) / (step * (count - 1))
     if gap > GAP:
         return None, gap
-    once = way[slice(FINER * first, FINER * (count - ends + last) + 1)]
+    once = path[slice(FINER * first, FINER * (count - ends + last) + 1)]
     return spaced(np.vstack((once, once[:1])), FINELY)[:-1], gap

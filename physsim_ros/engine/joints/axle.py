@@ -23,10 +23,10 @@ from __future__ import annotations
 
 import math
 
-from physsim_ros.model.arrays import Floats
-from physsim_ros.model.scene import Joint
 from physsim_ros.engine.joints import rows
 from physsim_ros.engine.joints.kind import Batch, Ends, EQUAL, Kind, Motion
+from physsim_ros.model.arrays import Floats
+from physsim_ros.model.scene import Joint
 from physsim_ros.model.transform import turned
 import pymunk
 from pymunk._chipmunk_cffi import lib

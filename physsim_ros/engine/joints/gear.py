@@ -16,9 +16,9 @@
 
 from __future__ import annotations
 
-from physsim_ros.model.scene import Joint
 from physsim_ros.engine.joints import rows
 from physsim_ros.engine.joints.kind import Ends, Kind
+from physsim_ros.model.scene import Joint
 import pymunk
 
 

@@ -31,10 +31,8 @@ from collections.abc import Iterable, Mapping, Sequence
 import itertools
 
 import numpy as np
-from physsim_ros.model.arrays import Floats
-from physsim_ros.model.scene import Joint
+from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.islands import Rows
-from physsim_ros.model.joint_properties import JointKind
 from physsim_ros.engine.joints import (
     axle,
     engine_memory,
@@ -48,9 +46,11 @@ from physsim_ros.engine.joints import (
 )
 from physsim_ros.engine.joints.kind import Batch, Ends, EngineJoint, Kind, Motion
 from physsim_ros.engine.joints.projection import Projection
-from physsim_ros.model.names import WORLD
-from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.step_context import StepContext
+from physsim_ros.model.arrays import Floats
+from physsim_ros.model.joints import JointKind
+from physsim_ros.model.names import WORLD
+from physsim_ros.model.scene import Joint
 from physsim_ros.model.snapshot import Springs
 import pymunk
 

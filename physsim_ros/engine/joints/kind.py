@@ -27,10 +27,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from physsim_ros.engine.islands import Rows
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.scene import Joint
-from physsim_ros.engine.islands import Rows
-from physsim_ros.model.shapes import Point
+from physsim_ros.model.transform import Point
 import pymunk
 
 

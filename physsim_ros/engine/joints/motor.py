@@ -16,10 +16,10 @@
 
 from __future__ import annotations
 
-from physsim_ros.model.scene import Joint
 from physsim_ros.engine.joints import rows
 from physsim_ros.engine.joints.axle import aim, pivot
 from physsim_ros.engine.joints.kind import Ends, EQUAL, Kind
+from physsim_ros.model.scene import Joint
 import pymunk
 
 

@@ -16,12 +16,12 @@
 
 from __future__ import annotations
 
-from physsim_ros.model.arrays import Floats
-from physsim_ros.model.scene import Joint
 from physsim_ros.engine.joints import rows
 from physsim_ros.engine.joints.axle import aim, pivot
 from physsim_ros.engine.joints.gear import gear
 from physsim_ros.engine.joints.kind import Batch, Ends, EQUAL, Kind
+from physsim_ros.model.arrays import Floats
+from physsim_ros.model.scene import Joint
 import pymunk
 
 

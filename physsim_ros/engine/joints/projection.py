@@ -80,7 +80,9 @@ class Projection:
     ) -> None:
         self._batches = batches
         counts = [batch.lower.shape[1] for batch, _ in batches]
-        owners = [np.repeat(batch.numbers, n) for (batch, _), n in zip(batches, counts, strict=True)]
+        owners = [
+            np.repeat(batch.numbers, n) for (batch, _), n in zip(batches, counts, strict=True)
+        ]
         first = [np.repeat(batch.a, n) for (batch, _), n in zip(batches, counts, strict=True)]
         other = [np.repeat(batch.b, n) for (batch, _), n in zip(batches, counts, strict=True)]
         none = np.empty(0, np.intp)
@@ -150,14 +152,19 @@ class Projection:
             return
         push = push[self._place]
         changes = moved * np.concatenate((push, push))[:, None]
-        moves = np.stack([np.bincount(self._sides, axis, self._bodies) for axis in changes.T], axis=1)
+        moves = np.stack(
+            [np.bincount(self._sides, axis, self._bodies) for axis in changes.T], axis=1
+        )
         far = np.hypot(moves[:, 0], moves[:, 1]), np.abs(moves[:, 2])
         island = np.tile(self._island, 2)
         total = np.bincount(self._island, np.abs(gaps), self._islands)
         farthest, most_turn = np.zeros(self._islands), np.zeros(self._islands)
         np.maximum.at(farthest, island, far[0][self._sides])
         np.maximum.at(most_turn, island, far[1][self._sides])
-        share = np.minimum(MOST_TURN / np.maximum(most_turn, 1e-300), MOST_LEVERAGE * total / np.maximum(farthest, 1e-300))
+        share = np.minimum(
+            MOST_TURN / np.maximum(most_turn, 1e-300),
+            MOST_LEVERAGE * total / np.maximum(farthest, 1e-300),
+        )
         share = np.minimum(1.0, share)
         changes *= share[island, None]
         for axis in range(3):

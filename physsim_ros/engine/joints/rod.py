@@ -17,10 +17,10 @@
 from __future__ import annotations
 
 import numpy as np
-from physsim_ros.model.arrays import Floats
-from physsim_ros.model.scene import Joint
 from physsim_ros.engine.joints import rows
 from physsim_ros.engine.joints.kind import Batch, Ends, Kind, Motion
+from physsim_ros.model.arrays import Floats
+from physsim_ros.model.scene import Joint
 import pymunk
 from pymunk._chipmunk_cffi import lib
 

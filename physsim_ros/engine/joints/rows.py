@@ -23,8 +23,8 @@ Source: Catto, "Modeling and Solving Constraints", GDC 2009.
 from __future__ import annotations
 
 import numpy as np
-from physsim_ros.model.arrays import Floats
 from physsim_ros.engine.joints.kind import Batch
+from physsim_ros.model.arrays import Floats
 from physsim_ros.model.transform import turned
 
 

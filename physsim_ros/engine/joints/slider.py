@@ -32,8 +32,8 @@ from physsim_ros.engine.joints.gear import gear
 from physsim_ros.engine.joints.kind import Batch, Ends, EQUAL, Kind, Motion
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.scene import Joint
-from physsim_ros.model.shapes import Point, SMALLEST
-from physsim_ros.model.transform import turned
+from physsim_ros.model.shapes import SMALLEST
+from physsim_ros.model.transform import Point, turned
 import pymunk
 from pymunk._chipmunk_cffi import lib
 

@@ -27,10 +27,10 @@ from collections.abc import Iterator, Mapping, Sequence
 import math
 
 import numpy as np
-from physsim_ros.model.scene import Body, Joint
-from physsim_ros.model.errors import BadProperty
-from physsim_ros.model.joint_properties import JointKind
 from physsim_ros.engine.joints.kind import Ends, EngineJoint, Kind
+from physsim_ros.model.errors import BadProperty
+from physsim_ros.model.joints import JointKind
+from physsim_ros.model.scene import Body, Joint
 from physsim_ros.model.snapshot import Springs
 import pymunk
 
@@ -111,7 +111,7 @@ def _softness(spring: Joint, bodies: Mapping[str, Body]) -> Iterator[tuple[str, 
         body = bodies[name]
         form = body.shape.form
         arm2 = (x - form.centroid[0]) ** 2 + (y - form.centroid[1]) ** 2
-        yield name, len(moving) * (1.0 + arm2 / form.gyration) / body.weight
+        yield name, len(moving) * (1.0 + arm2 / form.gyration) / body.total_mass
 
 
 KIND = Kind(_constraints)

@@ -23,7 +23,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from physsim_ros.engine.body import REST, RigidBody
-from physsim_ros.model.shapes import Pose
+from physsim_ros.model.transform import Pose
 
 
 class Wrenches:

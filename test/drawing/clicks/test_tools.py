@@ -20,7 +20,7 @@ from collections.abc import Sequence
 import math
 
 from physsim_ros.drawing.clicks.tools import Tool, TOOLS
-from physsim_ros.drawing.session import Pen
+from physsim_ros.drawing.session import DrawingSession
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.errors import (
@@ -34,8 +34,8 @@ from physsim_ros.model.errors import (
     UnknownBody,
     UnknownFrame,
 )
-from physsim_ros.model.joint_properties import JointKind
-from physsim_ros.model.preview import NOTHING
+from physsim_ros.model.joints import JointKind
+from physsim_ros.model.preview import NO_PREVIEW
 from physsim_ros.model.requests import (
     Anchor,
     Axle,
@@ -49,7 +49,8 @@ from physsim_ros.model.requests import (
     Spawn,
 )
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Box, Chain, Disc, Point, Polygon
+from physsim_ros.model.shapes import Box, Chain, Disc, Polygon
+from physsim_ros.model.transform import Point
 from physsim_ros.simulation.world import World
 import pytest
 
@@ -59,8 +60,8 @@ SIDE, TURN = (3.0, 1.0), 0.7
 CLOSE = 1e-12
 
 
-def pen(tool: Tool, **settings: object) -> Pen:
-    return Pen(DrawingSettings(**settings), tool)
+def pen(tool: Tool, **settings: object) -> DrawingSession:
+    return DrawingSession(DrawingSettings(**settings), tool)
 
 
 def draw(
@@ -76,7 +77,7 @@ def draw(
         assert 'next: ' in step.message
         assert hand.preview.points[-1] == point
     requests = hand.click(last, '', world.snapshot()).requests
-    assert hand.preview == NOTHING
+    assert hand.preview == NO_PREVIEW
     return requests
 
 
@@ -358,7 +359,7 @@ def test_a_gesture_that_is_nothing_is_refused_and_the_tool_starts_afresh(
 
     assert refused.type is refusal
     assert str(refused.value)
-    assert hand.preview == NOTHING
+    assert hand.preview == NO_PREVIEW
     assert hand.click((0.0, 0.0), '', world.snapshot()) == pen(tool).click(
         (0.0, 0.0), '', world.snapshot()
     )
@@ -377,7 +378,7 @@ def test_a_body_that_has_gone_since_it_was_clicked_is_missed(tool: Tool) -> None
     world.apply(Delete(name='a/0'))
     with pytest.raises(UnknownBody, match='a/0'):
         hand.click((3.0, 0.0), '', world.snapshot())
-    assert hand.preview == NOTHING
+    assert hand.preview == NO_PREVIEW
 
 
 @pytest.mark.parametrize(
@@ -425,7 +426,7 @@ def test_another_tool_drops_what_is_half_drawn_and_the_same_one_keeps_it() -> No
     hand.tool = Tool.CIRCLE
     assert hand.preview.points == ((0.0, 0.0),)
     hand.tool = Tool.WALL
-    assert hand.preview == NOTHING
+    assert hand.preview == NO_PREVIEW
     assert hand.click((1.0, 0.0), '', snapshot).requests == ()
 
 

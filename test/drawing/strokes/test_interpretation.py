@@ -20,12 +20,12 @@ import math
 from typing import Any
 
 import numpy as np
-from physsim_ros.drawing.scene_query import View
+from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.strokes.interpretation import Meaning, read, Reading
+from physsim_ros.drawing.strokes.interpretation import interpret_stroke, Reading
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import BadProperty, NothingThere, NotRecognised, Refusal
-from physsim_ros.model.joint_properties import JointKind
+from physsim_ros.model.joints import JointKind
 from physsim_ros.model.requests import Anchor, Axle, Configure, Delete, Join, Spawn
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Chain, Disc, Polygon
@@ -54,7 +54,7 @@ def draw(world: World, way: Way | Floats, **said: Any) -> Reading:
         points = np.vstack((points, way[-1]))
     before = world.digest()
     try:
-        return read(points, View(world.snapshot()), DrawingSettings(**said))
+        return interpret_stroke(points, SceneQuery(world.snapshot()), DrawingSettings(**said))
     finally:
         assert world.digest() == before
 
@@ -104,7 +104,7 @@ def rectangle(x: float, y: float, width: float, height: float, skew: float = 0.0
 def test_a_circle_in_the_open_is_a_disc(world: World) -> None:
     reading = draw(world, circle(3.0, 4.0, 0.5))
 
-    assert reading.what is Meaning.DISC
+    assert reading.meaning == 'disc'
     assert reading.confidence > 0.85
     (request,) = reading.requests
     assert isinstance(request, Spawn)
@@ -118,7 +118,7 @@ def test_a_circle_in_the_open_is_a_disc(world: World) -> None:
 def test_a_crooked_rectangle_is_made_level(world: World) -> None:
     reading = draw(world, rectangle(0.0, 0.0, 3.0, 1.0, skew=0.1))
 
-    assert reading.what is Meaning.RECTANGLE
+    assert reading.meaning == 'rectangle'
     (request,) = reading.requests
     assert isinstance(request, Spawn)
     assert isinstance(request.shape, Box)
@@ -148,7 +148,7 @@ def test_nearly_a_square_is_a_square(world: World) -> None:
 def test_raw_geometry_can_be_asked_for(world: World) -> None:
     reading = draw(world, rectangle(0.0, 0.0, 3.0, 1.0, skew=0.1), beautify=0.0)
 
-    assert reading.what is Meaning.RECTANGLE
+    assert reading.meaning == 'rectangle'
     (request,) = reading.requests
     assert isinstance(request, Spawn)
     assert isinstance(request.shape, Polygon)
@@ -162,7 +162,7 @@ def test_raw_geometry_can_be_asked_for(world: World) -> None:
 def test_a_triangle_is_a_polygon_about_its_centre_of_mass(world: World) -> None:
     reading = draw(world, [(0, 0), (3, 0.05), (0, 2), (0, 0)])
 
-    assert reading.what is Meaning.POLYGON
+    assert reading.meaning == 'polygon'
     (request,) = reading.requests
     assert isinstance(request, Spawn)
     assert isinstance(request.shape, Polygon)
@@ -177,7 +177,7 @@ def test_any_closed_outline_is_a_solid(world: World) -> None:
 
     reading = draw(world, kidney)
 
-    assert reading.what is Meaning.POLYGON
+    assert reading.meaning == 'polygon'
     carry_out(world, reading)
     assert world.body_at((0.5, 0.5)) == 'drawn/0'
 
@@ -206,7 +206,7 @@ def test_names_go_on_from_the_highest(world: World) -> None:
 def test_a_line_in_the_open_is_a_level_wall(world: World) -> None:
     reading = draw(world, [(0, 0), (5, 0.2)], wall_thickness=0.05)
 
-    assert reading.what is Meaning.WALL
+    assert reading.meaning == 'wall'
     (request,) = reading.requests
     assert isinstance(request, Spawn)
     assert isinstance(request.shape, Chain)
@@ -238,7 +238,7 @@ def test_a_wall_begins_where_another_ends(world: World) -> None:
 
     reading = draw(world, [(4.1, 0.08), (6, 2)])
 
-    assert reading.what is Meaning.WALL
+    assert reading.meaning == 'wall'
     assert reading.outline[0] == pytest.approx((4.0, 0.0), abs=1e-9)
 
 
@@ -247,20 +247,20 @@ def test_a_wall_goes_up_to_the_body_that_it_nearly_reaches(world: World) -> None
 
     reading = draw(world, [(0.6, 1.0), (5.0, 1.0)])
 
-    assert reading.what is Meaning.WALL
+    assert reading.meaning == 'wall'
     assert reading.outline[0] == pytest.approx((0.5, 1.0), abs=0.02)
 
 
 def test_stairs_are_a_wall(world: World) -> None:
     steps = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2), (3, 2), (3, 3)]
 
-    assert draw(world, steps).what is Meaning.WALL
+    assert draw(world, steps).meaning == 'wall'
 
 
 def test_what_is_drawn_is_the_likeliest_and_never_unlikely(world: World) -> None:
     spawn(world, 'a/0', Box(width=2.0, height=2.0))
     rng = np.random.default_rng(7)
-    view, settings = View(world.snapshot()), DrawingSettings(sketch_confidence=0.3)
+    view, settings = SceneQuery(world.snapshot()), DrawingSettings(sketch_confidence=0.3)
     readings = []
     for _ in range(1500):
         angle = np.linspace(0.0, 2 * math.pi, rng.integers(12, 60))
@@ -268,7 +268,9 @@ def test_what_is_drawn_is_the_likeliest_and_never_unlikely(world: World) -> None
         ring += rng.normal(0.0, 0.04, ring.shape)
         try:
             readings.append(
-                read(rng.uniform(-0.8, 0.8, 2) + rng.uniform(0.1, 0.7) * ring, view, settings)
+                interpret_stroke(
+                    rng.uniform(-0.8, 0.8, 2) + rng.uniform(0.1, 0.7) * ring, view, settings
+                )
             )
         except Refusal:
             continue
@@ -286,8 +288,8 @@ def test_a_line_from_body_to_body_is_a_rod(world: World) -> None:
 
     reading = draw(world, [(0.3, 0.1), (3.8, -0.3)])
 
-    assert reading.what is Meaning.ROD
-    assert reading.runner_up is Meaning.WALL
+    assert reading.meaning == 'rod'
+    assert reading.runner_up == 'wall'
     (join,) = reading.requests
     assert isinstance(join, Join)
     assert (join.kind, join.a, join.b) == (JointKind.ROD, 'a/0', 'b/0')
@@ -319,7 +321,7 @@ def test_a_line_between_two_anchored_bodies_is_a_wall(world: World) -> None:
     spawn(world, 'a/0', pose=(0.0, 0.0, 0.0), anchored=True)
     spawn(world, 'b/0', pose=(4.0, 0.0, 0.0), anchored=True)
 
-    assert draw(world, [(0.3, 0.0), (3.7, 0.0)]).what is Meaning.WALL
+    assert draw(world, [(0.3, 0.0), (3.7, 0.0)]).meaning == 'wall'
 
 
 @pytest.mark.parametrize('teeth', [4, 6, 12])
@@ -329,7 +331,7 @@ def test_a_zigzag_from_body_to_body_is_a_spring(world: World, teeth: int) -> Non
 
     reading = draw(world, zigzag((0.0, 3.7), (0.1, 0.4), teeth))
 
-    assert reading.what is Meaning.SPRING
+    assert reading.meaning == 'spring'
     (join,) = reading.requests
     assert isinstance(join, Join)
     assert (join.kind, join.a, join.b) == (JointKind.SPRING, 'b/0', 'a/0')
@@ -340,7 +342,7 @@ def test_a_circle_within_a_body_is_an_axle_to_the_background(world: World) -> No
 
     reading = draw(world, circle(1.0, 0.0, 0.12))
 
-    assert reading.what is Meaning.AXLE
+    assert reading.meaning == 'axle'
     (axle,) = reading.requests
     assert isinstance(axle, Axle)
     assert axle.point == pytest.approx((1.0, 0.0), abs=0.01)
@@ -355,7 +357,7 @@ def test_a_small_circle_over_two_bodies_is_an_axle_in_the_middle_of_the_wheel(
 
     reading = draw(world, circle(1.25, -0.35, 0.15))
 
-    assert reading.what is Meaning.AXLE
+    assert reading.meaning == 'axle'
     (axle,) = reading.requests
     assert isinstance(axle, Axle)
     assert axle.point == pytest.approx((1.2, -0.4), abs=1e-12)
@@ -391,7 +393,7 @@ def test_a_small_circle_beside_another_body_is_an_axle_to_the_background(world: 
 def test_a_wheel_drawn_over_a_car_is_a_disc(world: World, radius: float) -> None:
     spawn(world, 'car/0', Box(width=4.0, height=1.0))
 
-    assert draw(world, circle(1.2, -0.4, radius)).what is Meaning.DISC
+    assert draw(world, circle(1.2, -0.4, radius)).meaning == 'disc'
 
 
 # Signs
@@ -403,7 +405,7 @@ def test_an_x_on_a_body_anchors_it(world: World) -> None:
     reading = draw(world, cross(0.4, 0.3))
     carry_out(world, reading)
 
-    assert reading.what is Meaning.ANCHOR
+    assert reading.meaning == 'anchor'
     assert isinstance(reading.requests[0], Anchor)
     assert world.snapshot().scene.bodies[0].anchored
 
@@ -430,7 +432,7 @@ def test_an_arrow_in_the_open_turns_gravity(world: World, angle: float) -> None:
 
     reading = draw(world, [(cos * x - sin * y, sin * x + cos * y) for x, y in arrow])
 
-    assert reading.what is Meaning.GRAVITY
+    assert reading.meaning == 'gravity'
     (configure,) = reading.requests
     assert isinstance(configure, Configure)
     x, y = configure.changes['gravity']
@@ -467,7 +469,7 @@ def test_a_scribble_deletes_what_it_covers_and_nothing_that_it_touches(world: Wo
 
     reading = draw(world, scribble(0.0, 0.0, 1.3, 1.3))
 
-    assert reading.what is Meaning.DELETION
+    assert reading.meaning == 'deletion'
     assert reading.requests == (Delete(name='box/0'),)
     assert reading.subject == 'box/0'
 
@@ -532,7 +534,7 @@ def test_what_is_no_stroke_is_refused(world: World, way: Way) -> None:
     samples = np.array(way, dtype=np.float64).reshape(-1, 2)
 
     with pytest.raises(Refusal) as caught:
-        read(samples, View(world.snapshot()), SETTINGS)
+        interpret_stroke(samples, SceneQuery(world.snapshot()), SETTINGS)
 
     assert caught.value.code in {'malformed', 'bad_size'}
 
@@ -543,4 +545,4 @@ def test_a_stroke_of_a_hundred_thousand_samples_is_read(world: World) -> None:
 
     reading = draw(world, np.column_stack((np.cos(angle), np.sin(angle))) + trembling)
 
-    assert reading.what is Meaning.DISC
+    assert reading.meaning == 'disc'

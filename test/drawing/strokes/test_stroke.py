@@ -20,7 +20,7 @@ import numpy as np
 from physsim_ros.drawing.strokes.corner_detection import bends_of, corners, vertices
 from physsim_ros.drawing.strokes.fitting import simplified
 from physsim_ros.drawing.strokes.polyline import COUNT, widened
-from physsim_ros.drawing.strokes.stroke import stroke
+from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import BadSize, Malformed
 import pytest
@@ -37,7 +37,7 @@ def along(way: Floats, count: int) -> Floats:
 
 def found(samples: Floats) -> Floats:
     """Return the corners of a closed stroke, from the lowest left one on, counter-clockwise."""
-    drawn = stroke(samples)
+    drawn = resample_stroke(samples)
     assert drawn.outline is not None
     outline, narrow = widened(drawn.outline)
     at = corners(outline, closed=True, gap=drawn.gap)
@@ -88,14 +88,14 @@ def test_ends_that_do_not_meet_are_joined_where_the_sides_would() -> None:
 def test_hooks_of_the_pen_are_cut_off() -> None:
     hooked = np.array([(0.05, 0.12), (0, 0), (3, 0), (2.95, -0.1)])
 
-    drawn = stroke(along(hooked, 200))
+    drawn = resample_stroke(along(hooked, 200))
 
     assert bends_of(drawn.points) == pytest.approx(np.array([(0, 0), (3, 0)]), abs=0.06)
 
 
 def test_a_line_that_goes_back_upon_itself_has_a_corner_there() -> None:
     arrow = np.array([(0, 0), (3, 0), (2.3, 0.5), (3, 0), (2.3, -0.5)])
-    drawn = stroke(along(arrow, 200))
+    drawn = resample_stroke(along(arrow, 200))
 
     assert len(corners(drawn.points, closed=False)) == 5
 
@@ -104,19 +104,19 @@ def test_a_curve_is_kept_as_points_near_to_it_and_a_bow_of_a_line_is_not() -> No
     x = np.linspace(0.0, 4.0, 150)
     hill, bow = (np.column_stack((x, high * np.sin(math.pi * x / 4))) for high in (1.0, 0.05))
 
-    curve = simplified(stroke(hill).points, bends_of(stroke(hill).points))
+    curve = simplified(resample_stroke(hill).points, bends_of(resample_stroke(hill).points))
 
     assert curve is not None
     assert 6 <= len(curve) <= 30
     # m: 0.6 % of its size, and what smoothing takes
     assert curve[:, 1] == pytest.approx(np.sin(math.pi * curve[:, 0] / 4), abs=0.03)
-    assert simplified(stroke(bow).points, bends_of(stroke(bow).points)) is None
+    assert simplified(resample_stroke(bow).points, bends_of(resample_stroke(bow).points)) is None
 
 
 def test_points_are_evenly_spaced_and_of_one_count() -> None:
     uneven = along(SQUARE, 300)[np.r_[0:40, 40:300:7]]
 
-    points = stroke(uneven).points
+    points = resample_stroke(uneven).points
 
     assert points.shape == (COUNT, 2)
     steps = np.hypot(*np.diff(points, axis=0).T)
@@ -128,14 +128,14 @@ def test_times_are_not_needed() -> None:
     samples = along(SQUARE, 90)
     timed = np.column_stack((samples, np.linspace(0.0, 3.0, 90) ** 2))
 
-    assert (stroke(timed).points == stroke(samples).points).all()
+    assert (resample_stroke(timed).points == resample_stroke(samples).points).all()
 
 
 def test_samples_that_came_in_another_order_are_put_in_that_of_their_times() -> None:
     samples = np.column_stack((along(SQUARE, 90), np.arange(90) / 60.0))
     shuffled = np.random.default_rng(0).permutation(samples)
 
-    assert (stroke(shuffled).points == stroke(samples).points).all()
+    assert (resample_stroke(shuffled).points == resample_stroke(samples).points).all()
 
 
 @pytest.mark.parametrize(
@@ -155,6 +155,6 @@ def test_what_is_no_stroke_is_refused(
     samples: list[tuple[float, float]], refusal: type[Exception]
 ) -> None:
     with pytest.raises(refusal) as caught:
-        stroke(np.array(samples, dtype=np.float64).reshape(-1, 2))
+        resample_stroke(np.array(samples, dtype=np.float64).reshape(-1, 2))
 
     assert caught.value.field == 'poses'

@@ -22,7 +22,7 @@ import random
 from typing import Any
 
 from physsim_ros.engine.ccd import broad_phase, candidates, continuous, time_of_impact
-from physsim_ros.model.joint_properties import JointKind, JointProperties
+from physsim_ros.model.joints import JointKind, JointProperties
 from physsim_ros.model.requests import Join
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Chain, Disc

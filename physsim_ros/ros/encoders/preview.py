@@ -13,9 +13,9 @@
 # limitations under the License.
 
 """
-The preview as markers: what is half drawn, or how the last stroke was read.
+`~/preview`: visualization_msgs/MarkerArray, the unfinished gesture or the last stroke.
 
-Law: every message is the whole of it, since late subscribers get only the last one.
+Law: every message is complete, since late subscribers receive only the last one.
 """
 
 from __future__ import annotations
@@ -26,22 +26,22 @@ import math
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import Point as PointMessage
 from physsim_ros.model.preview import Preview
-from physsim_ros.model.shapes import Point
+from physsim_ros.model.transform import Point
+from physsim_ros.ros.encoders.cdr import SECOND
 from std_msgs.msg import ColorRGBA
 from visualization_msgs.msg import Marker, MarkerArray
 
 NAMESPACE = 'preview'
-# Above bodies and the symbols on them [m].
+# Height above bodies and their symbols [m].
 _HEIGHT = 0.1
-# Sizes as shares of what is drawn, but at least and at most so much [m].
+# Width of lines, diameter of points and height of letters: share of the extent, least, most [m].
 _LINE, _DOT, _LETTER = (0.01, 0.01, 0.05), (0.03, 0.03, 0.15), (0.1, 0.08, 0.4)
 _COLOR = ColorRGBA(r=0.9, g=0.2, b=0.5, a=0.9)
-_SECOND = 1_000_000_000
 
 
-def markers(preview: Preview, *, frame_id: str, stamp: int) -> MarkerArray:
+def preview_message(preview: Preview, *, frame_id: str, stamp: int) -> MarkerArray:
     """
-    Return the message that shows a preview and nothing of the one before.
+    Return the message that replaces the preview before by this one.
 
     :param frame_id: name of the world frame
     :param stamp: simulation time [ns]
@@ -60,7 +60,7 @@ def markers(preview: Preview, *, frame_id: str, stamp: int) -> MarkerArray:
         x, y = preview.top
         label.pose.position = PointMessage(x=x, y=y + letter, z=_HEIGHT)
         made.append(label)
-    seconds, nanoseconds = divmod(stamp, _SECOND)
+    seconds, nanoseconds = divmod(stamp, SECOND)
     for number, marker in enumerate(made):
         marker.header.frame_id = frame_id
         marker.header.stamp = Time(sec=seconds, nanosec=nanoseconds)

@@ -1,0 +1,85 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Interpretations: the meanings that a form may have in the scene that it was drawn over.
+
+Law: an interpretation changes nothing; its outcome is a list of ordinary requests. An outcome
+that the world cannot have is refused when it is built, before any request is submitted.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from physsim_ros.drawing.scene_query import SceneQuery
+from physsim_ros.drawing.settings import DrawingSettings
+from physsim_ros.drawing.strokes.stroke import Stroke
+from physsim_ros.model.arrays import Floats
+from physsim_ros.model.requests import Request
+
+# Factor on the weight of a sign that was drawn beside the bodies it is for: any other
+# interpretation of nearly the same weight wins.
+MISPLACED = 0.5
+# Share of the weight of a line between two bodies that is a joint's; the rest is a wall's.
+BETWEEN = 0.9
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Context:
+    """
+    The context of an interpretation.
+
+    :param drawn: the stroke
+    :param scene: the world that it was drawn over
+    :param settings: of drawing
+    """
+
+    drawn: Stroke
+    scene: SceneQuery
+    settings: DrawingSettings
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Outcome:
+    """
+    The result of a stroke, as in `Reading`.
+
+    :param requests: to be submitted, in this order
+    :param subject: the body or joint concerned; '' where there is none or there are several
+    :param message: one sentence about the requests
+    :param outline: (n, 2) float64: the regularised stroke for the preview; the first point
+        repeated where it is closed [m]
+    """
+
+    requests: tuple[Request, ...]
+    subject: str
+    message: str
+    outline: Floats
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Interpretation:
+    """
+    A meaning that a stroke may have.
+
+    :param meaning: name of it, as `~/events` reports it: `disc`, `anchor` and so on
+    :param weight: likelihood, not yet normalised
+    :param build: returns the outcome, or raises a Refusal
+    """
+
+    meaning: str
+    weight: float
+    build: Callable[[], Outcome]

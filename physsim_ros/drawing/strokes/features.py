@@ -1,0 +1,159 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Features of a stroke that several forms are recognised by: its swings and its self-crossings.
+
+Law: a sign is recognised by its structure, not by a template; rotated, stretched and drawn
+backwards it is the same sign.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+import itertools
+import math
+
+import numpy as np
+from physsim_ros.drawing.strokes.hypothesis import falls
+from physsim_ros.drawing.strokes.polyline import COUNT
+from physsim_ros.drawing.strokes.stroke import Stroke
+from physsim_ros.model.arrays import Floats
+from physsim_ros.model.transform import cross
+
+# Directions in which swings are counted.
+_ANGLES = np.arange(12) * math.pi / 12
+_DIRECTIONS = np.column_stack((np.cos(_ANGLES), np.sin(_ANGLES)))
+# Number of outermost points at either side that the extent of a stroke leaves out.
+FRINGE = 4
+# The least count of swings whose height and advance are measured.
+FEWEST = 3
+# Stride of the points between which crossings are searched.
+_STRIDE = 3
+# Pairs of segments between those points that may cross, the earlier first: not a segment and its
+# neighbours, nor theirs.
+_SEGMENTS = len(range(0, COUNT, _STRIDE)) - 1
+_PAIRS = np.triu(np.ones((_SEGMENTS, _SEGMENTS), np.bool_), 3)
+# Crossings at most this far from one another along the stroke are merged [points].
+_MERGED = 12
+
+# A self-crossing: position [m], and its two places along the stroke [points], the earlier first.
+Crossing = tuple[Floats, float, float]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Swings:
+    """
+    The oscillation of a stroke in the direction in which it turns back most often.
+
+    :param count: of swings
+    :param height: mean height of a swing, across the advance [m]; 0 where they are fewer than
+        `FEWEST`, as are the other figures
+    :param advance: over all swings, in mean heights
+    :param steady: straightness of the advance, 0 .. 1
+    """
+
+    count: int
+    height: float
+    advance: float
+    steady: float
+
+    @property
+    def absence(self) -> float:
+        """Return the weight of the stroke having no oscillation, 0 .. 1."""
+        return falls(self.count, 4.5, 0.25)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Features:
+    """
+    A stroke with its features.
+
+    :param stroke: the stroke
+    :param swings: its oscillation
+    :param crossings: the places at which it crosses itself
+    """
+
+    stroke: Stroke
+    swings: Swings
+    crossings: list[Crossing]
+
+    @classmethod
+    def of(cls, stroke: Stroke) -> Features:
+        """Return the features of a stroke."""
+        return cls(
+            stroke=stroke,
+            swings=swings_of(stroke.points),
+            crossings=crossings_of(stroke.points),
+        )
+
+
+def swings_of(points: Floats) -> Swings:
+    """Return the oscillation of a polyline, in the direction in which it turns back most often."""
+    # A row for each direction: numpy sorts and sums those twice as fast as columns.
+    across = _DIRECTIONS @ points.T
+    ordered = np.partition(across, (FRINGE, len(points) - 1 - FRINGE), axis=1)
+    # The outermost points may be drawn by mistake.
+    low, high = ordered[:, FRINGE, None], ordered[:, -1 - FRINGE, None]
+    extent = np.maximum(high - low, 1e-12)
+    place = (across - low) / extent
+    side = np.where(place > 0.64, 1, np.where(place < 0.36, -1, 0))
+    # A point between the sides counts to the side of the point before it (hysteresis).
+    since = np.maximum.accumulate(np.where(side != 0, np.arange(len(points)), 0), axis=1)
+    side = np.take_along_axis(side, since, axis=1)
+    changes = side[:, 1:] * side[:, :-1] < 0
+    counts = changes.sum(axis=1)
+    # Among directions with as many swings, the one with the smallest extent.
+    best = int((counts - extent[:, 0] / extent.max() / 2).argmax())
+    if counts[best] < FEWEST:
+        return Swings(count=int(counts[best]), height=0.0, advance=0.0, steady=0.0)
+    bounds = [0, *(np.flatnonzero(changes[best]) + 1).tolist(), len(points)]
+    out = place[best] * side[best]
+    peaks = [a + int(out[a:b].argmax()) for a, b in itertools.pairwise(bounds)]
+    strides = np.diff(points[peaks], axis=0)
+    # The sum of two swings in opposite directions is advance.
+    advances = strides[1:] + strides[:-1]
+    total = advances.sum(axis=0)
+    whole, steps = float(np.hypot(*total)), float(np.hypot(*advances.T).sum())
+    height = float(np.abs(cross(strides, total / max(whole, 1e-12))).mean())
+    return Swings(
+        count=len(strides),
+        height=height,
+        advance=whole / 2 / len(advances) * len(strides) / max(height, 1e-12),
+        steady=whole / max(steps, 1e-12),
+    )
+
+
+def crossings_of(points: Floats) -> list[Crossing]:
+    """Return the self-crossings of a polyline; neighbouring ones are merged."""
+    x, y = points[::_STRIDE].T
+    start_x, start_y, step_x, step_y = x[:-1, None], y[:-1, None], np.diff(x), np.diff(y)
+    # Intersection of every pair of segments, as shares of their lengths: rows by the first
+    # segment, columns by the second.
+    away_x, away_y = start_x.T - start_x, start_y.T - start_y
+    sine = step_x[:, None] * step_y - step_y[:, None] * step_x
+    # Parallel segments do not cross, whatever their rounding errors.
+    lengths = np.hypot(step_x, step_y)
+    near = _PAIRS & (np.abs(sine) > 1e-6 * lengths[:, None] * lengths)
+    sine = np.where(near, sine, 1.0)
+    one = (away_x * step_y - away_y * step_x) / sine
+    other = (away_x * step_y[:, None] - away_y * step_x[:, None]) / sine
+    meet = np.argwhere(near & (one >= 0) & (one < 1) & (other >= 0) & (other < 1))
+    found: list[Crossing] = []
+    for i, j in meet.tolist():
+        first, last = i + float(one[i, j]), j + float(other[i, j])
+        place = np.array((x[i] + one[i, j] * step_x[i], y[i] + one[i, j] * step_y[i]))
+        if all(abs(_STRIDE * first - a) + abs(_STRIDE * last - b) > _MERGED for _, a, b in found):
+            found.append((place, _STRIDE * first, _STRIDE * last))
+    return found

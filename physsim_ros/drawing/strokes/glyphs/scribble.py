@@ -1,0 +1,84 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The scribble: deletes the bodies under it, or is a tangled spring between two bodies."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+
+from physsim_ros.drawing.strokes import overlap, request_builder
+from physsim_ros.drawing.strokes.context import Context, Interpretation, MISPLACED, Outcome
+from physsim_ros.drawing.strokes.features import Features
+from physsim_ros.drawing.strokes.hypothesis import falls, Hypothesis, rises
+from physsim_ros.model.errors import NothingThere
+from physsim_ros.model.joints import JointKind
+from physsim_ros.model.names import WORLD
+from physsim_ros.model.requests import Delete
+
+PRIMITIVE = 'scribble'
+
+
+def hypothesis(features: Features) -> Hypothesis:
+    """Return the hypothesis of swings, or loops, that hardly advance; the points are all of it."""
+    stroke, swings = features.stroke, features.swings
+    weight = (
+        rises(swings.count, 4.3, 0.25)
+        * falls(swings.advance, 1.75, 0.1)
+        * rises(stroke.length / stroke.size, 2.5, 0.1)
+    )
+    return Hypothesis(primitive=PRIMITIVE, weight=weight, points=stroke.points)
+
+
+def interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[Interpretation]:
+    """Yield spring and deletion."""
+    ends = request_builder.joint_ends(hypothesis.points, context)
+    crossed = overlap.crossed_bodies(context.drawn.points, context.scene)
+    covered = overlap.covered_bodies(context.drawn.points, crossed, context.scene)
+    spring = 0.0
+    # The ends of a deletion may lie on two bodies too, but then it covers a body.
+    if ends is not None and ends[1].body != WORLD and not covered:
+        spring = 1.0 - overlap.share_on(crossed, ends)
+    yield Interpretation(
+        meaning='spring',
+        weight=hypothesis.weight * spring,
+        build=partial(request_builder.join, JointKind.SPRING, hypothesis.points, context),
+    )
+    yield deletion(hypothesis.weight * (1.0 - spring), covered, context)
+
+
+def deletion(weight: float, covered: tuple[str, ...], context: Context) -> Interpretation:
+    """
+    Return the interpretation as a deletion.
+
+    :param weight: of it, were a body covered
+    :param covered: names of the bodies that the stroke covers
+    """
+    return Interpretation(
+        meaning='deletion',
+        weight=weight * (1.0 if covered else MISPLACED),
+        build=partial(_delete_bodies, covered, context),
+    )
+
+
+def _delete_bodies(covered: tuple[str, ...], context: Context) -> Outcome:
+    if not covered:
+        raise NothingThere('a scribble deletes the bodies under it; there are none', field='poses')
+    return Outcome(
+        requests=tuple(Delete(name=name) for name in covered),
+        subject=covered[0] if len(covered) == 1 else '',
+        message=f'delete {", ".join(covered)}',
+        outline=context.drawn.points,
+    )

@@ -1,0 +1,70 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The zigzag: a spring between the bodies at its ends, else a bent wall or a deletion."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+
+from physsim_ros.drawing.strokes import overlap, request_builder
+from physsim_ros.drawing.strokes.context import BETWEEN, Context, Interpretation
+from physsim_ros.drawing.strokes.corner_detection import bends_of
+from physsim_ros.drawing.strokes.features import Features
+from physsim_ros.drawing.strokes.glyphs import scribble
+from physsim_ros.drawing.strokes.hypothesis import falls, Hypothesis, rises
+from physsim_ros.model.joints import JointKind
+from physsim_ros.model.names import WORLD
+
+PRIMITIVE = 'zigzag'
+# The share of the stroke that lies on the bodies at its ends from which on it is no spring.
+_ON_ENDS = 0.6
+
+
+def hypothesis(features: Features) -> Hypothesis:
+    """Return the hypothesis of teeth in a row, sharp or round; the points are its two ends."""
+    stroke, swings = features.stroke, features.swings
+    weight = (
+        rises(swings.count, 4.4, 0.2)
+        * rises(swings.advance, 1.75, 0.1)
+        * rises(swings.height / stroke.size, 0.06, 0.006)
+        * rises(swings.steady, 0.75, 0.05)
+    )
+    return Hypothesis(primitive=PRIMITIVE, weight=weight, points=stroke.points[[0, -1]])
+
+
+def interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[Interpretation]:
+    """Yield spring, wall and deletion."""
+    drawn, weight = context.drawn, hypothesis.weight
+    ends = request_builder.joint_ends(hypothesis.points, context)
+    crossed = overlap.crossed_bodies(drawn.points, context.scene)
+    covered = overlap.covered_bodies(drawn.points, crossed, context.scene)
+    spring = 0.0
+    if ends is not None:
+        # A spring leaves the bodies that it joins; a scribble stays on them.
+        share = overlap.share_on(crossed, ends)
+        spring = falls(share, _ON_ENDS, 0.03) if ends[1].body != WORLD else 1.0 - share
+    wall = BETWEEN if not spring and not covered else 0.0
+    yield Interpretation(
+        meaning='spring',
+        weight=weight * spring,
+        build=partial(request_builder.join, JointKind.SPRING, hypothesis.points, context),
+    )
+    yield Interpretation(
+        meaning='wall',
+        weight=weight * wall,
+        build=lambda: request_builder.wall(bends_of(drawn.points), context),
+    )
+    yield scribble.deletion(weight * (1.0 - spring - wall), covered, context)

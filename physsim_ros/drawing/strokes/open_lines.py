@@ -1,0 +1,98 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Open strokes that do not cross themselves: a wall, or a rod or spring between two bodies.
+
+Law: a line is a joint only between two different bodies, one of which moves.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+import math
+
+import numpy as np
+from physsim_ros.drawing.strokes import request_builder
+from physsim_ros.drawing.strokes.context import BETWEEN, Context, Interpretation
+from physsim_ros.drawing.strokes.corner_detection import bends_of
+from physsim_ros.drawing.strokes.features import Features
+from physsim_ros.drawing.strokes.hypothesis import falls, Hypothesis, LEAST, rises
+from physsim_ros.drawing.strokes.polyline import point_of
+from physsim_ros.model.arrays import Floats
+from physsim_ros.model.joints import JointKind
+from physsim_ros.model.names import WORLD
+from physsim_ros.model.transform import cross
+
+LINE = 'line'
+# The longest loop that counts as a mistake of the hand, in shares of the length.
+_LOOP = 0.15
+# The least straightness of a rod: the distance of its ends by its length.
+_STRAIGHT = 0.95
+# The least number of bends, to alternate sides, of a spring.
+_FEWEST_TEETH = 3
+
+
+def hypotheses(features: Features, plain: float) -> Iterator[Hypothesis]:
+    """
+    Yield a line, straight, bent or curved; the points are its ends and bends.
+
+    :param plain: weight of the stroke being no sign
+    """
+    stroke, swings = features.stroke, features.swings
+    points = stroke.points
+    straight = float(np.hypot(*(points[-1] - points[0]))) / stroke.length
+    calm = max(
+        swings.absence,
+        rises(straight, 0.9, 0.02),
+        falls(swings.height / stroke.size, 0.06, 0.006),
+    )
+    # Small loops come from bends, and from setting the pen down.
+    loops = sum(last - first > _LOOP * len(points) for _, first, last in features.crossings)
+    weight = plain * calm * rises(stroke.gap, 0.13, 0.01) * falls(loops, 0.5, 0.2)
+    if weight >= LEAST:
+        yield Hypothesis(primitive=LINE, weight=weight, points=bends_of(points))
+
+
+def interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[Interpretation]:
+    """Yield a rod or a spring, and a wall."""
+    points = hypothesis.points
+    kind, share = _joint_along(points, context)
+    yield Interpretation(
+        meaning=str(kind),
+        weight=hypothesis.weight * share,
+        build=partial(request_builder.join, kind, points, context),
+    )
+    yield Interpretation(
+        meaning='wall',
+        weight=hypothesis.weight * (1.0 - share),
+        build=partial(request_builder.wall, points, context),
+    )
+
+
+def _joint_along(points: Floats, context: Context) -> tuple[JointKind, float]:
+    """Return the kind of joint that a line would be, and its share of the weight, 0 .. 1."""
+    start, end = point_of(points[0]), point_of(points[-1])
+    ends = request_builder.joint_ends(points, context)
+    sides = np.diff(points, axis=0)
+    between = ends is not None and ends[1].body != WORLD
+    if math.dist(start, end) > _STRAIGHT * float(np.hypot(*sides.T).sum()):
+        # A line beside a body that ends on no other is a wall.
+        at_ends = context.scene.bodies_at(start) + context.scene.bodies_at(end)
+        on_body = ends is not None and ends[0].body in at_ends
+        return JointKind.ROD, BETWEEN if between or on_body else 0.0
+    turns = np.sign(cross(sides[:-1], sides[1:]))
+    teeth = len(turns) >= _FEWEST_TEETH and bool((turns[1:] == -turns[:-1]).all())
+    return JointKind.SPRING, BETWEEN if between and teeth else 0.0

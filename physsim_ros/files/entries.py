@@ -1,0 +1,78 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Entries of bodies and joints in world files: lists of them, refusals by name, edited numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from typing import Any
+
+import numpy as np
+from physsim_ros.model.checks import shown
+from physsim_ros.model.errors import BadProperty, BadWorldFile, Refusal
+from physsim_ros.model.transform import Point
+
+# Tolerance between a saved number and the same number recomputed [m, rad, relative]: more than
+# rounding means that somebody has edited the file.
+ROUNDING = 1e-9
+
+
+def entries_of(value: object, name: str) -> list[dict[Any, Any]]:
+    """
+    Return a list of mappings; None is an empty one.
+
+    :param name: of the field, for the refusal
+    :raises BadProperty: it is no list of mappings
+    """
+    if value is None:
+        return []
+    if not isinstance(value, list) or not all(isinstance(each, dict) for each in value):
+        raise BadProperty(f'{name} must be a list of mappings', field=name)
+    return value
+
+
+@contextmanager
+def naming(name: object, noun: str = 'body', count: int = 0) -> Iterator[None]:
+    """
+    Add the name of a body or joint to a refusal.
+
+    :param count: of it in the file, from 1, for entries without a name
+    :raises BadWorldFile: a refusal was raised within
+    """
+    try:
+        yield
+    except Refusal as refusal:
+        which = f'number {count}' if name is None else shown(name)
+        raise BadWorldFile(f'{noun} {which}: {refusal}', field=refusal.field) from refusal
+
+
+def is_same(
+    saved: Sequence[float] | Sequence[Point], written: Sequence[float] | Sequence[Point]
+) -> bool:
+    """Tell whether numbers differ by no more than rounding."""
+    return bool(np.allclose(saved, written, rtol=ROUNDING, atol=ROUNDING))
+
+
+def count_from(value: object, name: str) -> int:
+    """
+    Return a whole number that is not negative.
+
+    :param name: of the field, for the refusal
+    :raises BadProperty: it is none
+    """
+    if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value < 2**62:
+        raise BadProperty(f'{name} must be a whole number, not negative', field=name)
+    return value

@@ -1,0 +1,78 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+The impulse cache in world files, under the key `memory`.
+
+Law: it is loaded as it was saved, to the bit; or not at all, where shapes have been added or
+removed since.
+"""
+
+from __future__ import annotations
+
+from dataclasses import fields
+
+import numpy as np
+from physsim_ros.files.base64_array import pack, unpack
+from physsim_ros.files.entries import count_from
+from physsim_ros.model.checkpoint import ImpulseCache, WorldState
+from physsim_ros.model.checks import known_mapping
+from physsim_ros.model.errors import BadProperty
+
+_KEYS = [each.name for each in fields(ImpulseCache)]
+# Shapes of the engine that `bounds` consists of.
+_WALLS = 4
+
+
+def cache_entry(cache: ImpulseCache) -> dict[str, object]:
+    """Return the entry of an impulse cache: numbers, and packed arrays."""
+    values = {key: getattr(cache, key) for key in _KEYS}
+    return {
+        key: pack(value) if isinstance(value, np.ndarray) else value
+        for key, value in values.items()
+    }
+
+
+def cache_from(entry: object, state: WorldState) -> ImpulseCache | None:
+    """
+    Return the impulse cache of an entry; None if it does not fit the bodies.
+
+    :param state: the bodies and settings of the file
+    :raises Refusal: the entry is not what `cache_entry` has returned
+    """
+    values = known_mapping(entry, 'memory', _KEYS)
+    walls, following = (count_from(values.get(key), key) for key in ('walls', 'following'))
+    ids = unpack(values.get('ids'), 'ids', np.int64)
+    pairs = unpack(values.get('pairs'), 'pairs', np.int64, 2)
+    hashes = unpack(values.get('hashes'), 'hashes', np.uint64)
+    impulses = unpack(values.get('impulses'), 'impulses', np.float64, 2)
+    # No other bound: the heaviest and fastest bodies make impulses of any size.
+    sound = bool(np.isfinite(impulses).all())
+    if not (len(pairs) == len(hashes) == len(impulses) and sound):
+        raise BadProperty('memory is not what was saved', field='memory')
+    if len(ids) != len(state.bodies):
+        return None
+    # The shapes of a body, and the walls, have consecutive numbers; each number occurs once.
+    counts = [len(each.body.shape.form.pieces) for each in state.bodies]
+    runs = [*zip(ids.tolist(), counts, strict=True), (following, 0)]
+    if state.settings.bounds is not None:
+        runs.append((walls, _WALLS))
+    end = 0
+    for first, count in sorted(runs):
+        if first < end:
+            return None
+        end = first + count
+    return ImpulseCache(
+        ids=ids, walls=walls, following=following, pairs=pairs, hashes=hashes, impulses=impulses
+    )

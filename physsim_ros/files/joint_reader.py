@@ -1,0 +1,122 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+The joints of a world file.
+
+Laws: a joint is joined by a world, so that a file is held to the rules of a message; a saved seat
+is kept to the bit where nobody has edited the joint or moved its bodies.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+import math
+from typing import Any
+
+from physsim_ros.engine.body import REST
+from physsim_ros.engine.space import LOST
+from physsim_ros.files.entries import is_same, naming, ROUNDING
+from physsim_ros.model.checkpoint import WorldState
+from physsim_ros.model.checks import point_list, Within
+from physsim_ros.model.errors import BadProperty
+from physsim_ros.model.names import check_name, WORLD
+from physsim_ros.model.requests import join_from, joined_from, Restore
+from physsim_ros.model.scene import Joint, Seat
+from physsim_ros.model.transform import Point, Pose
+from physsim_ros.simulation.joint_requests import drawn_points
+from physsim_ros.simulation.world import World
+
+# Keys of a joint that the text of a marker does not have.
+_OWN_KEYS = ('name', 'points', 'seat')
+
+
+def joints_from(
+    state: WorldState, entries: list[dict[Any, Any]], unmoved: set[str], physics_rate: float
+) -> tuple[Joint, ...]:
+    """
+    Return the joints of a file.
+
+    :param state: the bodies and settings of the file
+    :param unmoved: names of the bodies that are where they were saved
+    :param physics_rate: [Hz]
+    :raises BadWorldFile: a joint is refused
+    """
+    world, movable = (World(physics_rate=physics_rate, settings=state.settings) for _ in range(2))
+    world.apply(Restore(state=state))
+    # Both bodies of a saved joint may have been anchored after it was made.
+    bodies = tuple(
+        replace(
+            each, body=replace(each.body, anchored=False, kinematic=False), motion=None, twist=REST
+        )
+        for each in state.bodies
+    )
+    movable.apply(Restore(state=replace(state, bodies=bodies, memory=None)))
+    poses = {saved.body.name: saved.pose for saved in state.bodies}
+    # By name; None where the seat is that of the newly made joint.
+    joints: dict[str, Joint | None] = {}
+    for count, entry in enumerate(entries, 1):
+        with naming(entry.get('name'), 'joint', count):
+            name = entry.get('name')
+            if not isinstance(name, str):
+                raise BadProperty('a joint needs a name', field='name')
+            if name in joints:
+                raise BadProperty('the name comes twice', field='name')
+            terms = {key: entry[key] for key in entry if key not in _OWN_KEYS}
+            points = point_list(entry.get('points'), 'points')
+            joints[name] = None
+            if 'seat' in entry:
+                joint = _saved_joint(name, terms, _seat(entry['seat']))
+                if _is_unedited(joint, points, poses, unmoved):
+                    joints[name] = joint
+                    continue
+            join = join_from(terms, name=name, points=points)
+            if 'seat' not in entry:
+                world.apply(join)
+            movable.apply(join)
+    made = {joint.name: joint for joint in movable.save().joints}
+    return tuple(joint or made[name] for name, joint in joints.items())
+
+
+def _saved_joint(name: str, terms: Mapping[Any, Any], seat: Seat) -> Joint:
+    """Return a joint with its saved seat, which no request might be able to draw."""
+    check_name(name)
+    kind, a, b, properties = joined_from(terms)
+    properties.check_kind(kind)
+    return Joint(name=name, kind=kind, a=a, b=b, seat=seat, properties=properties)
+
+
+def _is_unedited(
+    joint: Joint, points: tuple[Point, ...], poses: Mapping[str, Pose], unmoved: set[str]
+) -> bool:
+    """Tell whether nobody has edited the points of a saved joint, nor moved its bodies."""
+    seat, phase = joint.seat, joint.properties.phase
+    # The background is never among the bodies.
+    if joint.a not in unmoved or joint.b not in unmoved | {WORLD} or joint.a == joint.b:
+        return False
+    if joint.kind.schema.has_axis and abs(math.hypot(seat.ux, seat.uy) - 1.0) > ROUNDING:
+        return False
+    if phase is not None:
+        difference = abs(math.remainder(seat.phase - phase, math.tau))
+        if difference > ROUNDING + 4.0 * math.ulp(seat.phase):
+            return False
+    return joint.kind.points == len(points) and is_same(drawn_points(joint, poses), points)
+
+
+def _seat(value: object) -> Seat:
+    count = len(Seat._fields)
+    if not isinstance(value, list) or len(value) != count:
+        raise BadProperty(f'seat must be {count} numbers', field='seat')
+    return Seat(*(Within(-LOST, LOST)(each, 'seat') for each in value))

@@ -1,0 +1,253 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Checks of values as people write them: numbers, ranges, flags, points, keys.
+
+Law: a check returns the value to keep, or refuses it and names the field.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+import difflib
+import math
+import reprlib
+from typing import Any
+
+from physsim_ros.model.errors import BadProperty, Malformed, UnknownProperty
+from physsim_ros.model.transform import Point
+
+# Greatest speed [m/s] and spin [rad/s]. A body at this speed covers metres in a step, which
+# float64 positions resolve.
+FASTEST = 1e5
+# Least and greatest mass [kg], and greatest force [N], torque [N m] and stiffness [N/m]: from a
+# dust grain to a mountain. Impulses between any two of these are finite.
+LIGHTEST, HEAVIEST = 1e-9, 1e12
+
+# Functions of value and field name by field name; each returns the value to keep, or raises.
+Checks = Mapping[str, Callable[[object, str], Any]]
+
+# Length of a value in a message [characters]. A few YAML aliases make a value whose full text
+# exceeds the memory.
+_LONGEST_SHOWN = 60
+_SHORT = reprlib.Repr()
+_SHORT.maxlevel = 2
+_SHORT.maxstring = _SHORT.maxother = _SHORT.maxlong = _LONGEST_SHOWN
+
+
+def shown(value: object) -> str:
+    """Return the text of a value for a message, abbreviated."""
+    return _SHORT.repr(value)
+
+
+def number(value: object, name: str) -> float:
+    """
+    Return a finite number.
+
+    :param name: of the field, for the refusal
+    :raises BadProperty: it is not a number
+    :raises Malformed: it is not finite
+    """
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise BadProperty(f'{name} must be a number, not {shown(value)}', field=name)
+    try:
+        result = float(value)
+    except OverflowError:
+        result = math.inf
+    if not math.isfinite(result):
+        raise Malformed(f'{name} is {shown(value)}, not a finite number', field=name)
+    return result
+
+
+@dataclass(frozen=True, slots=True)
+class Within:
+    """
+    A check that a number lies in a closed range.
+
+    :param low: least value
+    :param high: greatest value
+    :param unit: of both, for messages
+    """
+
+    low: float
+    high: float
+    unit: str = ''
+
+    def __call__(self, value: object, name: str) -> float:
+        """
+        Return the number.
+
+        :raises BadProperty: it is not a number, or out of range
+        :raises Malformed: it is not finite
+        """
+        result = number(value, name)
+        if not self.low <= result <= self.high:
+            span = f'{self.low:g} and {self.high:g} {self.unit}'.rstrip()
+            raise BadProperty(f'{name} is {result:g}; it must lie between {span}', field=name)
+        return result
+
+
+@dataclass(frozen=True, slots=True)
+class Whole:
+    """
+    A check that a number is whole and lies in a closed range.
+
+    :param low: least value
+    :param high: greatest value
+    """
+
+    low: int
+    high: int
+
+    def __call__(self, value: object, name: str) -> int:
+        """
+        Return the number.
+
+        :raises BadProperty: it is not whole, or out of range
+        """
+        low, high = self.low, self.high
+        if isinstance(value, bool) or not isinstance(value, int) or not low <= value <= high:
+            raise BadProperty(f'{name} must be a whole number, {low} to {high}', field=name)
+        return value
+
+
+def pair(value: object, name: str) -> Point:
+    """
+    Return two finite numbers.
+
+    :param name: of the field, for the refusal
+    :raises Malformed: there are not two of them, or one is not finite
+    :raises BadProperty: it is no list of numbers
+    """
+    if not isinstance(value, list | tuple):
+        raise BadProperty(f'{name} must be a list of two numbers, not {shown(value)}', field=name)
+    if len(value) != 2:
+        raise Malformed(f'{name} needs two numbers, not {len(value)}', field=name)
+    return number(value[0], name), number(value[1], name)
+
+
+def point_list(value: object, name: str) -> tuple[Point, ...]:
+    """
+    Return a list of points.
+
+    :param name: of the field, for the refusal
+    :raises Malformed: a point has not two coordinates, or one is not finite
+    :raises BadProperty: it is no list of pairs of numbers
+    """
+    if not isinstance(value, list):
+        raise BadProperty(f'{name} must be a list of points', field=name)
+    return tuple(pair(point, name) for point in value)
+
+
+def velocity(value: object, name: str) -> Point:
+    """
+    Return a velocity [m/s].
+
+    :param name: of the field, for the refusal
+    :raises Malformed: it is no pair of finite numbers
+    :raises BadProperty: it is faster than FASTEST
+    """
+    result = pair(value, name)
+    if math.hypot(*result) > FASTEST:
+        raise BadProperty(f'{name} is faster than {FASTEST:g} m/s', field=name)
+    return result
+
+
+def flag(value: object, name: str) -> bool:
+    """
+    Return true or false.
+
+    :param name: of the field, for the refusal
+    :raises BadProperty: it is neither
+    """
+    if not isinstance(value, bool):
+        raise BadProperty(f'{name} must be true or false, not {shown(value)}', field=name)
+    return value
+
+
+def known_mapping(value: object, name: str, known: list[str]) -> dict[Any, Any]:
+    """
+    Return a mapping with no other keys than the known ones.
+
+    :param name: of the field, for the refusal
+    :raises BadProperty: it is no mapping
+    :raises UnknownProperty: a key is not known; the nearest known one is named
+    """
+    if not isinstance(value, dict):
+        raise BadProperty(f'{name} must be a mapping', field=name)
+    for key in value:
+        check_key(key, known)
+    return value
+
+
+def check_finite(values: tuple[float, ...], count: int, name: str) -> None:
+    """
+    Refuse values that are not the right count of finite numbers.
+
+    :raises Malformed: they are not
+    """
+    if len(values) != count:
+        raise Malformed(f'{name} needs {count} numbers, not {len(values)}', field=name)
+    if not all(map(math.isfinite, values)):
+        raise Malformed(f'{name} is not finite', field=name)
+
+
+def check_key(key: object, known: list[str]) -> None:
+    """
+    Refuse an unknown key, and name the most similar known one, if any is similar.
+
+    :raises UnknownProperty: the key is not one of the known
+    """
+    if key in known:
+        return
+    # Similarity below difflib's default cutoff (0.6) suggests another word, not a misspelling.
+    near = difflib.get_close_matches(str(key).lower(), known, n=1)
+    nearest = f'; nearest is {near[0]!r}' if near else ''
+    raise UnknownProperty(
+        f'there is no property {shown(str(key))}{nearest}', field=str(key)[:_LONGEST_SHOWN]
+    )
+
+
+def check_keys(mapping: Mapping[Any, Any], checks: Checks) -> None:
+    """
+    Refuse keys that have no check, and keys without a value.
+
+    :raises UnknownProperty: a key is not a property; the nearest one is named
+    :raises BadProperty: a value is null
+    """
+    known = list(checks)
+    for key, value in mapping.items():
+        check_key(key, known)
+        if value is None:
+            raise BadProperty(f'{key} has no value', field=str(key))
+
+
+def check_values(properties: object, checks: Checks) -> None:
+    """
+    Replace each property that is set by the value that its check returns.
+
+    :param properties: a frozen dataclass under construction, one field for each check
+    :raises Refusal: a check raised it
+    """
+    for name, value in explicit_values(properties, checks).items():
+        # Frozen for everyone but its own constructor.
+        object.__setattr__(properties, name, checks[name](value, name))
+
+
+def explicit_values(properties: object, checks: Checks) -> dict[str, Any]:
+    """Return the properties that are set, by name, in the order of the checks."""
+    pairs = ((name, getattr(properties, name)) for name in checks)
+    return {name: value for name, value in pairs if value is not None}

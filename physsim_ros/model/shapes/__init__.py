@@ -1,0 +1,60 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Shapes of bodies, one file a shape: validated values, their convex pieces, their mass properties.
+
+Lengths are in metres, in the body's frame (origin at the body's position, x right, y up). Markers
+of shapes are in `ros`, drawn geometry is in `view`. Start with `disc`, then `polygon` and
+`convex_decomposition`. A new shape is a file here and a member of `Shape`.
+"""
+
+from typing import get_args
+
+from physsim_ros.model.shapes.box import Box
+from physsim_ros.model.shapes.chain import Chain
+from physsim_ros.model.shapes.compound import Compound
+from physsim_ros.model.shapes.disc import Disc
+from physsim_ros.model.shapes.mass_properties import Form
+from physsim_ros.model.shapes.pieces import Capsule, Circle, Convex, Piece
+from physsim_ros.model.shapes.polygon import Polygon
+from physsim_ros.model.shapes.polygon_geometry import crosses_itself, is_convex, signed_area
+from physsim_ros.model.shapes.triangles import Triangles
+from physsim_ros.model.shapes.validation import LARGEST, MOST_POINTS, SMALLEST
+
+Shape = Disc | Box | Polygon | Chain | Triangles | Compound
+# By the key of world files.
+SHAPES: dict[str, type[Shape]] = {each.KEY: each for each in get_args(Shape)}
+
+__all__ = [
+    'LARGEST',
+    'MOST_POINTS',
+    'SHAPES',
+    'SMALLEST',
+    'Box',
+    'Capsule',
+    'Chain',
+    'Circle',
+    'Compound',
+    'Convex',
+    'Disc',
+    'Form',
+    'Piece',
+    'Polygon',
+    'Shape',
+    'Triangles',
+    'crosses_itself',
+    'is_convex',
+    'signed_area',
+]

@@ -1,0 +1,71 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""A rectangle, centred on the body's position."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import ClassVar, Self
+
+from physsim_ros.model.checks import known_mapping, number
+from physsim_ros.model.shapes.mass_properties import Form, form_of
+from physsim_ros.model.shapes.pieces import Convex
+from physsim_ros.model.shapes.validation import checked_length
+from physsim_ros.model.transform import Point
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Box:
+    """
+    A rectangle about the body's position, its sides along the body's axes.
+
+    :param width: along x [m]
+    :param height: along y [m]
+    :raises BadSize: a side is out of range
+    :raises Malformed: a side is not finite
+    """
+
+    KEY: ClassVar = 'box'
+
+    width: float
+    height: float
+    form: Form = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, 'width', checked_length(self.width, 'width'))
+        object.__setattr__(self, 'height', checked_length(self.height, 'height'))
+        object.__setattr__(self, 'form', form_of((Convex(self.corners()),)))
+
+    def corners(self, center: Point = (0.0, 0.0)) -> tuple[Point, ...]:
+        """Return the four corners about a centre [m], counter-clockwise from lower left."""
+        x, y = center
+        half_width, half_height = self.width / 2, self.height / 2
+        return (
+            (x - half_width, y - half_height),
+            (x + half_width, y - half_height),
+            (x + half_width, y + half_height),
+            (x - half_width, y + half_height),
+        )
+
+    @classmethod
+    def from_entry(cls, entry: object) -> Self:
+        """Return the box of a world file's entry."""
+        known = known_mapping(entry, cls.KEY, ['width', 'height'])
+        width, height = (number(known.get(side), side) for side in ('width', 'height'))
+        return cls(width=width, height=height)
+
+    def entry(self) -> object:
+        """Return the entry of a world file."""
+        return {'width': self.width, 'height': self.height}

@@ -1,0 +1,74 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""A compound: copies of one disc or box, as one rigid body."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import ClassVar, Self
+
+from physsim_ros.model.checks import known_mapping, point_list
+from physsim_ros.model.errors import BadOutline, BadProperty
+from physsim_ros.model.shapes.box import Box
+from physsim_ros.model.shapes.disc import Disc
+from physsim_ros.model.shapes.mass_properties import Form, form_of
+from physsim_ros.model.shapes.pieces import Circle, Convex, Piece
+from physsim_ros.model.shapes.validation import as_tuples, checked_points
+from physsim_ros.model.transform import Point
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Compound:
+    """
+    The same disc or box at several positions, not rotated.
+
+    :param element: the disc or box
+    :param centers: its positions [m]
+    :raises BadOutline: no centre, or too many
+    :raises Malformed: a coordinate is not finite
+    """
+
+    KEY: ClassVar = 'compound'
+
+    element: Disc | Box
+    centers: tuple[Point, ...]
+    form: Form = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        centers = as_tuples(checked_points(self.centers, 'centers'))
+        if not centers:
+            raise BadOutline('a compound needs at least one element', field='centers')
+        object.__setattr__(self, 'centers', centers)
+        pieces: tuple[Piece, ...]
+        if isinstance(self.element, Disc):
+            pieces = tuple(Circle(center, self.element.radius) for center in centers)
+        else:
+            pieces = tuple(Convex(self.element.corners(center)) for center in centers)
+        object.__setattr__(self, 'form', form_of(pieces))
+
+    @classmethod
+    def from_entry(cls, entry: object) -> Self:
+        """Return the compound of a world file's entry."""
+        known = known_mapping(entry, cls.KEY, [Disc.KEY, Box.KEY, 'centers'])
+        named = [each for each in (Disc, Box) if each.KEY in known]
+        if len(named) != 1:
+            raise BadProperty(f'a compound has one of {Disc.KEY}, {Box.KEY}', field='shape')
+        element = named[0].from_entry(known[named[0].KEY])
+        return cls(element=element, centers=point_list(known.get('centers'), 'centers'))
+
+    def entry(self) -> object:
+        """Return the entry of a world file."""
+        centers = [list(center) for center in self.centers]
+        return {self.element.KEY: self.element.entry(), 'centers': centers}

@@ -1,0 +1,146 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Convex decomposition of simple polygons: ear clipping, then removal of diagonals.
+
+Ear clipping cuts off the best shaped triangle first. Diagonals are removed where both polygons
+beside one are convex as a whole: S. Hertel and K. Mehlhorn, Fast triangulation of simple polygons,
+1983; at most four times the least number of parts.
+
+Pymunk 7.3.1's own `autogeometry.convex_decomposition` recurses without end on simple outlines (a
+rotated plus sign, a doubled vertex) and crashes the interpreter. This
+file can go when that is mended.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from physsim_ros.model.arrays import Floats
+
+# Distance from a straight line below which a vertex lies on it [m]: far below the least length of
+# a shape, far above the rounding of coordinates of 100 km.
+STRAIGHT = 1e-6
+
+
+def convex_parts(outline: Floats) -> list[Floats]:
+    """
+    Split a simple polygon into convex parts.
+
+    :param outline: (n, 2) float64: vertices, counter-clockwise [m]
+    :return: (k, 2) float64 each: the parts, counter-clockwise [m]
+    """
+    parts = _without_diagonals(outline.tolist(), _clipped_ears(outline))
+    return [outline[part] for part in parts]
+
+
+def _clipped_ears(outline: Floats) -> list[list[int]]:
+    """Return the triangles of a polygon as numbers of vertices, the best shaped ear first."""
+    count = len(outline)
+    points = outline.tolist()
+    x, y = outline.T
+    before, after = [count - 1, *range(count - 1)], [*range(1, count), 0]
+    remaining = np.ones(count, dtype=np.bool_)
+    qualities = np.array([_quality(points, b - 1, b, (b + 1) % count) for b in range(count)])
+    # Vertex -> those whose triangles are no ears because they contain it.
+    blocked: dict[int, list[int]] = {}
+    triangles = []
+    while count > 2:
+        b = int(qualities.argmax())
+        quality = float(qualities[b])
+        if quality <= 0.0:
+            # By rounding there is no ear; the caller compares areas.
+            break
+        a, c = before[b], after[b]
+        if quality < math.inf:
+            (ax, ay), (bx, by), (cx, cy) = points[a], points[b], points[c]
+            # A diagonal through another vertex would let the remaining polygon touch itself.
+            base = math.hypot(cx - ax, cy - ay)
+            inside = (
+                remaining
+                & ((bx - ax) * (y - ay) - (by - ay) * (x - ax) >= 0)
+                & ((cx - bx) * (y - by) - (cy - by) * (x - bx) >= 0)
+                & ((ax - cx) * (y - cy) - (ay - cy) * (x - cx) >= -STRAIGHT * base)
+            )
+            inside[[a, b, c]] = False
+            blocker = int(inside.argmax())
+            if inside[blocker]:
+                blocked.setdefault(blocker, []).append(b)
+                qualities[b] = -math.inf
+                continue
+        if quality < math.inf:
+            triangles.append([a, b, c])
+        after[a], before[c] = c, a
+        remaining[b] = False
+        count -= 1
+        qualities[b] = -math.inf
+        for vertex in (a, c, *blocked.pop(b, ())):
+            if remaining[vertex]:
+                qualities[vertex] = _quality(points, before[vertex], vertex, after[vertex])
+    return triangles
+
+
+def _quality(points: list[list[float]], a: int, b: int, c: int) -> float:
+    """
+    Return the quality of the triangle at a vertex: twice its area by its longest side squared.
+
+    :param b: number of the vertex, between a and c
+    :return: infinite for a straight vertex, -1 for a reflex one
+    """
+    (ax, ay), (bx, by), (cx, cy) = points[a], points[b], points[c]
+    turn = (bx - ax) * (cy - by) - (by - ay) * (cx - bx)
+    base = math.hypot(cx - ax, cy - ay)
+    longest = max(base, math.hypot(bx - ax, by - ay), math.hypot(cx - bx, cy - by))
+    if longest == base and abs(turn) <= STRAIGHT * base:
+        return math.inf
+    return turn / longest**2 if turn > 0 else -1.0
+
+
+def _without_diagonals(points: list[list[float]], parts: list[list[int]]) -> list[list[int]]:
+    """Join convex parts across common edges, the longest first, where the union is convex."""
+    owner = {edge: number for number, part in enumerate(parts) for edge in _edges(part)}
+    shared = [edge for edge in owner if edge[0] < edge[1] and edge[::-1] in owner]
+    shared.sort(key=lambda edge: -math.dist(points[edge[0]], points[edge[1]]))
+    for u, v in shared:
+        one, other = owner[u, v], owner[v, u]
+        # From the end of the common edge to its start.
+        first, second = _starting_at(parts[one], v), _starting_at(parts[other], u)
+        if _is_reflex(points, second[-2], v, first[1]) or _is_reflex(
+            points, first[-2], u, second[1]
+        ):
+            continue
+        union = first + second[1:-1]
+        parts[one], parts[other] = union, []
+        for edge in _edges(union):
+            owner[edge] = one
+    return [part for part in parts if part]
+
+
+def _edges(part: list[int]) -> list[tuple[int, int]]:
+    return list(zip(part, part[1:] + part[:1], strict=True))
+
+
+def _starting_at(part: list[int], first: int) -> list[int]:
+    """Return the same vertices in the same order, from another one on."""
+    at = part.index(first)
+    return part[at:] + part[:at]
+
+
+def _is_reflex(points: list[list[float]], a: int, b: int, c: int) -> bool:
+    """Tell whether the path a, b, c turns to the right at b by more than STRAIGHT."""
+    (ax, ay), (bx, by), (cx, cy) = points[a], points[b], points[c]
+    turn = (bx - ax) * (cy - by) - (by - ay) * (cx - bx)
+    return turn < -STRAIGHT * math.hypot(cx - ax, cy - ay)

@@ -1,0 +1,55 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""A disc (Box2D and Pymunk: a circle)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import ClassVar, Self
+
+from physsim_ros.model.checks import known_mapping, number
+from physsim_ros.model.shapes.mass_properties import Form, form_of
+from physsim_ros.model.shapes.pieces import Circle
+from physsim_ros.model.shapes.validation import checked_length
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Disc:
+    """
+    A full circle about the body's position.
+
+    :param radius: [m]
+    :raises BadSize: the radius is out of range
+    :raises Malformed: the radius is not finite
+    """
+
+    KEY: ClassVar = 'circle'
+
+    radius: float
+    form: Form = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, 'radius', checked_length(self.radius, 'radius'))
+        object.__setattr__(self, 'form', form_of((Circle((0.0, 0.0), self.radius),)))
+
+    @classmethod
+    def from_entry(cls, entry: object) -> Self:
+        """Return the disc of a world file's entry."""
+        known = known_mapping(entry, cls.KEY, ['radius'])
+        return cls(radius=number(known.get('radius'), 'radius'))
+
+    def entry(self) -> object:
+        """Return the entry of a world file."""
+        return {'radius': self.radius}

@@ -1,0 +1,102 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Checks that shapes share: lengths and points that can be simulated.
+
+Law: a shape that has been constructed can be simulated. Pymunk 7.3.1 takes a degenerate polygon,
+and raises in every later step.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+import math
+
+import numpy as np
+from physsim_ros.model.arrays import Floats
+from physsim_ros.model.errors import BadOutline, BadSize, Malformed
+from physsim_ros.model.transform import Point
+
+# Least length of a shape [m]: a fifth of the engine's collision slop (5 mm), within which bodies
+# overlap without force.
+SMALLEST = 1e-3
+# Greatest length and coordinate [m]: beyond 100 km a float64 position no longer resolves the slop
+# after a long run.
+LARGEST = 1e5
+# Points of a shape: convex decomposition of as many takes three frames (50 ms).
+MOST_POINTS = 1000
+# Points closer than this are one point [m]: a thousandth of SMALLEST.
+COINCIDENT = 1e-6
+
+
+def checked_length(value: float, name: str) -> float:
+    """
+    Return a length as a float [m].
+
+    :param name: of the field, for the refusal
+    :raises BadSize: it is out of range
+    :raises Malformed: it is not finite
+    """
+    if not math.isfinite(value):
+        raise Malformed(f'{name} is {value}, not a finite number', field=name)
+    if not SMALLEST <= value <= LARGEST:
+        raise BadSize(
+            f'{name} is {value:g} m; it must lie between {SMALLEST:g} and {LARGEST:g} m',
+            field=name,
+        )
+    return float(value)
+
+
+def checked_points(points: Sequence[Point], name: str) -> Floats:
+    """
+    Return points as (n, 2) float64 [m].
+
+    :param name: of the field, for the refusal
+    :raises BadOutline: there are more than MOST_POINTS
+    :raises BadSize: a coordinate is out of range
+    :raises Malformed: they are no pairs of finite numbers
+    """
+    try:
+        array = np.array([(x, y) for x, y in points], dtype=np.float64).reshape(-1, 2)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise Malformed(f'{name} must be pairs of numbers', field=name) from error
+    if not np.isfinite(array).all():
+        raise Malformed(f'{name} holds a coordinate that is not finite', field=name)
+    if len(array) > MOST_POINTS:
+        raise BadOutline(f'{name} holds more than {MOST_POINTS} points', field=name)
+    if len(array) and np.abs(array).max() > LARGEST:
+        raise BadSize(f'{name} reaches further than {LARGEST:g} m', field=name)
+    return array
+
+
+def distinct_points(points: Floats, *, closed: bool) -> Floats:
+    """
+    Return points without those that coincide with the one before them.
+
+    :param points: (n, 2) float64 [m]
+    :param closed: whether the first point follows the last one
+    """
+    kept: list[int] = []
+    for at, (x, y) in enumerate(points.tolist()):
+        if not kept or math.dist((x, y), points[kept[-1]]) > COINCIDENT:
+            kept.append(at)
+    while closed and len(kept) > 1 and math.dist(points[kept[0]], points[kept[-1]]) <= COINCIDENT:
+        kept.pop()
+    return points[kept]
+
+
+def as_tuples(points: Floats) -> tuple[Point, ...]:
+    """Return (n, 2) float64 as pairs of floats."""
+    return tuple(map(tuple, points.tolist()))

@@ -1,0 +1,132 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Plain CDR, little endian: a writer of values, and templates of messages whose numbers change.
+
+A message is four bytes of header, then its values, each aligned to its own size counted from the
+end of the header; a string is its length with the NUL, its characters and the NUL. The parts of a
+message that change only with the scene (lengths, names, colours, outlines) are written once into a
+template; a frame writes its stamp and its floats at known offsets.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+import struct
+
+import numpy as np
+from physsim_ros.model.arrays import Floats, Singles
+
+# Four bytes of padding, which align the values in memory, and the header of the message.
+START = b'\0\0\0\0\0\1\0\0'
+# A second [ns].
+SECOND = 1_000_000_000
+
+
+class CdrWriter:
+    """
+    Writes values one after the other, each aligned to its size.
+
+    :param start: bytes to begin with; none, or a multiple of 8 bytes
+
+    :ivar data: the bytes so far
+    :ivar blocks: offset [bytes], count and width of each block of doubles
+    """
+
+    def __init__(self, start: bytes = b'') -> None:
+        self.data = bytearray(start)
+        self.blocks: list[tuple[int, int, int]] = []
+
+    def align(self, size: int) -> None:
+        """Write padding up to a multiple of a size [bytes]."""
+        self.data += b'\0\0\0\0\0\0\0'[: -len(self.data) % size]
+
+    def ints(self, *values: int) -> None:
+        """Write 32-bit integers."""
+        self.align(4)
+        self.data += struct.pack(f'<{len(values)}i', *values)
+
+    def doubles(self, *values: float) -> None:
+        """Write 64-bit floats."""
+        if values:
+            self.align(8)
+            self.data += struct.pack(f'<{len(values)}d', *values)
+
+    def text(self, text: str) -> None:
+        """Write a string."""
+        self.align(4)
+        self.data += _string(text)
+
+    def header(self, frame_id: str) -> None:
+        """Write a std_msgs/Header with stamp 0."""
+        self.ints(0, 0)
+        self.text(frame_id)
+
+    def block(self, count: int, width: int) -> None:
+        """Write a sequence of `count` values of `width` doubles each, all zero."""
+        self.ints(count)
+        if count:
+            self.align(8)
+        self.blocks.append((len(self.data), count, width))
+        self.data += bytes(8 * count * width)
+
+
+class MessageTemplate:
+    """
+    A serialised message whose stamps and floats can be overwritten.
+
+    :param writer: with all of the message, from `START` on
+    :param starts: offsets of the stamps [bytes]
+
+    :ivar doubles: (k,) float64: view of the whole message as doubles
+    :ivar floats: (k,) float32: view of the whole message as floats
+    :ivar blocks: (count, width) float64 each: views of the blocks of doubles
+    """
+
+    def __init__(self, writer: CdrWriter, starts: Sequence[int] = (len(START),)) -> None:
+        self._message = memoryview(writer.data)[4:]
+        self._words = np.frombuffer(writer.data, '<u4', len(writer.data) // 4)
+        self._seconds = np.array(starts, np.intp) // 4
+        self._nanoseconds = self._seconds + 1
+        self.doubles: Floats = np.frombuffer(writer.data, '<f8', len(writer.data) // 8)
+        self.floats: Singles = np.frombuffer(writer.data, '<f4', len(writer.data) // 4)
+        self.blocks = [
+            np.frombuffer(writer.data, '<f8', count * width, start).reshape(count, width)
+            for start, count, width in writer.blocks
+        ]
+
+    def stamped(self, stamp: int) -> bytes:
+        """Return a copy of the message with a stamp [ns]."""
+        self._words[self._seconds], self._words[self._nanoseconds] = divmod(stamp, SECOND)
+        return bytes(self._message)
+
+
+def padded_string(text: str) -> bytes:
+    """Return a serialised string with the padding that a following string needs."""
+    data = _string(text)
+    return data + bytes(-len(data) % 4)
+
+
+def fill_columns(block: Floats, columns: Iterable[int], values: Iterable[Floats]) -> None:
+    """Copy arrays into columns of a block."""
+    # By column: numpy copies (n, 2) into (n, 7) five times slower than (n,) twice.
+    for column, value in zip(columns, values, strict=True):
+        block[:, column] = value
+
+
+def _string(text: str) -> bytes:
+    # Characters without UTF-8, such as half surrogates of file names, become '?'.
+    data = text.encode(errors='replace') + b'\0'
+    return struct.pack('<I', len(data)) + data

@@ -1,0 +1,49 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""`clock`: rosgraph_msgs/Clock, simulation time."""
+
+from __future__ import annotations
+
+import struct
+
+from physsim_ros.model.snapshot import Frame
+from physsim_ros.ros.encoders.cdr import SECOND, START
+
+
+class ClockEncoder:
+    """
+    Encodes simulation time; nothing before the first step.
+
+    A node that uses simulation time takes 0 for a clock that has not begun. A world that comes
+    back to its beginning sends 1 ns instead.
+    """
+
+    def __init__(self) -> None:
+        self._began = False
+
+    def encode(self, frame: Frame) -> bytes | None:
+        """Return the serialised message of a frame; None before the first step."""
+        stamp = frame.snapshot.stamp
+        self._began = self._began or stamp > 0
+        return encode_clock(max(1, stamp)) if self._began else None
+
+
+def encode_clock(stamp: int) -> bytes:
+    """
+    Return a serialised rosgraph_msgs/Clock.
+
+    :param stamp: simulation time [ns]
+    """
+    return START[4:] + struct.pack('<iI', *divmod(stamp, SECOND))

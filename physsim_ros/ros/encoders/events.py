@@ -1,0 +1,38 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""`~/events`: diagnostic_msgs/DiagnosticStatus, one for each answer."""
+
+from __future__ import annotations
+
+from physsim_ros.model.snapshot import Answer
+from physsim_ros.ros.encoders.cdr import CdrWriter, START
+
+
+def encode_event(answer: Answer) -> bytes:
+    """Return a serialised diagnostic_msgs/DiagnosticStatus that reports an answer."""
+    writer = CdrWriter(START)
+    # The level: ERROR or OK.
+    writer.data += b'\2' if answer.code else b'\0'
+    for text in (answer.topic, answer.message, answer.subject):
+        writer.text(text)
+    values = [('code', answer.code or 'ok')]
+    if answer.field:
+        values.append(('field', answer.field))
+    values.extend(answer.values)
+    writer.ints(len(values))
+    for key, value in values:
+        writer.text(key)
+        writer.text(value)
+    return bytes(writer.data[4:])

@@ -1,0 +1,170 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Bodies, joints and walls as markers: type, scale, points, colour and text, without pose.
+
+Law: the marker of a body, published to `~/spawn`, spawns an equal body; the first marker of a
+joint, published to `~/join`, makes an equal joint.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+import json
+
+from physsim_ros.model.colors import Color
+from physsim_ros.model.names import (
+    CROSS_PREFIX,
+    JOINT_PREFIX,
+    LINES_PREFIX,
+    split_name,
+    WALLS,
+)
+from physsim_ros.model.scene import Body, Joint
+from physsim_ros.model.settings import Bounds
+from physsim_ros.model.transform import Point
+from physsim_ros.ros.marker_shapes import geometry_of, Size, THIN
+from visualization_msgs.msg import Marker
+
+Key = tuple[str, int]
+
+# Height of joints, above bodies and their crosses [m].
+_RAISED = 2 * THIN
+_DARK, _LIGHT, _GREY = (0.1, 0.1, 0.1, 1.0), (0.9, 0.9, 0.9, 1.0), (0.5, 0.5, 0.5, 1.0)
+# The least luminance on which a dark line has more contrast than a light one.
+_BRIGHT = 0.35
+
+
+@dataclass(frozen=True, slots=True)
+class Symbol:
+    """
+    A marker without its pose.
+
+    :param key: namespace and id
+    :param kind: type of the marker
+    :param height: z of its points [m]; higher ones are drawn on top
+    """
+
+    key: Key
+    kind: int = Marker.ARROW
+    scale: Size = (0.0, 0.0, 0.0)
+    points: tuple[Point, ...] = ()
+    height: float = 0.0
+    color: Color = (0.0, 0.0, 0.0, 0.0)
+    text: str = ''
+    action: int = Marker.ADD
+
+
+def body_symbols(body: Body) -> list[Symbol]:
+    """Return the markers of a body: the body, and the x of an anchored one."""
+    key = split_name(body.name)
+    kind, scale, points = geometry_of(body.shape)
+    symbols = [Symbol(key, kind, scale, points, color=body.color, text=_material(body))]
+    if body.anchored:
+        symbols.append(_cross(body, (f'{CROSS_PREFIX}{key[0]}', key[1])))
+    return symbols
+
+
+def joint_symbols(joint: Joint, size: float, corners: int) -> tuple[Symbol, Symbol]:
+    """
+    Return the markers of a joint: its points, which make an equal joint, and its lines.
+
+    All points are 0; a frame writes them.
+
+    :param size: half the size of its symbol [m]
+    :param corners: number of corners of its lines, two for each segment
+    """
+    namespace, number = split_name(joint.name)
+    if joint.kind.points == 1:
+        kind, scale = Marker.SPHERE_LIST, (size, size, size)
+    else:
+        kind, scale = Marker.LINE_STRIP, (size / 10, 0.0, 0.0)
+    origin = ((0.0, 0.0),)
+    return (
+        Symbol(
+            (f'{JOINT_PREFIX}{namespace}', number),
+            kind,
+            scale,
+            origin * joint.kind.points,
+            _RAISED,
+            text=_terms(joint),
+        ),
+        Symbol(
+            (f'{LINES_PREFIX}{namespace}', number),
+            Marker.LINE_LIST,
+            (size / 4, 0.0, 0.0),
+            origin * corners,
+            _RAISED,
+        ),
+    )
+
+
+def _terms(joint: Joint) -> str:
+    """Return the bodies and properties of a joint as a YAML mapping, for `text`."""
+    terms = [f'kind: {joint.kind}', f'a: {_quoted(joint.a)}', f'b: {_quoted(joint.b)}']
+    # Without the values as drawn, the new joint would measure them anew.
+    given = joint.properties.explicit() | joint.drawn_values()
+    for key, value in given.items():
+        shown = str(value).lower() if isinstance(value, bool) else _number(value)
+        terms.append(f'{key}: {shown}')
+    return f'{{{", ".join(terms)}}}'
+
+
+def _quoted(name: str) -> str:
+    """Return a name as a YAML string."""
+    return json.dumps(name, ensure_ascii=False)
+
+
+def _material(body: Body) -> str:
+    """Return the properties of a body as a YAML mapping, for `text`."""
+    given = {'density': body.density} if body.mass is None else {'mass': body.mass}
+    given |= {'friction': body.friction, 'elasticity': body.elasticity}
+    parts = [f'{key}: {_number(value)}' for key, value in given.items()]
+    parts += [f'{key}: true' for key in ('anchored', 'kinematic', 'sensor') if getattr(body, key)]
+    if body.group:
+        parts.append(f'group: {body.group}')
+    return f'{{{", ".join(parts)}}}'
+
+
+def _number(value: float) -> str:
+    """Return a number in YAML 1.1, in which 1e-09 is a string and 1.0e-09 is a number."""
+    text = repr(float(value))
+    return text if '.' in text else text.replace('e', '.0e')
+
+
+def _cross(body: Body, key: Key) -> Symbol:
+    """Return the small x at the centre of mass of an anchored body."""
+    form = body.shape.form
+    # About a third of the smaller side: area / outer radius is about 1.5 of it.
+    reach = min(max(form.area / form.outer / 5, 0.06), 0.3) / 2
+    x, y = form.centroid
+    points = (
+        (x - reach, y - reach),
+        (x + reach, y + reach),
+        (x - reach, y + reach),
+        (x + reach, y - reach),
+    )
+    red, green, blue, _ = body.color
+    # Luminance as of ITU-R BT.601.
+    color = _DARK if 0.299 * red + 0.587 * green + 0.114 * blue > _BRIGHT else _LIGHT
+    return Symbol(key, Marker.LINE_LIST, (reach / 4, 0.0, 0.0), points, THIN, color)
+
+
+def wall_symbol(bounds: Bounds) -> Symbol:
+    """Return the marker of the walls around the world."""
+    left, bottom, right, top = bounds
+    corners = ((left, bottom), (right, bottom), (right, top), (left, top), (left, bottom))
+    key = (WALLS, 0)
+    return Symbol(key, Marker.LINE_STRIP, (THIN, 0.0, 0.0), corners, color=_GREY)

@@ -1,0 +1,247 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+`~/markers`: visualization_msgs/MarkerArray, all bodies, joints and walls.
+
+A body is drawn with the marker that would spawn it, its material in `text`. A marker that is no
+longer drawn is deleted in each of the next `DELETE_REPEATS` messages.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+import struct
+
+import numpy as np
+from physsim_ros.model.arrays import Floats
+from physsim_ros.model.joints import JointKind
+from physsim_ros.model.scene import Body, Joint, Scene
+from physsim_ros.model.snapshot import Frame, Snapshot
+from physsim_ros.model.transform import turned
+from physsim_ros.ros.encoders.cdr import CdrWriter, MessageTemplate, START
+from physsim_ros.ros.encoders.marker_symbols import (
+    body_symbols,
+    joint_symbols,
+    Key,
+    Symbol,
+    wall_symbol,
+)
+from physsim_ros.ros.encoders.scene_encoder import POSE_COLUMNS, pose_columns
+from physsim_ros.view import joint_strips, JointLines, segment_corners, symbol_size
+from visualization_msgs.msg import Marker
+
+# A marker from its pose on: pose, scale, color, lifetime, frame_locked, number of points.
+_POSED = struct.Struct('<7d3d4f8xx3xi')
+# Offset of the color in that [bytes].
+_COLORED = struct.calcsize('<7d3d')
+_IDENTITY = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
+# No colors, texture_resource, texture (stamp, frame_id, format, data), uv_coordinates.
+_UNTEXTURED = struct.pack('<ii4s8xi4si4sii', 0, 1, b'', 1, b'', 1, b'', 0, 0)
+# No mesh_resource, mesh_file (filename, data), mesh_use_embedded_materials.
+_UNMESHED = struct.pack('<i4si4six', 1, b'', 1, b'', 0)
+
+# Number of messages in which a marker is deleted. The depth of the stream is 1, so that a slow
+# subscriber misses some; of those of one second it gets at least one.
+DELETE_REPEATS = 60
+
+
+class MarkersEncoder:
+    """
+    Encodes the markers of a frame.
+
+    :param frame_id: name of the world frame
+    """
+
+    def __init__(self, frame_id: str) -> None:
+        self._frame_id = frame_id
+        self._scene: Scene | None = None
+        self._bodies: dict[str, tuple[Body, tuple[_MarkerBytes, ...]]] = {}
+        self._shown: dict[Key, None] = {}
+        # The deletion of each marker that is no longer drawn, and the number of the first message
+        # without it.
+        self._gone: dict[Key, tuple[_MarkerBytes, int]] = {}
+        self._until = -1
+        self._count = 0
+        self._joint_columns: _JointColumns | None = None
+        self._joints: dict[str, tuple[tuple[Joint, float], tuple[_MarkerBytes, _MarkerBytes]]] = {}
+
+    def encode(self, frame: Frame) -> bytes:
+        """Return the serialised message of a frame."""
+        snapshot = frame.snapshot
+        if snapshot.scene is not self._scene or self._count == self._until:
+            self._build_template(snapshot.scene)
+        self._count += 1
+        if self._joint_columns is not None:
+            self._joint_columns.fill(self._template, snapshot)
+        for offsets, values in zip(self._offsets, pose_columns(snapshot), strict=True):
+            self._template.doubles[offsets] = values[self._rows]
+        return self._template.stamped(snapshot.stamp)
+
+    def _build_template(self, scene: Scene) -> None:
+        """Build a new template, from the serialised markers of the last one where they hold."""
+        markers = self._body_markers(scene)
+        joints = [(-1, marker) for pair in self._joint_markers(scene) for marker in pair]
+        markers += joints
+        shown = dict.fromkeys(marker.key for _, marker in markers)
+        until = self._count + DELETE_REPEATS
+        gone = {
+            key: (marker, last)
+            for key, (marker, last) in self._gone.items()
+            if last > self._count and key not in shown
+        }
+        gone |= {key: (self._deletion(key), until) for key in self._shown if key not in shown}
+        markers += [(-1, marker) for marker, _ in gone.values()]
+
+        writer = CdrWriter(START)
+        writer.ints(len(markers))
+        starts: list[int] = []
+        offsets: list[int] = []
+        for _, marker in markers:
+            writer.align(4)
+            starts.append(len(writer.data))
+            writer.data += marker.head
+            writer.align(8)
+            offsets.append(len(writer.data))
+            writer.data += marker.rest
+        self._template = MessageTemplate(writer, starts)
+        first = len(markers) - len(gone) - len(joints)
+        last = first + len(joints)
+        self._joint_columns = _JointColumns(scene, offsets[first:last]) if joints else None
+        rows = np.array([row for row, _ in markers], np.intp)
+        moving = rows >= 0
+        self._rows = rows[moving]
+        self._offsets = np.array(offsets, np.intp)[moving] // 8 + np.array(POSE_COLUMNS)[:, None]
+        self._scene, self._shown, self._gone = scene, shown, gone
+        self._until = min((last for _, last in gone.values()), default=-1)
+
+    def _body_markers(self, scene: Scene) -> list[tuple[int, _MarkerBytes]]:
+        """Return the markers of bodies and walls, each with the row of its body, or -1."""
+        bodies = {}
+        markers = []
+        for row, body in enumerate(scene.bodies):
+            known = self._bodies.get(body.name)
+            if known is None or (known[0] is not body and known[0] != body):
+                known = body, tuple(self._serialise(symbol) for symbol in body_symbols(body))
+            bodies[body.name] = known
+            markers += [(row, marker) for marker in known[1]]
+        self._bodies = bodies
+        if scene.settings.bounds is not None:
+            markers.append((-1, self._serialise(wall_symbol(scene.settings.bounds))))
+        return markers
+
+    def _joint_markers(self, scene: Scene) -> list[tuple[_MarkerBytes, _MarkerBytes]]:
+        """Return the markers of each joint: its points, and its lines."""
+        if not scene.joints:
+            self._joints = {}
+            return []
+        bodies = dict(zip(scene.names, scene.bodies, strict=True))
+        joints = {}
+        for joint in scene.joints:
+            known = self._joints.get(joint.name)
+            size = symbol_size(joint, bodies)
+            if known is None or known[0] != (joint, size):
+                strips = joint_strips(joint, size)
+                corners = len(segment_corners([len(strip) for strip in strips]))
+                points, lines = joint_symbols(joint, size, corners)
+                known = (joint, size), (self._serialise(points), self._serialise(lines))
+            joints[joint.name] = known
+        self._joints = joints
+        return [markers for _, markers in joints.values()]
+
+    def _deletion(self, key: Key) -> _MarkerBytes:
+        return self._serialise(Symbol(key, action=Marker.DELETE))
+
+    def _serialise(self, symbol: Symbol) -> _MarkerBytes:
+        head = CdrWriter()
+        head.header(self._frame_id)
+        head.text(symbol.key[0])
+        head.ints(symbol.key[1], symbol.kind, symbol.action)
+        count = len(symbol.points)
+        rest = CdrWriter(_POSED.pack(*_IDENTITY, *symbol.scale, *symbol.color, count))
+        rest.doubles(*(number for x, y in symbol.points for number in (x, y, symbol.height)))
+        rest.data += _UNTEXTURED
+        rest.text(symbol.text)
+        rest.align(4)
+        rest.data += _UNMESHED
+        return _MarkerBytes(key=symbol.key, head=bytes(head.data), rest=bytes(rest.data))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _MarkerBytes:
+    """
+    A serialised marker, in two parts, since the padding between them depends on its offset.
+
+    :param key: namespace and id
+    :param head: all before the pose
+    :param rest: from the pose on, the same at any offset that is a multiple of 8
+    """
+
+    key: Key
+    head: bytes
+    rest: bytes
+
+
+class _JointColumns:
+    """
+    The offsets of the points and colours of joints in a message.
+
+    :param scene: with the joints
+    :param starts: offsets of the poses of their markers [bytes], two for each joint
+    """
+
+    def __init__(self, scene: Scene, starts: Sequence[int]) -> None:
+        self._lines = JointLines(scene)
+        self._corners = segment_corners(self._lines.lengths.tolist())
+        counts = np.bincount(self._lines.owner, 2 * self._lines.lengths - 2)
+        offsets: list[int] = []
+        # Of the points of the joints: number of the joint, and 0 for its first point, 1 for its
+        # second.
+        points: list[tuple[int, int]] = []
+        for number, joint in enumerate(scene.joints):
+            first = (starts[2 * number] + _POSED.size) // 8
+            offsets += (first + 3 * each for each in range(joint.kind.points))
+            points += ((number, each) for each in range(joint.kind.points))
+        for number, count in enumerate(counts.tolist()):
+            first = (starts[2 * number + 1] + _POSED.size) // 8
+            offsets += (first + 3 * each for each in range(int(count)))
+        self._offsets = np.array(offsets, np.intp)
+        self._points = tuple(np.array(points, np.intp).T)
+        self._color_offsets = (np.array(starts, np.intp) + _COLORED) // 4
+        self._sliders = np.array(
+            [row for row, joint in enumerate(scene.joints) if joint.kind is JointKind.SLIDER],
+            np.intp,
+        )
+
+    def fill(self, template: MessageTemplate, snapshot: Snapshot) -> None:
+        """Write the points and colours of the joints of a snapshot into a message."""
+        ends = snapshot.ends
+        if len(self._sliders):
+            ends = ends.copy()
+            ends[self._sliders, 1] = ends[self._sliders, 0] + self._slider_axes(snapshot)
+        corners = self._lines.corners(snapshot.poses)[self._corners]
+        points = np.concatenate((ends[self._points], corners))
+        template.doubles[self._offsets] = points[:, 0]
+        template.doubles[self._offsets + 1] = points[:, 1]
+        colors = np.repeat(self._lines.colors(snapshot.forces), 2, axis=0)
+        for channel in range(4):
+            template.floats[self._color_offsets + channel] = colors[:, channel]
+
+    def _slider_axes(self, snapshot: Snapshot) -> Floats:
+        """Return the unit vectors along the lines of sliders, (s, 2) float64."""
+        scene = snapshot.scene
+        # The background is the last row.
+        yaw = np.append(snapshot.poses[:, 2], 0.0)[scene.joint_rows[self._sliders, 1]]
+        return turned(scene.seats[self._sliders, 4:6], yaw)

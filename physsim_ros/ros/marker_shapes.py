@@ -1,0 +1,171 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+The marker codec of shapes: one row for each type of marker, and one for each shape.
+
+Law: the marker of a shape makes the same shape again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+import math
+from typing import Any
+
+from geometry_msgs.msg import Point as PointMessage
+from physsim_ros.model.checks import check_finite
+from physsim_ros.model.errors import BadSize, Refusal, UnknownShape
+from physsim_ros.model.shapes import (
+    Box,
+    Chain,
+    Compound,
+    Disc,
+    MOST_POINTS,
+    Polygon,
+    Shape,
+    Triangles,
+)
+from physsim_ros.model.transform import Point
+from visualization_msgs.msg import Marker
+
+Size = tuple[float, float, float]
+# Type, scale [m] and points [m] of a marker.
+Geometry = tuple[int, Size, tuple[Point, ...]]
+
+# Thickness of flat bodies and width of outlines [m]: visible from any side, yet thin.
+THIN = 0.02
+# Fields of markers by the fields of shapes, for refusals.
+_FIELDS = {
+    'radius': 'scale.x',
+    'width': 'scale.x',
+    'height': 'scale.y',
+    'thickness': 'scale.x',
+    'outline': 'points',
+    'vertices': 'points',
+    'centers': 'points',
+}
+
+
+def shape_from(marker: Marker) -> Shape:
+    """
+    Return the shape of a marker.
+
+    :raises UnknownShape: its type is that of no shape
+    :raises Refusal: scale or points are those of no shape that can be simulated
+    """
+    if marker.type not in _DECODERS:
+        raise UnknownShape(f'a marker of type {marker.type} is no body', field='type')
+    try:
+        return _DECODERS[marker.type](marker)
+    except Refusal as refusal:
+        refusal.field = _FIELDS.get(refusal.field, refusal.field)
+        raise
+
+
+def geometry_of(shape: Shape) -> Geometry:
+    """Return type, scale and points of the marker of a shape."""
+    return _ENCODERS[type(shape)](shape)
+
+
+def points_from(points: Sequence[PointMessage]) -> tuple[Point, ...]:
+    """Return the points of a message [m], no more than it takes to refuse too many of them."""
+    # A closed line repeats its first point, so MOST_POINTS + 1 may be valid.
+    return tuple((point.x, point.y) for point in points[: MOST_POINTS + 2])
+
+
+def _box(marker: Marker) -> Box:
+    return Box(width=marker.scale.x, height=marker.scale.y)
+
+
+def _disc(marker: Marker) -> Disc:
+    disc = Disc(radius=marker.scale.x / 2)
+    check_finite((marker.scale.y,), 1, 'scale.y')
+    if marker.scale.y != marker.scale.x:
+        raise BadSize('a disc is round: scale.x and scale.y must be equal', field='scale.y')
+    return disc
+
+
+def _line(marker: Marker) -> Polygon | Chain:
+    points = points_from(marker.points)
+    if len(points) > 2 and points[0] == points[-1]:
+        return Polygon(outline=points[:-1])
+    return Chain(points=points, thickness=marker.scale.x)
+
+
+def _triangles(marker: Marker) -> Triangles:
+    # RViz scales the points of this type; a scale of 0 is one that was not set.
+    x, y = marker.scale.x or 1.0, marker.scale.y or 1.0
+    check_finite((x, y), 2, 'scale')
+    if not (x > 0 and y > 0):
+        raise BadSize('scale must be positive', field='scale')
+    points = points_from(marker.points)
+    return Triangles(vertices=tuple((px * x, py * y) for px, py in points))
+
+
+def _boxes(marker: Marker) -> Compound:
+    return Compound(element=_box(marker), centers=points_from(marker.points))
+
+
+def _discs(marker: Marker) -> Compound:
+    return Compound(element=_disc(marker), centers=points_from(marker.points))
+
+
+def _of_disc(disc: Disc) -> Geometry:
+    return Marker.CYLINDER, (2 * disc.radius, 2 * disc.radius, THIN), ()
+
+
+def _of_box(box: Box) -> Geometry:
+    return Marker.CUBE, (box.width, box.height, THIN), ()
+
+
+def _of_polygon(polygon: Polygon) -> Geometry:
+    return Marker.LINE_STRIP, (THIN, 0.0, 0.0), (*polygon.outline, polygon.outline[0])
+
+
+def _of_chain(chain: Chain) -> Geometry:
+    points, (x, y) = chain.points, chain.points[0]
+    if points[-1] == (x, y):
+        # The least change of the last point: a line strip with equal ends is a polygon.
+        points = (*points[:-1], (math.nextafter(x, math.inf), y))
+    return Marker.LINE_STRIP, (chain.thickness, 0.0, 0.0), points
+
+
+def _of_triangles(triangles: Triangles) -> Geometry:
+    return Marker.TRIANGLE_LIST, (1.0, 1.0, 1.0), triangles.vertices
+
+
+def _of_compound(compound: Compound) -> Geometry:
+    kind, scale, _ = geometry_of(compound.element)
+    kind = Marker.CUBE_LIST if kind == Marker.CUBE else Marker.SPHERE_LIST
+    return kind, scale, compound.centers
+
+
+_DECODERS: dict[int, Callable[[Marker], Shape]] = {
+    Marker.CUBE: _box,
+    Marker.SPHERE: _disc,
+    Marker.CYLINDER: _disc,
+    Marker.LINE_STRIP: _line,
+    Marker.TRIANGLE_LIST: _triangles,
+    Marker.CUBE_LIST: _boxes,
+    Marker.SPHERE_LIST: _discs,
+}
+_ENCODERS: dict[type[Shape], Callable[[Any], Geometry]] = {
+    Disc: _of_disc,
+    Box: _of_box,
+    Polygon: _of_polygon,
+    Chain: _of_chain,
+    Triangles: _of_triangles,
+    Compound: _of_compound,
+}

@@ -1,0 +1,163 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+The services of the world, all std_srvs/Trigger, and the world files that two of them use.
+
+Law: a service that is refused changes nothing, and its message says why.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+from physsim_ros.files import find_world, hides_shipped, load_world, save_world
+from physsim_ros.model.checkpoint import WorldState
+from physsim_ros.model.errors import PhysSimError, Refusal
+from physsim_ros.model.requests import DeleteAll
+from physsim_ros.model.snapshot import run_state
+from physsim_ros.simulation.simulation import Simulation
+from rclpy.node import Node
+from std_srvs.srv import Trigger
+
+Action = Callable[[], str]
+
+
+class WorldFiles:
+    """
+    Reads and writes the world file that parameter `world_file` names.
+
+    :param simulation: of the world
+    :param values: of the parameters of the node, by name, always up to date
+    """
+
+    def __init__(self, simulation: Simulation, values: Mapping[str, Any]) -> None:
+        self._simulation = simulation
+        self._values = values
+        self._directory = Path(values['world_dir'])
+
+    def begin_with(self) -> None:
+        """
+        Start the simulation with the file, from any directory.
+
+        :raises BadWorldFile: there is no such file, or it is refused
+        """
+        self._simulation.begin(self._read(confined=False)[0])
+
+    def load(self, *, confined: bool) -> str:
+        """
+        Replace the world by the file, and return a message about it.
+
+        :param confined: whether only files below `world_dir` and the shipped worlds may be read
+        :raises BadWorldFile: there is no such file, or it is refused
+        """
+        state, path = self._read(confined=confined)
+        return f'{self._simulation.load(state)} from {path.name}'
+
+    def save(self) -> str:
+        """
+        Write the world to the file, and return a message about it.
+
+        :raises BadWorldFile: it cannot be written, or lies outside `world_dir`
+        """
+        state = self._simulation.save()
+        path = save_world(
+            state,
+            self._values['world_file'],
+            world_dir=self._directory,
+            physics_rate=self._simulation.physics_rate,
+        )
+        message = f'saved {len(state.bodies)} bodies to {path.name}'
+        if hides_shipped(path, world_dir=self._directory):
+            message += '; from now on it comes before the shipped world of that name'
+        return message
+
+    def _read(self, *, confined: bool) -> tuple[WorldState, Path]:
+        path = find_world(self._values['world_file'], world_dir=self._directory, confined=confined)
+        simulation = self._simulation
+        state = load_world(
+            path, settings=simulation.settings, physics_rate=simulation.physics_rate
+        )
+        return state, path
+
+
+def create_services(
+    node: Node,
+    simulation: Simulation,
+    files: WorldFiles,
+    *,
+    fast_speed: Callable[[], float],
+    set_speed: Callable[[float], object],
+    advance_frame: Callable[[], None],
+    on_success: Callable[[], None],
+) -> None:
+    """
+    Create the services of the world.
+
+    :param node: that offers them
+    :param simulation: of the world
+    :param files: for `~/load_world` and `~/save_world`
+    :param fast_speed: returns the speed of `~/fast_forward`, simulation seconds a second
+    :param set_speed: sets the speed, simulation seconds a second
+    :param advance_frame: advances the world by one frame and publishes it
+    :param on_success: called after each service that was not refused
+    """
+
+    def run_at(speed: float) -> str:
+        set_speed(speed)
+        return run_state(speed)
+
+    def step() -> str:
+        if simulation.speed != 0:
+            raise PhysSimError('running; pause first')
+        advance_frame()
+        return f'at {simulation.world.stamp * 1e-9:.6f} s'
+
+    actions: dict[str, Action] = {
+        'play': lambda: run_at(1.0),
+        'pause': lambda: run_at(0.0),
+        'rewind': lambda: run_at(-1.0),
+        'fast_forward': lambda: run_at(fast_speed()),
+        'fast_rewind': lambda: run_at(-fast_speed()),
+        'step': step,
+        'undo': simulation.undo,
+        'redo': simulation.redo,
+        'reset': simulation.reset,
+        'clear': lambda: simulation.perform(DeleteAll()),
+        'load_world': lambda: files.load(confined=True),
+        'save_world': files.save,
+    }
+    for name, action in actions.items():
+        node.create_service(Trigger, f'~/{name}', _callback(action, on_success))
+
+
+def _callback(action: Action, on_success: Callable[[], None]) -> Callable[..., Trigger.Response]:
+    """Return the callback of a service: the message of its action, or of its refusal."""
+
+    def callback(_: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        try:
+            response.message = action()
+            response.success = True
+            on_success()
+        except Refusal as refusal:
+            response.message = f'{refusal.code}: {refusal}'
+            response.success = False
+        except PhysSimError as error:
+            response.message = str(error)
+            response.success = False
+        return response
+
+    return callback

@@ -1,0 +1,107 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+The camera of the world: a pinhole straight above, over the area of all bodies and joints.
+
+Bodies are thin solids, and the camera is the origin of a two-dimensional view: that gives filled
+shapes, y up, and pan and zoom without rotation.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from physsim_ros.model.arrays import Floats
+from physsim_ros.model.settings import Bounds
+from physsim_ros.view.blueprint import HEIGHT, WIDTH
+import rerun as rr
+
+# Focal length of the pinhole: a unit at `DISTANCE` units is drawn as so many pixels, whatever the
+# size of the world.
+PIXELS = 50
+# Distance of the camera from the plane [units].
+DISTANCE = 20.0
+# Area before there are bodies: left, bottom, right, top [m].
+_EMPTY = (-10.0, 0.0, 10.0, 12.0)
+# Margin around the bodies, in shares of the longer side of their area.
+_MARGIN = 0.08
+# Distance from the area at which a body moves the camera, in shares of the longer side.
+_TOLERANCE = 0.5
+
+
+class Camera:
+    """
+    The camera of the view of the world.
+
+    It moves only when the bounds change or a body leaves the widened area, since a view that jumps
+    is hard to follow.
+    """
+
+    def __init__(self) -> None:
+        self._area: Bounds = _EMPTY
+        self._aimed = False
+
+    @property
+    def unit(self) -> float:
+        """Length that is drawn as 50 pixels [m]: about 1 m for a world of 20 m."""
+        left, bottom, right, top = self._area
+        return PIXELS * max((right - left) / WIDTH, (top - bottom) / HEIGHT)
+
+    def show_bounds(self, bounds: Bounds) -> None:
+        """Aim at the boundary of the world: left, bottom, right, top [m]."""
+        self._area, self._aimed = _widened(bounds, _MARGIN / 2), True
+
+    def show_bodies(self, extent: Bounds, ends: Floats) -> None:
+        """
+        Aim at bodies and joints, if one of them lies far outside the area.
+
+        :param extent: of the bodies: left, bottom, right, top [m]
+        :param ends: (j, 2, 2) float64: points of the joints [m]
+        """
+        left, bottom, right, top = extent = _around(extent, ends)
+        near = _widened(self._area, _TOLERANCE)
+        inside = left >= near[0] and bottom >= near[1] and right <= near[2] and top <= near[3]
+        if not self._aimed or not inside:
+            self._area, self._aimed = _widened(extent, _MARGIN), True
+
+    def transform(self) -> rr.ComponentColumnList:
+        """Return the pose of the camera, as columns of one row."""
+        left, bottom, right, top = self._area
+        eye = ((left + right) / 2, (bottom + top) / 2, DISTANCE * self.unit)
+        # Straight down: the x axis of the image is that of the world, its y axis is reversed.
+        return rr.Transform3D.columns(translation=[eye], mat3x3=[np.diag((1.0, -1.0, -1.0))])
+
+
+def pinhole() -> rr.Pinhole:
+    """Return the projection of the camera."""
+    return rr.Pinhole(
+        focal_length=PIXELS * DISTANCE,
+        width=WIDTH,
+        height=HEIGHT,
+        camera_xyz=rr.ViewCoordinates.RDF,
+    )
+
+
+def _around(area: Bounds, ends: Floats) -> Bounds:
+    """Return an area extended to the points of joints, (j, 2, 2) float64."""
+    points = ends.reshape(-1, 2)
+    left, bottom = np.minimum(points.min(axis=0, initial=np.inf), area[:2]).tolist()
+    right, top = np.maximum(points.max(axis=0, initial=-np.inf), area[2:]).tolist()
+    return left, bottom, right, top
+
+
+def _widened(area: Bounds, share: float) -> Bounds:
+    left, bottom, right, top = area
+    more = share * max(right - left, top - bottom)
+    return left - more, bottom - more, right + more, top + more

@@ -1,0 +1,73 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Each shape is written to world files and read again under a key of its own."""
+
+from pathlib import Path
+
+from physsim_ros.model.errors import BadProperty, Refusal, UnknownProperty
+import physsim_ros.model.shapes
+from physsim_ros.model.shapes import Shape, SHAPES
+import pytest
+
+from ...building import SHAPES as EXAMPLES
+
+# Modules that are no shape.
+SHARED = {
+    'convex_decomposition',
+    'convex_pieces',
+    'mass_properties',
+    'pieces',
+    'polygon_geometry',
+    'validation',
+}
+FILES = {path.stem for path in Path(physsim_ros.model.shapes.__file__).parent.glob('[!_]*.py')}
+
+
+def test_every_file_of_a_shape_is_a_shape() -> None:
+    modules = {shape.__module__.rpartition('.')[2] for shape in SHAPES.values()}
+
+    assert modules == FILES - SHARED
+
+
+@pytest.mark.parametrize('shape', EXAMPLES.values(), ids=EXAMPLES.keys())
+def test_a_shape_is_read_as_it_was_written(shape: Shape) -> None:
+    assert SHAPES[shape.KEY].from_entry(shape.entry()) == shape
+
+
+@pytest.mark.parametrize('key', SHAPES)
+@pytest.mark.parametrize('entry', [None, 1, 'round', {}, {'points': None}, [1, 2]])
+def test_an_entry_that_is_none_is_refused(key: str, entry: object) -> None:
+    with pytest.raises(Refusal):
+        SHAPES[key].from_entry(entry)
+
+
+@pytest.mark.parametrize(
+    ('entry', 'error', 'field'),
+    [
+        ({'centers': [[0, 0]]}, BadProperty, 'shape'),
+        (
+            {'circle': {'radius': 1}, 'box': {'width': 1, 'height': 1}, 'centers': [[0, 0]]},
+            BadProperty,
+            'shape',
+        ),
+        ({'polygon': [[0, 0], [1, 0], [0, 1]], 'centers': [[0, 0]]}, UnknownProperty, 'polygon'),
+    ],
+)
+def test_a_compound_is_made_of_one_disc_or_box(
+    entry: object, error: type[Refusal], field: str
+) -> None:
+    with pytest.raises(error) as refused:
+        SHAPES['compound'].from_entry(entry)
+    assert refused.value.field == field

@@ -1,0 +1,191 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Shapes weigh what they enclose: area, centroid, gyration and extent by their formulas."""
+
+from itertools import pairwise
+import math
+
+from physsim_ros.model.shapes import (
+    Box,
+    Chain,
+    Circle,
+    Compound,
+    Disc,
+    Polygon,
+    Shape,
+    Triangles,
+)
+import pytest
+
+from .polygons import (
+    assert_cover,
+    ROUNDING,
+)
+from ...building import ELL, SHAPES
+
+
+def test_a_disc_is_weighed_by_its_formulas() -> None:
+    form = Disc(radius=0.3).form
+
+    assert form.area == pytest.approx(math.pi * 0.09, rel=ROUNDING)
+    assert form.centroid == (0.0, 0.0)
+    assert form.gyration == pytest.approx(0.09 / 2, rel=ROUNDING)
+    assert form.outer == form.inner == 0.3
+    assert form.pieces == (Circle((0.0, 0.0), 0.3),)
+
+
+def test_a_box_is_weighed_by_its_formulas() -> None:
+    form = Box(width=3.0, height=0.4).form
+
+    assert form.area == pytest.approx(1.2, rel=ROUNDING)
+    assert form.centroid == (0.0, 0.0)
+    assert form.gyration == pytest.approx((3.0**2 + 0.4**2) / 12, rel=ROUNDING)
+    assert form.outer == pytest.approx(math.hypot(1.5, 0.2), rel=ROUNDING)
+    assert form.inner == pytest.approx(0.2, rel=ROUNDING)
+
+
+def test_a_right_triangle_is_weighed_by_its_formulas() -> None:
+    form = Polygon(outline=((1.0, 1.0), (4.0, 1.0), (1.0, 5.0))).form
+
+    assert form.area == pytest.approx(6.0, rel=ROUNDING)
+    assert form.centroid == pytest.approx((2.0, 1.0 + 4.0 / 3.0), rel=ROUNDING)
+    # Of a triangle about its centroid: the sum of its squared sides by 36.
+    assert form.gyration == pytest.approx((9.0 + 16.0 + 25.0) / 36.0, rel=ROUNDING)
+    # The far corner is that of the longer leg.
+    assert form.outer == pytest.approx(math.hypot(1.0, 4.0 * 2.0 / 3.0), rel=ROUNDING)
+    # Half of its height over the longest side, 3 · 4 / 5.
+    assert form.inner == pytest.approx(1.2, rel=ROUNDING)
+
+
+def test_a_capsule_is_weighed_as_a_bar_with_two_half_discs() -> None:
+    length, radius = 2.0, 0.25
+
+    form = Chain(points=((0.0, 1.0), (length, 1.0)), thickness=2 * radius).form
+
+    bar, caps = 2 * radius * length, math.pi * radius**2
+    # https://en.wikipedia.org/wiki/List_of_second_moments_of_area: a half disc about its own
+    # centroid, 4r/3π from its base, and from there to the middle of the bar.
+    reach = 4 * radius / (3 * math.pi)
+    own = radius**2 / 2 - reach**2
+    moment = bar * (length**2 + 4 * radius**2) / 12 + caps * (own + (length / 2 + reach) ** 2)
+    assert form.area == pytest.approx(bar + caps, rel=ROUNDING)
+    assert form.centroid == pytest.approx((1.0, 1.0), rel=ROUNDING)
+    assert form.gyration == pytest.approx(moment / (bar + caps), rel=ROUNDING)
+    assert form.outer == pytest.approx(length / 2 + radius, rel=ROUNDING)
+    assert form.inner == radius
+
+
+def test_a_chain_is_the_sum_of_its_capsules() -> None:
+    points = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (3.0, 1.0))
+    links = [Chain(points=pair, thickness=0.2).form for pair in pairwise(points)]
+
+    form = Chain(points=points, thickness=0.2).form
+
+    area = sum(link.area for link in links)
+    x = sum(link.area * link.centroid[0] for link in links) / area
+    y = sum(link.area * link.centroid[1] for link in links) / area
+    moment = sum(
+        link.area * (link.gyration + (link.centroid[0] - x) ** 2 + (link.centroid[1] - y) ** 2)
+        for link in links
+    )
+    assert form.area == pytest.approx(area, rel=ROUNDING)
+    assert form.centroid == pytest.approx((x, y), rel=ROUNDING)
+    assert form.gyration == pytest.approx(moment / area, rel=ROUNDING)
+    assert len(form.pieces) == 3
+
+
+@pytest.mark.parametrize('step', [1, -1], ids=['counter-clockwise', 'clockwise'])
+@pytest.mark.parametrize('first', range(6))
+def test_an_ell_is_two_boxes_by_parallel_axes(step: int, first: int) -> None:
+    outline = (ELL.outline[first:] + ELL.outline[:first])[::step]
+
+    form = Polygon(outline=outline).form
+
+    # A box of 2 by 1 about (1, 0.5), and one of 1 by 1 about (0.5, 1.5).
+    center = 5.0 / 6.0
+    moment = 2.0 * (5.0 / 12.0 + (1.0 - center) ** 2 + (0.5 - center) ** 2)
+    moment += 1.0 * (2.0 / 12.0 + (0.5 - center) ** 2 + (1.5 - center) ** 2)
+    assert form.area == pytest.approx(3.0, rel=ROUNDING)
+    assert form.centroid == pytest.approx((center, center), rel=ROUNDING)
+    assert form.gyration == pytest.approx(moment / 3.0, rel=ROUNDING)
+    assert form.outer == pytest.approx(math.hypot(2.0 - center, center), rel=ROUNDING)
+    assert len(form.pieces) == 2
+    assert_cover(form.pieces, 3.0)
+
+
+@pytest.mark.parametrize('element', [Disc(radius=0.5), Box(width=1.0, height=0.5)])
+def test_a_compound_is_its_elements_by_parallel_axes(element: Disc | Box) -> None:
+    form = Compound(element=element, centers=((0.0, 0.0), (3.0, 0.0), (0.0, 6.0))).form
+
+    assert form.area == pytest.approx(3 * element.form.area, rel=ROUNDING)
+    assert form.centroid == pytest.approx((1.0, 2.0), rel=ROUNDING)
+    shifts = (1.0 + 4.0) + (4.0 + 4.0) + (1.0 + 16.0)
+    assert form.gyration == pytest.approx(element.form.gyration + shifts / 3, rel=ROUNDING)
+    assert form.inner == element.form.inner
+
+
+def test_triangles_are_summed_and_may_be_given_either_way_round() -> None:
+    square = Triangles(
+        vertices=((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 0.0), (0.0, 1.0), (1.0, 1.0))
+    )
+
+    assert square.form.area == pytest.approx(1.0, rel=ROUNDING)
+    assert square.form.centroid == pytest.approx((0.5, 0.5), rel=ROUNDING)
+    assert square.form.gyration == pytest.approx(1.0 / 6.0, rel=ROUNDING)
+    assert_cover(square.form.pieces, 1.0)
+
+
+def test_a_small_shape_far_from_its_origin_loses_no_digits() -> None:
+    far, side = 9e4, 0.01
+    near_corner = [(0.0, 0.0), (side, 0.0), (side, side / 2), (side / 2, side / 2), (0.0, side)]
+
+    form = Polygon(outline=tuple((far + x, far + y) for x, y in near_corner)).form
+
+    exact = Polygon(outline=tuple(near_corner)).form
+    # Coordinates of 90 km resolve 15 pm, a 1e-9th of the side.
+    assert form.area == pytest.approx(exact.area, rel=1e-8)
+    assert form.gyration == pytest.approx(exact.gyration, rel=1e-7)
+    assert form.centroid == pytest.approx(
+        (far + exact.centroid[0], far + exact.centroid[1]), abs=1e-10
+    )
+
+
+def test_a_symmetric_shape_is_balanced_about_its_origin_to_the_bit() -> None:
+    angles = [2 * math.pi * k / 10 for k in range(10)]
+    star = [
+        ((1.0, 0.4)[k % 2] * math.cos(a), (1.0, 0.4)[k % 2] * math.sin(a))
+        for k, a in enumerate(angles)
+    ]
+
+    assert Polygon(outline=tuple(star)).form.centroid == (0.0, 0.0)
+
+
+def test_whole_numbers_make_the_same_shape_as_fractions() -> None:
+    assert repr(Disc(radius=1)) == repr(Disc(radius=1.0))
+    assert repr(Box(width=2, height=1)) == repr(Box(width=2.0, height=1.0))
+    assert repr(Chain(points=((0, 0), (1, 0)), thickness=1)) == repr(
+        Chain(points=((0.0, 0.0), (1.0, 0.0)), thickness=1.0)
+    )
+    assert repr(Polygon(outline=((0, 0), (1, 0), (0, 1)))) == repr(
+        Polygon(outline=((0.0, 0.0), (1.0, 0.0), (0.0, 1.0)))
+    )
+
+
+@pytest.mark.parametrize('shape', SHAPES.values(), ids=SHAPES.keys())
+def test_equal_shapes_are_equal_and_hash_alike(shape: Shape) -> None:
+    twin = eval(repr(shape))  # noqa: S307 - the repr of a value of our own
+
+    assert twin == shape
+    assert hash(twin) == hash(shape)

@@ -1,0 +1,248 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Shapes that cannot be simulated are refused, and the field is named."""
+
+import math
+
+from physsim_ros.model.errors import BadOutline, BadSize, Malformed, Refusal
+from physsim_ros.model.shapes import (
+    Box,
+    Chain,
+    Compound,
+    Disc,
+    LARGEST,
+    MOST_POINTS,
+    Polygon,
+    SMALLEST,
+    Triangles,
+)
+import pytest
+
+from .polygons import assert_cover
+
+LENGTHS = {
+    'nan': (math.nan, Malformed),
+    'infinite': (math.inf, Malformed),
+    'minus infinite': (-math.inf, Malformed),
+    'zero': (0.0, BadSize),
+    'negative': (-1.0, BadSize),
+    'tiny': (math.nextafter(SMALLEST, 0.0), BadSize),
+    'huge': (math.nextafter(LARGEST, math.inf), BadSize),
+}
+
+
+@pytest.mark.parametrize(('value', 'error'), LENGTHS.values(), ids=LENGTHS.keys())
+def test_a_length_out_of_range_is_refused_and_named(value: float, error: type[Refusal]) -> None:
+    segment = ((0.0, 0.0), (1.0, 0.0))
+    for field, make in (
+        ('radius', lambda: Disc(radius=value)),
+        ('width', lambda: Box(width=value, height=1.0)),
+        ('height', lambda: Box(width=1.0, height=value)),
+        ('thickness', lambda: Chain(points=segment, thickness=value)),
+    ):
+        with pytest.raises(error) as refused:
+            make()
+        assert refused.value.field == field
+
+
+@pytest.mark.parametrize('length', [SMALLEST, 1.0, LARGEST])
+def test_a_length_at_the_end_of_its_range_is_taken(length: float) -> None:
+    assert Disc(radius=length).form.inner == length
+    assert Box(width=length, height=length).form.inner == length / 2
+
+
+@pytest.mark.parametrize('value', [math.nan, math.inf, -math.inf])
+def test_a_coordinate_that_is_not_finite_is_malformed(value: float) -> None:
+    for make in (
+        lambda: Polygon(outline=((0.0, 0.0), (1.0, value), (0.0, 1.0))),
+        lambda: Chain(points=((0.0, 0.0), (value, 0.0)), thickness=0.1),
+        lambda: Triangles(vertices=((0.0, 0.0), (1.0, value), (0.0, 1.0))),
+        lambda: Compound(element=Disc(radius=1.0), centers=((value, 0.0),)),
+    ):
+        with pytest.raises(Malformed):
+            make()
+
+
+@pytest.mark.parametrize(
+    'points',
+    [((0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 1.0, 0.0), (0.0, 1.0, 0.0)), ((0.0,), (1.0,)),
+     (0.0, 1.0, 2.0, 3.0), (('a', 'b'), ('c', 'd'), ('e', 'f')), ((None, 0.0),) * 3],
+)  # fmt: skip
+def test_what_are_no_pairs_of_numbers_is_malformed(points: object) -> None:
+    for make in (
+        lambda: Polygon(outline=points),
+        lambda: Chain(points=points, thickness=0.1),
+        lambda: Triangles(vertices=points),
+        lambda: Compound(element=Disc(radius=1.0), centers=points),
+    ):
+        with pytest.raises(Malformed):
+            make()
+
+
+def test_a_coordinate_beyond_the_largest_is_a_bad_size() -> None:
+    far = math.nextafter(LARGEST, math.inf)
+    for make in (
+        lambda: Polygon(outline=((0.0, 0.0), (far, 0.0), (0.0, 1.0))),
+        lambda: Chain(points=((0.0, 0.0), (far, 0.0)), thickness=0.1),
+        lambda: Triangles(vertices=((0.0, 0.0), (far, 0.0), (0.0, 1.0))),
+        lambda: Compound(element=Disc(radius=1.0), centers=((0.0, -far),)),
+    ):
+        with pytest.raises(BadSize):
+            make()
+
+
+OUTLINES = {
+    'no point': (),
+    'one point': ((0.0, 0.0),),
+    'two points': ((0.0, 0.0), (1.0, 0.0)),
+    'one point thrice': ((1.0, 1.0),) * 3,
+    'two points twice': ((0.0, 0.0), (0.0, 0.0), (1.0, 0.0), (1.0, 0.0)),
+    'on a line': ((0.0, 0.0), (1.0, 1.0), (2.0, 2.0)),
+    'on a slanted line': ((0.0, 0.0), (0.1, 0.3), (0.2, 0.6), (0.7, 2.1)),
+    'there and back': ((0.0, 0.0), (1.0, 0.0), (2.0, 0.0), (1.0, 0.0)),
+    'bow tie': ((0.0, 0.0), (1.0, 1.0), (1.0, 0.0), (0.0, 1.0)),
+    'lopsided bow tie': ((0.0, 0.0), (4.0, 4.0), (4.0, 0.0), (0.0, 1.0)),
+    'pentagram': tuple((math.cos(0.8 * math.pi * k), math.sin(0.8 * math.pi * k))
+                       for k in range(5)),
+    'twice around': tuple((math.cos(math.pi * k / 2), math.sin(math.pi * k / 2))
+                          for k in range(8)),
+    'corner on a side': ((0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (1.0, 0.0), (0.0, 2.0)),
+    'corner on a corner': ((0.0, 0.0), (1.0, 1.0), (2.0, 0.0), (2.0, 2.0), (1.0, 1.0),
+                           (0.0, 2.0)),
+    'side on a side': ((0.0, 0.0), (4.0, 0.0), (4.0, 2.0), (3.0, 2.0), (3.0, 0.0), (1.0, 0.0),
+                       (1.0, 2.0), (0.0, 2.0)),
+    'spike outwards': ((0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (2.0, 3.0), (2.0, 1.0), (0.0, 1.0)),
+    'spike inwards': ((0.0, 0.0), (1.0, 0.0), (1.0, 0.5), (1.0, 0.0), (2.0, 0.0), (2.0, 1.0),
+                      (0.0, 1.0)),
+    'spike along a side': ((0.0, 0.0), (3.0, 0.0), (2.0, 0.0), (2.0, 1.0), (0.0, 1.0)),
+    'too many corners': tuple((math.cos(0.006 * k), math.sin(0.006 * k))
+                              for k in range(MOST_POINTS + 1)),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize('outline', OUTLINES.values(), ids=OUTLINES.keys())
+@pytest.mark.parametrize('step', [1, -1], ids=['as is', 'reversed'])
+@pytest.mark.parametrize('shift', [0.0, 5e4], ids=['here', 'far'])
+def test_an_outline_that_is_none_is_refused(
+    outline: tuple[tuple[float, float], ...], step: int, shift: float
+) -> None:
+    # A power of two apart from what is not representable: lines stay lines after a shift.
+    moved = tuple((x + shift, y) for x, y in outline[::step])
+
+    with pytest.raises(BadOutline):
+        Polygon(outline=moved)
+
+
+@pytest.mark.parametrize(
+    ('name', 'reason'),
+    [
+        ('on a slanted line', 'the outline encloses no area'),
+        ('there and back', 'the outline encloses no area'),
+        ('bow tie', 'the outline crosses or touches itself'),
+        ('lopsided bow tie', 'the outline crosses or touches itself'),
+        ('pentagram', 'the outline crosses or touches itself'),
+    ],
+)
+def test_an_outline_that_crosses_itself_is_told_from_one_without_area(
+    name: str, reason: str
+) -> None:
+    with pytest.raises(BadOutline) as refused:
+        Polygon(outline=OUTLINES[name])
+    assert str(refused.value) == reason
+
+
+@pytest.mark.parametrize('height', [1e-4, 5e-4, 9.9e-4])
+def test_a_solid_that_is_too_thin_is_a_bad_size(height: float) -> None:
+    for outline in (
+        ((0.0, 0.0), (1.0, 0.0), (1.0, height), (0.0, height)),
+        ((0.0, 0.0), (1.0, 0.0), (0.5, height)),
+        # A fat solid with a thin leg, a five-hundredth of it.
+        ((0.0, 0.0), (1.0, 0.0), (1.0, height), (0.2, height), (0.2, 0.2), (0.0, 0.2)),
+    ):
+        with pytest.raises(BadSize):
+            Polygon(outline=outline)
+    with pytest.raises(BadSize):
+        Triangles(vertices=((0.0, 0.0), (1.0, 0.0), (0.5, height)))
+
+
+def test_a_solid_just_thick_enough_is_taken() -> None:
+    height = 1.01 * SMALLEST
+
+    for outline in (
+        ((0.0, 0.0), (1.0, 0.0), (1.0, height), (0.0, height)),
+        ((0.0, 0.0), (1.0, 0.0), (0.5, height)),
+    ):
+        assert Polygon(outline=outline).form.inner == pytest.approx(height / 2, rel=1e-9)
+
+
+def test_a_sliver_is_left_out_of_the_pieces_but_weighed() -> None:
+    # A box with a dent of a tenth of a millimetre beside a corner: one of its parts is thin.
+    outline = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.5, 1.0 - 1e-4), (0.0, 1.0))
+
+    form = Polygon(outline=outline).form
+
+    assert form.area == pytest.approx(1.0 - 0.5e-4, rel=1e-9)
+    assert_cover(form.pieces, form.area, share=1e-3)
+    assert form.inner >= SMALLEST / 2
+
+
+@pytest.mark.parametrize(
+    'points', [(), ((0.0, 0.0),), ((1.0, 2.0),) * 5, ((0.0, 0.0), (1e-7, 0.0))]
+)
+def test_a_chain_without_two_different_points_is_refused(
+    points: tuple[tuple[float, float], ...],
+) -> None:
+    with pytest.raises(BadOutline) as refused:
+        Chain(points=points, thickness=0.1)
+    assert refused.value.field == 'points'
+
+
+@pytest.mark.parametrize('count', [0, 1, 2, 4, 5, 7])
+def test_triangles_take_three_points_each(count: int) -> None:
+    corners = ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0))
+
+    with pytest.raises(BadOutline) as refused:
+        Triangles(vertices=tuple(corners[k % 3] for k in range(count)))
+    assert refused.value.field == 'vertices'
+
+
+@pytest.mark.parametrize(
+    'flat',
+    [((0.0, 0.0),) * 3, ((0.0, 0.0), (1.0, 0.0), (2.0, 0.0)),
+     ((0.0, 0.0), (1.0, 1.0), (1.0, 1.0)), ((0.0, 0.0), (1.0, 1.0), (3.0, 3.0))],
+)  # fmt: skip
+def test_a_flat_triangle_is_refused_among_others(flat: tuple[tuple[float, float], ...]) -> None:
+    with pytest.raises(BadOutline):
+        Triangles(vertices=((0.0, 0.0), (1.0, 0.0), (0.0, 1.0), *flat))
+
+
+def test_a_compound_needs_an_element() -> None:
+    with pytest.raises(BadOutline) as refused:
+        Compound(element=Disc(radius=1.0), centers=())
+    assert refused.value.field == 'centers'
+
+
+def test_as_many_points_as_may_be_are_taken_and_one_more_is_refused() -> None:
+    row = tuple((float(k), 0.0) for k in range(MOST_POINTS + 1))
+
+    assert len(Chain(points=row[:-1], thickness=0.1).form.pieces) == MOST_POINTS - 1
+    assert len(Compound(element=Disc(radius=0.1), centers=row[:-1]).form.pieces) == MOST_POINTS
+    for make in (
+        lambda: Chain(points=row, thickness=0.1),
+        lambda: Compound(element=Disc(radius=0.1), centers=row),
+        lambda: Triangles(vertices=row * 3),
+    ):
+        with pytest.raises(BadOutline):
+            make()

@@ -1,0 +1,70 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Values as people write them are checked, and what is none is refused and named."""
+
+import math
+
+from physsim_ros.model.checks import (
+    check_finite,
+    check_key,
+    known_mapping,
+    number,
+    pair,
+    point_list,
+)
+from physsim_ros.model.errors import BadProperty, Malformed, UnknownProperty
+import pytest
+
+
+def test_numbers_and_pairs_are_told_from_what_only_looks_alike() -> None:
+    assert number(3, 'n') == 3.0
+    assert pair((1, 2), 'p') == (1.0, 2.0)
+    for value in (True, '3', None):
+        with pytest.raises(BadProperty):
+            number(value, 'n')
+    for other in ('ab', None, {1: 2, 3: 4}, {1, 2}):
+        with pytest.raises(BadProperty):
+            pair(other, 'p')
+
+
+def test_a_count_of_finite_numbers_is_checked() -> None:
+    check_finite((1.0, 2.0), 2, 'p')
+    for values in ((1.0,), (1.0, 2.0, 3.0), (1.0, math.nan), (math.inf, 1.0), ()):
+        with pytest.raises(Malformed) as refused:
+            check_finite(values, 2, 'p')
+        assert refused.value.field == 'p'
+
+
+def test_a_known_key_is_let_through() -> None:
+    check_key('b', ['a', 'b'])
+    with pytest.raises(UnknownProperty):
+        check_key('c', ['a', 'b'])
+
+
+def test_a_mapping_has_known_keys_only() -> None:
+    assert known_mapping({'a': 1}, 'm', ['a', 'b']) == {'a': 1}
+    with pytest.raises(UnknownProperty):
+        known_mapping({'c': 1}, 'm', ['a', 'b'])
+    for value in (None, [], 'a'):
+        with pytest.raises(BadProperty) as refused:
+            known_mapping(value, 'm', ['a', 'b'])
+        assert refused.value.field == 'm'
+
+
+def test_a_list_of_points_is_pairs_of_numbers() -> None:
+    assert point_list([[1, 2], (3.0, 4.0)], 'p') == ((1.0, 2.0), (3.0, 4.0))
+    for value, error in ((None, BadProperty), ([1], BadProperty), ([[1]], Malformed)):
+        with pytest.raises(error):
+            point_list(value, 'p')
