@@ -312,10 +312,10 @@ class PhysSimNode(NodeWithoutQosEvents):
     def _click(self, message: PointStamped) -> None:
         with self._drawing_on_snapshot('clicked_point', 'point') as snapshot:
             point, frame = conversions.point_in_frame(message, frame_id=self._frame_id)
-            step = self._session.click(point, frame, snapshot)
-            if step.message:
-                self.simulation.tell(Answer(topic='clicked_point', message=step.message))
-            self._submit_all(step.requests, 'clicked_point', 'point')
+            result = self._session.click(point, frame, snapshot)
+            if result.message:
+                self.simulation.tell(Answer(topic='clicked_point', message=result.message))
+            self._submit_all(result.requests, 'clicked_point', 'point')
 
     def _stroke(self, message: bytes) -> None:
         with self._drawing_on_snapshot('~/stroke', 'poses') as snapshot:
