@@ -405,7 +405,7 @@ class PhysSimNode(NodeWithoutQosEvents):
     # Viewer and diagnostics
 
     def _open_viewer(self) -> None:
-        self._viewer.open(ViewerMode(self._values['viewer']), self._values['viewer_url'])
+        self._viewer.open_viewer(ViewerMode(self._values['viewer']), self._values['viewer_url'])
 
     def record(self, path: Path) -> None:
         """
