@@ -111,7 +111,7 @@ class DrawingSession:
         return SceneQuery(snapshot, first=self._next_body, first_joint=self._next_joint)
 
     def _reserve_names(self, requests: Iterable[Request]) -> None:
-        """Reserve the names of new bodies and joints, whatever becomes of the requests."""
+        """Reserve the names of new bodies and joints, even if the requests are refused later."""
         for request in requests:
             match request:
                 case Spawn(name=name) if split_name(name)[0] == DRAWN:

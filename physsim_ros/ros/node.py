@@ -312,10 +312,10 @@ class PhysSimNode(NodeWithoutQosEvents):
     def _click(self, message: PointStamped) -> None:
         with self._drawing_on_snapshot('clicked_point', 'point') as snapshot:
             point, frame = conversions.point_in_frame(message, frame_id=self._frame_id)
-            step = self._session.click(point, frame, snapshot)
-            if step.message:
-                self.simulation.tell(Answer(topic='clicked_point', message=step.message))
-            self._submit_all(step.requests, 'clicked_point', 'point')
+            result = self._session.click(point, frame, snapshot)
+            if result.message:
+                self.simulation.tell(Answer(topic='clicked_point', message=result.message))
+            self._submit_all(result.requests, 'clicked_point', 'point')
 
     def _stroke(self, message: bytes) -> None:
         with self._drawing_on_snapshot('~/stroke', 'poses') as snapshot:
@@ -405,7 +405,7 @@ class PhysSimNode(NodeWithoutQosEvents):
     # Viewer and diagnostics
 
     def _open_viewer(self) -> None:
-        self._viewer.open(ViewerMode(self._values['viewer']), self._values['viewer_url'])
+        self._viewer.open_viewer(ViewerMode(self._values['viewer']), self._values['viewer_url'])
 
     def record(self, path: Path) -> None:
         """

@@ -192,7 +192,7 @@ class _Stream:
 
     @property
     def subscriptions(self) -> int:
-        """Number of subscriptions; 0 while closed."""
+        """Return the number of subscriptions; 0 while closed."""
         return self._publisher.get_subscription_count() if self.open else 0
 
     def publish(self, frame: Frame) -> None:

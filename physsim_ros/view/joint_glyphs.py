@@ -138,7 +138,7 @@ class JointLines:
         length = np.hypot(span[..., 0], span[..., 1])
         side = np.stack((-span[..., 1], span[..., 0]), axis=-1)
         side /= np.maximum(length, 1e-9)[..., None]
-        # Depth of a shallow arc of the length of the rope: https://en.wikipedia.org/wiki/Parabola#Arc_length.
+        # Depth of a shallow arc: https://en.wikipedia.org/wiki/Parabola#Arc_length.
         slack = np.maximum(0.0, self._rope_lengths - length)
         depth = np.sqrt(3 / 8 * slack * self._rope_lengths)[..., None] * self._down
         joints = self._joints

@@ -213,7 +213,7 @@ class SinkWorker:
 
     def _log_to(self, sink: Sink) -> None:
         """
-        Draw until the outlet is closed, or its way is lost and may be found again.
+        Log frames until the worker ends, or the endpoint is lost and may be opened again.
 
         :raises ConnectionError: it is lost for good
         """

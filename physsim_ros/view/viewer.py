@@ -95,7 +95,7 @@ class Viewer:
     def _workers(self) -> list[SinkWorker]:
         return [worker for worker in (self._file, self._window) if worker is not None]
 
-    def open(self, mode: ViewerMode, url: str = '') -> None:
+    def open_viewer(self, mode: ViewerMode, url: str = '') -> None:
         """
         Open another viewer, which shows the last frame too; the file is not affected.
 

@@ -45,7 +45,7 @@ def fail(*_):
     raise ZeroDivisionError
 
 
-PhysSimNode._report = fail
+PhysSimNode._report_answer = fail
 main()
 """
 

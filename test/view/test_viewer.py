@@ -157,7 +157,7 @@ def viewers():
         made.append(viewer)
         if record_file:
             viewer.record(record_file)
-        viewer.open(mode, url)
+        viewer.open_viewer(mode, url)
         return viewer
 
     yield make
@@ -266,11 +266,11 @@ def test_what_is_recorded_goes_on_when_the_viewer_changes(viewers, server, tmp_p
     path = tmp_path / 'it.rrd'
     viewer = viewers(record_file=str(path))
     viewer.show(frame(0, 'first'), real_time_factor=1.0)
-    viewer.open(ViewerMode.CONNECT, server.url)
+    viewer.open_viewer(ViewerMode.CONNECT, server.url)
     viewer.show(frame(4, 'second'), real_time_factor=1.0)
     # The one before is in the new viewer too: the world may stand still.
     server.wait_for('/events', 2)
-    viewer.open(ViewerMode.NONE)
+    viewer.open_viewer(ViewerMode.NONE)
     viewer.show(frame(8, 'third'), real_time_factor=1.0)
     assert 'connect' not in viewer.state
     viewer.close()
@@ -474,7 +474,7 @@ FROZEN = """
     url, path, server = sys.argv[1], sys.argv[2], int(sys.argv[3])
     viewer = Viewer()
     viewer.record(path)
-    viewer.open(ViewerMode.CONNECT, url)
+    viewer.open_viewer(ViewerMode.CONNECT, url)
     events = Events(viewer)
     until(lambda: viewer.state.count(', open,') == 2)
     os.kill(server, signal.SIGSTOP)

@@ -78,27 +78,27 @@ class Click:
         return scene.in_world(self.hit_body(scene), self.local) if self.body else self.point
 
 
-def checked_distance(start: Point, end: Point, settings: DrawingSettings, what: str) -> float:
+def checked_distance(start: Point, end: Point, settings: DrawingSettings, name: str) -> float:
     """
     Return the distance of two points [m].
 
-    :param what: name of the distance, for the message of the refusal
+    :param name: of the distance, for the message of the refusal
     :raises BadSize: it is below the least length that clicks can draw
     """
-    return checked_length(math.dist(start, end), settings, what)
+    return checked_length(math.dist(start, end), settings, name)
 
 
-def checked_length(length: float, settings: DrawingSettings, what: str) -> float:
+def checked_length(length: float, settings: DrawingSettings, name: str) -> float:
     """
     Return a length [m].
 
-    :param what: name of the length, for the message of the refusal
+    :param name: of the length, for the message of the refusal
     :raises BadSize: it is below the least length that clicks can draw
     """
     least = _least(settings)
     if length < least:
         raise BadSize(
-            f'{what} is {length:.3g} m long; below {least:.3g} m it is a slip of the hand',
+            f'{name} is {length:.3g} m long; below {least:.3g} m it is a slip of the hand',
             field='point',
         )
     return length

@@ -134,8 +134,8 @@ def polygon(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSetting
         corners = without_repeats(points[:-1], settings)
         return _finished(body_requests.polygon(scene.next_body(), corners, settings))
     count = len(without_repeats(points, settings))
-    said = 'a corner is set' if count == 1 else f'{count} corners are set'
-    return _next_click(said, 'the next corner, or the first one again to close it')
+    done = 'a corner is set' if count == 1 else f'{count} corners are set'
+    return _next_click(done, 'the next corner, or the first one again to close it')
 
 
 def wall(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings) -> ClickResult:
@@ -261,8 +261,8 @@ def _middle(start: Point, end: Point) -> Point:
     return (start[0] + end[0]) / 2, (start[1] + end[1]) / 2
 
 
-def _next_click(said: str, wanted: str) -> ClickResult:
-    return ClickResult(message=f'{said}; next: {wanted}')
+def _next_click(done: str, wanted: str) -> ClickResult:
+    return ClickResult(message=f'{done}; next: {wanted}')
 
 
 def _finished(*requests: Request) -> ClickResult:

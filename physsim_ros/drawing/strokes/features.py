@@ -143,7 +143,7 @@ def crossings_of(points: Floats) -> list[Crossing]:
     # segment, columns by the second.
     away_x, away_y = start_x.T - start_x, start_y.T - start_y
     sine = step_x[:, None] * step_y - step_y[:, None] * step_x
-    # Parallel segments do not cross, whatever their rounding errors.
+    # Parallel segments do not cross; their rounding errors are excluded.
     lengths = np.hypot(step_x, step_y)
     near = _PAIRS & (np.abs(sine) > 1e-6 * lengths[:, None] * lengths)
     sine = np.where(near, sine, 1.0)

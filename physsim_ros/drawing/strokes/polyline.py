@@ -60,7 +60,7 @@ def smoothed(points: Floats, width: float, *, closed: bool) -> Floats:
 
 def widened(outline: Floats) -> tuple[Floats, Floats]:
     """
-    Return a closed polyline stretched across, so that corners at its narrow ends lie apart.
+    Return a closed polyline stretched across, so that corners at its narrow ends are distinct.
 
     :return: the polyline, evenly spaced; and the (2, 2) matrix that undoes the stretching
     """

@@ -67,8 +67,8 @@ def polygon_outline(corners: Floats, tolerance: float) -> Floats:
 
 
 def line(points: Floats, tolerance: float) -> Floats:
-    """Return a polyline with nearly horizontal and vertical sides made so."""
-    made = points.copy()
+    """Return a polyline with nearly horizontal and vertical sides regularised."""
+    result = points.copy()
     sides = np.diff(points, axis=0)
     for axis in (0, 1):
         # Sides that hardly change along an axis.
@@ -80,9 +80,9 @@ def line(points: Floats, tolerance: float) -> Floats:
                 last += 1
             if last > first:
                 run = slice(first, last + 1)
-                made[run, axis] = points[run, axis].mean()
+                result[run, axis] = points[run, axis].mean()
             first = last + 1
-    return made if tolerance > 0 else points
+    return result if tolerance > 0 else points
 
 
 def _regular(corners: Floats, tolerance: float) -> Floats | None:
@@ -101,7 +101,7 @@ def _regular(corners: Floats, tolerance: float) -> Floats | None:
     off = np.abs(np.angle(firsts * np.exp(-1j * first)))
     if off.max() > tolerance or np.ptp(radii) > 2 * tolerance * radii.mean():
         return None
-    # A nearly horizontal or vertical side is made so.
+    # A nearly horizontal or vertical side becomes exactly so.
     normals = first + turn * (np.arange(count) + 0.5)
     slants = normals - np.round(normals / (math.pi / 2)) * math.pi / 2
     slant = float(slants[np.abs(slants).argmin()])
@@ -113,7 +113,7 @@ def _regular(corners: Floats, tolerance: float) -> Floats | None:
 
 
 def _squared(corners: Floats, tolerance: float) -> Floats:
-    """Return corners with sides made horizontal, vertical or perpendicular that nearly are."""
+    """Return corners whose nearly horizontal, vertical or perpendicular sides are exactly so."""
     following = np.roll(corners, -1, axis=0)
     sides = following - corners
     angles = np.arctan2(sides[:, 1], sides[:, 0])
@@ -128,15 +128,15 @@ def _squared(corners: Floats, tolerance: float) -> Floats:
         angles = np.where(np.abs(slants) <= tolerance, angles - slants, angles)
     middles = (corners + following) / 2
     along = np.column_stack((np.cos(angles), np.sin(angles)))
-    made = corners.copy()
+    result = corners.copy()
     for corner in range(len(corners)):
         (p, u), (q, v) = ((middles[side], along[side]) for side in (corner - 1, corner))
         sine = float(cross(u, v))
         # The intersection of nearly parallel lines is ill-conditioned.
         if abs(sine) > 0.3:
-            made[corner] = p + u * (float(cross(q - p, v)) / sine)
-    moved = np.hypot(*(made - corners).T)
-    return made if moved.max() <= tolerance * lengths.mean() + 1e-12 else corners
+            result[corner] = p + u * (float(cross(q - p, v)) / sine)
+    moved = np.hypot(*(result - corners).T)
+    return result if moved.max() <= tolerance * lengths.mean() + 1e-12 else corners
 
 
 def _has_right_angle(corners: Floats) -> bool:
@@ -147,7 +147,7 @@ def _has_right_angle(corners: Floats) -> bool:
 
 
 def _isosceles(corners: Floats, tolerance: float) -> Floats:
-    """Return a triangle with two nearly equal sides made equal."""
+    """Return a triangle whose two nearly equal sides are equal."""
     sides = np.hypot(*(np.roll(corners, -1, axis=0) - corners).T)
     # Relative difference of the two sides at each corner.
     ahead, behind = sides, np.roll(sides, 1)
@@ -157,6 +157,6 @@ def _isosceles(corners: Floats, tolerance: float) -> Floats:
         return corners
     base = corners[[apex - 1, (apex + 1) % 3]]
     along = (base[1] - base[0]) / np.hypot(*(base[1] - base[0]))
-    made = corners.copy()
-    made[apex] -= along * float((corners[apex] - base.mean(axis=0)) @ along)
-    return made
+    result = corners.copy()
+    result[apex] -= along * float((corners[apex] - base.mean(axis=0)) @ along)
+    return result

@@ -47,25 +47,25 @@ def preview_message(preview: Preview, *, frame_id: str, stamp: int) -> MarkerArr
     :param stamp: simulation time [ns]
     """
     extent = _extent([*preview.points, *(point for line in preview.lines for point in line)])
-    made = [Marker(action=Marker.DELETEALL)]
+    markers = [Marker(action=Marker.DELETEALL)]
     width = _sized(_LINE, extent)
-    made += [_marker(Marker.LINE_STRIP, line, width) for line in preview.lines]
+    markers += [_marker(Marker.LINE_STRIP, line, width) for line in preview.lines]
     if preview.points:
         dot = _sized(_DOT, extent)
-        made.append(_marker(Marker.SPHERE_LIST, preview.points, dot, dot))
+        markers.append(_marker(Marker.SPHERE_LIST, preview.points, dot, dot))
     if preview.label:
         letter = _sized(_LETTER, extent)
         label = _marker(Marker.TEXT_VIEW_FACING, (), 0.0)
         label.text, label.scale.z = preview.label, letter
         x, y = preview.top
         label.pose.position = PointMessage(x=x, y=y + letter, z=_HEIGHT)
-        made.append(label)
+        markers.append(label)
     seconds, nanoseconds = divmod(stamp, SECOND)
-    for number, marker in enumerate(made):
+    for number, marker in enumerate(markers):
         marker.header.frame_id = frame_id
         marker.header.stamp = Time(sec=seconds, nanosec=nanoseconds)
         marker.ns, marker.id = NAMESPACE, number
-    return MarkerArray(markers=made)
+    return MarkerArray(markers=markers)
 
 
 def _marker(kind: int, points: Iterable[Point], width: float, depth: float = 0.0) -> Marker:
