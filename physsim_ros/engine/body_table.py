@@ -30,7 +30,7 @@ import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.engine.batch_io import BatchIO, Ids
 from physsim_ros.engine.body import REST, RigidBody
-from physsim_ros.engine.ccd import continuous
+from physsim_ros.engine.ccd.safe_moves import safe_depths, turning_radius
 from physsim_ros.engine.islands import flood, Rows
 from physsim_ros.model.arrays import Floats, Ints
 from physsim_ros.model.joints import JointKind
@@ -48,11 +48,13 @@ class SceneColumns(NamedTuple):
     :ivar dynamic: (n + 1,) bool: forces move it; never the background
     :ivar anchored: (n + 1,) bool: it does not move at all; always the background
     :ivar friction: (n + 1,) float64: the engine's coefficient, whose products are those of pairs
+    :ivar elasticity: (n + 1,) float64: the same of restitution
     :ivar reach: (n,) float64: greatest distance of a point of it from the centre of mass [m]
     :ivar offsets: (n, 2) float64: the engine's origin in the body's frame [m]
     :ivar gravity_lead: (n, 3) float64: half a step of gravity [m/s, m/s, rad/s]
-    :ivar max_depths: (n,) float64: how far it may move in a step without continuous collision [m]
-    :ivar sweep_arms: (n,) float64: factor from its spin to a speed that counts for that [m]
+    :ivar solid: (n,) bool: neither anchored nor a sensor
+    :ivar safe_depths: (n,) float64: how far it may be entered in a step unseen [m]
+    :ivar turning_radii: (n,) float64: how far out its turning counts for continuous collision [m]
     :ivar groups: (n,) int64: bodies of one group pass through each other; 0 is none
     :ivar joined: (j, 2) intp: rows of the two bodies of each joint
     :ivar not_colliding: (k, 2) intp: rows of bodies that a joint keeps from colliding
@@ -65,11 +67,13 @@ class SceneColumns(NamedTuple):
     dynamic: Flags
     anchored: Flags
     friction: Floats
+    elasticity: Floats
     reach: Floats
     offsets: Floats
     gravity_lead: Floats
-    max_depths: Floats
-    sweep_arms: Floats
+    solid: Flags
+    safe_depths: Floats
+    turning_radii: Floats
     groups: Ints
     joined: Rows
     not_colliding: Rows
@@ -130,18 +134,26 @@ class BodyTable:
     def state(self) -> Floats:
         """Return (n, 6) float64: poses and velocities of the engine's origins; not to be written."""
         if self._state is None:
-            listed, states = self._io.read_states()
-            if not np.array_equal(listed, self._listed):
-                self._listed = listed
-                self.slot_changes += 1
-                self._map_slots()
-            self._state = states.take(self._slots, axis=0)
+            self._state = self.read_states()[:-1]
         return self._state
+
+    def read_states(self) -> Floats:
+        """
+        Return poses and velocities as the engine has them now, in the middle of a step too.
+
+        :return: (n + 1, 6) float64, by row [m, rad, m/s, rad/s]
+        """
+        listed, states = self._io.read_states()
+        if not np.array_equal(listed, self._listed):
+            self._listed = listed
+            self.slot_changes += 1
+            self._map_slots()
+        return states.take(self._slots, axis=0)
 
     def write_state(self, state: Floats) -> None:
         """Set the poses and velocities of all bodies, (n, 6) float64; none may sleep."""
         states = np.zeros((len(self._listed), 6))
-        states[self._slots] = state
+        states[self._slots[:-1]] = state
         self._io.write_states(states)
         self.forget_state()
 
@@ -173,9 +185,9 @@ class BodyTable:
         rows = self.rows_of(self._listed)
         slots = np.empty(len(self.ids), np.intp)
         slots[rows] = np.arange(len(rows))
-        self._slots = slots[:-1]
+        self._slots = slots
         # The engine lists sleeping bodies behind all static ones, the background among them.
-        self.asleep = self.columns.dynamic[:-1] & (self._slots > slots[-1])
+        self.asleep = self.columns.dynamic[:-1] & (slots[:-1] > slots[-1])
 
 
 # A world is often built anew from the scene that it has, and then another one follows it.
@@ -187,8 +199,6 @@ def _columns_of(scene: Scene, dt: float) -> SceneColumns:
     sensor = np.array([body.sensor for body in bodies], np.bool_)
     lead = (*(half * dt / 2 for half in scene.settings.gravity), 0.0)
     friction = [*(body.friction for body in bodies), scene.settings.friction]
-    depths = continuous.safe_depths(bodies)
-    swept = ~anchored[:-1] & ~sensor
     rows = {name: row for row, name in enumerate(scene.names)}
     ends = [(rows[joint.a], rows.get(joint.b, count)) for joint in scene.joints]
     joined = np.array(ends, np.intp).reshape(-1, 2)
@@ -204,11 +214,13 @@ def _columns_of(scene: Scene, dt: float) -> SceneColumns:
         dynamic=dynamic,
         anchored=anchored,
         friction=np.sqrt(friction),
+        elasticity=np.sqrt([*(body.elasticity for body in bodies), scene.settings.elasticity]),
         reach=np.array([body.shape.form.outer for body in bodies]),
         offsets=np.where(anchored[:-1, None], 0.0, scene.centroids),
         gravity_lead=np.where(dynamic[:-1, None], lead, 0.0),
-        max_depths=np.where(swept, depths, np.inf),
-        sweep_arms=np.where(swept, [continuous.arm(body) for body in bodies], 0.0),
+        solid=~anchored[:-1] & ~sensor,
+        safe_depths=safe_depths(bodies),
+        turning_radii=np.array([turning_radius(body) for body in bodies]),
         groups=np.array([body.group for body in bodies], np.int64),
         joined=joined,
         not_colliding=joined[~collide],
@@ -225,7 +237,7 @@ def _sprung(dynamic: Flags, joined: Rows, springs: Flags) -> Flags:
     :param joined: (j, 2) intp: rows of each joint
     :param springs: (j,) bool: which of the joints are springs
     """
-    within = dynamic[joined].all(axis=1)
+    within: Flags = dynamic[joined].all(axis=1)
 
     def islands_with(joints: Flags) -> Flags:
         marked = np.zeros(len(dynamic), np.bool_)

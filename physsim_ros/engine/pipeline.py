@@ -20,8 +20,8 @@ The pipeline: one step of the engine, stage by stage in this order.
 3. Resting damping: the solver's error is removed from what friction locks in place.
 4. Continuous collision: fast bodies are advanced to where they first touch something.
 5. Joints: the target velocity of constraints is set to the centripetal term.
-6. Pymunk's step: positions, narrow phase, solver, sleeping. As pairs begin to touch, in the middle
-   of it: impact propagation, first manifolds for the contact report.
+6. Pymunk's step: positions, narrow phase, solver, sleeping. In the middle of it: contact projection
+   as two shapes begin to touch, and impact propagation before the solver runs.
 7. Joints: gaps are closed in positions.
 8. Half-step velocity: free flight is found.
 9. Contact report: impulses are added up.
@@ -34,6 +34,7 @@ from physsim_ros.engine.batch_io import BatchIO
 from physsim_ros.engine.ccd.continuous import ContinuousCollision
 from physsim_ros.engine.contact_report import ContactReport
 from physsim_ros.engine.joints.joint_set import JointSet
+from physsim_ros.engine.stages.contact_projection import project_contact
 from physsim_ros.engine.stages.half_step import HalfStep
 from physsim_ros.engine.stages.impact_propagation import ImpactPropagation
 from physsim_ros.engine.stages.resting_damping import RestingDamping
@@ -60,7 +61,7 @@ class Pipeline:
         self.wrenches = Wrenches()
         self.half_step = HalfStep(engine, io)
         self.resting_damping = RestingDamping(io, dt)
-        self.continuous_collision = ContinuousCollision(engine, io, dt)
+        self.continuous_collision = ContinuousCollision(engine)
         self.impact_propagation = ImpactPropagation(engine, io)
         self.contact_report = ContactReport(io)
         self._joints = joints
@@ -82,9 +83,9 @@ class Pipeline:
         self.resting_damping.damp_resting(context)
         self.continuous_collision.clamp_moves(context)
         self._joints.set_targets(context)
-        self._context = context
+        self._context, self.impact_propagation.table = context, table
         self._engine.step(context.dt)
-        self._context = None
+        self._context = self.impact_propagation.table = None
         table.forget_state()
         self._joints.close_gaps(context)
         self.half_step.find_free(context)
@@ -99,5 +100,9 @@ class Pipeline:
 
     def _begin_contact(self, arbiter: pymunk.Arbiter, space: pymunk.Space, _: object) -> None:
         """Handle two shapes that begin to touch, before the solver runs."""
-        if self._context is not None and self._context.watching:
-            self.contact_report.begin(arbiter, arbiter.contact_point_set)
+        if self._context is None:
+            return
+        contact = arbiter.contact_point_set
+        project_contact(arbiter, contact, space)
+        if self._context.watching:
+            self.contact_report.begin(arbiter, contact)

@@ -32,6 +32,7 @@ from physsim_ros.engine.body import REST, RigidBody
 from physsim_ros.engine.body_set import BodySet
 from physsim_ros.engine.body_table import BodyTable
 from physsim_ros.engine.boundary import Boundary
+from physsim_ros.engine.ccd.time_of_impact import SLOP
 from physsim_ros.engine.joints.joint_set import JointSet
 from physsim_ros.engine.joints.spring import check_stiffness
 from physsim_ros.engine.pipeline import Pipeline
@@ -45,8 +46,6 @@ from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.transform import Point, Pose
 import pymunk
 
-# Overlap that the engine leaves standing [m]; its own 0.1 is 10 cm in a metre world.
-SLOP = 0.005
 # A body that is farther or faster than this has left every world [m, m/s]; float64 holds 0.1 mm
 # there.
 LOST = 1e12
@@ -216,6 +215,7 @@ class Space:
         touching = self.bodies.touching(rigid.engine)
         rigid.pose = self._with_turns(rigid, pose)
         self.bodies.wake_around(rigid, touching)
+        self.pipeline.continuous_collision.invalidate()
         self.pipeline.half_step.release_bodies(touching)
         self._note_motion()
 

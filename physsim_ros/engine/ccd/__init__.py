@@ -15,6 +15,6 @@
 """
 Continuous collision detection: fast bodies do not pass through what is in their way.
 
-Candidates, broad phase, time of impact, and the clamp that ends a move there. Discrete contacts
-are the engine's own. Start with `continuous`.
+Broad phase of swept boxes, time of impact, and the clamp that ends a move there. Contacts
+are resolved by the engine. Start with `continuous`.
 """

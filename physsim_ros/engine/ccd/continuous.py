@@ -13,360 +13,346 @@
 # limitations under the License.
 
 """
-Fast bodies: the engine looks only at where a step ends, this looks at the way there.
+Continuous collision: the coming step of fast bodies ends where they first hit something.
 
-Law: a body that moves more than a quarter of its inner radius a step, or one of several pieces
-more than a quarter of that of the smallest body, is swept along its way first; where it would
-enter something, the step ends there. The engine then finds the contact and resolves it with the
-full velocity. What a kinematic body would run over is carried along to where the step ends. What
-a slower body overshoots at a first touch is taken back in `relieve`. None of these changes a
-velocity, but for what gravity or a wrench gave on the way that is taken back, unless there are
-joints: else what falls would gain energy by each bounce. Of a crowd in which there is more to
-look at than a step allows, the rest may pass.
+The engine tests for overlap only where a step ends. Pairs that approach by more than a safe depth
+in a step are found by a broad phase of swept boxes, and advanced to their time of impact. For the
+rest of the step the two move as one rigid body with their common momentum and angular momentum
+(a perfectly plastic impact, of the positions only): a light body is carried along by a heavy one
+and by a kinematic one, and stops at an anchored one. The engine then finds the contact where the
+step ends, and resolves it from the velocities, which stay as they are.
+
+Laws: a centre of mass keeps its way but at what is anchored; a pair that overlaps is stopped only
+where it would come deeper; islands that do not meet do not know of each other.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Sequence
-from dataclasses import dataclass
-import math
+from collections.abc import Callable, Iterable
+import itertools
+from typing import cast, NamedTuple
 
 import numpy as np
-from physsim_ros.engine.body import RigidBody
+from physsim_ros.engine.body_table import BodyTable
+from physsim_ros.engine.ccd.broad_phase import boxes_overlap, Flags, overlapping_pairs
 from physsim_ros.engine.ccd.time_of_impact import (
-    body_of,
-    Looks,
-    Move,
-    Pair,
-    skin_of,
-    Start,
-    touch_straight,
-    touch_turning,
+    first_impacts,
+    Hull,
+    hull,
+    Motions,
+    Pairs,
+    SLOP,
 )
-from physsim_ros.model.arrays import Floats
-from physsim_ros.model.scene import Body
-from physsim_ros.model.shapes import Chain
+from physsim_ros.engine.step_context import StepContext
+from physsim_ros.engine.work_correction import is_jointed, take_back_work
+from physsim_ros.model.arrays import Floats, Ints
+from physsim_ros.model.transform import turned
 import pymunk
 from pymunk import Vec2d
 
-# Overlap that the engine leaves standing [m]; its own 0.1 is 10 cm in a metre world.
-SLOP = 0.005
-# A body that moves less than this share of its inner radius a step is safe without a sweep: where
-# two such bodies meet, each keeps its centre well on the side it came from.
-SAFE_SHARE = 0.25
-# Who is stopped may stand in the way of who follows: so many in a row, touching, at most.
-ROUNDS = 16
-# A tip that goes less far than this in a step [m] is no propeller: what it overlaps, the engine
-# still pushes back out.
-SLOW_TIP = 0.02
+# Impacts one after the other in a step that a body takes part in, at most: so many may touch in a
+# row before a wall. The engine's own result holds for what is left.
+ROUNDS = 10
 
 
-@dataclass(frozen=True, slots=True)
-class _Mover:
+class _Standing(NamedTuple):
     """
-    A body that is swept.
+    Shapes that never move.
 
-    :param engine: it
-    :param move: as the engine would make it
-    :param depth: how far it may enter something before the engine mistakes the side [m]
-    :param skin: how far it is let in, for the engine to see the contact [m]; what overlaps less
-        on its way, as a body that slides over tiles does, is not in the way
-    :param reach: greatest distance of a point of it from its centre [m]; 0 for a disc
-    :param outer: the same, for a disc too
+    :ivar hulls: in the world
+    :ivar boxes: (s, 4) float64: left, bottom, right, top [m]
+    :ivar places: (s,) int64: of their bodies in the listing; -1 is the background
     """
 
-    engine: pymunk.Body
-    move: Move
-    depth: float
-    skin: float
-    reach: float
-    outer: float
-
-    @property
-    def turns(self) -> bool:
-        """Whether its outermost point turns so fast that the turn counts too."""
-        return abs(self.move.turn) * self.reach > max(self.depth, SLOW_TIP)
+    hulls: list[Hull]
+    boxes: Floats
+    places: Ints
 
 
-@dataclass(frozen=True, slots=True)
-class _Stop:
-    """
-    Where a move ends.
+class _Impact(NamedTuple):
+    """Two rows that meet, and at which share of the step."""
 
-    :param at: share of the way
-    :param move: what is made of the move
-    """
-
-    at: float
-    move: Move
-
-
-def safe_depths(bodies: Sequence[Body]) -> Floats:
-    """
-    Return how far each body may move in a step without a sweep, (n,) [m].
-
-    One piece of a body would swallow what is smaller, and push it on into the next piece.
-    """
-    own = np.array([body.shape.form.inner * SAFE_SHARE for body in bodies])
-    thin = np.array([isinstance(body.shape, Chain) for body in bodies], dtype=np.bool_)
-    pieces = np.array([len(body.shape.form.pieces) for body in bodies])
-    least = max(SLOP, float(own[~thin].min(initial=np.inf)))
-    return np.where((pieces > 1) & ~thin, np.minimum(own, least), own)
-
-
-def arm(body: Body) -> float:
-    """Return how far out a body's turning counts [m]: a disc covers the same ground anyway."""
-    form = body.shape.form
-    return 0.0 if form.inner >= form.outer else form.outer
-
-
-def arrest(
-    space: pymunk.Space,
-    fast: list[RigidBody],
-    dt: float,
-    *,
-    reach: float,
-    depth_of: Callable[[RigidBody], float],
-    rigid_of: Callable[[pymunk.Body], RigidBody | None],
-) -> None:
-    """
-    Shorten the coming step of fast bodies so that it ends where they first enter something.
-
-    :param fast: bodies that would move further than is safe
-    :param dt: of the coming step [s]
-    :param reach: as far as any body moves in the step [m]
-    :param depth_of: how far a body may move without a sweep [m]
-    :param rigid_of: finds the body that an engine body plays; None is the background
-    """
-
-    def mover_of(rigid: RigidBody) -> _Mover:
-        return _mover(rigid, dt, depth_of(rigid))
-
-    pushers = {rigid.engine: mover_of(rigid) for rigid in fast if rigid.body.fixed}
-    movers = {rigid.engine: mover_of(rigid) for rigid in fast if not rigid.body.fixed}
-    for pusher in pushers.values():
-        for pair in _near(space, pusher, reach):
-            rigid = rigid_of(body_of(pair.other))
-            if rigid is not None and not rigid.body.fixed and rigid.engine not in movers:
-                movers[rigid.engine] = mover_of(rigid)
-    near = {engine: list(_near(space, mover, reach)) for engine, mover in movers.items()}
-    moves = {engine: mover.move for engine, mover in (pushers | movers).items()}
-    stopped: Collection[pymunk.Body] = movers
-    looks = Looks(space)
-    for number in range(ROUNDS):
-        # All are measured before the first is stopped, or two would miss each other.
-        stops = {
-            engine: stop
-            for engine, mover in movers.items()
-            if (pairs := _changed(engine, near[engine], stopped))
-            and (stop := _stop(looks, mover, pairs, moves, dt, carried=number == 0))
-        }
-        if not stops:
-            break
-        stopped = stops.keys()
-        moves |= {engine: stop.move for engine, stop in stops.items()}
-    for engine, mover in movers.items():
-        move = moves[engine]
-        if move is not mover.move:
-            # The engine will add the whole move; put the body back by what it may not go.
-            way, back = mover.move.way, move.way - mover.move.way
-            engine.position += back
-            engine.angle += move.turn - mover.move.turn
-            if not _joined(space, engine):
-                # As far as a kinematic body carries it, that is none of its own way.
-                share = -way.dot(back) / max(way.dot(way), 1e-300)
-                _slow(space, engine, -way * min(max(share, 0.0), 1.0), dt)
-
-
-def relieve(arbiter: pymunk.Arbiter, contact: pymunk.ContactPointSet, space: pymunk.Space) -> None:
-    """At a first touch, take back what the bodies overshot in this step, along the normal."""
-    point = min(contact.points, key=lambda point: point.distance, default=None)
-    if point is None or -point.distance <= SLOP:
-        return
-    depth = -point.distance
-    one, other = arbiter.shapes
-    if one.sensor or other.sensor:
-        return
-    a, b = body_of(one), body_of(other)
-    normal = contact.normal
-    dt = space.current_time_step
-    ahead_a = a.velocity_at_world_point(point.point_a).dot(normal) * dt
-    ahead_b = -b.velocity_at_world_point(point.point_b).dot(normal) * dt
-    excess = min(depth - SLOP, ahead_a + ahead_b)
-    # Each gives back of what it went itself, or what stands would be pushed through what is
-    # behind it; a kinematic body gives nothing.
-    give_a = max(ahead_a, 0.0) if a.body_type == pymunk.Body.DYNAMIC else 0.0
-    give_b = max(ahead_b, 0.0) if b.body_type == pymunk.Body.DYNAMIC else 0.0
-    if b.body_type == pymunk.Body.KINEMATIC and a.body_type == pymunk.Body.DYNAMIC:
-        give_a, give_b = excess, 0.0
-    elif a.body_type == pymunk.Body.KINEMATIC and b.body_type == pymunk.Body.DYNAMIC:
-        give_a, give_b = 0.0, excess
-    if excess <= 0 or give_a + give_b <= 0:
-        return
-    share = min(1.0, excess / (give_a + give_b))
-    for body, give, ahead in ((a, -give_a * share, ahead_a), (b, give_b * share, ahead_b)):
-        if give:
-            body.position += normal * give
-            own = min(abs(give), max(ahead, 0.0))
-            if not (_joined(space, a) or _joined(space, b)):
-                _slow(space, body, normal * math.copysign(own, give), dt)
-            # Further shapes of it, and further contacts, are found where it is now.
-            for shape in body.shapes:
-                shape.cache_bb()
-
-
-def _joined(space: pymunk.Space, body: pymunk.Body) -> bool:
-    """Tell whether a body hangs on joints: what it gains they take, and it does not fly."""
-    return body.body_type == pymunk.Body.DYNAMIC and any(_joints(space, body))
-
-
-def _joints(space: pymunk.Space, body: pymunk.Body) -> Iterator[pymunk.Constraint]:
-    """Yield the joints of a body."""
-    # It lists those that have left the space for as long as anything refers to them.
-    return (joint for joint in body.constraints if joint in space.constraints)
-
-
-def _slow(space: pymunk.Space, body: pymunk.Body, back: Vec2d, dt: float) -> None:
-    """
-    Give a body that is put back the speed that it had there, as it flew.
-
-    :param back: its way [m]
-    :param dt: of a step [s]
-    """
-    pull = space.gravity + body.force / body.mass
-    work = pull.dot(back)
-    if not work:
-        return
-    along = back.normalized()
-    # The engine's velocity is that of half a step before.
-    speed = body.velocity.dot(along) + pull.dot(along) * dt / 2
-    square = speed * speed + 2.0 * work
-    body.velocity += along * (math.copysign(math.sqrt(max(square, 0.0)), speed) - speed)
-    if square < 0.0:
-        # It has come so far by turning.
-        spin = body.angular_velocity
-        left = max(spin * spin + square * body.mass / body.moment, 0.0)
-        body.angular_velocity = math.copysign(math.sqrt(left), spin)
-
-
-def _mover(rigid: RigidBody, dt: float, depth: float) -> _Mover:
-    engine = rigid.engine
-    return _Mover(
-        engine=engine,
-        move=Move(engine.velocity * dt, engine.angular_velocity * dt),
-        depth=depth,
-        skin=min(SLOP, depth),
-        reach=arm(rigid.body),
-        outer=rigid.body.shape.form.outer,
-    )
-
-
-def _near(space: pymunk.Space, mover: _Mover, reach: float) -> Iterator[Pair]:
-    """Yield what a body could meet in the coming step."""
-    engine, way = mover.engine, mover.move.way
-    apart = {
-        joint.b if joint.a is engine else joint.a
-        for joint in _joints(space, engine)
-        if not joint.collide_bodies
-    }
-    for own in engine.shapes:
-        if own.sensor:
-            continue
-        start = own.bb
-        if mover.turns:
-            start = pymunk.BB.newForCircle(engine.position, mover.reach)
-        left, right = min(0.0, way.x) - reach, max(0.0, way.x) + reach
-        bottom, top = min(0.0, way.y) - reach, max(0.0, way.y) + reach
-        around = pymunk.BB(
-            start.left + left, start.bottom + bottom, start.right + right, start.top + top
-        )
-        at_start = Start(space, own)
-        for other in space.bb_query(around, own.filter):
-            if not (other.sensor or body_of(other) is engine or body_of(other) in apart):
-                yield Pair(own, other, at_start, skin_of(own, other, mover.skin))
-
-
-def _changed(
-    engine: pymunk.Body, pairs: list[Pair], stopped: Collection[pymunk.Body]
-) -> list[Pair]:
-    """Return the pairs of a body that meet otherwise than before some were stopped."""
-    return pairs if engine in stopped else [it for it in pairs if body_of(it.other) in stopped]
-
-
-def _stop(
-    looks: Looks,
-    mover: _Mover,
-    near: list[Pair],
-    moves: dict[pymunk.Body, Move],
-    dt: float,
-    *,
-    carried: bool,
-) -> _Stop | None:
-    """
-    Return where a body's move ends early; None where it does not.
-
-    :param moves: what bodies do as far as it is known; others go on as they are, and are added
-    :param carried: whether kinematic bodies carry it along
-    """
-    engine, move = mover.engine, moves[mover.engine]
-    first: _Stop | None = None
-    for pair in looks.at(near):
-        other, body = pair.other, body_of(pair.other)
-        pusher = body.body_type == pymunk.Body.KINEMATIC
-        if pusher and not carried:
-            continue
-        theirs = _move_of(other, moves, dt)
-        relative = move.way - theirs.way
-        arm = engine.position - body.position if theirs.turn or pusher else Vec2d.zero()
-        turning = mover.turns or abs(theirs.turn) * arm.length > max(mover.depth, SLOW_TIP)
-        # What the engine sees in time is left to it.
-        length = relative.length
-        if not turning and length <= mover.depth:
-            continue
-        if turning:
-            length += abs(theirs.turn) * arm.length
-        if _gap(engine.position, other.bb) > mover.outer + length:
-            continue
-        looks.count()
-        touch = (
-            touch_turning(looks, pair, move, theirs, reach=mover.reach, depth=mover.depth)
-            if turning
-            else touch_straight(looks, pair, relative)
-        )
-        if touch is None:
-            continue
-        at, approach = touch
-        if (1.0 - at) * approach <= mover.depth or (first is not None and first.at <= at):
-            continue
-        made = move * at
-        if pusher:
-            rest = theirs * (1.0 - at)
-            made = Move(made.way + rest.way + arm.rotated(rest.turn) - arm, made.turn)
-        first = _Stop(at, made)
-    return first
-
-
-def _move_of(shape: pymunk.Shape, moves: dict[pymunk.Body, Move], dt: float) -> Move:
-    """Return what a shape does in the coming step; a disc does not turn."""
-    body = body_of(shape)
-    move = moves.get(body)
-    if move is None:
-        move = moves[body] = Move(body.velocity * dt, body.angular_velocity * dt)
-    if move.turn and isinstance(shape, pymunk.Circle) and shape.offset == (0.0, 0.0):
-        return Move(move.way, 0.0)
-    return move
-
-
-def _gap(point: Vec2d, box: pymunk.BB) -> float:
-    """Return how far a point is from a box [m]."""
-    x, y = point
-    left, bottom, right, top = box
-    return math.hypot(max(left - x, 0.0, x - right), max(bottom - y, 0.0, y - top))
+    share: float
+    one: int
+    other: int
 
 
 class ContinuousCollision:
-    def __init__(self, *_):
-        pass
+    """
+    Ends the coming step of fast bodies where they first hit something.
 
-    def clamp_moves(self, context):
-        pass
+    :param space: of the engine
+    """
+
+    def __init__(self, space: pymunk.Space) -> None:
+        self._space = space
+        self._table: BodyTable | None = None
+        self._standing: _Standing | None = None
+        self._hulls: dict[pymunk.Body, list[Hull]] = {}
+
+    def invalidate(self) -> None:
+        """Read shapes anew: a body that never moves by itself has been moved."""
+        self._table = None
+
+    def clamp_moves(self, context: StepContext) -> None:
+        """Set back bodies by what they may not go in the coming step of the engine."""
+        table, columns, dt = context.table, context.table.columns, context.dt
+        moves = context.twists * dt
+        lengths = np.hypot(moves[:, 0], moves[:, 1]) + np.abs(moves[:, 2]) * columns.turning_radii
+        fast = columns.solid & (lengths > columns.safe_depths.min(initial=np.inf))
+        if not fast.any():
+            return
+        if self._table is not table or self._standing is None:
+            self._table, self._standing = table, _standing(self._space, table)
+            self._hulls.clear()
+        step = _Step(table, self._standing, moves, self._hulls_of)
+        for row, shift in step.shifts(fast):
+            engine = table.bodies[row].engine
+            back = Vec2d(*shift[:2].tolist())
+            engine.position += back
+            engine.angle += float(shift[2])
+            if not is_jointed(self._space, engine):
+                way = Vec2d(*moves[row, :2].tolist())
+                # As far as another body carries it, that is none of its own way.
+                share = -way.dot(back) / max(way.dot(way), 1e-300)
+                take_back_work(self._space, engine, -way * min(max(share, 0.0), 1.0), dt)
+                context.twists[row] = *engine.velocity, engine.angular_velocity
+            table.forget_state()
+
+    def _hulls_of(self, engine: pymunk.Body) -> list[Hull]:
+        """Return the hulls of a body, in its own frame."""
+        if engine not in self._hulls:
+            self._hulls[engine] = [hull(shape) for shape in engine.shapes]
+        return self._hulls[engine]
+
+
+class _Step:
+    """
+    Motions of all bodies in one step, from impact to impact.
+
+    A row is a row of the table, then come shapes that never move. Bodies that have
+    met move on as one island: the rows of an island are `members` of its first row. An island that
+    has met an anchored or kinematic body moves as that does, its `leader`.
+    """
+
+    def __init__(
+        self,
+        table: BodyTable,
+        standing: _Standing,
+        moves: Floats,
+        hulls_of: Callable[[pymunk.Body], list[Hull]],
+    ) -> None:
+        self._engines = [rigid.engine for rigid in table.bodies]
+        self._columns = columns = table.columns
+        poses = table.state[:, :3]
+        self._standing = standing
+        self._hulls_of = hulls_of
+        count, more = len(poses), len(standing.hulls)
+        self._count = count
+        ending, none = (0, more), (0, 0)
+        self._collides = np.pad(columns.solid, ending, constant_values=True)
+        self._turning = np.pad(columns.turning_radii, ending)
+        self._movable = np.pad(columns.dynamic[:-1], ending)
+        self._places = np.concatenate((np.arange(count), standing.places))
+        # The background, in place -1, is in no group.
+        self._depths = np.append(columns.safe_depths, np.inf)[self._places]
+        self._groups = np.append(columns.groups, 0)[self._places]
+        poses = np.pad(poses, (ending, none))
+        rates = np.pad(np.where(columns.solid[:, None], moves, 0.0), (ending, none))
+        # A turning disc covers the same ground.
+        rates[self._turning == 0.0, 2] = 0.0
+        self._motions = Motions(np.zeros(count + more), poses, poses[:, :2].copy(), rates)
+        self._ends = poses + rates
+        self._boxes = np.concatenate((np.empty((count, 4)), standing.boxes))
+        self._fit_boxes(np.arange(count))
+        self._islands = np.arange(count + more)
+        self._members: dict[int, list[int]] = {}
+        self._leaders: dict[int, int] = {}
+
+    def shifts(self, fast: Flags) -> Iterable[tuple[int, Floats]]:
+        """
+        Return the places of bodies that end elsewhere than in the engine, and by how far.
+
+        :param fast: (m,) bool: bodies that could meet others unseen by the engine
+        :return: rows, and (3,) float64 shifts [m, rad]
+        """
+        impacts: list[_Impact] = []
+        changed = np.flatnonzero(fast)
+        for _ in range(ROUNDS):
+            known = set(changed.tolist())
+            impacts = [it for it in impacts if known.isdisjoint((it.one, it.other))]
+            impacts += self._impacts(changed)
+            if not impacts:
+                break
+            changed = self._resolve(sorted(impacts))
+        rows = np.array(sorted(itertools.chain.from_iterable(self._members.values())), np.int64)
+        ends, _ = self._motions.poses_at(rows, np.ones(len(rows)))
+        shifts = ends - self._ends[rows]
+        shifts[self._turning[rows] == 0.0, 2] = 0.0
+        return zip(rows.tolist(), shifts, strict=True)
+
+    def _fit_boxes(self, rows: Ints) -> None:
+        """Bound the ways of bodies from where their motions begin to the end of the step."""
+        starts = self._motions.poses[rows, :2]
+        ends = self._motions.poses_at(rows, np.ones(len(rows)))[0][:, :2]
+        # Height of the arc over its chord, at most.
+        arm = np.hypot(*(starts - self._motions.pivots[rows]).T)
+        margin = self._columns.reach[rows] + arm * self._motions.rates[rows, 2] ** 2 / 8
+        self._boxes[rows, :2] = np.minimum(starts, ends) - margin[:, None]
+        self._boxes[rows, 2:] = np.maximum(starts, ends) + margin[:, None]
+
+    def _impacts(self, changed: Ints) -> list[_Impact]:
+        """Return the impacts to come of rows whose motions have changed."""
+        first = np.zeros(len(self._boxes), np.bool_)
+        first[changed] = True
+        one, other = overlapping_pairs(self._boxes, first)
+        keep = self._collide(one, other)
+        one, other = one[keep], other[keep]
+        depth = np.minimum(self._depths[one], self._depths[other])
+        keep = self._approach(one, other) > depth
+        one, other, depth = one[keep], other[keep], depth[keep]
+        pairs: list[int] = []
+        hulls: tuple[list[Hull], list[Hull]] = [], []
+        for pair, (a, b) in enumerate(zip(one.tolist(), other.tolist(), strict=True)):
+            for piece in itertools.product(self._hulls(a), self._hulls(b)):
+                pairs.append(pair)
+                for side, each in zip(hulls, piece, strict=True):
+                    side.append(each)
+        if not pairs:
+            return []
+        radii = np.array([a.radius + b.radius for a, b in zip(*hulls, strict=True)])
+        skin = np.minimum(SLOP, depth[pairs])
+        skin = np.where(radii > 0.0, np.minimum(skin, radii / 2), skin)
+        rows = one[pairs], other[pairs]
+        shares = first_impacts(self._motions, Pairs(rows, hulls, skin, depth[pairs]))
+        earliest = np.full(len(one), np.inf)
+        np.minimum.at(earliest, pairs, shares)
+        return [
+            _Impact(float(earliest[pair]), int(one[pair]), int(other[pair]))
+            for pair in np.flatnonzero(np.isfinite(earliest)).tolist()
+        ]
+
+    def _hulls(self, row: int) -> list[Hull]:
+        if row >= self._count:
+            return [self._standing.hulls[row - self._count]]
+        return self._hulls_of(self._engines[row])
+
+    def _collide(self, one: Ints, other: Ints) -> Flags:
+        """Tell which pairs do not pass through each other, and are not one island yet."""
+        groups = self._groups
+        found: Flags = self._collides[one] & self._collides[other]
+        found &= self._movable[one] | self._movable[other]
+        found &= self._islands[one] != self._islands[other]
+        found &= (groups[one] == 0) | (groups[one] != groups[other])
+        left = np.flatnonzero(found)
+        apart = self._columns.not_colliding
+        if len(apart) and len(left):
+            keys = np.concatenate((apart, apart[:, ::-1])) @ (self._count, 1)
+            places = self._places[one[left]], self._places[other[left]]
+            found[left] = ~np.isin(places[0] * self._count + places[1], keys)
+        return found
+
+    def _approach(self, one: Ints, other: Ints) -> Floats:
+        """Return (p,) by how far two bodies approach in the rest of the step, at most [m]."""
+        length = np.hypot(*(self._velocities(one) - self._velocities(other)).T)
+        turns = np.abs(self._motions.rates[:, 2])
+        length += turns[one] * self._turning[one] + turns[other] * self._turning[other]
+        since = np.maximum(self._motions.since[one], self._motions.since[other])
+        approach: Floats = length * (1.0 - since)
+        return approach
+
+    def _velocities(self, rows: Ints) -> Floats:
+        """Return (k, 2) the velocities of centres of mass where motions begin [m a step]."""
+        rates = self._motions.rates[rows]
+        arms = self._motions.poses[rows, :2] - self._motions.pivots[rows]
+        return rates[:, :2] + rates[:, 2:] * np.column_stack((-arms[:, 1], arms[:, 0]))
+
+    def _resolve(self, impacts: list[_Impact]) -> Ints:
+        """Join those that meet before anything near them does; return rows that move otherwise."""
+        changed: list[int] = []
+        passed: list[list[float]] = []
+        for impact in impacts:
+            rows = [
+                member
+                for row in impact[1:]
+                if self._movable[row]
+                for member in self._members.get(int(self._islands[row]), [row])
+            ]
+            # After an earlier impact nearby this one may not take place.
+            if not boxes_overlap(self._boxes[rows][:, None], np.reshape(passed, (-1, 4))).any():
+                passed += self._boxes[rows].tolist()
+                changed += self._join(impact)
+        return np.array(changed, np.int64)
+
+    def _join(self, impact: _Impact) -> list[int]:
+        """Let the islands of two rows go on as one; return the rows whose motions change."""
+        rows: list[int] = []
+        leaders: list[int] = []
+        for row in impact[1:]:
+            island = int(self._islands[row])
+            if self._movable[row]:
+                rows += self._members.pop(island, [row])
+                if island in self._leaders:
+                    leaders.append(self._leaders.pop(island))
+            else:
+                leaders.append(row)
+        members = np.array(rows, np.int64)
+        shares = np.full(len(rows), impact.share)
+        motions = self._motions
+        poses, pivots = motions.poses_at(members, shares)
+        if leaders:
+            # Anchored bodies come last, and hold what a kinematic one pushes against them.
+            leader = max(leaders)
+            _, (pivot,) = motions.poses_at(np.array([leader]), shares[:1])
+            rate = motions.rates[leader]
+            self._leaders[rows[0]] = leader
+        else:
+            pivot, rate = self._common_motion(members, poses, pivots)
+        motions.since[members] = impact.share
+        motions.poses[members] = poses
+        motions.pivots[members] = pivot
+        motions.rates[members] = rate
+        self._members[rows[0]] = rows
+        self._islands[members] = rows[0]
+        self._fit_boxes(members)
+        return rows
+
+    def _common_motion(self, rows: Ints, poses: Floats, pivots: Floats) -> tuple[Floats, Floats]:
+        """
+        Return how bodies go on as one, with the momentum and angular momentum that they have.
+
+        :return: (2,) their centre of mass [m], and (3,) its way and their turn in a step [m, rad]
+        """
+        engines = [self._engines[row] for row in rows.tolist()]
+        mass = np.array([engine.mass for engine in engines])
+        moment = np.array([engine.moment for engine in engines])
+        moment[self._turning[rows] == 0.0] = 0.0
+        rates = self._motions.rates[rows]
+        arms = poses[:, :2] - pivots
+        ways = rates[:, :2] + rates[:, 2:] * np.column_stack((-arms[:, 1], arms[:, 0]))
+        center, way = mass @ poses[:, :2] / mass.sum(), mass @ ways / mass.sum()
+        arms = poses[:, :2] - center
+        momentum = mass[:, None] * (ways - way)
+        angular = moment @ rates[:, 2]
+        angular += (arms[:, 0] * momentum[:, 1] - arms[:, 1] * momentum[:, 0]).sum()
+        total = moment.sum() + mass @ (arms**2).sum(axis=1)
+        return center, np.array([*way, angular / total if total > 0.0 else 0.0])
+
+
+def _standing(space: pymunk.Space, table: BodyTable) -> _Standing:
+    """Return all shapes that never move, but sensors."""
+    shapes = [(shape, -1) for shape in space.static_body.shapes]
+    for row, rigid in enumerate(table.bodies):
+        if rigid.body.anchored and not rigid.body.sensor:
+            shapes += [(shape, row) for shape in rigid.engine.shapes]
+    hulls = []
+    for shape, _ in shapes:
+        body, local = cast('pymunk.Body', shape.body), hull(shape)
+        corners = turned(local.corners, np.array(body.angle)) + np.array(body.position)
+        normals = turned(local.normals, np.array(body.angle))
+        hulls.append(Hull(corners, normals, local.radius, 0.0))
+    return _Standing(
+        hulls=hulls,
+        boxes=np.array([tuple(shape.bb) for shape, _ in shapes], np.float64).reshape(-1, 4),
+        places=np.array([place for _, place in shapes], np.int64),
+    )

@@ -99,11 +99,6 @@ class Batch(NamedTuple):
     upper: Floats
     constraints: list[Any]
 
-    def take(self, rows: Rows) -> Batch:
-        """Return some of them."""
-        columns = (column[rows] for column in self[:-1])
-        return Batch(*columns, [self.constraints[row] for row in rows.tolist()])
-
 
 class Motion(NamedTuple):
     """

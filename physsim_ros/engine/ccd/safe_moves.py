@@ -1,0 +1,43 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Safe moves: how far a body may move or be entered in a step before the engine sees it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from physsim_ros.engine.ccd.time_of_impact import SAFE_SHARE, SLOP
+from physsim_ros.model.arrays import Floats
+from physsim_ros.model.scene import Body
+from physsim_ros.model.shapes import Chain
+
+
+def safe_depths(bodies: Sequence[Body]) -> Floats:
+    """
+    Return how far each body may be entered in a step unseen, (n,) [m].
+
+    An anchored chain does not count: what meets it keeps its own centre on its side.
+    """
+    inner = np.array([body.shape.form.inner * SAFE_SHARE for body in bodies])
+    anchored = np.array([body.anchored for body in bodies], dtype=np.bool_)
+    thin = np.array([isinstance(body.shape, Chain) for body in bodies], dtype=np.bool_)
+    return np.where(anchored, np.where(thin, np.inf, np.maximum(inner, SLOP)), inner)
+
+
+def turning_radius(body: Body) -> float:
+    """Return how far out a body's turning counts [m]: a disc covers the same ground anyway."""
+    form = body.shape.form
+    return 0.0 if form.inner >= form.outer else form.outer

@@ -1,0 +1,64 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Contact projection: at a first touch, bodies are set back by what they overshot in the step.
+
+The engine finds a contact where the step ends, up to a safe depth inside, and its position bias
+takes many steps to push that out; law 7 bounds the overlap to 10 mm. The overlap beyond the slop
+is taken back along the normal, by no more than the pair approached in this step, and shared by
+inverse mass, so that the common centre of mass stays (Müller et al. 2007, Position Based Dynamics,
+3.3). A fixed body gives nothing. Cost: one callback for each contact that begins.
+"""
+
+from __future__ import annotations
+
+import math
+
+from physsim_ros.engine.ccd.time_of_impact import SLOP
+from physsim_ros.engine.work_correction import is_jointed, take_back_work
+import pymunk
+
+
+def project_contact(
+    arbiter: pymunk.Arbiter, contact: pymunk.ContactPointSet, space: pymunk.Space
+) -> None:
+    """Set two bodies apart that touch for the first time, along the contact normal."""
+    point = min(contact.points, key=lambda point: point.distance, default=None)
+    if point is None or -point.distance <= SLOP or any(it.sensor for it in arbiter.shapes):
+        return
+    dt, normal = space.current_time_step, contact.normal
+    sides = tuple(zip(arbiter.bodies, (1.0, -1.0), (point.point_a, point.point_b), strict=True))
+    ahead = [
+        sign * body.velocity_at_world_point(place).dot(normal) * dt for body, sign, place in sides
+    ]
+    inverse = [
+        1.0 / body.mass if body.body_type == pymunk.Body.DYNAMIC else 0.0 for body, _, _ in sides
+    ]
+    excess = min(-point.distance - SLOP, sum(ahead))
+    if excess <= 0.0 or not any(inverse):
+        return
+    jointed = any(is_jointed(space, body) for body, _, _ in sides)
+    for (body, sign, _), own, share in zip(sides, ahead, inverse, strict=True):
+        if not share:
+            continue
+        back = excess * share / sum(inverse)
+        body.position -= normal * sign * back
+        if not jointed:
+            # What another body's way made of it is none of its own.
+            own_back = math.copysign(min(back, max(own, 0.0)), -sign)
+            take_back_work(space, body, normal * own_back, dt)
+        # Further shapes of it, and further contacts, are found where it is now.
+        for shape in body.shapes:
+            shape.cache_bb()

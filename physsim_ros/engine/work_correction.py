@@ -1,0 +1,57 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Position corrections that keep the energy: of continuous collision and of contact projection.
+
+A body that is set back against gravity or a wrench has the velocity of the place that it came to;
+without this, each bounce of a falling body would gain the potential energy of the way set back.
+"""
+
+from __future__ import annotations
+
+import math
+
+import pymunk
+from pymunk import Vec2d
+
+
+def is_jointed(space: pymunk.Space, body: pymunk.Body) -> bool:
+    """Tell whether a body hangs on joints: these take what it gains, and it does not fly."""
+    # A body lists joints that have left the space for as long as anything refers to them.
+    dynamic = body.body_type == pymunk.Body.DYNAMIC
+    return dynamic and any(joint in space.constraints for joint in body.constraints)
+
+
+def take_back_work(space: pymunk.Space, body: pymunk.Body, back: Vec2d, dt: float) -> None:
+    """
+    Give a body that is set back the speed that it had there, as it flew.
+
+    :param back: the way by which it is set back [m]
+    :param dt: of a step [s]
+    """
+    pull = space.gravity + body.force / body.mass
+    work = pull.dot(back)
+    if not work:
+        return
+    along = back.normalized()
+    # The engine's velocity is that of half a step before.
+    speed = body.velocity.dot(along) + pull.dot(along) * dt / 2
+    square = speed * speed + 2.0 * work
+    body.velocity += along * (math.copysign(math.sqrt(max(square, 0.0)), speed) - speed)
+    if square < 0.0:
+        # It has come so far by turning.
+        spin = body.angular_velocity
+        left = max(spin * spin + square * body.mass / body.moment, 0.0)
+        body.angular_velocity = math.copysign(math.sqrt(left), spin)
