@@ -43,9 +43,7 @@ def project_contact(
     ahead = [
         sign * body.velocity_at_world_point(place).dot(normal) * dt for body, sign, place in sides
     ]
-    inverse = [
-        1.0 / body.mass if body.body_type == pymunk.Body.DYNAMIC else 0.0 for body, _, _ in sides
-    ]
+    inverse = [1.0 / body.mass if _may_move(body) else 0.0 for body, _, _ in sides]
     excess = min(-point.distance - SLOP, sum(ahead))
     if excess <= 0.0 or not any(inverse):
         return
@@ -62,3 +60,14 @@ def project_contact(
         # Further shapes of it, and further contacts, are found where it is now.
         for shape in body.shapes:
             shape.cache_bb()
+
+
+def _may_move(body: pymunk.Body) -> bool:
+    """
+    Return whether a body may be set back in the middle of a step.
+
+    A sleeping one may not: Chipmunk (Munk2D as in Pymunk 7.3.1) wakes a body whose position is set,
+    and `cpSpaceActivateBody` in the middle of a step threads its arbiters twice, so that
+    `cpSpaceProcessComponents` never ends. It wakes by itself after this contact.
+    """
+    return body.body_type == pymunk.Body.DYNAMIC and not body.is_sleeping
