@@ -13,8 +13,9 @@
 # limitations under the License.
 
 """
-The physics engine: Pymunk, and the stages that a step of it needs beside.
+The physics engine: Pymunk's space, and the stages that make a step of it accurate.
 
-The only folder that imports Pymunk. What crosses its border is an immutable value or a fresh
-array. Requests, time and history are in `simulation`. Start with `space`.
+The only folder that imports Pymunk; an immutable value or a fresh array is all that crosses its
+border. Not here: requests, time and history (`simulation`). Start with `pipeline`, the stages of a
+step in their order, then `space` (bodies, joints, walls) and `body_table` (bodies by column).
 """

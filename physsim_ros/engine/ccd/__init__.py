@@ -13,8 +13,9 @@
 # limitations under the License.
 
 """
-Continuous collision detection: fast bodies do not pass through what is in their way.
+Continuous collision: fast bodies do not pass through others within a step.
 
-Broad phase of swept boxes, time of impact, and the clamp that ends a move there. Contacts
-are resolved by the engine. Start with `continuous`.
+Broad phase of swept boxes, time of impact by conservative advancement, and plastic impacts of the
+moves, which leave velocities alone. Not here: contacts, which the engine resolves where the step
+ends. Start with `continuous`, then `broad_phase` and `time_of_impact`.
 """

@@ -15,7 +15,7 @@
 """
 Joints: Pymunk's constraints without their bias, and the correction of positions after a step.
 
-A file a kind has its constraints, its constraint rows and its centripetal term; `joint_set` is
-the front and holds the joints of a space; `projection` closes gaps. Which bodies a joint means is
-not here but in `joining`. Start reading at `joint_set`.
+A file a kind has its constraints, its constraint rows and its centripetal term; `projection`
+closes gaps. Not here: properties and ranges of a kind (`model.joints`), and which bodies a joint
+is between (`simulation.joint_requests`). Start with `joint_set`, then `kind` and `axle`.
 """

@@ -12,4 +12,10 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Stages of a step, one file each: a problem, the method, its source and its cost."""
+"""
+Stages of a step, one file each: a problem, the method by its name, its source and its cost.
+
+Not here: the order of stages (`pipeline`), joints (`joints`), continuous collision (`ccd`) and the
+contact report. A stage reads the step context and no privates of another. Start with `half_step`,
+then `contact_projection`; a new stage is a file here and a line in `pipeline`.
+"""
