@@ -132,7 +132,7 @@ class BodyTable:
 
     @property
     def state(self) -> Floats:
-        """Return (n, 6) float64: poses and velocities of the engine's origins; not to be written."""
+        """Return (n, 6) float64: poses and velocities of the engine's origins; read only."""
         if self._state is None:
             self._state = self.read_states()[:-1]
         return self._state
@@ -237,7 +237,7 @@ def _sprung(dynamic: Flags, joined: Rows, springs: Flags) -> Flags:
     :param joined: (j, 2) intp: rows of each joint
     :param springs: (j,) bool: which of the joints are springs
     """
-    within: Flags = dynamic[joined].all(axis=1)
+    within: Flags = np.asarray(dynamic[joined].all(axis=1))
 
     def islands_with(joints: Flags) -> Flags:
         marked = np.zeros(len(dynamic), np.bool_)

@@ -29,7 +29,6 @@ import numpy as np
 from physsim_ros.engine import body as rigid_body
 from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.space import Space
-from physsim_ros.engine.stages.sleeping import wake_bodies
 from physsim_ros.engine.warm_start import read_impulses, shape_numbers, write_impulses
 from physsim_ros.model.checkpoint import Checkpoint
 from physsim_ros.model.scene import Body
@@ -39,21 +38,17 @@ def take_checkpoint(space: Space, step: int) -> Checkpoint:
     """
     Return everything that a space goes on from.
 
-    Sleeping bodies have no velocity in it; all bodies of the space wake, as they are awake in the
-    one that is built from it.
+    Nothing in the space changes. Sleeping bodies have no velocity in it; in a space that is built
+    from it all bodies are awake.
 
     :param step: steps that the world has made
     """
     table, settled, rigids = space.table, space.settled, list(space.bodies.by_name.values())
-    state = settled.state.copy()
-    state[table.asleep, 3:] = 0.0
-    wake_bodies(rigid.engine for rigid in rigids)
-    table.forget_state()
     unsupported = [rigids[row] for row in np.flatnonzero(settled.unsupported)]
     return Checkpoint(
         step=step,
         scene=table.scene,
-        state=state,
+        state=settled.state.copy(),
         free=settled.free.copy(),
         wrenches=tuple(
             (table.columns.rows[rigid.body.name], rigid.wrench, rigid.wrench_until)
@@ -61,11 +56,11 @@ def take_checkpoint(space: Space, step: int) -> Checkpoint:
         ),
         memory=read_impulses(
             space.shapes,
-            [rigid.first for rigid in rigids],
+            rigids,
             space.boundary.first,
             without=shape_numbers(unsupported),
+            joints=space.joints.impulses(),
         ),
-        joint_impulses=space.joints.impulses(),
     )
 
 
@@ -94,7 +89,7 @@ def restore_checkpoint(
     table.write_state(key.state)
     for joint in key.scene.joints:
         space.joints.put(joint)
-    space.joints.go_on_from(key.joint_impulses)
+    space.joints.go_on_from(key.memory.joints)
     return space
 
 

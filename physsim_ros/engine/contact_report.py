@@ -68,9 +68,12 @@ class ContactReport:
         self._signs: Floats = np.empty((0, 1))
         # The impulses of these in the last step.
         self._given: Floats = np.empty((0, 2))
-        # Pairs that sleep, and the impulses of their last step awake; behind the listed ones.
-        self._sleeping: tuple[Ids, Floats] = (self._ids, self._given)
+        # Pairs that sleep, the impulses of their last step awake, and their places; they stand
+        # behind the listed ones.
+        self._sleeping = NO_SLEEPERS
         self._slot_changes = 0
+        # Whether contacts of the step before were not read.
+        self._unwatched = True
         # Steps since the frame began.
         self._steps = 0
         # The same of earlier steps of the frame, at whose ends other pairs touched.
@@ -112,19 +115,25 @@ class ContactReport:
         impulses = impulses.reshape(-1, 2).copy()
         ids, self._signs = _oriented(ints.reshape(-1, 2))
         self._sleeping = self._find_sleeping(table, ids)
+        self._unwatched = False
         ids = np.concatenate((ids, self._sleeping[0]))
         if not np.array_equal(ids, self._ids):
             self._begin_listing(ids)
         self._add_impulses(impulses)
         self.settled = True
 
-    def _find_sleeping(self, table: BodyTable, listed: Ids) -> tuple[Ids, Floats]:
-        """Return pairs of the step before that sleep now, and the impulses that they had then."""
+    def _find_sleeping(self, table: BodyTable, listed: Ids) -> tuple[Ids, Floats, Floats]:
+        """Return pairs of the step before that sleep now, with their impulses and places then."""
         if not table.asleep.any():
-            return NO_PAIRS
+            return NO_SLEEPERS
+        if self._unwatched:
+            return _read_sleeping(table)
         asleep = np.append(table.asleep, False)[table.rows_of(self._ids)].any(axis=1)
         asleep &= ~_find(self._ids, listed)[1]
-        return self._ids[asleep], self._given[asleep]
+        ids, places = self._ids[asleep], self._places
+        if np.array_equal(places[0], self._ids):
+            return ids, self._given[asleep], places[1][:, asleep]
+        return ids, self._given[asleep], self._last_places(ids)
 
     def _add_impulses(self, impulses: Floats) -> None:
         self._given = np.concatenate((impulses * self._signs, self._sleeping[1]))
@@ -167,15 +176,18 @@ class ContactReport:
         stays = (self._ids != body).all(axis=1)
         self._ids, self._sums = self._ids[stays], self._sums[stays]
         self._given = self._given[stays]
-        ids, given = self._sleeping
+        ids, given, places = self._sleeping
         stays = (ids != body).all(axis=1)
-        self._sleeping = ids[stays], given[stays]
+        self._sleeping = ids[stays], given[stays], places[:, stays]
         for number, (ids, sums) in enumerate(self._earlier):
             stays = (ids != body).all(axis=1)
             self._earlier[number] = ids[stays], sums[stays]
 
     def skip_step(self) -> None:
-        """Forget what was, since nobody looks at the step that has just been made."""
+        """Forget all contacts: nobody watches the step that has just been made."""
+        self._sleeping, self._unwatched = NO_SLEEPERS, True
+        self._ids, self._sums = NO_PAIRS
+        self._given = self._sums
         self.clear()
         self.settled = False
 
@@ -258,9 +270,8 @@ class ContactReport:
         for row, pair in enumerate(map(tuple, pairs.tolist())):
             if pair in self._begun:
                 sign, contact = self._begun[pair]
-                points = [(each.point_a + each.point_b) / 2 for each in contact.points]
-                mean = sum(points, pymunk.Vec2d(0, 0)) / max(1, len(points))
-                places[:, row] = *(sign * contact.normal), len(points), *mean
+                mean = _mean_point(contact)
+                places[:, row] = *(sign * contact.normal), len(contact.points), *mean
         return places
 
     def _read_places(self) -> Floats:
@@ -276,17 +287,44 @@ class ContactReport:
         first, second = columns[2:4] + columns[4:6], columns[6:8] + columns[8:10]
         np.add(first, second, out=places[3:])
         places[3:] *= 0.5 / np.maximum(counts, 1)
-        sleeping = self._sleeping[0]
-        return np.concatenate((places, self._last_places(sleeping)), axis=1)
+        return np.concatenate((places, self._sleeping[2]), axis=1)
 
 
 NO_PAIRS = np.empty((0, 2), np.uint64), np.empty((0, 2))
+NO_SLEEPERS = *NO_PAIRS, np.empty((5, 0))
 NO_CONTACTS = Contacts(
     pairs=np.empty((0, 2), dtype=np.int64),
     points=np.empty((0, 2)),
     normals=np.empty((0, 2)),
     impulses=np.empty((0, 2)),
 )
+
+
+def _read_sleeping(table: BodyTable) -> tuple[Ids, Floats, Floats]:
+    """Return sleeping pairs with impulses and places as the engine keeps them, one by one."""
+    found: dict[object, tuple[tuple[int, int], tuple[float, float], tuple[float, ...]]] = {}
+
+    def note(arbiter: pymunk.Arbiter) -> None:
+        a, b = (body.id for body in arbiter.bodies)
+        sign, contact = (1 if a < b else -1), arbiter.contact_point_set
+        impulse = sign * arbiter.total_impulse
+        place = (*(sign * contact.normal), len(contact.points), *_mean_point(contact))
+        found[arbiter._arbiter] = (min(a, b), max(a, b)), (impulse.x, impulse.y), place  # noqa: SLF001 - tells pairs apart
+
+    for row in np.flatnonzero(table.asleep).tolist():
+        table.bodies[row].engine.each_arbiter(note)
+    ids, impulses, places = zip(*found.values(), strict=True) if found else ((), (), ())
+    return (
+        np.array(ids, np.uint64).reshape(-1, 2),
+        np.array(impulses, np.float64).reshape(-1, 2),
+        np.array(places, np.float64).reshape(-1, 5).T,
+    )
+
+
+def _mean_point(contact: pymunk.ContactPointSet) -> pymunk.Vec2d:
+    """Return the mean of the points of a contact, between the two bodies [m]."""
+    points = [(each.point_a + each.point_b) / 2 for each in contact.points]
+    return sum(points, pymunk.Vec2d(0, 0)) / max(1, len(points))
 
 
 def _oriented(pairs: Ids) -> tuple[Ids, Floats]:

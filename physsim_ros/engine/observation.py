@@ -37,7 +37,6 @@ def observe_bodies(table: BodyTable, settled: Settled) -> tuple[Floats, Floats]:
     if offsets.any():
         poses[:, :2] -= turned(offsets, poses[:, 2])
     twists[settled.free] -= table.leads[settled.free]
-    twists[table.asleep] = 0.0
     return poses, twists
 
 

@@ -20,8 +20,8 @@ The pipeline: one step of the engine, stage by stage in this order.
 3. Resting damping: the solver's error is removed from what friction locks in place.
 4. Continuous collision: fast bodies are advanced to where they first touch something.
 5. Joints: the target velocity of constraints is set to the centripetal term.
-6. Pymunk's step: positions, narrow phase, solver, sleeping. In the middle of it: contact projection
-   as two shapes begin to touch, and impact propagation before the solver runs.
+6. Pymunk's step: positions, narrow phase, solver, sleeping. In the middle of it: contact
+   projection as two shapes begin to touch, and impact propagation before the solver runs.
 7. Joints: gaps are closed in positions.
 8. Half-step velocity: free flight is found.
 9. Contact report: impulses are added up.

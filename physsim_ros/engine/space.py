@@ -127,7 +127,9 @@ class Space:
         self.changes += old != settings
         if old.gravity != settings.gravity:
             self._change_gravity(old.gravity, settings.gravity)
-        self.engine.gravity = settings.gravity
+        if settings.gravity != tuple(self.engine.gravity):
+            # Only then: Chipmunk wakes bodies where it is set.
+            self.engine.gravity = settings.gravity
         self.engine.damping = 1.0 - settings.damping
         self.engine.iterations = settings.iterations
         walls = (settings.bounds, settings.friction, settings.elasticity)

@@ -31,7 +31,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.engine.body import RigidBody
-from physsim_ros.model.arrays import Ints
+from physsim_ros.model.arrays import Floats, Ints
 from physsim_ros.model.checkpoint import ImpulseCache
 import pymunk
 from pymunk._chipmunk_cffi import ffi, lib
@@ -98,9 +98,16 @@ class ShapeIds:
             del self._numbers[shape._shape]
         self._space.remove(*shapes)
 
-    def contacts(self) -> _Points:
-        """Return the contact points of the last step."""
-        arbiters = self._space._get_arbiters()
+    def contacts(self, sleeping: Iterable[pymunk.Body] = ()) -> _Points:
+        """
+        Return the contact points of the last step.
+
+        :param sleeping: sleeping bodies, whose contacts the engine does not list with the others
+        """
+        listed: dict[Any, Any] = {}
+        for body in sleeping:
+            body.each_arbiter(lambda arbiter: listed.setdefault(arbiter._arbiter))
+        arbiters = [*self._space._get_arbiters(), *listed]
         numbers = [(self._numbers[each.a], self._numbers[each.b]) for each in arbiters]
         # The lesser one first, whichever way round the engine has a pair.
         pairs = np.sort(np.array(numbers, dtype=np.int64).reshape(-1, 2), axis=1)
@@ -166,29 +173,31 @@ def clear_impulses(shapes: ShapeIds, rigids: Iterable[RigidBody]) -> None:
 
 
 def read_impulses(
-    shapes: ShapeIds, ids: Sequence[int], walls: int, *, without: Ints
+    shapes: ShapeIds, rigids: Sequence[RigidBody], walls: int, *, without: Ints, joints: Floats
 ) -> ImpulseCache:
     """
-    Return the cached impulses of a space.
+    Return the cached impulses of a space; nothing in it changes.
 
     :param shapes: in the space
-    :param ids: number of the first shape of each body, in spawn order
+    :param rigids: all bodies, in spawn order
     :param walls: number of the first wall
     :param without: numbers of the shapes whose impulses count as zero
+    :param joints: (c, 2) float64: impulses of the constraints
     """
-    found = shapes.contacts()
+    found = shapes.contacts(rigid.engine for rigid in rigids if rigid.engine.is_sleeping)
     found.forget(without)
     _, pairs, points = found
     # The engine lists by address, which is never the same twice.
     order = np.lexsort((points['hash'], pairs[:, 1], pairs[:, 0]))
     points = points[order]
     return ImpulseCache(
-        ids=np.array(ids, dtype=np.int64),
+        ids=np.array([rigid.first for rigid in rigids], dtype=np.int64),
         walls=walls,
         following=shapes.following,
         pairs=pairs[order],
         hashes=points['hash'].copy(),
         impulses=np.column_stack((points['jnAcc'], points['jtAcc'])),
+        joints=joints,
     )
 
 

@@ -57,8 +57,9 @@ def cache_from(entry: object, state: WorldState) -> ImpulseCache | None:
     pairs = unpack(values.get('pairs'), 'pairs', np.int64, 2)
     hashes = unpack(values.get('hashes'), 'hashes', np.uint64)
     impulses = unpack(values.get('impulses'), 'impulses', np.float64, 2)
+    joints = unpack(values.get('joints'), 'joints', np.float64, 2)
     # No other bound: the heaviest and fastest bodies make impulses of any size.
-    sound = bool(np.isfinite(impulses).all())
+    sound = bool(np.isfinite(impulses).all() and np.isfinite(joints).all())
     if not (len(pairs) == len(hashes) == len(impulses) and sound):
         raise BadProperty('memory is not what was saved', field='memory')
     if len(ids) != len(state.bodies):
@@ -74,5 +75,11 @@ def cache_from(entry: object, state: WorldState) -> ImpulseCache | None:
             return None
         end = first + count
     return ImpulseCache(
-        ids=ids, walls=walls, following=following, pairs=pairs, hashes=hashes, impulses=impulses
+        ids=ids,
+        walls=walls,
+        following=following,
+        pairs=pairs,
+        hashes=hashes,
+        impulses=impulses,
+        joints=joints,
     )

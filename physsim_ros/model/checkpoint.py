@@ -98,6 +98,7 @@ class ImpulseCache:
     :param pairs: (k, 2) int64: numbers of the two shapes of each contact point
     :param hashes: (k,) uint64: feature ids of the contact points (Chipmunk: cpContact.hash)
     :param impulses: (k, 2) float64: normal and tangential, of the last step [N s]
+    :param joints: (c, 2) float64: of the engine's constraints, joint by joint [N s, N m s]
     """
 
     ids: Ints
@@ -106,6 +107,7 @@ class ImpulseCache:
     pairs: Ints
     hashes: NDArray[np.uint64]
     impulses: Floats
+    joints: Floats
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -119,8 +121,6 @@ class Checkpoint:
     :param free: (n,) bool: in free flight, so that the engine's velocity leads
     :param wrenches: row of the body, wrench [N, N m], and the step at which it ends or None
     :param memory: impulse cache
-    :param joint_impulses: (c, 2) float64: impulses from which the engine's constraints start their
-        next step [N s, N m s], in the order of the joints
     """
 
     step: int
@@ -129,4 +129,3 @@ class Checkpoint:
     free: NDArray[np.bool_]
     wrenches: tuple[tuple[int, Pose, int | None], ...]
     memory: ImpulseCache
-    joint_impulses: Floats

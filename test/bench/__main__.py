@@ -17,12 +17,15 @@
 import gc
 import sys
 
-from . import crowd, frames, joints, rewinding, startup
+from . import capacity, crowd, frames, joints, outside, resting, rewinding, startup
 
 # As the node does: what has been imported stays, and the collector need not look at it.
 gc.collect()
 gc.freeze()
-frames.table([int(word) for word in sys.argv[1:]] or [100, 300, 1000, 3000])
+frames.table([int(word) for word in sys.argv[1:]] or [100, 300, 1000])
+outside.table()
+resting.table()
+capacity.table()
 crowd.table()
 joints.table()
 rewinding.table()

@@ -21,11 +21,9 @@ favour one of them; over whole times between keyframes, after what is done once 
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from itertools import count
 import math
 from pathlib import Path
-import random
 import statistics
 import subprocess
 import sys
@@ -34,30 +32,27 @@ import time
 from typing import NamedTuple
 
 from geometry_msgs.msg import Pose, PoseArray
-from physsim_ros.model.body_properties import Properties
-from physsim_ros.model.requests import Configure, Spawn
-from physsim_ros.model.shapes import Box, Disc
 from physsim_ros.ros.node import PhysSimNode, reduce_latency
 from physsim_ros.simulation.world import World
 from physsim_ros.testing import own_domain
-import pymunk
 import rclpy
 from rclpy.parameter import Parameter
 
-FRAMES = 360
+from .bodies import Bare, fill, SETTLE, timed
+
+FRAMES = 200
 # Before them: a keyframe is among these, the first of so many bodies.
-WARM = 200
+WARM = 100
 # Frames in a row of each: one alone would leave what is to be sent to the others' time.
 TURN = 20
 PERIOD = 16_666_667  # ns
-SETTLE = 30.0  # simulated seconds in which a pile of a thousand comes to rest
-TOPICS = ('clock', 'poses', 'states', 'contacts', 'markers', 'events')
+TOPICS = ('clock', 'poses', 'states', 'contacts', 'markers', 'events', 'diagnostics')
 # Subscribes to topics from another process, as serialised bytes: what a viewer costs is its own
 # affair.
 LISTENER = """
 import sys, rclpy, rclpy.executors
 from rclpy.experimental import EventsExecutor
-from diagnostic_msgs.msg import DiagnosticStatus
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import PoseArray
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import MultiDOFJointState
@@ -65,9 +60,10 @@ from visualization_msgs.msg import MarkerArray
 rclpy.init(domain_id=int(sys.argv[1]))
 node = rclpy.create_node('listener')
 kinds = {'poses': PoseArray, 'states': MultiDOFJointState, 'contacts': MultiDOFJointState,
-         'markers': MarkerArray, 'events': DiagnosticStatus, 'clock': Clock}
+         'markers': MarkerArray, 'events': DiagnosticStatus, 'clock': Clock,
+         'diagnostics': DiagnosticArray}
 for topic in sys.argv[2:]:
-    name = '/clock' if topic == 'clock' else f'/physsim/{topic}'
+    name = f'/{topic}' if topic in ('clock', 'diagnostics') else f'/physsim/{topic}'
     node.create_subscription(kinds[topic], name, lambda _: None, 5, raw=True)
 executor = EventsExecutor()
 executor.add_node(node)
@@ -101,91 +97,29 @@ class Pile(NamedTuple):
         return f'{self.count:6}  {state}  {topics:13}  {pace:5}'
 
 
-def fill(world: World, count: int, *, settle: float = SETTLE) -> None:
-    """Let a pile of discs and boxes fall into a bin, for seconds; by then it is at rest."""
-    rng = random.Random(count)
-    half = math.sqrt(count) * 0.6
-    row = int(2 * half / 0.7)
-    world.apply(Configure(changes={'bounds': (-half, 0.0, half, 1000.0)}))
-    for number in range(count):
-        world.apply(
-            Spawn(
-                name=f'body/{number}',
-                shape=Disc(radius=0.25) if number % 2 else Box(width=0.5, height=0.5),
-                pose=(
-                    0.5 - half + number % row * 0.7 + rng.uniform(-0.1, 0.1),
-                    0.5 + number // row * 0.7,
-                    0.0,
-                ),
-                properties=Properties(elasticity=0.0),
-            )
-        )
-    world.step(round(settle * world.physics_rate))
-
-
-class Bare:
-    """The engine alone, in a space that nothing of ours is in: four calls of `Space.step`."""
-
-    def __init__(self, pile: Pile) -> None:
-        world = World()
-        fill(world, pile.count, settle=0.0)
-        ours = world._space._space
-        self.space = pymunk.Space()
-        self.space.gravity, self.space.collision_slop = ours.gravity, ours.collision_slop
-        for body in ours.bodies:
-            twin = pymunk.Body(body.mass, body.moment)
-            twin.position, twin.angle = body.position, body.angle
-            self.space.add(twin, *(_twin(shape, twin) for shape in body.shapes))
-        walls = ours.static_body.shapes
-        self.space.add(*(_twin(wall, self.space.static_body) for wall in walls))
-        for _ in range(round(SETTLE * pile.settled * 60)):
-            self._go_on()
-
-    def frame(self) -> None:
-        """Make four steps."""
-        self._go_on()
-
-    def _go_on(self) -> None:
-        for _ in range(4):
-            self.space.step(1 / 240)
-
-
-def _twin(shape: pymunk.Shape, body: pymunk.Body) -> pymunk.Shape:
-    """Return the same shape on another body."""
-    if isinstance(shape, pymunk.Circle):
-        twin: pymunk.Shape = pymunk.Circle(body, shape.radius, shape.offset)
-    else:
-        assert isinstance(shape, pymunk.Poly)
-        twin = pymunk.Poly(body, shape.get_vertices(), radius=shape.radius)
-    twin.friction, twin.elasticity = shape.friction, shape.elasticity
-    return twin
-
-
 class Naive(Bare):
     """The engine, read attribute by attribute into message objects, one a body."""
 
-    def __init__(self, pile: Pile, node: PhysSimNode) -> None:
-        super().__init__(pile)
+    def __init__(self, world: World, node: PhysSimNode) -> None:
+        super().__init__(world)
         self._poses = node.create_publisher(PoseArray, 'naive', 5)
 
     def frame(self) -> None:
         """Make four steps and publish the poses, one stream of the six."""
         super().frame()
-        message = PoseArray()
-        for body in self.space.bodies:
-            pose = Pose()
-            pose.position.x, pose.position.y = body.position
-            pose.orientation.z = math.sin(body.angle / 2)
-            pose.orientation.w = math.cos(body.angle / 2)
-            message.poses.append(pose)
-        self._poses.publish(message)
+        self._poses.publish(naive_message(self))
 
 
-def timed(act: Callable[[], None]) -> float:
-    """Return how long something takes [ms]."""
-    began = time.perf_counter()
-    act()
-    return (time.perf_counter() - began) * 1e3
+def naive_message(bare: Bare) -> PoseArray:
+    """Return the poses of all bodies, read attribute by attribute."""
+    message = PoseArray()
+    for body in bare.space.bodies:
+        pose = Pose()
+        pose.position.x, pose.position.y = body.position
+        pose.orientation.z = math.sin(body.angle / 2)
+        pose.orientation.w = math.cos(body.angle / 2)
+        message.poses.append(pose)
+    return message
 
 
 def measure(pile: Pile, directory: Path, domain: int) -> None:
@@ -198,17 +132,18 @@ def measure(pile: Pile, directory: Path, domain: int) -> None:
     ]
     node = PhysSimNode(parameter_overrides=overrides)
     node.start()
-    fill(node.simulation.world, pile.count, settle=SETTLE * pile.settled)
+    world = node.simulation.world
+    fill(world, pile.count, settle=SETTLE * pile.settled)
     listener = subprocess.Popen([sys.executable, '-c', LISTENER, str(domain), *pile.topics])
     try:
-        while not node.count_subscribers(f'/physsim/{pile.topics[-1]}'):
+        while not node.count_subscribers(f'/physsim/{pile.topics[1]}'):
             time.sleep(0.01)
         node.simulation.speed = 1.0
         ticks = count()
         ways = {
-            'bare': Bare(pile).frame,
+            'bare': Bare(world).frame,
             'node': lambda: node.tick(next(ticks) * PERIOD),
-            'naive': Naive(pile, node).frame,
+            'naive': Naive(world, node).frame,
         }
         times: dict[str, list[float]] = {name: [] for name in ways}
         for _ in range((WARM + FRAMES) // TURN):

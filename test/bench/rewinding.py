@@ -22,11 +22,11 @@ import statistics
 
 from physsim_ros.simulation.simulation import Simulation
 
-from .frames import fill, timed
+from .bodies import fill, timed
 
-SEEKS = 15
+SEEKS = 9
 # How far the world has come before it is sent back [s].
-LENGTHS = {100: 600, 1000: 60}
+LENGTHS = {100: 120, 1000: 30}
 
 
 def measure(count: int, seconds: int) -> None:

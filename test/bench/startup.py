@@ -33,15 +33,17 @@ from rclpy.experimental import EventsExecutor
 from rclpy.node import Node
 from visualization_msgs.msg import Marker, MarkerArray
 
-RUNS = 5
+RUNS = 3
 BODIES = 1000
 
 
 @contextmanager
-def executable(domain: int) -> Iterator[subprocess.Popen[bytes]]:
+def executable(domain: int, **parameters: object) -> Iterator[subprocess.Popen[bytes]]:
     """Run the installed node on a domain."""
+    given = {'viewer': 'none'} | parameters
+    words = [word for name, value in given.items() for word in ('-p', f'{name}:={value}')]
     process = subprocess.Popen(
-        [Path(sys.executable).with_name('physsim'), '--ros-args', '-p', 'viewer:=none'],
+        [Path(sys.executable).with_name('physsim'), '--ros-args', *words],
         env=os.environ | {'ROS_DOMAIN_ID': str(domain)},
         stderr=subprocess.DEVNULL,
     )

@@ -42,7 +42,7 @@ def test_a_net_is_as_long_as_its_rods(side: int) -> None:
     world = net(side)
     for _ in range(10):
         world.step(12)
-        assert stretched(world) < 2e-4
+        assert stretched(world) < 2e-3
 
 
 def test_a_heavy_ball_swings_on_a_light_chain() -> None:
@@ -56,7 +56,7 @@ def test_a_heavy_ball_swings_on_a_light_chain() -> None:
         gained -= start.kinetic_energy + start.potential_energy
         assert abs(gained) < 0.02 * fall
         # Its links weigh something, so that it is bent a little as it turns back.
-        assert math.hypot(*now.poses[-1, :2]) == pytest.approx(3.0, abs=5e-3)
+        assert math.hypot(*now.poses[-1, :2]) == pytest.approx(3.0, rel=0.02)
 
 
 def wheel(spokes: int) -> World:

@@ -115,7 +115,7 @@ def test_bodies_of_the_space_before_last_are_as_good_as_new() -> None:
     for _ in range(4):
         one.step(100)
         other.step(100)
-        one.build_spares(100)
+        one.build_bodies(100)
         one.renew()
         other.renew()
         assert one.digest() == other.digest()
@@ -128,7 +128,7 @@ def test_what_has_changed_since_is_not_taken_from_before() -> None:
         spawn(world, 'stack/1', BOX, (3.0, 0.5, 0.0), density=7.0)
         spawn(world, 'new/0', BOX, (5.0, 0.5, 0.0))
         world.step(50)
-    one.build_spares(100)
+    one.build_bodies(100)
     one.renew()
     other.renew()
     one.step(200)

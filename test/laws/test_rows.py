@@ -35,8 +35,8 @@ ROWS = {
     'upright boxes': (Box(width=2 * HALF, height=3 * HALF),) * COUNT,
     'mixed': (BOX, DISC, BOX, DISC, BOX),
 }
-# How far the struck ones fly [m]: of the second and the fourth, some arrive at the end of a step,
-# where rounding tells whether they touch.
+# How far the struck ones fly [m]. With 0.024 and 1 / 30 some arrive at the end of a step, where
+# rounding tells whether they touch.
 FLIGHTS = (0.02, 0.024, 0.0273, 1 / 30, 0.036)
 
 

@@ -176,8 +176,9 @@ class JointSet:
         return engine_memory.impulses(self._constraints())
 
     def go_on_from(self, impulses: Floats) -> None:
-        """Have the next step start from impulses, (c, 2) float64."""
-        engine_memory.set_impulses(self._constraints(), impulses)
+        """Have the next step start from impulses, (c, 2) float64; from none if they do not fit."""
+        if len(impulses) == len(self._constraints()):
+            engine_memory.set_impulses(self._constraints(), impulses)
 
     def springs(self) -> Springs:
         """Return the springs among the joints."""

@@ -19,8 +19,8 @@ Problem: the velocities that the solver leaves close no gap (the bias is only th
 term), so gaps of joints would grow from step to step. A bias would close them by velocities,
 which are energy where joints and contacts contradict each other.
 Method: Newton's method on the constraint rows C(q) = 0 of all joints together, with the least
-mass-weighted displacements (Goldenthal et al., "Efficient Simulation of Inextensible Cloth", SIGGRAPH
-2007, fast projection):
+mass-weighted displacements (fast projection: Goldenthal, Harmon, Fattal, Bercovier and Grinspun,
+"Efficient Simulation of Inextensible Cloth", SIGGRAPH 2007):
 
     (J M^-1 J^T) lambda = C,    dq = - M^-1 J^T lambda
 
@@ -46,20 +46,22 @@ from scipy.sparse.csgraph import connected_components, reverse_cuthill_mckee
 
 RowsOf = Callable[[Batch, Floats, Floats], tuple[Floats, Floats]]
 
-# Violated bounds are closed but for this [m, rad]: Chipmunk stops a limit only while it is violated.
+# Violated bounds are closed but for this [m, rad]: Chipmunk stops a limit while it is violated.
 SLOP = 1e-4
 # The fastest that a gap is closed at [m/s, rad/s]: a body that is put elsewhere comes back like a
 # thrown one, and joints that contradict each other move their bodies no further than that.
 FASTEST_CORRECTION = 20.0
-# Share of its diagonal that is added to J M^-1 J^T: joints may say the same twice, as the four of a
-# parallelogram do.
+# Share of its diagonal that is added to J M^-1 J^T: joints may say the same twice, as the four of
+# a parallelogram do.
 REGULARISATION = 1e-7
-# An island with a gap wider than this after a step gets another one [m, rad],
+# An island with a gap wider than this after a Newton step gets another one [m, rad], ...
 CLOSED = 1e-4
-# at most so many,
+# ... at most so many in a step of the engine.
 MOST_STEPS = 8
-# and no body of it turns further in one, since rows are linear for small turns only [rad].
+# The furthest that a body turns in a Newton step [rad]: rows are linear for small turns only.
 MOST_TURN = 0.25
+# The furthest that a body moves in a Newton step, in sums of all gaps of its island: joints that
+# contradict each other have nearly singular equations, whose solutions are of any size.
 MOST_LEVERAGE = 10.0
 
 
@@ -152,23 +154,27 @@ class Projection:
             return
         push = push[self._place]
         changes = moved * np.concatenate((push, push))[:, None]
-        moves = np.stack(
-            [np.bincount(self._sides, axis, self._bodies) for axis in changes.T], axis=1
-        )
-        far = np.hypot(moves[:, 0], moves[:, 1]), np.abs(moves[:, 2])
-        island = np.tile(self._island, 2)
-        total = np.bincount(self._island, np.abs(gaps), self._islands)
-        farthest, most_turn = np.zeros(self._islands), np.zeros(self._islands)
-        np.maximum.at(farthest, island, far[0][self._sides])
-        np.maximum.at(most_turn, island, far[1][self._sides])
-        share = np.minimum(
-            MOST_TURN / np.maximum(most_turn, 1e-300),
-            MOST_LEVERAGE * total / np.maximum(farthest, 1e-300),
-        )
-        share = np.minimum(1.0, share)
-        changes *= share[island, None]
+        changes *= self._step_share(changes, gaps)[np.tile(self._island, 2), None]
         for axis in range(3):
             poses[:, axis] -= np.bincount(self._sides, changes[:, axis], self._bodies)
+
+    def _step_share(self, changes: Floats, gaps: Floats) -> Floats:
+        """
+        Return the share of a Newton step that each island makes (trust region).
+
+        :param changes: (2 r, 3) float64: displacements by each row, of its two bodies [m, rad]
+        :param gaps: (r,) float64: C that the rows close [m, rad]
+        :return: (islands,) float64, at most 1
+        """
+        sums = [np.bincount(self._sides, axis, self._bodies) for axis in changes.T]
+        far, turn = np.hypot(sums[0], sums[1])[self._sides], np.abs(sums[2])[self._sides]
+        island = np.tile(self._island, 2)
+        farthest, most_turn = np.zeros(self._islands), np.zeros(self._islands)
+        np.maximum.at(farthest, island, far)
+        np.maximum.at(most_turn, island, turn)
+        reach = MOST_LEVERAGE * np.bincount(self._island, np.abs(gaps), self._islands)
+        by_turn = MOST_TURN / np.maximum(most_turn, 1e-300)
+        return np.minimum(1.0, np.minimum(by_turn, reach / np.maximum(farthest, 1e-300)))
 
     def _read(self, poses: Floats) -> tuple[Floats, Floats]:
         """

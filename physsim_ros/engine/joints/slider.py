@@ -13,8 +13,9 @@
 # limitations under the License.
 
 """
-Slider: an anchor of the first body stays on a line of the second, and neither turns against the
-other; the way along the line may have limits.
+Slider: an anchor of one body stays on a line of another, and neither turns against the other.
+
+The way along the line may have limits.
 
 Chipmunk's `GrooveJoint` solves both directions and then drops what is along the line, which is not
 the velocity constraint of a line where masses and arms make the two directions unequal (7.0.3, as

@@ -66,8 +66,8 @@ def _may_move(body: pymunk.Body) -> bool:
     """
     Return whether a body may be set back in the middle of a step.
 
-    A sleeping one may not: Chipmunk (Munk2D as in Pymunk 7.3.1) wakes a body whose position is set,
-    and `cpSpaceActivateBody` in the middle of a step threads its arbiters twice, so that
+    A sleeping one may not: Chipmunk (Munk2D as in Pymunk 7.3.1) wakes a body whose position is
+    set, and `cpSpaceActivateBody` in the middle of a step threads its arbiters twice, so that
     `cpSpaceProcessComponents` never ends. It wakes by itself after this contact.
     """
     return body.body_type == pymunk.Body.DYNAMIC and not body.is_sleeping

@@ -87,8 +87,10 @@ class HalfStep:
             unsupported = find_unsupported(self._space, self._io, table, released)
             flies = flies | unsupported
         state = table.state
-        if not np.array_equal(flies, free):
+        if table.asleep.any() or not np.array_equal(flies, free):
             state = state.copy()
+            # A sleeping body does not move, whatever velocity the engine keeps for it.
+            state[table.asleep, 3:] = 0.0
             begin, end = flies & ~free, free & ~flies
             state[begin, 3:] += table.leads[begin]
             state[end, 3:] -= table.leads[end]

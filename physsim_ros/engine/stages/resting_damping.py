@@ -46,7 +46,7 @@ SHARE = 0.3
 # The fastest error [m/s]: what the worst orders of solving leave of a stack that is put down.
 FASTEST_ERROR = 0.1
 # Slower bodies fall asleep by themselves [m/s].
-SLOWEST_ERROR = IDLE_SPEED / 4
+SLOWEST_ERROR = IDLE_SPEED / 20
 # Share of the friction cone inside which a contact sticks; one that slides lies on the cone to the
 # last bit.
 INSIDE = 0.999

@@ -1,0 +1,50 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""`make ablate`; `make ablate ARGS='chain bridge'` chooses scenes by words in their names."""
+
+from __future__ import annotations
+
+import sys
+
+from .cost import shares
+from .scenes import error_of, fails, Scene, SCENES
+from .stages import Stage, STAGES, switched_off
+
+
+def cell(scene: Scene, stage: Stage | None) -> str:
+    """Return the error of a scene without a stage, in bold type where it fails."""
+    with switched_off(stage):
+        error = error_of(scene)
+    return f'**{error:.2g}**' if fails(scene, error) else f'{error:.2g}'
+
+
+def line(*cells: str) -> None:
+    """Print a row of the table."""
+    print(f'| {" | ".join(cells)} |', flush=True)
+
+
+def table(words: list[str]) -> None:
+    """Print the errors of scenes, with all stages and without each."""
+    line('scene (law)', 'unit', 'tolerance', 'all stages', *(each.name for each in STAGES))
+    line(*['---'] * (4 + len(STAGES)))
+    chosen = [each for each in SCENES if not words or any(word in each.name for word in words)]
+    for scene in chosen:
+        cells = (cell(scene, stage) for stage in (None, *STAGES))
+        line(scene.name, scene.unit, f'{scene.tolerance:.2g}', *cells)
+    costs = ('–' if share is None else f'{100 * share:.1f}' for share in shares(STAGES))
+    line('cost of the stage', '% of a step', '', '', *costs)
+
+
+table(sys.argv[1:])

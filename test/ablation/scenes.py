@@ -1,0 +1,298 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Short scenes of the laws and worlds, each with one number for its error.
+
+The error is the greatest deviation from the exact answer; a scene fails where it is greater than
+the tolerance of the law, or no number at all.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from contextlib import suppress
+import itertools
+import math
+import time
+from typing import Any, NamedTuple
+
+import numpy as np
+from physsim_ros.model.requests import Delete
+from physsim_ros.model.shapes import Box, Disc, Shape
+import pymunk
+
+from ..laws.scenes import DT, energy, floor, G, join, NOWHERE, run, simulation, spawn, steps
+from ..worlds import film
+
+# Bodies at rest in the scene of sleeping, how many of them in a column, and steps that are timed.
+LYING, HIGH, TIMED = 1000, 4, 60
+
+
+class Scene(NamedTuple):
+    """
+    A scene.
+
+    :ivar name: and the law that it is of
+    :ivar unit: of its error
+    :ivar tolerance: of the law
+    :ivar error: plays the scene, and returns its error
+    """
+
+    name: str
+    unit: str
+    tolerance: float
+    error: Callable[[], float]
+
+
+def _free_flight() -> float:
+    """Throw a disc for a second; return the greatest deviation from the parabola."""
+    sim = simulation()
+    spawn(sim, 'disc/0', Disc(radius=0.1), velocity=(3.0, 4.0))
+    return max(
+        math.dist(now.poses[0, :2], (3.0 * t, 4.0 * t - G * t * t / 2))
+        for now in steps(sim, 240)
+        if (t := now.step * DT)
+    )
+
+
+def _thin_wall() -> float:
+    """Throw discs at a wall of 0.1 m; return by how far one gets past its face."""
+    deepest = 0.0
+    for distance in (1.0, 1.1, 1.2, 1.3):
+        sim = simulation(gravity=NOWHERE)
+        spawn(sim, 'wall/0', Box(width=0.1, height=20.0), anchored=True)
+        disc = spawn(sim, 'disc/0', Disc(radius=0.1), (distance, 0.0, 0.0), velocity=(-100.0, 0))
+        ways = [now.poses[disc, 0] for now in steps(sim, 12)]
+        deepest = max(deepest, 0.15 - min(ways))
+    return deepest
+
+
+def _fast_bar() -> float:
+    """Turn a bar of 4 m at 300 rad/s through 40 discs; return how many it misses."""
+    sim = simulation(gravity=NOWHERE, friction=0.0)
+    spawn(sim, 'bar/0', Box(width=4.0, height=0.05), kinematic=True, spin=300.0)
+    discs = []
+    for number in range(40):
+        angle, far = 0.2 + 2.7 * number / 40, 0.4 + 1.5 * (number * 7 % 40) / 40
+        place = (far * math.cos(angle), far * math.sin(angle), 0.0)
+        discs.append(spawn(sim, f'disc/{number}', Disc(radius=0.03), place))
+    hit = np.zeros(40, np.bool_)
+    for now in steps(sim, 8):
+        hit |= np.hypot(*now.twists[discs, :2].T) > 60.0
+    return 40.0 - hit.sum()
+
+
+def _bounce() -> float:
+    """Drop discs from 1 m to 2 m; return the greatest overlap with the floor."""
+    sim = simulation()
+    floor(sim)
+    discs = [
+        spawn(sim, f'disc/{number}', Disc(radius=0.1), (number, 1.1 + 0.1 * number, 0.0))
+        for number in range(10)
+    ]
+    return max(float((0.1 - now.poses[discs, 1]).max()) for now in steps(sim, 180))
+
+
+def _stack() -> float:
+    """Put down a stack of ten boxes, top first; return its speed after 5 s."""
+    sim, size = simulation(), 0.3
+    floor(sim)
+    for level in reversed(range(10)):
+        spawn(sim, f'box/{level}', Box(width=size, height=size), (0.0, size * (level + 0.5), 0.0))
+    run(sim, 5.0)
+    return max(float(np.abs(now.twists[1:, :2]).max()) for now in steps(sim, 60))
+
+
+def _removed_floor() -> float:
+    """Remove the floor under a pile; return the deviation from free fall after half a second."""
+    sim = simulation()
+    floor(sim)
+    for number in range(20):
+        column, level = number % 4, number // 4
+        place = (0.6 * column + 0.1 * (level % 2), 0.25 + 0.5 * level, 0.0)
+        spawn(sim, f'box/{number}', Box(width=0.5, height=0.5), place)
+    run(sim, 2.0)
+    before = sim.world.snapshot()
+    sim.perform(Delete(name='floor/0'))
+    *_, after = steps(sim, 120)
+    t = 120 * DT
+    return float(np.abs(after.poses - before.poses[1:] + (0.0, G * t * t / 2, 0.0)).max())
+
+
+def _cradle() -> float:
+    """Swing two and three of five balls; return the worst deviation of the speeds after it."""
+    return max(_cradle_of(swung, gap) for swung in (2, 3) for gap in (0.0, 1e-3))
+
+
+def _cradle_of(swung: int, gap: float) -> float:
+    sim, radius, angle = simulation(), 0.1, math.radians(30)
+    for number in range(5):
+        x, turn = (2 * radius + gap) * number, angle if number < swung else 0.0
+        place = (x - math.sin(turn), -math.cos(turn), 0.0)
+        spawn(sim, f'ball/{number}', Disc(radius=radius), place, elasticity=1.0, friction=0.0)
+        join(sim, f'joint/{number}', 'axle', [(x, 0.0)], a=f'ball/{number}', b='world')
+    hit = np.sqrt(2 * G * (1 - math.cos(angle)) / (1 + radius**2 / 2))
+    *_, last = steps(sim, 129)
+    return float(np.abs(last.twists[:, 0] / hit - (np.arange(5) >= 5 - swung)).max())
+
+
+def _elastic_rows() -> float:
+    """Let two of five bodies strike the others; return the worst deviation of the speeds."""
+    disc, box = Disc(radius=0.1), Box(width=0.2, height=0.2)
+    rows = itertools.product((disc, box), (0.02, 0.024, 0.0273))
+    return max(_elastic_row_of(shape, flight) for shape, flight in rows)
+
+
+def _elastic_row_of(shape: Shape, flight: float) -> float:
+    sim = simulation(gravity=NOWHERE, elasticity=1.0, friction=0.0)
+    for number in range(5):
+        flies = number < 2
+        place = (0.2 * number - flight * flies, 0.0, 0.0)
+        spawn(sim, f'body/{number}', shape, place, mass=1.0, velocity=(2.0 * flies, 0.0))
+    *_, last = steps(sim, 72)
+    return float(np.abs(last.twists[:, 0] / 2.0 - (0.0, 0.0, 0.0, 1.0, 1.0)).max())
+
+
+def _pendulum() -> float:
+    """Swing a pendulum from 90 degrees for 10 s; return the greatest change of its energy."""
+    sim = simulation()
+    spawn(sim, 'bob/0', Disc(radius=0.1), (1.0, 0.0, 0.0))
+    join(sim, 'joint/0', 'axle', [(0.0, 0.0)], a='bob/0', b='world')
+    before = sim.world.snapshot()
+    deepest = float(before.scene.inertia[0, 0]) * G
+    return max(abs(energy(now) - energy(before)) / deepest for now in steps(sim, 2400))
+
+
+def _chain() -> float:
+    """Let a chain of 50 axles swing for 5 s; return by which share it stretches."""
+    sim, count, link = simulation(), 50, 0.2
+    for number in range(count):
+        place = (link * (number + 0.5), 0.0, 0.0)
+        spawn(sim, f'link/{number}', Box(width=link, height=0.05), place, mass=0.1)
+        other = f'link/{number - 1}' if number else 'world'
+        points = [(link * number, 0.0)]
+        join(sim, f'joint/{number}', 'axle', points, a=f'link/{number}', b=other)
+    ends = (now.ends[:, 0] - now.ends[:, 1] for now in steps(sim, 1200))
+    return max(float(np.hypot(*gaps.T).sum()) for gaps in ends) / (count * link)
+
+
+def _gear_train() -> float:
+    """Run the world of gears for 3 s; return by how far they are from the ratio of their teeth."""
+    seen = film.Film(film.simulation('gear_train'), 3.0)
+    first, second, third, fourth = (
+        seen.yaw(f'wheel/{number}') - seen.yaw(f'wheel/{number}')[0] for number in range(4)
+    )
+    gaps = 12 * first + 24 * second, second - third, 10 * third + 30 * fourth
+    return max(float(np.abs(gap).max()) for gap in gaps)
+
+
+def _plough() -> float:
+    """Drive a plough through two discs; return by which share its way is off its velocity."""
+    sim = simulation(gravity=NOWHERE)
+    row = spawn(sim, 'plough/0', Box(width=0.3, height=1.0), mass=1000.0, velocity=(30.0, 0.0))
+    for number in range(2):
+        spawn(sim, f'disc/{number}', Disc(radius=0.05), (1.0 + 0.15 * number, 0.0, 0.0), mass=1.0)
+    first = last = sim.world.snapshot()
+    integral = 0.0
+    for now in steps(sim, 60):
+        integral += float(last.twists[row, 0] + now.twists[row, 0]) / 2 * DT
+        last = now
+    return abs(float(last.centers[row, 0] - first.centers[row, 0]) / integral - 1.0)
+
+
+def _bridge() -> float:
+    """Let the truck drive over the bridge for 4 s; return by how far a plank is displaced."""
+    seen = film.Film(film.simulation('bridge'), 4.0)
+    deck = np.array([seen.pose(f'deck/{number}') for number in range(8)])
+    return float(np.abs(deck[:, :, 1] - 3.0).max())
+
+
+def _checkpoint() -> float:
+    """Take a checkpoint of a chain and a stack at rest; return their greatest speed after it."""
+    sim = simulation()
+    floor(sim)
+    for number in range(10):
+        place = (3.0, 0.25 + 0.5 * number, 0.0)
+        spawn(sim, f'box/{number}', Box(width=0.5, height=0.5), place)
+    for number in range(20):
+        place = (0.0, 6.0 - 0.2 * (number + 0.5), 0.0)
+        spawn(sim, f'link/{number}', Box(width=0.05, height=0.2), place, mass=0.1)
+        other = f'link/{number - 1}' if number else 'world'
+        points = [(0.0, 6.0 - 0.2 * number)]
+        join(sim, f'axle/{number}', 'axle', points, a=f'link/{number}', b=other)
+    sim.world.step(720)
+    sim.world.renew()
+    return max(float(np.abs(now.twists).max()) for now in steps(sim, 24))
+
+
+def _at_rest() -> float:
+    """Return the cost of a step of bodies at rest, in steps of Pymunk that does not sleep."""
+    sim, bare = simulation(), pymunk.Space()
+    floor(sim)
+    bare.gravity = (0.0, -G)
+    slab = pymunk.Poly(bare.static_body, [(-200.0, -2.0), (200.0, -2.0), (200.0, 0), (-200.0, 0)])
+    bare.add(slab)
+    for number in range(LYING):
+        place = (0.3 * (number // HIGH), 0.1 + 0.2 * (number % HIGH))
+        spawn(sim, f'box/{number}', Box(width=0.2, height=0.2), (*place, 0.0), mass=1.0)
+        twin = pymunk.Body(1.0, 0.2**2 / 6)
+        twin.position = place
+        bare.add(twin, pymunk.Poly.create_box(twin, (0.2, 0.2)))
+    sim.world.step(180)
+    for _ in range(180):
+        bare.step(DT)
+    spawn(sim, 'ball/0', Disc(radius=0.1), (-10.0, 100.0, 0.0))
+    ours, theirs = [], []
+    for _ in range(TIMED):
+        ours.append(_timed(lambda: sim.world.step(1)))
+        theirs.append(_timed(lambda: bare.step(DT)))
+    return float(np.median(ours) / np.median(theirs))
+
+
+def _timed(act: Callable[[], Any]) -> float:
+    began = time.perf_counter()
+    act()
+    return time.perf_counter() - began
+
+
+SCENES = (
+    Scene('free flight (1)', 'm', 1e-9, _free_flight),
+    Scene('thin wall (25)', 'm', 0.01, _thin_wall),
+    Scene('fast bar (35)', 'discs', 0.0, _fast_bar),
+    Scene('bounce (7)', 'm', 0.01, _bounce),
+    Scene('stack of ten (18)', 'm/s', 1e-3, _stack),
+    Scene('removed floor', 'm, rad', 1e-3, _removed_floor),
+    Scene('cradle, 2 and 3 of 5 (17)', 'v', 0.02, _cradle),
+    Scene('elastic rows, 2 of 5 (36)', 'v', 0.02, _elastic_rows),
+    Scene('pendulum (15)', 'm g l', 0.01, _pendulum),
+    Scene('chain of 50 (20)', 'length', 0.05, _chain),
+    Scene('gear train', 'rad', 1e-6, _gear_train),
+    Scene('plough (28)', 'way', 0.02, _plough),
+    Scene('bridge', 'm', 2e-3, _bridge),
+    Scene('checkpoint (26)', 'm/s', 5e-3, _checkpoint),
+    Scene('at rest', 'bare steps', 1 / 3, _at_rest),
+)
+
+
+def error_of(scene: Scene) -> float:
+    """Play a scene; return its error, which is no number where the engine gives up."""
+    with suppress(ArithmeticError, np.linalg.LinAlgError):
+        return scene.error()
+    return math.nan
+
+
+def fails(scene: Scene, error: float) -> bool:
+    """Tell whether an error is beyond the tolerance of a scene."""
+    return not error <= scene.tolerance

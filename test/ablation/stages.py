@@ -1,0 +1,148 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+The stages of a step, and how each is put out of action in this process.
+
+The product has no switches: a function of a stage is replaced by one that does nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, ExitStack
+from typing import Any, NamedTuple
+from unittest import mock
+
+import numpy as np
+from physsim_ros.engine import body_table, checkpoint, pipeline, space, warm_start
+from physsim_ros.engine.body import REST, RigidBody
+from physsim_ros.engine.ccd.continuous import ContinuousCollision
+from physsim_ros.engine.joints import joint_set
+from physsim_ros.engine.joints.joint_set import JointSet
+from physsim_ros.engine.stages import half_step
+from physsim_ros.engine.stages.half_step import HalfStep
+from physsim_ros.engine.stages.impact_propagation import ImpactPropagation
+from physsim_ros.engine.stages.resting_damping import RestingDamping
+
+Target = tuple[Any, str]
+
+
+class Stage(NamedTuple):
+    """
+    A stage.
+
+    :ivar name: of the stage
+    :ivar replaced: functions that are replaced, and by which
+    :ivar timed: functions whose time is the cost of the stage
+    """
+
+    name: str
+    replaced: tuple[tuple[Target, Callable[..., Any]], ...]
+    timed: tuple[Target, ...]
+
+
+def _nothing(*_: object, **__: object) -> None:
+    """Do nothing."""
+
+
+def _no_unsupported(_space: Any, _io: Any, table: Any, _released: Any) -> Any:
+    return np.zeros(len(table.bodies), np.bool_)
+
+
+def _columns_without_lead(scene: Any, dt: float, _columns: Any = body_table._columns_of) -> Any:
+    columns = _columns(scene, dt)
+    return columns._replace(gravity_lead=np.zeros_like(columns.gravity_lead))
+
+
+def _motion_without_turn(
+    a: Any, b: Any, pull: Any, dt: float, _kind: Any = joint_set.Motion
+) -> Any:
+    """Return the motion of bodies that have poses only, so that the centripetal term is zero."""
+    a, b = (np.concatenate((each[:, :3], np.zeros((len(each), 3))), axis=1) for each in (a, b))
+    return _kind(a, b, np.zeros_like(pull), dt)
+
+
+def _no_common_points(*_: object) -> Any:
+    return np.empty(0, np.intp), np.empty(0, np.intp)
+
+
+STAGES = (
+    Stage(
+        'half-step velocity',
+        (
+            ((RigidBody, 'lead'), lambda *_: REST),
+            ((body_table, '_columns_of'), _columns_without_lead),
+        ),
+        ((HalfStep, 'begin_step'), (HalfStep, 'find_free')),
+    ),
+    Stage(
+        'support graph',
+        (((half_step, 'find_unsupported'), _no_unsupported),),
+        ((half_step, 'find_unsupported'),),
+    ),
+    Stage(
+        'resting damping',
+        (((RestingDamping, 'damp_resting'), _nothing),),
+        ((RestingDamping, 'damp_resting'),),
+    ),
+    Stage(
+        'continuous collision',
+        (((ContinuousCollision, 'clamp_moves'), _nothing),),
+        ((ContinuousCollision, 'clamp_moves'),),
+    ),
+    Stage(
+        'contact projection',
+        (((pipeline, 'project_contact'), _nothing),),
+        ((pipeline, 'project_contact'),),
+    ),
+    Stage(
+        'impact propagation',
+        (((ImpactPropagation, '_propagate'), _nothing),),
+        ((ImpactPropagation, '_propagate'),),
+    ),
+    Stage(
+        'joint targets',
+        (((joint_set, 'Motion'), _motion_without_turn),),
+        ((JointSet, 'set_targets'),),
+    ),
+    Stage(
+        'joint gaps',
+        (((JointSet, 'close_gaps'), _nothing),),
+        ((JointSet, 'close_gaps'),),
+    ),
+    Stage('sleeping', (((space, 'enable_sleeping'), _nothing),), ()),
+    Stage(
+        'warm start',
+        (
+            ((warm_start, '_same'), _no_common_points),
+            ((JointSet, 'go_on_from'), _nothing),
+        ),
+        (
+            (checkpoint, 'read_impulses'),
+            (checkpoint, 'write_impulses'),
+            (JointSet, 'impulses'),
+            (JointSet, 'go_on_from'),
+        ),
+    ),
+)
+
+
+@contextmanager
+def switched_off(stage: Stage | None) -> Iterator[None]:
+    """Put a stage out of action; None is none."""
+    with ExitStack() as patches:
+        for (owner, name), replacement in () if stage is None else stage.replaced:
+            patches.enter_context(mock.patch.object(owner, name, replacement))
+        yield

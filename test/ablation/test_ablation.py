@@ -1,0 +1,50 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""All stages together keep each scene within its tolerance, and each stage can be switched off."""
+
+import pytest
+
+from .scenes import error_of, fails, SCENES
+from .stages import STAGES, switched_off
+
+# Scenes that take less than half a second; `make ablate` plays all.
+SLOW = {'fast bar (35)', 'pendulum (15)', 'chain of 50 (20)', 'gear train', 'bridge', 'at rest'}
+FAST = [scene for scene in SCENES if scene.name not in SLOW]
+
+
+@pytest.mark.parametrize('scene', FAST, ids=lambda scene: scene.name)
+def test_a_scene_is_within_its_tolerance(scene):
+    error = error_of(scene)
+    assert not fails(scene, error), f'{error:.3g} {scene.unit}'
+
+
+@pytest.mark.parametrize(
+    ('name', 'without'),
+    [
+        ('free flight (1)', 'half-step velocity'),
+        ('removed floor', 'support graph'),
+        ('stack of ten (18)', 'resting damping'),
+        ('thin wall (25)', 'continuous collision'),
+        ('bounce (7)', 'contact projection'),
+        ('elastic rows, 2 of 5 (36)', 'impact propagation'),
+        ('checkpoint (26)', 'warm start'),
+    ],
+)
+def test_a_scene_fails_without_a_stage(name, without):
+    (scene,) = (each for each in SCENES if each.name == name)
+    (stage,) = (each for each in STAGES if each.name == without)
+    with switched_off(stage):
+        error = error_of(scene)
+    assert fails(scene, error), f'{error:.3g} {scene.unit}'

@@ -1,0 +1,155 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The worlds that are measured, and the same bodies in a space of Pymunk alone."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+import math
+import random
+import time
+from collections.abc import Callable
+
+from physsim_ros.model.body_properties import Properties
+from physsim_ros.model.checkpoint import WorldState
+from physsim_ros.model.requests import Configure, Restore, Spawn
+from physsim_ros.model.shapes import Box, Disc
+from physsim_ros.simulation.world import World
+import pymunk
+
+SETTLE = 20.0  # simulated seconds in which a pile of a thousand comes to rest
+# Bodies in a column of those that are laid down.
+HIGH = 4
+# Wider than the farthest body of the greatest count [m].
+GROUND = 2000.0
+
+
+def fill(world: World, count: int, *, settle: float = SETTLE) -> None:
+    """Let a pile of discs and boxes fall into a bin, for seconds; by then it is at rest."""
+    if settle:
+        world.apply(Restore(state=_settled(count, settle)))
+        return
+    rng = random.Random(count)
+    half = math.sqrt(count) * 0.6
+    row = int(2 * half / 0.7)
+    world.apply(Configure(changes={'bounds': (-half, 0.0, half, 1000.0)}))
+    for number in range(count):
+        world.apply(
+            Spawn(
+                name=f'body/{number}',
+                shape=_shape(number),
+                pose=(
+                    0.5 - half + number % row * 0.7 + rng.uniform(-0.1, 0.1),
+                    0.5 + number // row * 0.7,
+                    0.0,
+                ),
+                properties=Properties(elasticity=0.0),
+            )
+        )
+
+
+@lru_cache(maxsize=2)
+def _settled(count: int, settle: float) -> WorldState:
+    world = World()
+    fill(world, count, settle=0.0)
+    world.step(round(settle * world.physics_rate))
+    return world.save()
+
+
+def _shape(number: int) -> Disc | Box:
+    return Disc(radius=0.25) if number % 2 else Box(width=0.5, height=0.5)
+
+
+def falling(count: int) -> World:
+    """Return bodies that fall onto one another in a bin."""
+    world = World()
+    fill(world, count, settle=0.0)
+    return world
+
+
+def sparse(count: int) -> World:
+    """Return bodies that drift far apart without gravity."""
+    world = World()
+    world.apply(Configure(changes={'gravity': (0.0, 0.0)}))
+    rng, side = random.Random(count), math.ceil(math.sqrt(count))
+    for number in range(count):
+        row, column = divmod(number, side)
+        velocity = rng.uniform(-0.05, 0.05), rng.uniform(-0.05, 0.05)
+        properties = Properties(velocity=velocity, spin=rng.uniform(-1.0, 1.0))
+        pose = (3.0 * column, 3.0 * row, 0.0)
+        world.apply(
+            Spawn(name=f'body/{number}', shape=_shape(number), pose=pose, properties=properties)
+        )
+    return world
+
+
+def laid(count: int) -> World:
+    """Return boxes laid down in columns on the ground; after a second they are at rest."""
+    world = World()
+    ground = Box(width=GROUND, height=2.0)
+    still = Properties(anchored=True)
+    world.apply(Spawn(name='ground/0', shape=ground, pose=(0.0, -1.0, 0.0), properties=still))
+    for number in range(count):
+        column, level = divmod(number, HIGH)
+        pose = (0.3 * column - 0.15 * count / HIGH, 0.1 + 0.2 * level, 0.0)
+        world.apply(Spawn(name=f'body/{number}', shape=Box(width=0.2, height=0.2), pose=pose))
+    return world
+
+
+class Bare:
+    """
+    The bodies of a world in a space that nothing of ours is in: `Space.step` alone.
+
+    :param world: whose bodies are copied, as they are now
+    """
+
+    def __init__(self, world: World) -> None:
+        ours = world._space.engine
+        self.space = pymunk.Space()
+        self.space.gravity, self.space.collision_slop = ours.gravity, ours.collision_slop
+        for body in ours.bodies:
+            twin = pymunk.Body(body.mass, body.moment, body.body_type)
+            twin.position, twin.angle = body.position, body.angle
+            twin.velocity, twin.angular_velocity = body.velocity, body.angular_velocity
+            self.space.add(twin, *(_twin(shape, twin) for shape in body.shapes))
+        walls = ours.static_body.shapes
+        self.space.add(*(_twin(wall, self.space.static_body) for wall in walls))
+
+    def frame(self) -> None:
+        """Make four steps."""
+        self.step(4)
+
+    def step(self, count: int) -> None:
+        """Make some steps."""
+        for _ in range(count):
+            self.space.step(1 / 240)
+
+
+def _twin(shape: pymunk.Shape, body: pymunk.Body) -> pymunk.Shape:
+    """Return the same shape on another body."""
+    if isinstance(shape, pymunk.Circle):
+        twin: pymunk.Shape = pymunk.Circle(body, shape.radius, shape.offset)
+    else:
+        assert isinstance(shape, pymunk.Poly)
+        twin = pymunk.Poly(body, shape.get_vertices(), radius=shape.radius)
+    twin.friction, twin.elasticity = shape.friction, shape.elasticity
+    return twin
+
+
+def timed(act: Callable[[], object]) -> float:
+    """Return the time of a call [ms]."""
+    began = time.perf_counter()
+    act()
+    return (time.perf_counter() - began) * 1e3

@@ -1,0 +1,77 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Capacity: the most bodies whose frames take no longer than a sixtieth of a second."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+import statistics
+
+from physsim_ros.simulation.simulation import Simulation
+from physsim_ros.simulation.world import World
+
+from .bodies import Bare, falling, laid, timed
+from .frames import naive_message
+
+# Counts that are tried: a quarter of an octave apart.
+COUNTS = [round(250 * 2 ** (quarter / 4)) for quarter in range(21)]
+BUDGET = 1e3 / 60  # ms
+FRAMES = 40
+# Frames before those that are measured: bodies are on one another by then, or asleep.
+BEFORE = 40
+
+
+def _ours(world: World) -> Callable[[], object]:
+    simulation = Simulation()
+    simulation.load(world.save())
+    return simulation.advance_frame
+
+
+def _naive(world: World) -> Callable[[], object]:
+    bare = Bare(world)
+
+    def frame() -> object:
+        bare.frame()
+        return naive_message(bare)
+
+    return frame
+
+
+def _fits(scene: Callable[[int], World], loop: Callable[[World], Callable[[], object]]) -> int:
+    """Return the greatest count that a loop keeps up with; 0 is none."""
+    low, high = -1, len(COUNTS)
+    while high - low > 1:
+        middle = (low + high) // 2
+        frame = loop(scene(COUNTS[middle]))
+        for _ in range(BEFORE):
+            frame()
+        if statistics.mean(timed(frame) for _ in range(FRAMES)) <= BUDGET:
+            low = middle
+        else:
+            high = middle
+    return COUNTS[low] if low >= 0 else 0
+
+
+def table() -> None:
+    """Print a row for bodies that fall and one for bodies at rest."""
+    print(
+        f'\nMost bodies at 60 Hz in real time, of {COUNTS[0]} .. {COUNTS[-1]}, nothing published;'
+        ' naive: attribute reads and messages of Python'
+    )
+    print('scene      ours  naive  ours/naive')
+    for scene in (falling, laid):
+        ours, naive = _fits(scene, _ours), _fits(scene, _naive)
+        name = 'falling' if scene is falling else 'at rest'
+        print(f'{name:8} {ours:6} {naive:6} {ours / max(naive, 1):11.2f}', flush=True)

@@ -1,0 +1,62 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The cost of rest: bodies that sleep while a ball falls far away."""
+
+from __future__ import annotations
+
+import statistics
+
+from physsim_ros.model.body_properties import Properties
+from physsim_ros.model.requests import Spawn
+from physsim_ros.model.shapes import Disc
+from physsim_ros.simulation.world import World
+
+from .bodies import Bare, GROUND, laid, timed
+
+COUNT = 1000
+STEPS = 60
+REST = 240
+# Speeds of the ball [m/s]; the last one needs continuous collision.
+SPEEDS = (0.0, 5.0, 20.0)
+
+
+def _at_rest(speed: float) -> World:
+    world = laid(COUNT)
+    world.step(REST)
+    properties = Properties(velocity=(0.0, -speed))
+    pose = (0.4 * GROUND, 50.0, 0.0)
+    world.apply(Spawn(name='ball/0', shape=Disc(radius=0.1), pose=pose, properties=properties))
+    return world
+
+
+def _bare(world: World, sleep: float) -> Bare:
+    bare = Bare(world)
+    bare.space.sleep_time_threshold, bare.space.idle_speed_threshold = sleep, 0.005
+    bare.step(REST)
+    return bare
+
+
+def table() -> None:
+    """Print a row for each speed of the ball."""
+    print(f'\nA step of {COUNT} bodies at rest and a ball that falls far away [ms]')
+    print('ball [m/s]  bare, awake  bare, asleep    ours  ours/awake  ours/asleep')
+    for speed in SPEEDS:
+        world = _at_rest(speed)
+        awake, asleep = _bare(world, float('inf')), _bare(world, 0.5)
+        acts = (lambda: awake.step(1), lambda: asleep.step(1), lambda: world.step(1))
+        times = [[timed(act) for act in acts] for _ in range(STEPS)]
+        base, slept, ours = (statistics.median(each) for each in zip(*times, strict=True))
+        ratios = f'{ours / base:11.2f} {ours / slept:12.2f}'
+        print(f'{speed:10g} {base:12.3f} {slept:13.3f} {ours:7.3f} {ratios}', flush=True)
