@@ -1,4 +1,4 @@
-# make run | test | lint | bench | evaluate | clean; ARGS='...' is handed on to the program that a target runs.
+# make run | test | lint | bench | ablate | evaluate | clean; ARGS='...' is handed on to the program that a target runs.
 #
 # What it needs: Linux, make, and a Python of 3.11 or later with venv. It builds .venv beside this file and changes
 # nothing else. Where ROS 2 Jazzy is sourced, that is used; everywhere else Jazzy comes as wheels.
@@ -29,7 +29,7 @@ else
   unexport _ROS_WHEELS_BOOTSTRAP_COMPLETE
 endif
 
-.PHONY: run test lint bench evaluate clean
+.PHONY: run test lint bench ablate evaluate clean
 
 run: $(STAMP)
 	@echo 'Where to look:'
@@ -51,6 +51,9 @@ lint: $(STAMP)
 
 bench: $(STAMP)
 	$(BIN)/python -m test.bench $(ARGS)
+
+ablate: $(STAMP)
+	$(BIN)/python -m test.ablation $(ARGS)
 
 evaluate: $(STAMP)
 	$(BIN)/python -m test.evaluation $(ARGS)

@@ -57,6 +57,10 @@ def _nothing(*_: object, **__: object) -> None:
     """Do nothing."""
 
 
+def _no_free_flight(context: Any) -> None:
+    context.table.free = np.zeros(len(context.table.bodies), np.bool_)
+
+
 def _no_unsupported(_space: Any, _io: Any, table: Any, _released: Any) -> Any:
     return np.zeros(len(table.bodies), np.bool_)
 
@@ -82,6 +86,7 @@ STAGES = (
     Stage(
         'half-step velocity',
         (
+            ((HalfStep, 'find_free'), staticmethod(_no_free_flight)),
             ((RigidBody, 'lead'), lambda *_: REST),
             ((body_table, '_columns_of'), _columns_without_lead),
         ),

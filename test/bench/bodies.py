@@ -16,11 +16,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import lru_cache
 import math
 import random
 import time
-from collections.abc import Callable
 
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checkpoint import WorldState
@@ -86,7 +86,7 @@ def sparse(count: int) -> World:
     rng, side = random.Random(count), math.ceil(math.sqrt(count))
     for number in range(count):
         row, column = divmod(number, side)
-        velocity = rng.uniform(-0.05, 0.05), rng.uniform(-0.05, 0.05)
+        velocity = rng.uniform(-1.0, 1.0), rng.uniform(-1.0, 1.0)
         properties = Properties(velocity=velocity, spin=rng.uniform(-1.0, 1.0))
         pose = (3.0 * column, 3.0 * row, 0.0)
         world.apply(

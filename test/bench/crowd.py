@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""What fast bodies cost: a crowd of small discs that falls, lands and lies."""
+"""The cost of fast bodies: a crowd of small discs that falls, lands and lies."""
 
 import time
 

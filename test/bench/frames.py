@@ -13,7 +13,7 @@
 # limitations under the License.
 
 """
-What a frame costs, side by side in one run: the node, the bare engine, and the naive way.
+The cost of a frame, side by side in one run: the node, the bare engine, and the naive way.
 
 Every figure is a mean over frames that take turns, so that a machine whose speed drifts does not
 favour one of them; over whole times between keyframes, after what is done once has been done.
@@ -36,6 +36,7 @@ from physsim_ros.ros.node import PhysSimNode, reduce_latency
 from physsim_ros.simulation.world import World
 from physsim_ros.testing import own_domain
 import rclpy
+from rclpy.logging import LoggingSeverity
 from rclpy.parameter import Parameter
 
 from .bodies import Bare, fill, SETTLE, timed
@@ -77,7 +78,7 @@ except rclpy.executors.ExternalShutdownException:
 
 class Pile(NamedTuple):
     """
-    What is measured.
+    A pile that is measured.
 
     :ivar count: of bodies
     :ivar settled: whether they lie; else they fall onto one another all the time
@@ -131,6 +132,7 @@ def measure(pile: Pile, directory: Path, domain: int) -> None:
         Parameter('speed', value=0.0),
     ]
     node = PhysSimNode(parameter_overrides=overrides)
+    node.get_logger().set_level(LoggingSeverity.WARN)
     node.start()
     world = node.simulation.world
     fill(world, pile.count, settle=SETTLE * pile.settled)

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""What joints cost: a step of a machine, with its joints and without."""
+"""The cost of joints: a step of a machine, with its joints and without."""
 
 import statistics
 import time
@@ -49,7 +49,7 @@ def chain(count: int, *, links: int, joined: bool) -> World:
 
 
 def median_step(world: World) -> float:
-    """Return what a step costs [ms]."""
+    """Return the median time of a step [ms]."""
     costs = []
     for _ in range(STEPS):
         began = time.perf_counter_ns()
@@ -59,7 +59,7 @@ def median_step(world: World) -> float:
 
 
 def frames(world: World) -> tuple[float, float]:
-    """Return what a frame costs on the whole, and the longest one, with a keyframe in it [ms]."""
+    """Return the median time of a frame, and the longest one, with a checkpoint in it [ms]."""
     simulation = Simulation(keyframes=1.0)
     simulation.load(world.save())
     costs = []
@@ -67,7 +67,7 @@ def frames(world: World) -> tuple[float, float]:
         began = time.perf_counter_ns()
         simulation.advance_frame()
         costs.append((time.perf_counter_ns() - began) * 1e-6)
-    # The first finds out what hangs together.
+    # The first makes the tables of joints.
     return statistics.median(costs), max(costs[1:])
 
 

@@ -48,15 +48,20 @@ def _bare(world: World, sleep: float) -> Bare:
     return bare
 
 
+def _measure(speed: float) -> None:
+    """Print a row."""
+    world = _at_rest(speed)
+    awake, asleep = _bare(world, float('inf')), _bare(world, 0.5)
+    acts = (lambda: awake.step(1), lambda: asleep.step(1), lambda: world.step(1))
+    times = [[timed(act) for act in acts] for _ in range(STEPS)]
+    base, slept, ours = (statistics.median(each) for each in zip(*times, strict=True))
+    ratios = f'{ours / base:11.2f} {ours / slept:12.2f}'
+    print(f'{speed:10g} {base:12.3f} {slept:13.3f} {ours:7.3f} {ratios}', flush=True)
+
+
 def table() -> None:
     """Print a row for each speed of the ball."""
     print(f'\nA step of {COUNT} bodies at rest and a ball that falls far away [ms]')
     print('ball [m/s]  bare, awake  bare, asleep    ours  ours/awake  ours/asleep')
     for speed in SPEEDS:
-        world = _at_rest(speed)
-        awake, asleep = _bare(world, float('inf')), _bare(world, 0.5)
-        acts = (lambda: awake.step(1), lambda: asleep.step(1), lambda: world.step(1))
-        times = [[timed(act) for act in acts] for _ in range(STEPS)]
-        base, slept, ours = (statistics.median(each) for each in zip(*times, strict=True))
-        ratios = f'{ours / base:11.2f} {ours / slept:12.2f}'
-        print(f'{speed:10g} {base:12.3f} {slept:13.3f} {ours:7.3f} {ratios}', flush=True)
+        _measure(speed)

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""What going back costs: how long a seek takes and a keyframe stalls, what the past weighs."""
+"""The cost of going back: time of a seek and of a checkpoint, size of the past."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from physsim_ros.simulation.simulation import Simulation
 from .bodies import fill, timed
 
 SEEKS = 9
-# How far the world has come before it is sent back [s].
+# Simulated time before the seeks, by count of bodies [s].
 LENGTHS = {100: 120, 1000: 30}
 
 

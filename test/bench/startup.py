@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""How soon the node is there, and how much memory it takes: the executable, seen from outside."""
+"""Start and memory of the node: the installed executable, seen from outside."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def executable(domain: int, **parameters: object) -> Iterator[subprocess.Popen[b
 
 
 class Watcher:
-    """Another process's end: what it hears of the poses."""
+    """Another process's end: the poses that it receives."""
 
     def __init__(self, domain: int) -> None:
         self._context = rclpy.Context()
