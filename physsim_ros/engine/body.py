@@ -23,7 +23,7 @@ exact, so the engine's velocity leads while a body is in free flight, and what i
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 import math
 
 from physsim_ros.model.checkpoint import Motion
@@ -156,3 +156,8 @@ def _shape(piece: Piece, engine: pymunk.Body, offset: Point) -> pymunk.Shape:
             return pymunk.Segment(engine, local(start), local(end), radius)
         case Convex(vertices):
             return pymunk.Poly(engine, [local(vertex) for vertex in vertices])
+
+
+def same_in_engine(a: Body, b: Body) -> bool:
+    """Return whether two bodies differ only in what the engine does not know."""
+    return a == replace(b, color=a.color, expires=a.expires)

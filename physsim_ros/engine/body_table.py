@@ -27,17 +27,18 @@ from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from physsim_ros.engine.batch_io import BatchIO, Ids
 from physsim_ros.engine.body import REST, RigidBody
 from physsim_ros.engine.ccd.safe_moves import safe_depths, turning_radius
 from physsim_ros.engine.islands import flood, Rows
-from physsim_ros.model.arrays import Floats, Ints
+from physsim_ros.model.arrays import Flags, Floats, Ints
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.scene import Scene
 import pymunk
 
-Flags = NDArray[np.bool_]
+# A body that is farther or faster than this has left every world [m, m/s]; float64 holds 0.1 mm
+# there.
+LOST = 1e12
 
 
 class SceneColumns(NamedTuple):
@@ -149,6 +150,12 @@ class BodyTable:
             self.slot_changes += 1
             self._map_slots()
         return states.take(self._slots, axis=0)
+
+    def lost(self) -> list[str]:
+        """Return the names of the bodies that have left the range of numbers."""
+        # NaN compares false, so that it is lost too.
+        far = ~(np.abs(self.state) < LOST).all(axis=1)
+        return [self.scene.names[row] for row in np.flatnonzero(far)]
 
     def write_state(self, state: Floats) -> None:
         """Set the poses and velocities of all bodies, (n, 6) float64; none may sleep."""

@@ -31,7 +31,7 @@ import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.engine.batch_io import BatchIO, Ids
 from physsim_ros.engine.body_table import BodyTable
-from physsim_ros.model.arrays import Floats, Ints
+from physsim_ros.model.arrays import Flags, Floats, Ints
 from physsim_ros.model.snapshot import Contacts
 import pymunk
 from pymunk import batch
@@ -335,7 +335,7 @@ def _oriented(pairs: Ids) -> tuple[Ids, Floats]:
     return np.column_stack((np.minimum(first, second), np.maximum(first, second))), signs
 
 
-def _find(pairs: Ids, listing: Ids) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
+def _find(pairs: Ids, listing: Ids) -> tuple[NDArray[np.intp], Flags]:
     """Return a row of each pair in a listing, and whether it is the pair's."""
     if len(listing) == 0:
         return np.zeros(len(pairs), np.intp), np.zeros(len(pairs), np.bool_)
@@ -373,9 +373,7 @@ class _Listing:
         """Return whether the same pairs touch as when this was made."""
         return self.table is table and np.array_equal(self.touching, touching)
 
-    def contacts(
-        self, places: Floats, sums: Floats, current: int
-    ) -> tuple[Contacts, NDArray[np.bool_]]:
+    def contacts(self, places: Floats, sums: Floats, current: int) -> tuple[Contacts, Flags]:
         """
         Return the contacts, from what is known of each in the engine's order.
 
@@ -396,7 +394,7 @@ class _Listing:
         )
         return contacts, places[2] == 0
 
-    def _one_each(self, places: Floats, current: NDArray[np.bool_]) -> Floats:
+    def _one_each(self, places: Floats, current: Flags) -> Floats:
         """
         Return one place for each pair.
 
@@ -411,7 +409,7 @@ class _Listing:
         return result
 
 
-def _means(places: Floats, current: NDArray[np.bool_], first: NDArray[np.intp]) -> Floats:
+def _means(places: Floats, current: Flags, first: NDArray[np.intp]) -> Floats:
     """
     Return the mean place of each pair over its points, which is of no order.
 

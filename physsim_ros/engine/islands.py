@@ -18,6 +18,7 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
+from physsim_ros.model.arrays import Flags
 
 Rows = NDArray[np.intp]
 
@@ -30,7 +31,7 @@ def ranges(first: Rows, count: Rows) -> Rows:
     return rows
 
 
-def flood(marked: NDArray[np.bool_], pairs: Rows) -> NDArray[np.bool_]:
+def flood(marked: Flags, pairs: Rows) -> Flags:
     """
     Return (n,) bool: marked nodes, and all that are connected with one by pairs.
 

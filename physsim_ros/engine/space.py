@@ -21,34 +21,21 @@ a wrench changes.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import replace
-import math
-
-import numpy as np
 from physsim_ros.engine import body as rigid_body
 from physsim_ros.engine.batch_io import BatchIO
-from physsim_ros.engine.body import REST, RigidBody
+from physsim_ros.engine.body import REST, RigidBody, same_in_engine
 from physsim_ros.engine.body_set import BodySet
 from physsim_ros.engine.body_table import BodyTable
 from physsim_ros.engine.boundary import Boundary
-from physsim_ros.engine.ccd.time_of_impact import SLOP
 from physsim_ros.engine.joints.joint_set import JointSet
-from physsim_ros.engine.joints.spring import check_stiffness
 from physsim_ros.engine.pipeline import Pipeline
+from physsim_ros.engine.settings import apply_settings, make_engine
 from physsim_ros.engine.stages.half_step import Settled
-from physsim_ros.engine.stages.sleeping import enable_sleeping, wake_bodies
 from physsim_ros.engine.step_context import StepContext
-from physsim_ros.engine.warm_start import scale_impulses, ShapeIds
-from physsim_ros.model.checkpoint import Motion
+from physsim_ros.engine.warm_start import ShapeIds
 from physsim_ros.model.scene import Body, Joint, Scene
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.transform import Point, Pose
-import pymunk
-
-# A body that is farther or faster than this has left every world [m, m/s]; float64 holds 0.1 mm
-# there.
-LOST = 1e12
+from physsim_ros.model.transform import Pose
 
 
 class Space:
@@ -69,11 +56,7 @@ class Space:
 
     def __init__(self, settings: WorldSettings, dt: float, *, first_shape: int = 0) -> None:
         self.dt = dt
-        self.engine = pymunk.Space()
-        self.engine.collision_slop = SLOP
-        # The engine lists contacts of the last step only, and forgets at once what parted.
-        self.engine.collision_persistence = 1
-        enable_sleeping(self.engine)
+        self.engine = make_engine()
         self.shapes = ShapeIds(self.engine)
         self.shapes.following = first_shape
         self.bodies = BodySet(self.engine, self.shapes)
@@ -85,7 +68,7 @@ class Space:
         self.changes = 0
         self._age = 0
         self._table: BodyTable | None = None
-        self._settings = WorldSettings()
+        self._settings = WorldSettings(gravity=(0.0, 0.0))
         self.configure(settings)
 
     @property
@@ -118,42 +101,12 @@ class Space:
             return REST
         return rigid.twist(self._settings.gravity, self.dt)
 
-    # Settings
-
     def configure(self, settings: WorldSettings) -> None:
         """Let other settings hold from now on."""
         self._drop_table()
         old, self._settings = self._settings, settings
         self.changes += old != settings
-        if old.gravity != settings.gravity:
-            self._change_gravity(old.gravity, settings.gravity)
-        if settings.gravity != tuple(self.engine.gravity):
-            # Only then: Chipmunk wakes bodies where it is set.
-            self.engine.gravity = settings.gravity
-        self.engine.damping = 1.0 - settings.damping
-        self.engine.iterations = settings.iterations
-        walls = (settings.bounds, settings.friction, settings.elasticity)
-        if walls != (old.bounds, old.friction, old.elasticity):
-            # Only then: what lies on the walls would stir.
-            self._rebuild_boundary()
-
-    def _change_gravity(self, old: Point, new: Point) -> None:
-        rigids = self.bodies.by_name.items()
-        wake_bodies(rigid.engine for _, rigid in rigids)
-        share = _pressing_share(old, new)
-        if share < 1.0:
-            scale_impulses(self.shapes, share)
-        for name, rigid in rigids:
-            # Where no share is left, nothing rests on anything any more.
-            if rigid.free or not (share or self.joints.has(name)):
-                rigid.set_twist(rigid.twist(old, self.dt), new, self.dt)
-
-    def _rebuild_boundary(self) -> None:
-        background = self.engine.static_body
-        touching = self.bodies.touching(background)
-        self.boundary.rebuild(self._settings)
-        self.pipeline.forget_body(background.id)
-        self.pipeline.half_step.release_bodies(touching)
+        apply_settings(self, old, settings)
 
     # Bodies
 
@@ -163,17 +116,6 @@ class Space:
         self._insert(rigid, pose, twist)
         return rigid
 
-    def check_springs(self, bodies: Mapping[str, Body], joint: Joint | None = None) -> None:
-        """
-        Refuse what would leave springs too stiff for the steps.
-
-        :param bodies: that are to change, as they will be
-        :param joint: that is to come; None is none
-        :raises BadProperty: of the greatest stiffness that can be had
-        """
-        known = {name: rigid.body for name, rigid in self.bodies.by_name.items()} | dict(bodies)
-        check_stiffness(self.joints.near(bodies, joint), known, self.dt)
-
     def change(self, old: RigidBody, body: Body, pose: Pose, twist: Pose) -> None:
         """
         Replace a body by what it has become; its place in the spawn order stays.
@@ -181,8 +123,8 @@ class Space:
         :raises BadProperty: springs on it would be too stiff; nothing is changed
         """
         if self.joints.has(body.name):
-            self.check_springs({body.name: body})
-        if _same_in_engine(old.body, body):
+            self.joints.check_springs({body.name: body})
+        if same_in_engine(old.body, body):
             self._drop_table()
             self.changes += body != old.body
             old.body = body
@@ -192,7 +134,7 @@ class Space:
                 self.set_twist(old, twist)
             return
         rigid = rigid_body.build(body, old.serial)
-        pose = self._with_turns(old, pose)
+        pose = self.joints.with_turns(old, pose)
         touching = self.bodies.touching(old.engine)
         self.joints.detach(body.name)
         self._take_out(old)
@@ -215,7 +157,7 @@ class Space:
     def set_pose(self, rigid: RigidBody, pose: Pose) -> None:
         """Put a body somewhere else."""
         touching = self.bodies.touching(rigid.engine)
-        rigid.pose = self._with_turns(rigid, pose)
+        rigid.pose = self.joints.with_turns(rigid, pose)
         self.bodies.wake_around(rigid, touching)
         self.pipeline.continuous_collision.invalidate()
         self.pipeline.half_step.release_bodies(touching)
@@ -228,11 +170,6 @@ class Space:
         if self._table is not None and not rigid.body.anchored:
             self._table.free[self._table.columns.rows[rigid.body.name]] = True
         self._note_motion()
-
-    def set_motion(self, rigid: RigidBody, motion: Motion) -> None:
-        """Let a body go on from the engine's own numbers."""
-        self._drop_table()
-        rigid.go_on_from(motion)
 
     def set_wrench(self, rigid: RigidBody, wrench: Pose, until: int | None) -> None:
         """Let a wrench act from now on, to the step `until`; None is for ever."""
@@ -263,8 +200,6 @@ class Space:
             bodies[end] for end in (joint.a, joint.b) if end in bodies
         )
 
-    # Time
-
     def step(self, number: int, *, watching: bool) -> list[str]:
         """
         Make a step.
@@ -278,10 +213,7 @@ class Space:
         table = self.table
         self.pipeline.step(StepContext(table, self._settings, self.dt, self._age, watching))
         self._age += 1
-        names = table.scene.names
-        # NaN compares false, so that it is lost too.
-        far = ~(np.abs(table.state) < LOST).all(axis=1)
-        lost = [names[row] for row in np.flatnonzero(far)]
+        lost = table.lost()
         for name in {*lost, *table.columns.expiries.get(number + 1, ())}:
             self.remove(name)
         for name, force in self.joints.broken():
@@ -305,13 +237,6 @@ class Space:
         self.pipeline.wrenches.forget_body(rigid)
         self.pipeline.forget_body(rigid.engine.id)
 
-    def _with_turns(self, rigid: RigidBody, pose: Pose) -> Pose:
-        """Return a pose with as many whole turns as a jointed body has made: joints count them."""
-        if not self.joints.has(rigid.body.name):
-            return pose
-        turns = round((rigid.engine.angle - pose[2]) / math.tau)
-        return pose[0], pose[1], pose[2] + turns * math.tau
-
     def _note_motion(self) -> None:
         self.changes += 1
         if self._table is not None:
@@ -322,18 +247,3 @@ class Space:
         if self._table is not None:
             self._table.store_flags()
         self._table = None
-
-
-def _same_in_engine(a: Body, b: Body) -> bool:
-    """Return whether two bodies differ only in what the engine does not know."""
-    return a == replace(b, color=a.color, expires=a.expires)
-
-
-def _pressing_share(old: Point, new: Point) -> float:
-    """Return the share of the impulses under one gravity that bodies press with under another."""
-    before = math.hypot(*old)
-    if before == 0.0:
-        return 1.0
-    along = old[0] / before * new[0] + old[1] / before * new[1]
-    # No more than all of it: what springs press, and impacts, do not grow with gravity.
-    return min(max(along / before, 0.0), 1.0)

@@ -27,7 +27,7 @@ import math
 from typing import Any
 
 from physsim_ros.engine.body import REST
-from physsim_ros.engine.space import LOST
+from physsim_ros.engine.body_table import LOST
 from physsim_ros.files.entries import is_same, naming, ROUNDING
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.checks import point_list, Within

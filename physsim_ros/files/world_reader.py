@@ -26,7 +26,7 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from physsim_ros.engine.space import LOST
+from physsim_ros.engine.body_table import LOST
 from physsim_ros.files.entries import count_from, entries_of, is_same, naming
 from physsim_ros.files.impulse_cache import cache_from
 from physsim_ros.files.joint_reader import joints_from

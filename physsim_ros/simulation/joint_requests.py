@@ -69,7 +69,7 @@ def join(space: Space, request: Join, points: tuple[Point, ...]) -> tuple[str, s
         seat = _seat(request.kind, points, _pose(space, a), _pose(space, b), phase)
     joint = Joint(name=request.name, kind=request.kind, a=a, b=b, seat=seat, properties=said)
     if old is None or old.joint != joint:
-        space.check_springs({}, joint)
+        space.joints.check_springs({}, joint)
         # Only then: what hangs on it would stir.
         space.join(joint)
     other = 'the background' if b == WORLD else b

@@ -417,10 +417,12 @@ class World:
             if saved.wrench != REST:
                 space.set_wrench(rigid, saved.wrench, None if steps is None else now + steps)
             if saved.motion is not None:
-                space.set_motion(rigid, saved.motion)
+                rigid.go_on_from(saved.motion)
         for joint in state.joints:
             space.join(joint)
-        space.check_springs({name: rigid.body for name, rigid in space.bodies.by_name.items()})
+        space.joints.check_springs(
+            {name: rigid.body for name, rigid in space.bodies.by_name.items()}
+        )
         if state.memory is not None:
             key = replace(take_checkpoint(space, now), memory=state.memory)
             space = restore_checkpoint(key, self.dt)

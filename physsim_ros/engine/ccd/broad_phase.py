@@ -24,11 +24,8 @@ smaller box is looked up in each coarser level. Ericson, Real-Time Collision Det
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 from physsim_ros.engine.islands import ranges
-from physsim_ros.model.arrays import Floats, Ints
-
-Flags = NDArray[np.bool_]
+from physsim_ros.model.arrays import Flags, Floats, Ints
 
 # Smallest cell, as a power of two [m]: 1 µm, so that cells 1e12 m away have a 64-bit number.
 _FINEST = -20

@@ -34,7 +34,7 @@ from typing import cast, NamedTuple
 
 import numpy as np
 from physsim_ros.engine.body_table import BodyTable
-from physsim_ros.engine.ccd.broad_phase import boxes_overlap, Flags, overlapping_pairs
+from physsim_ros.engine.ccd.broad_phase import boxes_overlap, overlapping_pairs
 from physsim_ros.engine.ccd.time_of_impact import (
     first_impacts,
     Hull,
@@ -45,7 +45,7 @@ from physsim_ros.engine.ccd.time_of_impact import (
 )
 from physsim_ros.engine.step_context import StepContext
 from physsim_ros.engine.work_correction import is_jointed, take_back_work
-from physsim_ros.model.arrays import Floats, Ints
+from physsim_ros.model.arrays import Flags, Floats, Ints
 from physsim_ros.model.transform import turned
 import pymunk
 from pymunk import Vec2d

@@ -28,8 +28,7 @@ from dataclasses import dataclass
 from typing import cast, NamedTuple
 
 import numpy as np
-from physsim_ros.engine.ccd.broad_phase import Flags
-from physsim_ros.model.arrays import Floats, Ints
+from physsim_ros.model.arrays import Flags, Floats, Ints
 from physsim_ros.model.transform import turned
 import pymunk
 

@@ -29,6 +29,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 import itertools
+import math
 
 import numpy as np
 from physsim_ros.engine.body import RigidBody
@@ -50,8 +51,9 @@ from physsim_ros.engine.step_context import StepContext
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
-from physsim_ros.model.scene import Joint
+from physsim_ros.model.scene import Body, Joint
 from physsim_ros.model.snapshot import Springs
+from physsim_ros.model.transform import Pose
 import pymunk
 
 # ruff: noqa: SLF001
@@ -106,8 +108,8 @@ class JointSet:
         Return the joints on some bodies, in the order in which they were made.
 
         :param bodies: names of these
-        :param joint: one that is to come, or to replace one of its name, and counts with all joints
-            on its bodies; None is none
+        :param joint: one that is to come, or to replace one of its name, and counts with all
+            joints on its bodies; None is none
         """
         names = {*bodies, *(() if joint is None else (joint.a, joint.b))} - {WORLD}
         on = {name for body in names for name in self._on.get(body, ())}
@@ -115,6 +117,24 @@ class JointSet:
         if joint is not None:
             joints = [each for each in joints if each.name != joint.name] + [joint]
         return joints
+
+    def check_springs(self, bodies: Mapping[str, Body], joint: Joint | None = None) -> None:
+        """
+        Refuse what would leave springs too stiff for the steps.
+
+        :param bodies: that are to change, as they will be
+        :param joint: that is to come; None is none
+        :raises BadProperty: of the greatest stiffness that can be had
+        """
+        known = {name: rigid.body for name, rigid in self._bodies.items()} | dict(bodies)
+        spring.check_stiffness(self.near(bodies, joint), known, self._dt)
+
+    def with_turns(self, rigid: RigidBody, pose: Pose) -> Pose:
+        """Return a pose with as many whole turns as a jointed body has made: joints count them."""
+        if not self.has(rigid.body.name):
+            return pose
+        turns = round((rigid.engine.angle - pose[2]) / math.tau)
+        return pose[0], pose[1], pose[2] + turns * math.tau
 
     def put(self, joint: Joint) -> None:
         """Add a joint; it replaces one of that name in its place."""

@@ -25,10 +25,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
 from physsim_ros.engine.islands import Rows
-from physsim_ros.model.arrays import Floats
+from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.scene import Joint
 from physsim_ros.model.transform import Point
 import pymunk
@@ -135,5 +133,5 @@ class Kind(NamedTuple):
     aim: Callable[[Batch, Motion], None] | None = None
 
 
-Bools = NDArray[np.bool_]
+Bools = Flags
 EQUAL = (0.0, 0.0)

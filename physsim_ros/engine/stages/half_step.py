@@ -30,13 +30,12 @@ from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from physsim_ros.engine.batch_io import BatchIO
 from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.body_table import BodyTable
 from physsim_ros.engine.stages.support_graph import find_unsupported
 from physsim_ros.engine.step_context import StepContext
-from physsim_ros.model.arrays import Floats
+from physsim_ros.model.arrays import Flags, Floats
 import pymunk
 
 # Rounding of the same sum in another order, as a share of the velocity.
@@ -54,8 +53,8 @@ class Settled(NamedTuple):
     """
 
     state: Floats
-    free: NDArray[np.bool_]
-    unsupported: NDArray[np.bool_]
+    free: Flags
+    unsupported: Flags
 
 
 class HalfStep:
@@ -96,7 +95,7 @@ class HalfStep:
             state[end, 3:] -= table.leads[end]
         return Settled(state, flies, unsupported)
 
-    def begin_step(self, table: BodyTable) -> NDArray[np.bool_]:
+    def begin_step(self, table: BodyTable) -> Flags:
         """
         Write to the engine what requests since the last step have changed about free flight.
 

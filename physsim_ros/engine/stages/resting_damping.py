@@ -29,14 +29,13 @@ Cost: one look at the contacts, eight times a second of simulation.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 from physsim_ros.engine.batch_io import BatchIO
 from physsim_ros.engine.body import RigidBody
-from physsim_ros.engine.body_table import BodyTable, Flags, SceneColumns
+from physsim_ros.engine.body_table import BodyTable, SceneColumns
 from physsim_ros.engine.islands import flood
 from physsim_ros.engine.stages.sleeping import IDLE_SPEED
 from physsim_ros.engine.step_context import StepContext
-from physsim_ros.model.arrays import Floats
+from physsim_ros.model.arrays import Flags, Floats
 from pymunk import batch
 
 # Damped so often [Hz]: the solver itself ends within a second what sways faster than half of this.
@@ -96,7 +95,7 @@ class RestingDamping:
             vx, vy, engine.angular_velocity = twists[row].tolist()
             engine.velocity = vx, vy
 
-    def _locked(self, table: BodyTable, slow: Flags) -> NDArray[np.bool_]:
+    def _locked(self, table: BodyTable, slow: Flags) -> Flags:
         """Return (n + 1,) bool: anchored bodies, and those that sticking faces tie to one."""
         ints, floats = self._io.read_contacts(_CONTACT)
         ints, floats = ints.reshape(-1, 4), floats.reshape(-1, 4)

@@ -28,11 +28,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 from physsim_ros.engine.batch_io import BatchIO
-from physsim_ros.engine.body_table import BodyTable, Flags
+from physsim_ros.engine.body_table import BodyTable
 from physsim_ros.engine.islands import flood, Rows
-from physsim_ros.model.arrays import Ints
+from physsim_ros.model.arrays import Flags, Ints
 import pymunk
 from pymunk import batch
 
@@ -42,7 +41,7 @@ _PRESSING = _F.BODY_A_ID | _F.BODY_B_ID | _F.TOTAL_IMPULSE
 
 def find_unsupported(
     space: pymunk.Space, io: BatchIO, table: BodyTable, released: Sequence[int]
-) -> NDArray[np.bool_]:
+) -> Flags:
     """
     Return (n,) bool: which bodies have lost their support.
 

@@ -119,7 +119,7 @@ def test_what_a_joint_keeps_from_colliding_is_not_swept(
                 points=((0.01 * a, 0.0), (0.01 * b, 0.0)),
                 a=f'body/{a}',
                 b=f'body/{b}',
-                properties=JointProperties(collide=collide),
+                properties=JointProperties(collide=collide, stiffness=1.0),
             )
         )
     world.step(1)
