@@ -309,7 +309,8 @@ def _read_sleeping(table: BodyTable) -> tuple[Ids, Floats, Floats]:
         sign, contact = (1 if a < b else -1), arbiter.contact_point_set
         impulse = sign * arbiter.total_impulse
         place = (*(sign * contact.normal), len(contact.points), *_mean_point(contact))
-        found[arbiter._arbiter] = (min(a, b), max(a, b)), (impulse.x, impulse.y), place  # noqa: SLF001 - tells pairs apart
+        key = arbiter._arbiter  # noqa: SLF001 - tells pairs of shapes apart
+        found[key] = (min(a, b), max(a, b)), (impulse.x, impulse.y), place
 
     for row in np.flatnonzero(table.asleep).tolist():
         table.bodies[row].engine.each_arbiter(note)

@@ -46,6 +46,7 @@ _ACCUMULATED: dict[type[pymunk.Constraint], tuple[int, int]] = {
 }
 # Where `v_bias` and `w_bias` begin.
 _PUSH = 24
+_PUSHES = slice(_PUSH, _PUSH + 3)
 
 
 def impulses(constraints: Sequence[pymunk.Constraint]) -> Floats:
@@ -78,7 +79,7 @@ def take_pushes(numbers: Sequence[Any]) -> Floats:
 
     :return: (k, 3) float64 [m/s, rad/s]; the next step would have moved the bodies by these
     """
-    pushes = [each[_PUSH : _PUSH + 3] for each in numbers]
+    pushes = [each[_PUSHES] for each in numbers]
     found = np.array([list(each) for each in pushes]).reshape(-1, 3)
     for row in np.flatnonzero(found.any(axis=1)).tolist():
         each = numbers[row]
