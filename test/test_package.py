@@ -170,7 +170,8 @@ def test_pip_is_told_what_rosdep_cannot_bring(distribution):
     always = {each.name.lower(): each.specifier for each in requirements if each.marker is None}
     extras = {str(each.marker) for each in requirements if each.marker is not None}
 
-    assert set(always) == {'numpy', 'pyarrow', 'pymunk', 'pyyaml', 'rerun-sdk', 'svgelements'}
+    named = {'numpy', 'pyarrow', 'pymunk', 'pyyaml', 'rerun-sdk', 'scipy', 'svgelements'}
+    assert set(always) == named
     assert '1.26.4' not in always['numpy']
     assert '8.0.0' not in always['pymunk']
     assert extras == {'extra == "jazzy"', 'extra == "test"'}

@@ -23,7 +23,7 @@ The pipeline: one step of the engine, stage by stage in this order.
 6. Pymunk's step: positions, narrow phase, solver, sleeping. In the middle of it: contact
    projection as two shapes begin to touch, and impact propagation before the solver runs.
 7. Joints: gaps are closed in positions.
-8. Half-step velocity: free flight is found.
+8. Half-step velocity: free flight is found, and does not fall asleep.
 9. Contact report: impulses are added up.
 """
 
@@ -38,6 +38,7 @@ from physsim_ros.engine.stages.contact_projection import project_contact
 from physsim_ros.engine.stages.half_step import HalfStep
 from physsim_ros.engine.stages.impact_propagation import ImpactPropagation
 from physsim_ros.engine.stages.resting_damping import RestingDamping
+from physsim_ros.engine.stages.sleeping import keep_flying_awake
 from physsim_ros.engine.stages.wrenches import Wrenches
 from physsim_ros.engine.step_context import StepContext
 from physsim_ros.engine.warm_start import clear_impulses, ShapeIds
@@ -89,6 +90,7 @@ class Pipeline:
         table.forget_state()
         self._joints.close_gaps(context)
         self.half_step.find_free(context)
+        keep_flying_awake(context)
         if context.watching:
             self.contact_report.add_step(table)
         else:

@@ -18,7 +18,7 @@ What has been shown: kept as far as memory allows, and worked out again beyond t
 Law: a step of the past is shown as it was the first time, to the bit; contacts to a rounding,
 since the engine lists them by address and they are summed in its order.
 
-Rewinding through what is kept costs nothing. Beyond it, the steps between two keyframes are made
+Rewinding through what is kept costs nothing. Beyond it, the steps between two checkpoints are made
 again, forward, while those after them are shown, backward.
 """
 
@@ -62,7 +62,7 @@ class Shot(NamedTuple):
 
 
 class _Reel:
-    """The shots between two keyframes, by step."""
+    """The shots between two checkpoints, by step."""
 
     def __init__(self) -> None:
         self.shots: dict[int, Shot] = {}
@@ -220,7 +220,7 @@ class _Making:
     A reel that is being made again.
 
     :param course: that makes it
-    :param mark: the keyframe it begins with
+    :param mark: the checkpoint it begins with
     :param end: its last step
     :param stride: steps from one shot to the next
     """
@@ -237,7 +237,7 @@ class _Making:
         self._shoot()
 
     def suits(self, mark: Mark, end: int, stride: int, *, watching: bool) -> bool:
-        """Tell whether it goes from a keyframe to a step, with all the shots that are wanted."""
+        """Tell whether it goes from a checkpoint to a step, with all the shots that are wanted."""
         same = self.mark == mark and self._end == end
         return same and self._stride <= stride and (self._watching or not watching)
 

@@ -13,10 +13,10 @@
 # limitations under the License.
 
 """
-What a world did: the log of its requests, and the keyframes from which it can do it again.
+What a world did: the log of its requests, and the checkpoints from which it can do it again.
 
 Laws: a moment is a step and the number of requests made until then; the same log from the same
-keyframe leads to the same bits; what is dropped is dropped from one end.
+checkpoint leads to the same bits; what is dropped is dropped from one end.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ class Entry:
 
 class Mark(NamedTuple):
     """
-    A keyframe, and where it stands.
+    A checkpoint, and where it stands.
 
     :ivar step: of it
     :ivar serial: number of requests made until then
@@ -73,9 +73,9 @@ class Tail(NamedTuple):
     """
     What has been cut off: how a world went on before something was undone.
 
-    :ivar after: moment of the last keyframe that was left
+    :ivar after: moment of the last checkpoint that was left
     :ivar entries: the requests, the undone ones first
-    :ivar marks: keyframes that know of them
+    :ivar marks: checkpoints that know of them
     :ivar head: the last step that the world had reached
     :ivar step: at which it was cut off, and
     :ivar serial: number of requests made until then
@@ -91,11 +91,11 @@ class Tail(NamedTuple):
 
 class History:
     """
-    The log and the keyframes of one course of events.
+    The log and the checkpoints of one course of events.
 
-    :param first: keyframe of the beginning
+    :param first: checkpoint of the beginning
     :param length: steps that are kept, at least
-    :param spacing: steps from one keyframe to the next, at least
+    :param spacing: steps from one checkpoint to the next, at least
     """
 
     def __init__(self, first: Mark, *, length: int, spacing: int) -> None:
@@ -130,8 +130,8 @@ class History:
         return max(self._marks[0].step, self.head - self._length)
 
     @property
-    def keyframes(self) -> list[Mark]:
-        """Return the keyframes, oldest first."""
+    def checkpoints(self) -> list[Mark]:
+        """Return the checkpoints, oldest first."""
         return self._marks
 
     def made_at(self, step: int) -> int:
@@ -151,24 +151,24 @@ class History:
         return self._entries[first:last]
 
     def before(self, step: int, serial: int) -> Mark:
-        """Return the last keyframe from which a moment can be reached."""
+        """Return the last checkpoint from which a moment can be reached."""
         place = bisect_right(self._marks, (step, serial), key=lambda each: each.moment)
         return self._marks[place - 1]
 
     def at(self, step: int, serial: int) -> Mark | None:
-        """Return the keyframe of exactly that moment."""
+        """Return the checkpoint of exactly that moment."""
         mark = self.before(step, serial)
         return mark if mark.moment == (step, serial) else None
 
     def segment(self, step: int) -> tuple[Mark, int]:
-        """Return the keyframe after which a step comes, and the step of the next, or the last."""
+        """Return the checkpoint before a step, and the step of the next one, or the last step."""
         place = bisect_left(self._marks, step, key=lambda each: each.step)
         first = self._marks[max(0, place - 1)]
         end = self._marks[place].step if place < len(self._marks) else self.head
         return first, max(step, end)
 
     def next_stop(self, step: int, end: int) -> int:
-        """Return the next step at which there is a request or a keyframe, or the end."""
+        """Return the next step at which there is a request or a checkpoint, or the end."""
         entry = bisect_right(self._entries, step, key=lambda each: each.step)
         mark = bisect_right(self._marks, step, key=lambda each: each.step)
         stops = [end]
@@ -179,7 +179,7 @@ class History:
         return min(stops)
 
     def is_due(self, step: int) -> bool:
-        """Whether it is time for the next keyframe; what is loaded begins with one."""
+        """Whether it is time for the next checkpoint; what is loaded begins with one."""
         last = self._marks[-1]
         return step - last.step >= self._spacing or self._restored > last.serial
 
@@ -222,8 +222,8 @@ class History:
                 break
             self._entries[place].seen = True
 
-    def add_keyframe(self, mark: Mark) -> None:
-        """Add a keyframe, as the last."""
+    def add_checkpoint(self, mark: Mark) -> None:
+        """Add a checkpoint, as the last."""
         self._marks.append(mark)
 
     def cut(self, step: int, serial: int, *, now: tuple[int, int]) -> Tail:
@@ -267,7 +267,7 @@ class History:
         self.head = step
 
     def _forget(self) -> None:
-        """Drop what is older than is kept, save the keyframe that leads to the oldest step."""
+        """Drop what is older than is kept, save the checkpoint that leads to the oldest step."""
         old = bisect_right(self._marks, self.head - self._length, key=lambda each: each.step) - 1
         if old > 0:
             del self._marks[:old]

@@ -15,8 +15,8 @@
 """
 A world on its course: it goes on, goes back, and goes the same way again.
 
-Law: a world that follows its history makes the same steps, from the same keyframes, with the same
-requests in between, and so the same bits; where it does not, that is told.
+Law: a world that follows its history makes the same steps, from the same checkpoints, with the
+same requests in between, and so the same bits; where it does not, that is told.
 """
 
 from __future__ import annotations
@@ -27,16 +27,16 @@ from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.history import Entry, History, Mark, Tail
 from physsim_ros.simulation.world import World
 
-# The share of the time between two keyframes in which the bodies for the next one are made ready,
-# so that no frame makes them all.
+# The share of the time between two checkpoints in which the bodies for the next one are made
+# ready, so that no frame makes them all.
 _AHEAD = 0.75
 
 
 class Course:
     """
-    A world that follows a history: it makes no keyframes and takes no new requests.
+    A world that follows a history: it makes no checkpoints and takes no new requests.
 
-    :param world: at the moment of one of its keyframes, or to be sent there by `resume`
+    :param world: at the moment of one of its checkpoints, or to be sent there by `resume`
     :param history: that it follows
     """
 
@@ -44,7 +44,7 @@ class Course:
         self.world = world
         self.history = history
         # Requests of the history that it has carried out.
-        self.serial = history.keyframes[0].serial
+        self.serial = history.checkpoints[0].serial
         self._resumed: tuple[int, int] | None = None
         self._told: list[Answer] = []
 
@@ -60,7 +60,7 @@ class Course:
 
     def resume(self, mark: Mark, *, going_over: bool = False) -> None:
         """
-        Go to a keyframe.
+        Go to a checkpoint.
 
         :param going_over: whether the world is at that moment now, with the same bits
         """
@@ -107,7 +107,7 @@ class Course:
             self.serial += 1
 
     def _go_over(self) -> None:
-        """Go on in the space of a keyframe that was made at this moment, as was done then."""
+        """Go on in the space of a checkpoint that was made at this moment, as was done then."""
         mark = self.history.at(*self.moment)
         if mark is not None and self._resumed != mark.moment:
             self.resume(mark, going_over=self.verify())
@@ -131,7 +131,7 @@ class Timeline(Course):
 
     :param world: at its beginning
     :param length: steps that are kept
-    :param spacing: steps from one keyframe to the next, at least
+    :param spacing: steps from one checkpoint to the next, at least
     """
 
     def __init__(self, world: World, *, length: int, spacing: int) -> None:
@@ -171,7 +171,7 @@ class Timeline(Course):
                 self._go_to_stop(min(end, self.history.head))
             else:
                 self._carry_out(self.history.made_at(self.world.step_count))
-                self._make_keyframe()
+                self._make_checkpoint()
                 self._step(end)
                 self.history.reach(self.world.step_count)
 
@@ -198,13 +198,16 @@ class Timeline(Course):
         """
         history = self.history
         history.length = length
-        if self.world.step_count >= history.oldest and self.moment >= history.keyframes[0].moment:
+        if (
+            self.world.step_count >= history.oldest
+            and self.moment >= history.checkpoints[0].moment
+        ):
             return True
         self.seek(history.oldest)
         return False
 
     def seek_moment(self, step: int, serial: int) -> None:
-        """Go to a moment of the past, from the nearest keyframe or from here."""
+        """Go to a moment of the past, from the nearest checkpoint or from here."""
         history, frame = self.history, self.world.frame_steps
         # Its contacts are those of one frame, as they were the first time.
         begin = max(history.oldest, step - (step % frame or frame))
@@ -221,13 +224,13 @@ class Timeline(Course):
 
     def renew(self) -> None:
         """
-        Make a keyframe now, so that whoever goes on from what is saved goes on alike.
+        Make a checkpoint now, so that whoever goes on from what is saved goes on alike.
 
         Not in the past: how it went on from there is settled.
         """
         if self.world.step_count < self.history.head or self._resumed == self.moment:
             return
-        self._add_keyframe()
+        self._add_checkpoint()
 
     def undo(self) -> tuple[list[Entry], Tail]:
         """
@@ -251,24 +254,24 @@ class Timeline(Course):
         :raises OutOfHistory: it is kept no more
         """
         self.history.splice(tail)
-        # What has been done since leads nowhere: from a keyframe, not from here.
+        # What has been done since leads nowhere: from a checkpoint, not from here.
         self.resume(self.history.before(tail.step, tail.serial))
         self.seek_moment(tail.step, tail.serial)
 
-    def _make_keyframe(self) -> None:
-        """Make a keyframe where one is due, or where the world has come from one and changed."""
+    def _make_checkpoint(self) -> None:
+        """Make a checkpoint where one is due, or where the world has come from one and changed."""
         self._go_over()
         step = self.world.step_count
         changed = self._resumed is not None and self._resumed[0] == step
         if self.history.at(*self.moment) is None and (changed or self.history.is_due(step)):
-            self._add_keyframe()
+            self._add_checkpoint()
 
-    def _add_keyframe(self) -> None:
+    def _add_checkpoint(self) -> None:
         mark = Mark(*self.moment, self.world.renew(), self.world.digest())
-        self.history.add_keyframe(mark)
+        self.history.add_checkpoint(mark)
         self._resumed = mark.moment
 
     def build_ahead(self, steps: int) -> None:
-        """Build ahead for the next keyframe what a share of its time, so many steps, allows."""
+        """Build ahead for the next checkpoint what a share of its time, so many steps, allows."""
         bodies = len(self.world)
         self.world.build_bodies(-(-bodies * steps // max(1, int(self._spacing * _AHEAD))))

@@ -39,8 +39,8 @@ from physsim_ros.simulation.world import World
 
 # Frames in one call: the one that is due, and one to make up for a late one.
 _FRAMES_A_CALL = 2
-# From one keyframe to the next [s]: to reach a step, at most so much is simulated again.
-KEYFRAMES = 3.0
+# From one checkpoint to the next [s]: to reach a step, at most so much is simulated again.
+CHECKPOINTS = 3.0
 # What is kept of what was shown, at most [bytes]: three minutes of 100 bodies, 23 s of 1,000.
 MOST_KEPT = 64 * 2**20
 
@@ -64,7 +64,7 @@ class Simulation:
     :param settings: of the empty world at the start
     :param speed: simulation seconds a second; 0 is paused, negative goes back
     :param history: how far back it can go [s of simulation time]
-    :param keyframes: from one keyframe to the next [s]
+    :param checkpoints: from one checkpoint to the next [s]
     :ivar past: what was shown of it
     :raises BadProperty: publish_rate does not divide physics_rate
     """
@@ -77,7 +77,7 @@ class Simulation:
         settings: WorldSettings | None = None,
         speed: float = 1.0,
         history: float = 600.0,
-        keyframes: float = KEYFRAMES,
+        checkpoints: float = CHECKPOINTS,
     ) -> None:
         steps = physics_rate / publish_rate
         if steps < 1 or abs(steps - round(steps)) > 1e-9:
@@ -95,7 +95,7 @@ class Simulation:
         self._changed = True
         self._watching = False
         self._history = history
-        self._keyframes = keyframes
+        self._checkpoints = checkpoints
         empty = WorldState(settings=settings or WorldSettings())
         self._undo = Undo(self._timeline_of, empty)
         self.past = self._no_past()
@@ -448,7 +448,7 @@ class Simulation:
         world.apply(Restore(state=state))
         world.watching = self._watching
         return Timeline(
-            world, length=self._steps(self._history), spacing=self._steps(self._keyframes)
+            world, length=self._steps(self._history), spacing=self._steps(self._checkpoints)
         )
 
     def _no_past(self) -> Past:

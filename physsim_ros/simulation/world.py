@@ -231,13 +231,13 @@ class World:
             self.step_count += 1
         return tuple(lost)
 
-    # Going on from a keyframe
+    # Going on from a checkpoint
 
     def renew(self) -> Checkpoint:
         """
         Go on in a space built anew from what is so, and return that.
 
-        Whoever resumes the keyframe later goes on with the same bits. The engine itself has a
+        Whoever resumes the checkpoint later goes on with the same bits. The engine itself has a
         past that cannot be read, as in the order in which it has found contacts; a new space has
         none.
         """
@@ -249,7 +249,7 @@ class World:
 
     def resume(self, key: Checkpoint, *, going_over: bool = False) -> None:
         """
-        Go back, or forward, to a keyframe.
+        Go back, or forward, to a checkpoint.
 
         :param going_over: whether the world is at that moment now, with the same bodies; then
             the contacts of the frame so far are not forgotten

@@ -16,7 +16,7 @@
 The cost of a frame, side by side in one run: the node, the bare engine, and the naive way.
 
 Every figure is a mean over frames that take turns, so that a machine whose speed drifts does not
-favour one of them; over whole times between keyframes, after what is done once has been done.
+favour one of them; over whole times between checkpoints, after what is done once has been done.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ from rclpy.parameter import Parameter
 from .bodies import Bare, fill, SETTLE, timed
 
 FRAMES = 200
-# Before them: a keyframe is among these, the first of so many bodies.
+# Before them: a checkpoint is among these, the first of so many bodies.
 WARM = 100
 # Frames in a row of each: one alone would leave what is to be sent to the others' time.
 TURN = 20

@@ -60,7 +60,7 @@ def median_step(world: World) -> float:
 
 def frames(world: World) -> tuple[float, float]:
     """Return the median time of a frame, and the longest one, with a checkpoint in it [ms]."""
-    simulation = Simulation(keyframes=1.0)
+    simulation = Simulation(checkpoints=1.0)
     simulation.load(world.save())
     costs = []
     for _ in range(FRAMES):

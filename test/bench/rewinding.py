@@ -38,12 +38,12 @@ def measure(count: int, seconds: int) -> None:
     history = simulation.timeline.history
     frames, stalls = [], []
     for _ in range(60 * seconds):
-        before = history.keyframes[-1]
+        before = history.checkpoints[-1]
         took = timed(simulation.advance_frame)
-        (frames if history.keyframes[-1] is before else stalls).append(took)
+        (frames if history.checkpoints[-1] is before else stalls).append(took)
     head, oldest = history.head, history.oldest
     usual = statistics.median(frames)
-    keys = [mark.key for mark in history.keyframes]
+    keys = [mark.key for mark in history.checkpoints]
     arrays = [
         array
         for key in keys
@@ -73,6 +73,8 @@ def measure(count: int, seconds: int) -> None:
 def table() -> None:
     """Print a row for each count of bodies."""
     print('Going back in the history of a settled pile; seek: median and longest [ms]')
-    print('bodies frame [ms] keyframe [ms] keyframes [MB/min] shots [MB]  seek 1 s   10 s   all')
+    print(
+        'bodies frame [ms] checkpoint [ms] checkpoints [MB/min] shots [MB]  seek 1 s   10 s   all'
+    )
     for count, seconds in LENGTHS.items():
         measure(count, seconds)

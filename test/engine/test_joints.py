@@ -498,7 +498,7 @@ def test_worlds_of_the_same_state_go_on_to_the_bit() -> None:
     assert one.digest() == other.digest()
 
 
-def test_a_world_goes_on_from_a_keyframe_to_the_bit() -> None:
+def test_a_world_goes_on_from_a_checkpoint_to_the_bit() -> None:
     world = machine()
     world.step(200)
     key = world.renew()

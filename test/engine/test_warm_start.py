@@ -80,7 +80,7 @@ def test_renewing_changes_nothing_that_is_seen() -> None:
 
 
 @pytest.mark.parametrize('shape', SHAPES.values(), ids=SHAPES)
-def test_who_resumes_a_keyframe_goes_on_like_who_made_it(shape: object) -> None:
+def test_who_resumes_a_checkpoint_goes_on_like_who_made_it(shape: object) -> None:
     world = World(settings=FLOOR)
     for number in range(6):
         spawn(world, f'a/{number}', shape, (0.3 * number, 1.0 + 1.5 * number, 0.4 * number))

@@ -31,7 +31,7 @@ import pytest
 from .scenes import floor, G, NOWHERE, run, simulation, spawn, turned, walls
 
 ROOT = Path(__file__).resolve().parents[2]
-# Steps: 6 s, and so three keyframes after the first.
+# Steps: 6 s, and so three checkpoints after the first.
 LENGTH = 1440
 FRAMES = 240
 ELL = Polygon(outline=((0.0, 0.0), (2.0, 0.0), (2.0, 0.5), (0.5, 0.5), (0.5, 2.0), (0.0, 2.0)))
@@ -276,7 +276,7 @@ def scene(request):
 
 def test_any_step_is_reached_again_and_played_on_from(report, scene):
     chance = random.Random(scene)
-    # Among them the steps of the keyframes, and those beside them.
+    # Among them the steps of the checkpoints, and those beside them.
     steps = [*chance.sample(range(LENGTH), 8), 0, 479, 480, 481, 961, LENGTH]
     chance.shuffle(steps)
     player = Player(SCENES[scene])

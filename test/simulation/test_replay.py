@@ -43,7 +43,7 @@ from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.simulation.frame_cache import Shot
 from physsim_ros.simulation.history import Entry
-from physsim_ros.simulation.simulation import KEYFRAMES, Simulation
+from physsim_ros.simulation.simulation import CHECKPOINTS, Simulation
 from physsim_ros.simulation.world import World
 import pytest
 
@@ -190,7 +190,7 @@ def test_what_a_seek_left_out_is_made_again_in_time(made: list[int], on: float) 
     driven.run(1.0, on)
     driven.run(-1.0, 0.05)
     # Three seconds are made again in the time from the seek on.
-    assert most_made(driven, made, round(60 * (on + 1.0))) <= 3 * FRAME * KEYFRAMES / on
+    assert most_made(driven, made, round(60 * (on + 1.0))) <= 3 * FRAME * CHECKPOINTS / on
     assert driven.simulation.step < 4 * 240
 
 
@@ -592,7 +592,7 @@ def test_older_steps_than_are_kept_are_dropped() -> None:
     driven.record(10.0)
     history = driven.simulation.timeline.history
     assert history.head - history.oldest == 3 * 240
-    assert len(history.keyframes) <= 3
+    assert len(history.checkpoints) <= 3
     frames = driven.run(-64.0, 0.5)
     assert frames[-1].snapshot.step == history.head - 3 * 240
     driven.assert_same(frames[-1])
@@ -615,7 +615,7 @@ def test_few_bodies_take_no_more_memory_than_their_poses_would(bodies: int) -> N
     for number in range(bodies):
         driven.ask(spawning(f'a/{number}', BOX, (1.5 * number - 6.0, 1.0, 0.0)))
     driven.record(20.0)
-    a_reel = 60 * KEYFRAMES * (1000 + bodies * 2 * 24)
+    a_reel = 60 * CHECKPOINTS * (1000 + bodies * 2 * 24)
     assert driven.simulation.past.size <= max(120 * 60 * 24 * bodies, 3 * a_reel)
     for frame in driven.run(-4.0, 5.0):
         driven.assert_same(frame)
@@ -648,10 +648,10 @@ def test_forces_of_joints_come_again(back: float) -> None:
             )
         )
     driven.record(7.0)
-    keyframe = driven.simulation.timeline.history.keyframes[2].key.step
-    assert driven.shown[keyframe].snapshot.forces.all()
+    checkpoint = driven.simulation.timeline.history.checkpoints[2].key.step
+    assert driven.shown[checkpoint].snapshot.forces.all()
     driven.simulation.past.forget(0)
-    driven.simulation.seek(keyframe * SECOND // 240)
+    driven.simulation.seek(checkpoint * SECOND // 240)
     driven.assert_same(driven.settle())
     for frame in driven.run(1.0, 1.0) + driven.run(back, 1.5):
         driven.assert_same(frame)
@@ -659,8 +659,8 @@ def test_forces_of_joints_come_again(back: float) -> None:
 
 def test_other_bits_than_before_are_told(driven: Driven) -> None:
     history = driven.simulation.timeline.history
-    wrong = history.keyframes[2]._replace(digest='not that')
-    history.keyframes[2] = wrong
+    wrong = history.checkpoints[2]._replace(digest='not that')
+    history.checkpoints[2] = wrong
     driven.simulation.seek(0)
     frames = driven.run(8.0, 0.7)
     (answer,) = told(frames, 'divergence')
@@ -698,7 +698,7 @@ def test_who_goes_on_from_what_was_saved_goes_on_alike(driven: Driven, frames: i
             np.testing.assert_array_equal(snapshot.twists, expected.twists)
 
 
-# Where requests meet keyframes
+# Where requests meet checkpoints
 
 
 def collide(driven: Driven) -> None:
@@ -706,13 +706,13 @@ def collide(driven: Driven) -> None:
         driven.ask(spawning(f'a/{number}', BOX, (0.3 * number, 1.0 + 1.2 * number, 0.2)))
 
 
-def test_a_request_at_the_step_of_a_keyframe_is_made_again_where_it_was() -> None:
+def test_a_request_at_the_step_of_a_checkpoint_is_made_again_where_it_was() -> None:
     driven = Driven()
     collide(driven)
     for _ in range(150):
         driven.simulation.advance_frame()
-    keyframe = driven.simulation.timeline.history.keyframes[-1].step
-    driven.simulation.seek(round(keyframe / 240 * SECOND))
+    checkpoint = driven.simulation.timeline.history.checkpoints[-1].step
+    driven.simulation.seek(round(checkpoint / 240 * SECOND))
     driven.ask(spawning('b/0', BOX, (0.2, 6.0, 0.5)))
     for _ in range(120):
         frame = driven.simulation.advance_frame()
@@ -860,7 +860,7 @@ def test_a_joint_whose_bodies_were_anchored_later_loads_again(tmp_path: Path) ->
 
 
 @pytest.mark.parametrize('names', [None, 'a/0', 'a/4'])
-def test_what_is_deleted_at_a_keyframe_is_gone_from_the_contacts(names: str | None) -> None:
+def test_what_is_deleted_at_a_checkpoint_is_gone_from_the_contacts(names: str | None) -> None:
     driven = Driven()
     driven.simulation.watch_contacts(True)
     for number in range(5):

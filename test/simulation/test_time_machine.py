@@ -137,10 +137,11 @@ class TimeMachine(RuleBasedStateMachine):
     """
 
     @initialize(
-        several=st.lists(spawns(), min_size=3, max_size=6), keyframes=st.sampled_from([0.25, 0.17])
+        several=st.lists(spawns(), min_size=3, max_size=6),
+        checkpoints=st.sampled_from([0.25, 0.17]),
     )
-    def begin(self, several: list[Spawn], keyframes: float) -> None:
-        self.keyframes = keyframes
+    def begin(self, several: list[Spawn], checkpoints: float) -> None:
+        self.checkpoints = checkpoints
         self.simulation = self.new()
         self.simulation.watch_contacts(True)
         self.now = 0
@@ -151,8 +152,8 @@ class TimeMachine(RuleBasedStateMachine):
         self.look(self.simulation.settle())
 
     def new(self) -> Simulation:
-        # Keyframes come every 3 s; here time is short.
-        return Simulation(history=5.0, keyframes=self.keyframes)
+        # Checkpoints come every 3 s; here time is short.
+        return Simulation(history=5.0, checkpoints=self.checkpoints)
 
     # What is asked
 

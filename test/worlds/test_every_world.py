@@ -60,7 +60,7 @@ def test_it_goes_back_and_on_with_the_same_bits(name):
         sim.advance_frame()
     digest, step = sim.world.digest(), sim.step
 
-    # From beyond a keyframe to before it.
+    # From beyond a checkpoint to before it.
     sim.seek(1_000_000_000)
     assert sim.step == RATE
     while sim.step < step:

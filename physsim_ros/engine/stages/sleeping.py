@@ -28,6 +28,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+import numpy as np
+from physsim_ros.engine.step_context import StepContext
 import pymunk
 
 # An island sleeps when none of its bodies had more kinetic energy than at this speed [m/s]: a ball
@@ -41,6 +43,15 @@ def enable_sleeping(space: pymunk.Space) -> None:
     """Let islands of a space fall asleep."""
     space.sleep_time_threshold = IDLE_TIME
     space.idle_speed_threshold = IDLE_SPEED
+
+
+def keep_flying_awake(context: StepContext) -> None:
+    """Keep bodies awake that fly slowly: nothing would stop them (Newton's first law)."""
+    table = context.table
+    speeds = np.abs(table.state[:, 3:]).max(axis=1)
+    for row in np.flatnonzero(table.free & (speeds < IDLE_SPEED) & (speeds > 0.0)).tolist():
+        # Chipmunk begins to count idle time anew.
+        table.bodies[row].engine.activate()
 
 
 def wake_bodies(bodies: Iterable[pymunk.Body]) -> None:
