@@ -65,7 +65,7 @@ def _change_gravity(space: Space, old: Point, new: Point) -> None:
     if share < 1.0:
         scale_impulses(space.shapes, share)
     for rigid in rigids:
-        # Where no share is left, nothing rests on anything any more.
+        # If no share is left, nothing rests on anything any more.
         if rigid.free or not (share or space.joints.has(rigid.body.name)):
             rigid.set_twist(rigid.twist(old, space.dt), new, space.dt)
     space.engine.gravity = new

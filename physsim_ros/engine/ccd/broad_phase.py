@@ -29,7 +29,7 @@ from physsim_ros.model.arrays import Flags, Floats, Ints
 
 # Smallest cell, as a power of two [m]: 1 µm, so that cells 1e12 m away have a 64-bit number.
 _FINEST = -20
-# So many pairs are compared one by one sooner than by a grid; the same pairs are found.
+# Up to this count pairs are compared one by one: faster than a grid, with the same result.
 _FEW_PAIRS = 20_000
 # Row numbers times this, modulo 2**64: rows of cells do not meet by chance. 2**64 / golden ratio.
 _HASH = np.int64(-7046029254386353131)

@@ -33,7 +33,7 @@ from pymunk._chipmunk_cffi import ffi
 
 # ruff: noqa: SLF001
 
-# Where the accumulated impulse begins, in numbers of 8 bytes, and how many components it has.
+# Offset of the accumulated impulse in numbers of 8 bytes, and its count of components.
 _ACCUMULATED: dict[type[pymunk.Constraint], tuple[int, int]] = {
     pymunk.PivotJoint: (25, 2),
     pymunk.GrooveJoint: (32, 2),
@@ -44,7 +44,7 @@ _ACCUMULATED: dict[type[pymunk.Constraint], tuple[int, int]] = {
     pymunk.SimpleMotor: (15, 1),
     pymunk.DampedSpring: (30, 1),
 }
-# Where `v_bias` and `w_bias` begin.
+# Offset of `v_bias` and `w_bias` in numbers of 8 bytes.
 _PUSH = 24
 _PUSHES = slice(_PUSH, _PUSH + 3)
 
