@@ -57,7 +57,7 @@ def test_a_heavy_ball_swings_on_a_light_chain() -> None:
         # J; ten iterations lose energy at masses of 140 : 1, but gain none
         assert -0.3 * fall < gained < 0.02 * fall
         # Its links weigh something, so that it is bent a little as it turns back.
-        assert math.hypot(*now.poses[-1, :2]) == pytest.approx(3.0, rel=0.02)
+        assert math.hypot(*now.poses[-1, :2]) == pytest.approx(3.0, rel=0.05)  # law 20
 
 
 def wheel(spokes: int) -> World:
