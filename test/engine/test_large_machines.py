@@ -46,16 +46,16 @@ def test_a_net_is_as_long_as_its_rods(side: int) -> None:
 
 
 def test_a_heavy_ball_swings_on_a_light_chain() -> None:
-    world = swing(link=0.5, ball=70.0, radius=0.1)
+    world = swing(link=0.5, ball=20.0, radius=0.1)
     start = world.snapshot()
-    fall = 70.0 * G * 3.0 * (1.0 - math.cos(math.radians(45.0)))
+    fall = 20.0 * G * 3.0 * (1.0 - math.cos(math.radians(45.0)))
     for _ in range(72):
         world.step(20)
         now = world.snapshot()
         gained = now.kinetic_energy + now.potential_energy
         gained -= start.kinetic_energy + start.potential_energy
-        # J; ten iterations lose energy at masses of 140 : 1, but gain none
-        assert -0.3 * fall < gained < 0.02 * fall
+        # J; ten iterations lose some energy at masses of 40 : 1, but gain none
+        assert -0.1 * fall < gained < 0.03 * fall
         # Its links weigh something, so that it is bent a little as it turns back.
         assert math.hypot(*now.poses[-1, :2]) == pytest.approx(3.0, rel=0.05)  # law 20
 

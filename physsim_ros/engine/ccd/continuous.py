@@ -142,9 +142,10 @@ def _boxes_meet(table: BodyTable, standing: _Standing, moves: Floats, rows: Ints
     ends = starts + np.where(table.columns.solid[:, None], moves[:, :2], 0.0)
     reach = table.columns.reach[:, None]
     boxes = np.concatenate((np.minimum(starts, ends) - reach, np.maximum(starts, ends) + reach), 1)
-    # Each overlaps itself.
+    # Anchored bodies are among the static shapes; each other one overlaps itself.
+    solid = boxes[table.columns.solid]
     return any(
-        np.count_nonzero(boxes_overlap(boxes[row], boxes)) > 1
+        np.count_nonzero(boxes_overlap(boxes[row], solid)) > 1
         or boxes_overlap(boxes[row], standing.boxes).any()
         for row in rows.tolist()
     )
