@@ -254,7 +254,7 @@ class Timeline(Course):
         :raises OutOfHistory: it is kept no more
         """
         self.history.splice(tail)
-        # What has been done since leads nowhere: from a checkpoint, not from here.
+        # Steps made since then are discarded: the world goes on from a checkpoint, not from here.
         self.resume(self.history.before(tail.step, tail.serial))
         self.seek_moment(tail.step, tail.serial)
 

@@ -71,7 +71,7 @@ def hypotheses(features: Features, plain: float) -> Iterator[Hypothesis]:
     evidence = ratio + 1.5 * math.log(2.25 / sharpness)
     round_ = rises(evidence, 0.0, 0.3) * rises(aspect, 0.55, 0.04)
     if len(at) >= MANY and is_convex(_counterclockwise(found)):
-        # So many equal corners are the samples of a circle that was drawn quickly.
+        # Corners that many and that equal are the samples of a circle that was drawn quickly.
         round_ = max(round_, falls(error, 0.04, 0.004))
     disc = closed * once * round_ * falls(error, 0.085, 0.015)
     sided = closed * (1.0 - round_) * falls(residual, 0.022, 0.003) if simple else 0.0

@@ -54,7 +54,7 @@ def project_contact(
         back = excess * share / sum(inverse)
         body.position -= normal * sign * back
         if not jointed:
-            # What another body's way made of it is none of its own.
+            # Its own share only: the rest of the way is that of the other body.
             own_back = math.copysign(min(back, max(own, 0.0)), -sign)
             take_back_work(space, body, normal * own_back, dt)
         # Further shapes of it, and further contacts, are found where it is now.
