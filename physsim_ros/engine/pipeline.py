@@ -98,7 +98,7 @@ class Pipeline:
 
     def forget_body(self, engine_id: int) -> None:
         """Forget a body that leaves the engine, or the background where its walls are replaced."""
-        self.contact_report.forget(engine_id)
+        self.contact_report.forget_body(engine_id)
 
     def _begin_contact(self, arbiter: pymunk.Arbiter, space: pymunk.Space, _: object) -> None:
         """Handle two shapes that begin to touch, before the solver runs."""
@@ -107,4 +107,4 @@ class Pipeline:
         contact = arbiter.contact_point_set
         project_contact(arbiter, contact, space)
         if self._context.watching:
-            self.contact_report.begin(arbiter, contact)
+            self.contact_report.add_first_touch(arbiter, contact)

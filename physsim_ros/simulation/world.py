@@ -132,7 +132,7 @@ class World:
     def contacts(self, snapshot: Snapshot) -> Contacts:
         """Return what touched since the last call while the world was being watched."""
         report = self._space.pipeline.contact_report
-        return report.take(self._space.table, lambda: snapshot.centers)
+        return report.take_contacts(self._space.table, lambda: snapshot.centers)
 
     def clear_contacts(self) -> None:
         """Forget what touched since the last call of `contacts`."""
@@ -468,7 +468,7 @@ def steps_in(seconds: float, physics_rate: float) -> int:
 def _hand_over(old: Space, new: Space) -> None:
     """Hand on what an older space of the same bodies has reported of the frame so far."""
     report = new.pipeline.contact_report
-    report.inherit(old.pipeline.contact_report, old.table.ids, new.table.ids)
+    report.copy_sums(old.pipeline.contact_report, old.table.ids, new.table.ids)
     new.broken = old.broken
 
 
