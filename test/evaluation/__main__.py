@@ -32,9 +32,8 @@ from physsim_ros.drawing.strokes.recogniser import recognise_form
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.errors import Refusal
 
-from .scenes import MEANINGS, Scene, scenes
+from .scenes import faulty_scenes, MEANINGS, Scene, scenes
 
-SEEDS = {'tuning': 1, 'report': 2}
 CLOSED = ('disc', 'rectangle', 'polygon')
 SETTINGS = DrawingSettings()
 _REFUSED = 'refused'
@@ -46,6 +45,7 @@ class Tally:
     def __init__(self) -> None:
         self.readings: dict[str, Counter[str]] = defaultdict(Counter)
         self.right: dict[str, list[bool]] = defaultdict(list)
+        self.faulty: dict[str, list[bool]] = defaultdict(list)
         self.corners: dict[str, list[bool]] = defaultdict(list)
         self.milliseconds: list[float] = []
 
@@ -57,6 +57,9 @@ class Tally:
         except Refusal:
             what = _REFUSED
         self.milliseconds.append((time.process_time_ns() - begun) / 1e6)
+        if scene.fault:
+            self.faulty[scene.fault].append(what == scene.meaning)
+            return
         self.readings[scene.name][what] += 1
         if scene.meaning is None:
             return
@@ -79,6 +82,9 @@ class Tally:
             cells = (f'{counts[column] or "·":>10}' for column in columns)
             print(f'{name:<20}' + ''.join(cells))
         print()
+        for name, hits in self.faulty.items():
+            print(f'{"fault: " + name:<34}{statistics.fmean(hits):7.1%} of {len(hits)}')
+        print()
         for name, hits in self.right.items():
             print(f'{name + " read right":<34}{statistics.fmean(hits):7.1%} of {len(hits)}')
         for name, hits in self.corners.items():
@@ -88,7 +94,14 @@ class Tally:
         print(f'{"CPU time of a stroke":<34}{middle:7.2f} ms median, {worst:.2f} ms 99th of 100')
 
 
-_CORNERED = {'rectangle': 'closed', 'polygon': 'closed', 'line': 'open', 'bent line': 'open'}
+_CORNERED = {
+    'rectangle': 'closed',
+    'polygon': 'closed',
+    'line': 'open',
+    'bent line': 'open',
+    'check, caret, V': 'open',
+    'bracket': 'open',
+}
 _SIGNS = ('anchor', 'axle', 'deletion', 'gravity', 'spring')
 
 
@@ -97,7 +110,9 @@ def main(arguments: list[str]) -> None:
     count = int(arguments[0]) if arguments else 300
     half = arguments[1] if len(arguments) > 1 else 'report'
     tally = Tally()
-    for scene in scenes(count, SEEDS[half]):
+    for scene in scenes(count, half):
+        tally.add(scene)
+    for scene in faulty_scenes(count, half):
         tally.add(scene)
     print(f'{count} strokes of each kind, half `{half}`\n')
     tally.show()

@@ -164,26 +164,95 @@ def cross(rng: Random) -> Figure:
 
 
 def arrow(rng: Random) -> Figure:
-    """Return an arrow in one stroke: shaft and head, open or a triangle, in any order."""
+    """Return an arrow in one stroke: a shaft, often bowed, and a head, in any order."""
     length, opening = rng.uniform(0.15, 0.36), rng.uniform(0.35, 0.85)
     along, across = length * math.cos(opening), length * math.sin(opening)
     tip, tail = np.array([0.5, 0.0]), np.array([-0.5, rng.normal(0.0, 0.03)])
     side = rng.choice([-1.0, 1.0])
-    one = tip + np.array((-along, side * across)) * rng.uniform(0.8, 1.2, 2)
-    other = tip + np.array((-along, -side * across)) * rng.uniform(0.8, 1.2, 2)
-    again = tip + rng.normal(0.0, 0.02, 2)
+    # Barbs of different lengths and heights.
+    one = tip + np.array((-along, side * across)) * rng.uniform(0.7, 1.3, 2)
+    other = tip + np.array((-along, -side * across)) * rng.uniform(0.7, 1.3, 2)
+    again = tip + rng.normal(0.0, 0.03, 2)
     neck = tip - (along, 0.0)
-    ways = (
-        (tail, tip, one, again, other),
-        (tail, tip, one, again, other),
-        (tail, tip, one, other),
-        (tail, tip, one, other, again),
-        (tail, neck, one, tip, other, neck + rng.normal(0.0, 0.02, 2)),
-        (one, tip, other, again, tail),
+    bow = rng.normal(0.0, 0.05) if rng.random() < 0.5 else 0.0
+    share = np.linspace(0.0, 1.0, 12, endpoint=False)
+    shaft = tail + share[:, None] * (tip - tail)
+    shaft[:, 1] += 4.0 * bow * share * (1.0 - share)
+    heads = (
+        (tip, one, again, other),
+        (tip, one, again, other),
+        # One barb drawn forth and back, or the head closed.
+        (tip, one, again, other, tip + rng.normal(0.0, 0.03, 2)),
+        (tip, one, other),
+        (tip, one, other, again),
+        (neck, one, tip, other, neck + rng.normal(0.0, 0.02, 2)),
     )
-    way = np.array(ways[rng.integers(len(ways))])
-    way = way @ np.diag((1.0, rng.uniform(0.9, 1.1)))
+    head = heads[rng.integers(len(heads))]
+    if rng.random() < 0.15:
+        way = np.vstack((one, tip, other, again, shaft[::-1]))
+    else:
+        way = np.vstack((shaft, head))
     return Figure(kind='arrow', way=_turned(way, rng.uniform(0, 7)))
+
+
+def oval(rng: Random) -> Figure:
+    """Return an oval, too long for a circle."""
+    angle = np.linspace(0.0, 2.0 * math.pi, 120, endpoint=False)
+    radius = 0.5 * (1.0 + rng.normal(0.0, 0.02) * np.cos(3 * angle + rng.uniform(0, 7)))
+    flat = rng.uniform(0.25, 0.58)
+    way = np.column_stack((radius * np.cos(angle), flat * radius * np.sin(angle)))
+    return Figure(kind='polygon', way=_turned(way, rng.uniform(0, 7)), closed=True, smooth=True)
+
+
+def pentagram(rng: Random) -> Figure:
+    """Return a star of five points in one stroke of five lines."""
+    angle = math.pi / 2 + 4.0 * math.pi / 5 * np.arange(6) + rng.normal(0.0, 0.06, 6)
+    radius = 0.5 * rng.uniform(0.82, 1.18, 6)
+    way = np.column_stack((radius * np.cos(angle), radius * np.sin(angle)))
+    way[-1] = way[0] + rng.normal(0.0, 0.05, 2)
+    way = way * (1.0, rng.uniform(0.8, 1.2))
+    return Figure(kind='polygon', way=_turned(way, rng.uniform(0, 7)))
+
+
+def check(rng: Random) -> Figure:
+    """Return a check, a caret or a V; the longer arm of a check is bowed."""
+    opening = rng.uniform(0.5, 1.7)
+    short = rng.choice([1.0, rng.uniform(0.25, 0.7)])
+    arm = np.linspace(0.0, 1.0, 20)
+    bow = rng.uniform(-0.14, 0.14) if short < 1.0 else rng.normal(0.0, 0.02)
+    long = np.column_stack((arm, 4.0 * bow * arm * (1.0 - arm)))
+    start = short * np.array((math.cos(opening), math.sin(opening)))
+    way = np.vstack((start, long)) * (1.0, rng.choice([-1.0, 1.0]))
+    return Figure(kind='line', way=_turned(way, rng.uniform(0, 7)), corners=3)
+
+
+def bracket(rng: Random) -> Figure:
+    """Return a square bracket."""
+    arms = rng.uniform(0.25, 0.6, 2)
+    way = np.array([(arms[0], 1.0), (0.0, 1.0), (0.0, 0.0), (arms[1], 0.0)])
+    way += rng.uniform(-0.04, 0.04, way.shape)
+    return Figure(kind='line', way=_turned(way, rng.normal(0.0, 0.3)), corners=4)
+
+
+def brace(rng: Random) -> Figure:
+    """Return a brace, round or with a sharp tip."""
+    wide, nose = rng.uniform(0.12, 0.25), rng.uniform(0.12, 0.25)
+    y = np.array([0.5, 0.47, 0.4, 0.3, 0.15, 0.06, 0.0])
+    x = np.array([wide, 0.4 * wide, 0.05 * wide, 0.0, 0.0, -0.4 * nose, -nose])
+    upper = np.column_stack((x, y))
+    way = np.vstack((upper, upper[:-1][::-1] * (1.0, -1.0)))
+    way = _rounded(way, 0.05) if rng.random() < 0.5 else way
+    way = way * (rng.choice([-1.0, 1.0]), rng.uniform(0.7, 1.4))
+    return Figure(kind='line', way=_turned(way, rng.normal(0.0, 0.3)), smooth=True)
+
+
+def question_mark(rng: Random) -> Figure:
+    """Return a question mark without its point: a hook, open by 17 % and more."""
+    angle = np.linspace(math.radians(rng.uniform(150, 190)), math.radians(-70), 40)
+    hook = 0.28 * np.column_stack((np.cos(angle), np.sin(angle))) + (0.0, 0.25)
+    stem = np.array([(0.0, -0.1), (0.0, -0.25 - rng.uniform(0.0, 0.2))])
+    way = np.vstack((hook, stem))
+    return Figure(kind='line', way=_turned(way, rng.normal(0.0, 0.2)), smooth=True)
 
 
 def scribble(rng: Random) -> Figure:

@@ -70,16 +70,16 @@ class Hand:
     pixel: float
 
 
-def hand(rng: Random, figure: Figure) -> Hand:
-    """Return somebody."""
+def hand(rng: Random, figure: Figure, half: str = 'report') -> Hand:
+    """Return somebody of a half of the people: no hand of one half has the habits of the other."""
     corners = max(len(figure.way) if not figure.smooth else 4, 3)
     # Whoever draws something thin takes more care, if not enough.
     care = min(1.0, math.sqrt(figure.thin / 0.25))
     return Hand(
         size=math.exp(rng.uniform(math.log(0.4), math.log(6.0))),
         place=(rng.uniform(-20.0, 20.0), rng.uniform(-20.0, 20.0)),
-        rate=math.exp(rng.uniform(math.log(20.0), math.log(200.0))),
-        duration=corners * math.exp(rng.uniform(math.log(0.25), math.log(0.9))),
+        rate=math.exp(_habit(rng, math.log(20.0), math.log(200.0), half)),
+        duration=corners * math.exp(_habit(rng, math.log(0.25), math.log(0.9), half)),
         drift=care * _often(rng, 0.8, 0.012),
         tremor=care * _often(rng, 0.6, 0.004),
         noise=_often(rng, 0.5, 0.0025),
@@ -89,8 +89,8 @@ def hand(rng: Random, figure: Figure) -> Hand:
         hook_up=care * _often(rng, 0.25, 0.05),
         closing=float(rng.choice([0.0, rng.uniform(-0.07, 0.0), rng.uniform(0.0, 0.1)])),
         slip=care * _often(rng, 0.8, 0.035),
-        slowing=rng.uniform(0.0, 0.85),
-        unsteady=rng.uniform(0.0, 0.4),
+        slowing=_habit(rng, 0.0, 0.85, half),
+        unsteady=_habit(rng, 0.0, 0.4, half),
         pixel=float(rng.choice([0.0, rng.uniform(0.0025, 0.012)])),
     )
 
@@ -119,6 +119,12 @@ def drawn(figure: Figure, somebody: Hand, rng: Random) -> Floats:
 def stroke(figure: Figure, rng: Random) -> Floats:
     """Return the samples of a figure that anybody draws."""
     return drawn(figure, hand(rng, figure), rng)
+
+
+def _habit(rng: Random, low: float, high: float, half: str) -> float:
+    """Return a number of a range that is cut into eight bands: every other one is a half's."""
+    band = 2 * rng.integers(4) + (half == 'report')
+    return float(low + (high - low) * (band + rng.random()) / 8)
 
 
 def _often(rng: Random, chance: float, spread: float) -> float:

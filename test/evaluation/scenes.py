@@ -31,9 +31,13 @@ from physsim_ros.model.shapes import Box, Disc, Shape
 from physsim_ros.simulation.world import World
 
 from . import figures
+from .faults import Fault, FAULTS
 from .figures import Figure
 from .hands import drawn, Hand, hand
 from .outlines import Floats, Random
+
+
+SEEDS = {'tuning': 1, 'report': 2}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -42,6 +46,7 @@ class Scene:
     A stroke in a world.
 
     :param name: of the row in the table
+    :param fault: name of the fault, '' for none
     :param figure: what was meant to be drawn
     :param samples: (n, 3) float64: x, y [m], time [s]
     :param view: the world
@@ -49,29 +54,56 @@ class Scene:
     """
 
     name: str
+    fault: str
     figure: Figure
     samples: Floats
     view: SceneQuery
     meaning: str | None
 
 
-def scenes(count: int, seed: int) -> Iterator[Scene]:
-    """Yield so many scenes of every kind, in turn; the same for the same seed."""
-    for number, (name, draw, meaning, around) in enumerate(_KINDS):
-        rng = np.random.default_rng((seed, number))
+def scenes(count: int, half: str) -> Iterator[Scene]:
+    """Yield so many scenes of every kind, in turn; the same for the same half."""
+    for number, kind in enumerate(KINDS):
+        rng = np.random.default_rng((SEEDS[half], number))
         for _ in range(count):
-            figure = draw(rng)
-            somebody = hand(rng, figure)
-            world = World()
-            for index, (shape, x, y) in enumerate(around(figure, somebody, rng)):
-                world.apply(Spawn(name=f'body/{index}', shape=shape, pose=(x, y, 0.0)))
-            yield Scene(
-                name=name,
-                figure=figure,
-                samples=drawn(figure, somebody, rng),
-                view=SceneQuery(world.snapshot()),
-                meaning=meaning,
-            )
+            scene = _scene(kind, _PLAIN, '', half, rng)
+            assert scene is not None
+            yield scene
+
+
+def faulty_scenes(count: int, half: str) -> Iterator[Scene]:
+    """Yield so many scenes with every fault, of the kinds that can have it in turn."""
+    for number, (name, fault) in enumerate(FAULTS.items()):
+        rng = np.random.default_rng((SEEDS[half], 1000 + number))
+        left = count
+        while left:
+            for kind in KINDS:
+                if kind.meaning is None or not left:
+                    continue
+                scene = _scene(kind, fault, name, half, rng)
+                if scene is not None:
+                    left -= 1
+                    yield scene
+
+
+def _scene(kind: Kind, fault: Fault, name: str, half: str, rng: Random) -> Scene | None:
+    """Return a scene of a kind with a fault, or None where it cannot have that."""
+    figure = kind.draw(rng)
+    wrong = fault.figure(figure, rng)
+    if wrong is None:
+        return None
+    somebody = fault.hand(hand(rng, figure, half), rng)
+    world = World()
+    for index, (shape, x, y) in enumerate(kind.around(figure, somebody, rng)):
+        world.apply(Spawn(name=f'body/{index}', shape=shape, pose=(x, y, 0.0)))
+    return Scene(
+        name=kind.name,
+        fault=name,
+        figure=figure,
+        samples=fault.samples(drawn(wrong, somebody, rng), rng),
+        view=SceneQuery(world.snapshot()),
+        meaning=kind.meaning,
+    )
 
 
 # A shape and where it lies.
@@ -138,23 +170,44 @@ def _squiggle(rng: Random) -> Figure:
     return Figure(kind='', way=np.asarray(way), smooth=True)
 
 
+_PLAIN = Fault()
 _Around = Callable[[Figure, Hand, Random], list[Placed]]
-_KINDS: tuple[tuple[str, Callable[[Random], Figure], str | None, _Around], ...] = (
-    ('disc', figures.disc, 'disc', _nothing),
-    ('rectangle', figures.rectangle, 'rectangle', _nothing),
-    ('polygon', figures.polygon, 'polygon', _nothing),
-    ('line', figures.line, 'wall', _nothing),
-    ('bent line', figures.bent_line, 'wall', _nothing),
-    ('curve', figures.curve, 'wall', _nothing),
-    ('line, 2 bodies', figures.line, 'rod', _at_ends),
-    ('zigzag, 2 bodies', figures.zigzag, 'spring', _at_ends),
-    ('coil, 2 bodies', figures.coil, 'spring', _at_ends),
-    ('x, on a body', figures.cross, 'anchor', _under),
-    ('circle, on a body', figures.disc, 'axle', _under),
-    ('circle, on 2', figures.disc, 'axle', _under_both),
-    ('arrow', figures.arrow, 'gravity', _nothing),
-    ('scribble, on a body', figures.scribble, 'deletion', _scribbled),
-    ('squiggle', _squiggle, None, _nothing),
+
+
+@dataclass(frozen=True, slots=True)
+class Kind:
+    """A row of the table: what is drawn, what that means (None: nothing), and over what."""
+
+    name: str
+    draw: Callable[[Random], Figure]
+    meaning: str | None
+    around: _Around
+
+
+KINDS: tuple[Kind, ...] = (
+    Kind('disc', figures.disc, 'disc', _nothing),
+    Kind('oval', figures.oval, 'polygon', _nothing),
+    Kind('rectangle', figures.rectangle, 'rectangle', _nothing),
+    Kind('polygon', figures.polygon, 'polygon', _nothing),
+    Kind('pentagram', figures.pentagram, 'polygon', _nothing),
+    Kind('pentagram, on a body', figures.pentagram, 'polygon', _scribbled),
+    Kind('line', figures.line, 'wall', _nothing),
+    Kind('bent line', figures.bent_line, 'wall', _nothing),
+    Kind('check, caret, V', figures.check, 'wall', _nothing),
+    Kind('bracket', figures.bracket, 'wall', _nothing),
+    Kind('brace', figures.brace, 'wall', _nothing),
+    Kind('brace, on a body', figures.brace, 'wall', _scribbled),
+    Kind('question mark', figures.question_mark, 'wall', _nothing),
+    Kind('curve', figures.curve, 'wall', _nothing),
+    Kind('line, 2 bodies', figures.line, 'rod', _at_ends),
+    Kind('zigzag, 2 bodies', figures.zigzag, 'spring', _at_ends),
+    Kind('coil, 2 bodies', figures.coil, 'spring', _at_ends),
+    Kind('x, on a body', figures.cross, 'anchor', _under),
+    Kind('circle, on a body', figures.disc, 'axle', _under),
+    Kind('circle, on 2', figures.disc, 'axle', _under_both),
+    Kind('arrow', figures.arrow, 'gravity', _nothing),
+    Kind('scribble, on a body', figures.scribble, 'deletion', _scribbled),
+    Kind('squiggle', _squiggle, None, _nothing),
 )
 # All meanings of strokes, in the order of their kinds.
-MEANINGS = tuple(dict.fromkeys(meaning for _, _, meaning, _ in _KINDS if meaning is not None))
+MEANINGS = tuple(dict.fromkeys(kind.meaning for kind in KINDS if kind.meaning is not None))

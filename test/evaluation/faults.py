@@ -1,0 +1,146 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Faults: what pens and people do beside trembling, one at a time and strongly.
+
+A fault changes the figure, the hand or the samples. It is None where a figure cannot have it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+import math
+
+import numpy as np
+
+from .figures import Figure
+from .hands import Hand
+from .outlines import Floats, Random
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Fault:
+    """
+    A fault.
+
+    :param figure: changes the way of the pen; None where this figure cannot be drawn so
+    :param hand: changes the hand
+    :param samples: changes the samples, (n, 3) float64: x, y [m], time [s]
+    """
+
+    figure: Callable[[Figure, Random], Figure | None] = lambda figure, _: figure
+    hand: Callable[[Hand, Random], Hand] = lambda hand, _: hand
+    samples: Callable[[Floats, Random], Floats] = lambda samples, _: samples
+
+
+def _resting(samples: Floats, rng: Random) -> Floats:
+    """Let the pen rest for 400 samples at the beginning, at the end or on its way."""
+    at = int(rng.choice([0, len(samples) - 1, rng.integers(len(samples))]))
+    rest = np.repeat(samples[at : at + 1], 400, axis=0)
+    rest[:, :2] += rng.normal(0.0, 0.002 * _size(samples), (400, 2))
+    rest[:, 2] += np.arange(400) / 200.0
+    later = samples[at + 1 :] + (0.0, 0.0, 2.0)
+    return np.vstack((samples[: at + 1], rest, later))
+
+
+def _spike(samples: Floats, rng: Random) -> Floats:
+    """Let one sample jump by half the figure's size."""
+    result = samples.copy()
+    angle = rng.uniform(0, 7)
+    away = 0.5 * _size(samples) * np.array((math.cos(angle), math.sin(angle)))
+    result[rng.integers(1, len(samples) - 1), :2] += away
+    return result
+
+
+def _stale(samples: Floats, rng: Random) -> Floats:
+    """Put a first sample where the pen was before."""
+    angle, far = rng.uniform(0, 7), rng.uniform(0.3, 1.5) * _size(samples)
+    before = samples[:1] + (far * math.cos(angle), far * math.sin(angle), -0.01)
+    return np.vstack((before, samples))
+
+
+def _resampled(count: int) -> Callable[[Floats, Random], Floats]:
+    def samples_of(samples: Floats, _rng: Random) -> Floats:
+        at = np.linspace(0.0, len(samples) - 1.0, count)
+        rows = np.arange(len(samples))
+        return np.column_stack([np.interp(at, rows, column) for column in samples.T])
+
+    return samples_of
+
+
+def _twice(figure: Figure, rng: Random) -> Figure | None:
+    """Draw a closed outline nearly twice, or a little more."""
+    if not figure.closed:
+        return None
+    again = figure.way * rng.uniform(0.95, 1.05, 2) + rng.normal(0.0, 0.015, 2)
+    both = np.vstack((figure.way, again))
+    return replace(figure, way=both)
+
+
+def _one_round_corner(figure: Figure, rng: Random) -> Figure | None:
+    """Round one corner by a quarter of its shorter side."""
+    if figure.corners < 3 or figure.smooth or figure.thin < 0.2:
+        return None
+    way, count = figure.way, len(figure.way)
+    corner = int(rng.integers(1, count - 1))
+    before, here, after = way[corner - 1], way[corner], way[corner + 1]
+    reach = 0.25 * min(math.dist(before, here), math.dist(here, after))
+    start = here + (before - here) * reach / math.dist(before, here)
+    end = here + (after - here) * reach / math.dist(after, here)
+    share = np.linspace(0.0, 1.0, 9)[:, None]
+    bend = (1 - share) ** 2 * start + 2 * share * (1 - share) * here + share**2 * end
+    return replace(figure, way=np.vstack((way[:corner], bend, way[corner + 1 :])))
+
+
+def _closed_only(figure: Figure, _rng: Random) -> Figure | None:
+    return figure if figure.closed else None
+
+
+def _sharp_only(figure: Figure, _rng: Random) -> Figure | None:
+    return None if figure.smooth else figure
+
+
+def _size(samples: Floats) -> float:
+    return float(np.hypot(*np.ptp(samples[:, :2], axis=0)))
+
+
+FAULTS: dict[str, Fault] = {
+    'a pen that rests': Fault(samples=_resting),
+    'a spike': Fault(samples=_spike),
+    'a stale first sample': Fault(samples=_stale),
+    '10 samples': Fault(samples=_resampled(10)),
+    '10,000 samples': Fault(samples=_resampled(10_000)),
+    'tremor of 2 %': Fault(hand=lambda hand, rng: replace(hand, tremor=rng.uniform(0.015, 0.02))),
+    'gap to 11.5 %': Fault(
+        figure=_closed_only,
+        hand=lambda hand, rng: replace(hand, closing=rng.uniform(-0.115, -0.06), slip=0.0),
+    ),
+    'ends that cross': Fault(
+        figure=_closed_only,
+        hand=lambda hand, rng: replace(
+            hand, closing=rng.uniform(0.02, 0.1), slip=rng.uniform(0.02, 0.07)
+        ),
+    ),
+    'drawn twice round': Fault(
+        figure=_twice, hand=lambda hand, _: replace(hand, closing=min(hand.closing, 0.03))
+    ),
+    'one round corner': Fault(figure=_one_round_corner),
+    'bowed sides': Fault(
+        figure=_sharp_only, hand=lambda hand, rng: replace(hand, bow=rng.uniform(0.03, 0.07))
+    ),
+    '3 cm': Fault(hand=lambda hand, _: replace(hand, size=0.03)),
+    '50 m': Fault(hand=lambda hand, _: replace(hand, size=50.0)),
+}
