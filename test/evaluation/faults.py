@@ -49,11 +49,11 @@ class Fault:
 def _resting(samples: Floats, rng: Random) -> Floats:
     """Let the pen rest for 400 samples at the beginning, at the end or on its way."""
     at = int(rng.choice([0, len(samples) - 1, rng.integers(len(samples))]))
-    rest = np.repeat(samples[at : at + 1], 400, axis=0)
+    first, later = np.split(samples, [at + 1])
+    rest = np.repeat(first[-1:], 400, axis=0)
     rest[:, :2] += rng.normal(0.0, 0.002 * _size(samples), (400, 2))
     rest[:, 2] += np.arange(400) / 200.0
-    later = samples[at + 1 :] + (0.0, 0.0, 2.0)
-    return np.vstack((samples[: at + 1], rest, later))
+    return np.vstack((first, rest, np.add(later, (0.0, 0.0, 2.0))))
 
 
 def _spike(samples: Floats, rng: Random) -> Floats:
@@ -68,7 +68,7 @@ def _spike(samples: Floats, rng: Random) -> Floats:
 def _stale(samples: Floats, rng: Random) -> Floats:
     """Put a first sample where the pen was before."""
     angle, far = rng.uniform(0, 7), rng.uniform(0.3, 1.5) * _size(samples)
-    before = samples[:1] + (far * math.cos(angle), far * math.sin(angle), -0.01)
+    before = np.add(samples[:1], (far * math.cos(angle), far * math.sin(angle), -0.01))
     return np.vstack((before, samples))
 
 
@@ -102,7 +102,8 @@ def _one_round_corner(figure: Figure, rng: Random) -> Figure | None:
     end = here + (after - here) * reach / math.dist(after, here)
     share = np.linspace(0.0, 1.0, 9)[:, None]
     bend = (1 - share) ** 2 * start + 2 * share * (1 - share) * here + share**2 * end
-    return replace(figure, way=np.vstack((way[:corner], bend, way[corner + 1 :])))
+    rest = np.delete(way, range(corner + 1), axis=0)
+    return replace(figure, way=np.vstack((way[:corner], bend, rest)))
 
 
 def _closed_only(figure: Figure, _rng: Random) -> Figure | None:

@@ -36,7 +36,6 @@ from .figures import Figure
 from .hands import drawn, Hand, hand
 from .outlines import Floats, Random
 
-
 SEEDS = {'tuning': 1, 'report': 2}
 
 

@@ -25,6 +25,7 @@ from dataclasses import dataclass
 import math
 
 import numpy as np
+from physsim_ros.drawing.strokes.cleaning import clean_samples
 from physsim_ros.drawing.strokes.polyline import angles, COUNT, spaced
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import BadSize, Malformed
@@ -72,7 +73,7 @@ def resample_stroke(samples: Floats) -> Stroke:
     :raises Malformed: there are none, or one is not finite
     :raises BadSize: all are at one point, or one is too far away
     """
-    path = spaced(_without_hooks(spaced(_checked(samples), FINELY)), FINELY)
+    path = spaced(_without_hooks(spaced(clean_samples(_checked(samples)), FINELY)), FINELY)
     points = path[::FINER]
     outline, gap = _outline(points, path)
     return Stroke(

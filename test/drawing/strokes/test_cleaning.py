@@ -1,0 +1,63 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""What pens add to a stroke is gone before it is read."""
+
+import numpy as np
+from physsim_ros.drawing.strokes.cleaning import clean_samples, GRAIN
+from physsim_ros.model.arrays import Floats
+import pytest
+
+ANGLE = np.linspace(0.0, 5.0, 60)
+ARC = np.column_stack((np.cos(ANGLE), np.sin(ANGLE)))
+SIZE = float(np.hypot(*np.ptp(ARC, axis=0)))
+
+
+def length(points: Floats) -> float:
+    return float(np.hypot(*np.diff(points, axis=0).T).sum())
+
+
+def test_distinct_samples_without_jumps_stay_as_they_are() -> None:
+    assert (clean_samples(ARC) == ARC).all()
+
+
+@pytest.mark.parametrize('at', [0, 17, 59])
+def test_a_pen_that_rests_draws_no_length(at: int) -> None:
+    rest = ARC[at] + np.random.default_rng(at).normal(0.0, 0.002 * SIZE, (400, 2))
+
+    cleaned = clean_samples(np.vstack((ARC[:at], rest, ARC[at:])))
+
+    assert length(cleaned) == pytest.approx(length(ARC), abs=2 * GRAIN * SIZE)
+
+
+@pytest.mark.parametrize('at', [1, 30, 58])
+@pytest.mark.parametrize('resting', [0, 50])
+def test_a_spike_is_gone(at: int, resting: int) -> None:
+    spiked = np.vstack((np.repeat(ARC[:1], resting, axis=0), ARC))
+    spiked[resting + at] += (0.4 * SIZE, 0.3 * SIZE)
+
+    assert clean_samples(spiked) == pytest.approx(np.delete(ARC, at, axis=0))
+
+
+def test_a_late_first_sample_is_gone_and_so_is_a_last_one_of_the_next_stroke() -> None:
+    assert clean_samples(np.vstack(([(9.0, 5.0)], ARC))) == pytest.approx(ARC)
+    assert clean_samples(np.vstack((ARC, [(9.0, 5.0)]))) == pytest.approx(ARC)
+
+
+def test_clicks_are_no_spikes() -> None:
+    ways = np.array([(0, 0), (3, 0), (2.5, 0.4), (3, 0), (2.5, -0.4)], dtype=np.float64)
+    teeth = np.array([(n, 5.0 * (n % 2)) for n in range(20)], dtype=np.float64)
+
+    assert (clean_samples(ways) == ways).all()
+    assert (clean_samples(teeth) == teeth).all()
