@@ -61,6 +61,7 @@ def take_checkpoint(space: Space, step: int) -> Checkpoint:
             without=shape_numbers(unsupported),
             joints=space.joints.impulses(),
         ),
+        grips=space.pipeline.mouse_joints.grips(),
     )
 
 
@@ -90,6 +91,8 @@ def restore_checkpoint(
     for joint in key.scene.joints:
         space.joints.put(joint)
     space.joints.go_on_from(key.memory.joints)
+    for grip in key.grips:
+        space.pipeline.mouse_joints.set_grip(grip)
     return space
 
 

@@ -17,26 +17,31 @@ The pipeline: one step of the engine, stage by stage in this order.
 
 1. Wrenches: the forces of commands are set for the step.
 2. Half-step velocity: bodies that have lost their support fall freely, without old impulses.
-3. Resting damping: the solver's error is removed from what friction locks in place.
-4. Continuous collision: fast bodies are advanced to where they first touch something.
-5. Joints: the target velocity of constraints is set to the centripetal term.
-6. Pymunk's step: positions, narrow phase, solver, sleeping. In the middle of it: contact
+3. Mouse joints: the forces of hands are added.
+4. Resting damping: the solver's error is removed from what friction locks in place.
+5. Continuous collision: fast bodies are advanced to where they first touch something.
+6. Joints: the target velocity of constraints is set to the centripetal term.
+7. Pymunk's step: positions, narrow phase, solver, sleeping. In the middle of it: contact
    projection as two shapes begin to touch, and impact propagation before the solver runs.
-7. Joints: gaps are closed in positions.
-8. Half-step velocity: free flight is found, and does not fall asleep.
-9. Contact report: impulses are added up.
+8. Joints: gaps are closed in positions.
+9. Half-step velocity: free flight is found, and does not fall asleep.
+10. Contact report: impulses are added up.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 from physsim_ros.engine.batch_io import BatchIO
+from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.ccd.continuous import ContinuousCollision
 from physsim_ros.engine.contact_report import ContactReport
 from physsim_ros.engine.joints.joint_set import JointSet
 from physsim_ros.engine.stages.contact_projection import project_contact
 from physsim_ros.engine.stages.half_step import HalfStep
 from physsim_ros.engine.stages.impact_propagation import ImpactPropagation
+from physsim_ros.engine.stages.mouse_joints import MouseJoints
 from physsim_ros.engine.stages.resting_damping import RestingDamping
 from physsim_ros.engine.stages.sleeping import keep_flying_awake
 from physsim_ros.engine.stages.wrenches import Wrenches
@@ -52,14 +57,23 @@ class Pipeline:
     :param engine: Pymunk's space
     :param io: of it
     :param shapes: numbers of its shapes
+    :param bodies: in it, by name
     :param joints: in it
     :param dt: of a step [s]
     """
 
     def __init__(
-        self, engine: pymunk.Space, io: BatchIO, shapes: ShapeIds, joints: JointSet, dt: float
+        self,
+        engine: pymunk.Space,
+        io: BatchIO,
+        shapes: ShapeIds,
+        bodies: Mapping[str, RigidBody],
+        joints: JointSet,
+        *,
+        dt: float,
     ) -> None:
         self.wrenches = Wrenches()
+        self.mouse_joints = MouseJoints(bodies)
         self.half_step = HalfStep(engine, io)
         self.resting_damping = RestingDamping(io, dt)
         self.continuous_collision = ContinuousCollision(engine)
@@ -81,6 +95,7 @@ class Pipeline:
             rows = np.flatnonzero(unsupported).tolist()
             clear_impulses(self._shapes, [table.bodies[row] for row in rows])
         context.twists = table.state[:, 3:].copy()
+        self.mouse_joints.apply_forces(context)
         self.resting_damping.damp_resting(context)
         self.continuous_collision.clamp_moves(context)
         self._joints.set_targets(context)

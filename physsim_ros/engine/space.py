@@ -33,6 +33,7 @@ from physsim_ros.engine.settings import apply_settings, make_engine
 from physsim_ros.engine.stages.half_step import Settled
 from physsim_ros.engine.step_context import StepContext
 from physsim_ros.engine.warm_start import ShapeIds
+from physsim_ros.model.grips import Grip
 from physsim_ros.model.scene import Body, Joint, Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.transform import Pose
@@ -63,7 +64,9 @@ class Space:
         self.boundary = Boundary(self.engine, self.shapes)
         self.joints = JointSet(self.engine, self.bodies.by_name, dt)
         self._io = BatchIO(self.engine)
-        self.pipeline = Pipeline(self.engine, self._io, self.shapes, self.joints, dt)
+        self.pipeline = Pipeline(
+            self.engine, self._io, self.shapes, self.bodies.by_name, self.joints, dt=dt
+        )
         self.broken: list[tuple[str, float]] = []
         self.changes = 0
         self._age = 0
@@ -140,6 +143,8 @@ class Space:
         self._take_out(old)
         self._insert(rigid, pose, twist)
         self.joints.attach(body.name)
+        if body.fixed:
+            self.pipeline.mouse_joints.forget_body(body.name)
         self.pipeline.half_step.release_bodies(touching)
         if old.wrench != REST and not body.fixed:
             self.set_wrench(rigid, old.wrench, old.wrench_until)
@@ -151,6 +156,7 @@ class Space:
         for joint in self.joints.of(name):
             self.unjoin(joint)
         self._take_out(rigid)
+        self.pipeline.mouse_joints.forget_body(name)
         del self.bodies.by_name[name]
         self.pipeline.half_step.release_bodies(touching)
 
@@ -181,6 +187,24 @@ class Space:
         if free:
             self.set_twist(rigid, twist)
         self._note_motion()
+
+    # Grips
+
+    def set_grip(self, grip: Grip) -> None:
+        """Have a hand draw a body to itself from now on, instead of any other body."""
+        old = self.pipeline.mouse_joints.grip_of(grip.hand)
+        if old is not None and old.body != grip.body:
+            self.remove_grip(grip.hand)
+        self.changes += old != grip
+        self.pipeline.mouse_joints.set_grip(grip)
+
+    def remove_grip(self, hand: str) -> None:
+        """Have a hand let go of its body, which moves on at its velocity."""
+        grip = self.pipeline.mouse_joints.grip_of(hand)
+        if grip is not None:
+            self.pipeline.mouse_joints.remove_grip(hand)
+            self.pipeline.half_step.release_bodies([self.bodies.by_name[grip.body]])
+            self._note_motion()
 
     # Joints
 

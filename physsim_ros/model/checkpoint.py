@@ -26,6 +26,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.model.arrays import Floats, Ints
+from physsim_ros.model.grips import Grip
 from physsim_ros.model.scene import Body, Joint, Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.transform import Pose
@@ -121,6 +122,7 @@ class Checkpoint:
     :param free: (n,) bool: in free flight, so that the engine's velocity leads
     :param wrenches: row of the body, wrench [N, N m], and the step at which it ends or None
     :param memory: impulse cache
+    :param grips: of hands on bodies
     """
 
     step: int
@@ -129,3 +131,4 @@ class Checkpoint:
     free: NDArray[np.bool_]
     wrenches: tuple[tuple[int, Pose, int | None], ...]
     memory: ImpulseCache
+    grips: tuple[Grip, ...] = ()

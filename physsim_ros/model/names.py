@@ -63,6 +63,20 @@ def check_body_name(name: str) -> None:
         raise Malformed(f'{name!r} is no body in the picture', field='name')
 
 
+def check_hand_name(name: str) -> None:
+    """
+    Refuse a name that no hand can have.
+
+    :raises Malformed: it is empty or too long, or has an unprintable character
+    """
+    if not 0 < len(name) <= LONGEST_NAME:
+        raise Malformed(
+            f'the name of a hand has 1 to {LONGEST_NAME} characters', field='client_id'
+        )
+    if any(unicodedata.category(character) in _UNPRINTABLE for character in name):
+        raise Malformed(f'{name!r} holds a character that cannot be printed', field='client_id')
+
+
 def split_name(name: str) -> tuple[str, int]:
     """Return namespace and id of a name; the namespace is '' if it is not canonical."""
     namespace, _, id_ = name.rpartition('/')

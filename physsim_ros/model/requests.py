@@ -40,7 +40,7 @@ from physsim_ros.model.joints import (
     JointProperties,
     kind_from,
 )
-from physsim_ros.model.names import check_body_name, check_name, WORLD
+from physsim_ros.model.names import check_body_name, check_hand_name, check_name, WORLD
 from physsim_ros.model.settings import check_setting
 from physsim_ros.model.shapes import Shape
 from physsim_ros.model.transform import Point, Pose
@@ -214,6 +214,72 @@ class Release(AtPoint):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class HandRequest:
+    """
+    A request of a hand.
+
+    :param hand: name of the hand, unique in its world
+    :raises Malformed: the name is empty, too long or unprintable
+    """
+
+    hand: str
+
+    def __post_init__(self) -> None:
+        check_hand_name(self.hand)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Grab(HandRequest):
+    """
+    Have a hand grab the topmost movable body under a point; it lets go of any other body.
+
+    :param point: where the hand is [m]
+    :param frame: of the point: '' for the world, or a body's name
+    """
+
+    point: Point
+    frame: str = ''
+
+    def __post_init__(self) -> None:
+        HandRequest.__post_init__(self)
+        check_point(self.point, 'mouse_point')
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class GrabToPlace(Grab):
+    """`Grab` in a paused world: where no movable body is under the point, any body is grabbed."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MoveHand(HandRequest):
+    """
+    Move a hand, and draw the body to it that it has grabbed.
+
+    :param point: where the hand is now [m]
+    :param yaw: of the body [rad], where it is placed; None keeps it
+    :param frame: of the point and yaw: '' for the world, or a body's name
+    """
+
+    point: Point
+    yaw: float | None = None
+    frame: str = ''
+
+    def __post_init__(self) -> None:
+        HandRequest.__post_init__(self)
+        check_pose((*self.point, self.yaw or 0.0), 'mouse_point')
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PlaceHand(MoveHand):
+    """`MoveHand` in a paused world: the body is put where its grip is at the hand."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LetGo(HandRequest):
+    """Have a hand let go of its body, which flies on."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Command:
     """
     Set poses, twists or wrenches of named bodies: all of them, or none if one is refused.
@@ -323,7 +389,19 @@ def _body_name(mapping: Mapping[Any, Any], key: str) -> str:
 
 
 Joining = Join | Unjoin | UnjoinAll | Pin | Axle
-Request = Spawn | Delete | DeleteAll | Joining | Anchor | Release | Command | Configure | Restore
+Dragging = Grab | MoveHand | LetGo
+Request = (
+    Spawn
+    | Delete
+    | DeleteAll
+    | Joining
+    | Anchor
+    | Release
+    | Dragging
+    | Command
+    | Configure
+    | Restore
+)
 
 
 def check_point(point: Point, name: str) -> None:

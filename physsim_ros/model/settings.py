@@ -45,6 +45,7 @@ class WorldSettings:
     :param friction: coefficient of bodies by default
     :param elasticity: coefficient of restitution of bodies by default
     :param command_timeout: simulation time for which a wrench acts [s]; 0 is no limit
+    :param drag_force: greatest force of a hand, in weights of the body
     :param max_bodies: greatest number of bodies
     :raises Malformed: a number is not finite or an array has the wrong length
     :raises BadProperty: a value is out of range
@@ -58,6 +59,7 @@ class WorldSettings:
     friction: float = 0.5
     elasticity: float = 0.5
     command_timeout: float = 0.5
+    drag_force: float = 10.0
     max_bodies: int = 20000
 
     def __post_init__(self) -> None:
@@ -95,6 +97,7 @@ RANGES: dict[str, Within | Whole] = {
     'friction': Within(0.0, 10.0),
     'elasticity': Within(0.0, 1.0),
     'command_timeout': Within(0.0, 1e9, 's'),
+    'drag_force': Within(0.0, 1000.0),
     'max_bodies': Whole(0, 1_000_000),
 }
 _CHECKS: Checks = {'gravity': _gravity, 'bounds': _bounds, **RANGES}

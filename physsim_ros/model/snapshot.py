@@ -27,6 +27,7 @@ from typing import NamedTuple
 import numpy as np
 from physsim_ros.model.arrays import Floats, Ints
 from physsim_ros.model.errors import Refusal
+from physsim_ros.model.grips import Grip
 from physsim_ros.model.preview import NO_PREVIEW, Preview
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.transform import turned
@@ -78,6 +79,7 @@ class Snapshot:
     :param forces: (j,) float64: force of each joint in the last step [N]; of a torque, at an arm
         of 1 m; empty if unknown
     :param springs: those of the joints that are springs
+    :param grips: of hands on bodies
     """
 
     step: int
@@ -87,6 +89,7 @@ class Snapshot:
     twists: Floats
     forces: Floats = field(default_factory=lambda: np.empty(0))
     springs: Springs = NO_SPRINGS
+    grips: tuple[Grip, ...] = ()
 
     @property
     def nbytes(self) -> int:
@@ -125,6 +128,15 @@ class Snapshot:
         # Row -1, the background, is the row of zeros appended here.
         poses = np.vstack((self.poses, np.zeros((1, 3))))[rows]
         return poses[..., :2] + turned(seats[:, :4].reshape(-1, 2, 2), poses[..., 2])
+
+    @cached_property
+    def grip_lines(self) -> Floats:
+        """(h, 2, 2) float64: of each grip its anchor on the body, and its hand, world [m]."""
+        rows = {name: row for row, name in enumerate(self.scene.names)} if self.grips else {}
+        poses = self.poses[[rows[grip.body] for grip in self.grips]].reshape(-1, 3)
+        anchors = np.array([grip.anchor for grip in self.grips]).reshape(-1, 2)
+        targets = np.array([grip.target for grip in self.grips]).reshape(-1, 2)
+        return np.stack((poses[:, :2] + turned(anchors, poses[:, 2]), targets), axis=1)
 
     @cached_property
     def momentum(self) -> tuple[float, float]:

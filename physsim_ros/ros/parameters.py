@@ -169,6 +169,7 @@ _MEANINGS = {
     'beautify': 'how far a stroke may be from regular and still be meant so: angles [rad], '
     'lengths as a share; 0 keeps it as it was drawn',
     'wall_thickness': 'of walls that are drawn [m]',
+    'drag_force': 'greatest force of a hand, in weights of the body',
     'command_timeout': 'of a wrench [s of simulation time]; 0 means no limit',
     'max_bodies': 'a spawn past it is refused',
 }

@@ -184,9 +184,16 @@ class History:
         return step - last.step >= self._spacing or self._restored > last.serial
 
     def last_gesture(self, serial: int) -> list[Entry]:
-        """Return the requests of the last gesture before a serial; none where none is kept."""
+        """
+        Return the requests of the last gesture before a serial; none where none is kept.
+
+        Among them are those of other gestures that came in between: time goes back before them.
+        """
         done = self._entries[: serial - self._dropped]
-        return [entry for entry in done if entry.gesture == done[-1].gesture]
+        first = next(
+            (place for place, entry in enumerate(done) if entry.gesture == done[-1].gesture), 0
+        )
+        return done[first:]
 
     @property
     def loaded(self) -> WorldState | None:

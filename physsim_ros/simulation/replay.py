@@ -159,6 +159,12 @@ class Timeline(Course):
         self.serial += 1
         return done
 
+    @property
+    def is_newest(self) -> bool:
+        """Whether nothing lies ahead of this moment."""
+        head = self.history.head
+        return self.moment == (head, self.history.made_at(head))
+
     def see(self) -> None:
         """Note that this moment is shown."""
         self.history.see(*self.moment)

@@ -23,16 +23,29 @@ goes on differently from there.
 from __future__ import annotations
 
 from collections import deque
-from typing import NamedTuple
+from dataclasses import dataclass
 
 from physsim_ros.engine.contact_report import NO_CONTACTS
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import BadProperty, Refusal
-from physsim_ros.model.requests import Command, Delete, Join, Request, Restore, Spawn, Unjoin
+from physsim_ros.model.requests import (
+    Command,
+    Delete,
+    Dragging,
+    Grab,
+    Join,
+    LetGo,
+    MoveHand,
+    Request,
+    Restore,
+    Spawn,
+    Unjoin,
+)
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.simulation.clock import Clock
 from physsim_ros.simulation.frame_cache import Past, Shot
+from physsim_ros.simulation.hands import Hands, placing
 from physsim_ros.simulation.replay import Timeline
 from physsim_ros.simulation.undo import Undo
 from physsim_ros.simulation.world import World
@@ -45,7 +58,8 @@ CHECKPOINTS = 3.0
 MOST_KEPT = 64 * 2**20
 
 
-class _Asked(NamedTuple):
+@dataclass(slots=True)
+class _Asked:
     """A request that waits, or the refusal of what could not even be one, or an answer."""
 
     request: Request | Refusal | Answer
@@ -90,6 +104,9 @@ class Simulation:
         self.physics_rate = physics_rate
         self._clock = Clock(physics_rate=physics_rate, frame_steps=self.frame_steps, speed=speed)
         self._requests: deque[_Asked] = deque()
+        # The last move of each hand that waits; a later one takes its place.
+        self._moves: dict[str, _Asked] = {}
+        self._hands = Hands()
         self._gesture = 0
         self._answers: list[Answer] = []
         self._changed = True
@@ -137,6 +154,8 @@ class Simulation:
     @speed.setter
     def speed(self, speed: float) -> None:
         self._changed |= speed != self._clock.speed
+        if speed < 0.0:
+            self._hands.clear()
         self._clock.speed = speed
 
     @property
@@ -173,6 +192,9 @@ class Simulation:
         :param joined: whether it belongs to the one before, and is undone together with it
         :param field: the one field that it was made of, to be named by a refusal; '' is none
         """
+        if isinstance(request, MoveHand) and request.hand in self._moves:
+            self._moves[request.hand].request = request
+            return
         subject = ''
         match request:
             case (
@@ -184,6 +206,11 @@ class Simulation:
             ):
                 pass
         self._queue(request, topic, subject, joined=joined, field=field)
+        match request:
+            case MoveHand(hand=hand):
+                self._moves[hand] = self._requests[-1]
+            case Grab(hand=hand) | LetGo(hand=hand):
+                self._moves.pop(hand, None)
 
     def tell(self, answer: Answer) -> None:
         """Queue an answer to what asked nothing of the world, so that answers keep the order."""
@@ -216,6 +243,7 @@ class Simulation:
     def begin(self, state: WorldState) -> None:
         """Begin with a state, at time 0, without a past; `reset` will return to it."""
         self._undo.begin(state)
+        self._hands.clear()
         self.past = self._no_past()
         self._moved()
 
@@ -240,6 +268,7 @@ class Simulation:
         """Return to the state that was loaded last, at time 0; `undo` comes back from there."""
         self._apply_all()
         self._catch_up()
+        self._hands.clear()
         if not self._undo.reset():
             return self._turn('~/reset', 'at the beginning, time 0')
         self.past = self._no_past()
@@ -279,6 +308,7 @@ class Simulation:
         # What has just been carried out belongs to this step.
         self.timeline.see()
         self.timeline.seek(round(stamp * 1e-9 * self.physics_rate))
+        self._hands.clear()
         self._moved()
         return f'at {self._time()}'
 
@@ -293,6 +323,9 @@ class Simulation:
             nothing has changed
         """
         self._apply_all()
+        self._hands.note_time(now_ns, paused=self.speed == 0)
+        if self.speed > 0:
+            self._release_grips()
         frames = []
         for _ in range(_FRAMES_A_CALL):
             steps = self._clock.due(now_ns, self.step)
@@ -313,6 +346,7 @@ class Simulation:
     def advance_frame(self) -> Frame:
         """Carry out what was asked, and go on by one publish period, whatever the speed."""
         self._apply_all()
+        self._release_grips()
         self._clock.restart()
         return self._go(self.frame_steps - self.step % self.frame_steps)
 
@@ -386,8 +420,10 @@ class Simulation:
         self._requests.append(_Asked(request, topic, subject, self._gesture, field))
 
     def _apply_all(self) -> None:
+        self._moves.clear()
         while self._requests:
-            request, topic, subject, gesture, field = self._requests.popleft()
+            asked = self._requests.popleft()
+            request, topic, subject, field = asked.request, asked.topic, asked.subject, asked.field
             self._changed = True
             if isinstance(request, Answer):
                 self._answers.append(request)
@@ -395,14 +431,48 @@ class Simulation:
             try:
                 if isinstance(request, Refusal):
                     raise request
-                subject, message = self._apply(request, gesture)
+                subject, message = self._apply(request, asked.gesture)
             except Refusal as refusal:
                 answer = Answer.refused(refusal, topic=topic, subject=subject, field=field)
             else:
+                if isinstance(request, MoveHand):
+                    continue
                 answer = Answer(topic=topic, subject=subject, message=message)
             self._answers.append(answer)
 
     def _apply(self, request: Request, gesture: int) -> tuple[str, str]:
+        if isinstance(request, Dragging):
+            return self._drag(request, gesture)
+        return self._apply_to_world(request, gesture)
+
+    def _drag(self, request: Dragging, gesture: int) -> tuple[str, str]:
+        if request.hand not in self._hands and not isinstance(request, Grab):
+            # A grip that the history knows of at this moment is none of a person of now.
+            return '', f'{request.hand} holds no body'
+        if self.speed == 0.0:
+            request = placing(request)
+        gesture = self._hands.gesture_of(request, gesture)
+        done = self._apply_to_world(request, gesture)
+        self._hands.note_request(request, gesture)
+        return done
+
+    def _release_grips(self) -> None:
+        """Have those grips let go that no hand has any more, where no history lies ahead."""
+        timeline = self.timeline
+        if self._shown is not None or not timeline.world.grips or not timeline.is_newest:
+            return
+        for grip in timeline.world.grips:
+            if grip.hand not in self._hands:
+                # Undone together with what came last.
+                last = timeline.history.last_gesture(timeline.serial)
+                gesture = last[-1].gesture if last else self._gesture
+                self._apply_to_world(LetGo(hand=grip.hand), gesture)
+                message = f'{grip.hand} is silent and has let go of {grip.body}'
+                self._answers.append(
+                    Answer(topic='~/drag/feedback', subject=grip.body, message=message)
+                )
+
+    def _apply_to_world(self, request: Request, gesture: int) -> tuple[str, str]:
         self._catch_up()
         head = self.timeline.history.head
         done = self.timeline.apply(request, gesture)

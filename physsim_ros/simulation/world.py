@@ -41,6 +41,7 @@ from physsim_ros.model.errors import (
     UnknownFrame,
     WorldFull,
 )
+from physsim_ros.model.grips import Grip
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import split_name
 from physsim_ros.model.requests import (
@@ -51,8 +52,12 @@ from physsim_ros.model.requests import (
     Configure,
     Delete,
     DeleteAll,
+    Dragging,
+    Grab,
     Join,
     Joining,
+    LetGo,
+    MoveHand,
     Pin,
     Release,
     Request,
@@ -65,7 +70,7 @@ from physsim_ros.model.scene import Body
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Contacts, Snapshot
 from physsim_ros.model.transform import Point, Pose, rotated
-from physsim_ros.simulation import joint_requests
+from physsim_ros.simulation import hand_requests, joint_requests
 
 
 class World:
@@ -127,6 +132,7 @@ class World:
             twists=twists,
             forces=self._space.joints.forces(),
             springs=self._space.joints.springs(),
+            grips=self.grips,
         )
 
     def contacts(self, snapshot: Snapshot) -> Contacts:
@@ -145,7 +151,14 @@ class World:
         acting = self._space.pipeline.wrenches.acting()
         for part in digest_parts(self._space.table, self._space.settled, acting):
             digest.update(part)
+        for grip in self.grips:
+            digest.update(repr(grip).encode())
         return digest.hexdigest()
+
+    @property
+    def grips(self) -> tuple[Grip, ...]:
+        """Return the grips of hands on bodies."""
+        return self._space.pipeline.mouse_joints.grips()
 
     def body_at(self, point: Point) -> str | None:
         """Return the topmost body, that spawned last, which covers a point of the world [m]."""
@@ -192,6 +205,8 @@ class World:
     def _carry_out(self, request: Request) -> tuple[str, str]:
         if isinstance(request, Joining):
             return self._join(request)
+        if isinstance(request, Dragging):
+            return self._drag(request)
         match request:
             case Spawn():
                 return self._spawn(request)
@@ -200,10 +215,9 @@ class World:
                 return name, f'deleted {name}'
             case DeleteAll(namespace=namespace):
                 return '', self._delete_all(namespace)
-            case Anchor(point=point, frame=frame):
-                return self._set_anchored(point, frame, anchored=True)
-            case Release(point=point, frame=frame):
-                return self._set_anchored(point, frame, anchored=False)
+            case Anchor(point=point, frame=frame) | Release(point=point, frame=frame):
+                anchored = isinstance(request, Anchor)
+                return self._set_anchored(point, frame, anchored=anchored)
             case Command():
                 return self._command(request)
             case Configure(changes=changes):
@@ -352,6 +366,18 @@ class World:
             return name, f'anchored {name}'
         loosened = joint_requests.loosen(self._space, name, (x, y))
         return name, ' and removed '.join((f'released {name}', *loosened))
+
+    def _drag(self, request: Dragging) -> tuple[str, str]:
+        match request:
+            case Grab(point=point, frame=frame):
+                (point,) = self._points((point,), frame)
+                return hand_requests.grab_body(self._space, request, point)
+            case MoveHand(point=point, yaw=yaw, frame=frame):
+                x, y, turned = self._in_world((*point, yaw or 0.0), frame)
+                moved = replace(request, point=(x, y), yaw=None if yaw is None else turned)
+                return hand_requests.move_hand(self._space, moved)
+            case LetGo(hand=hand):
+                return hand_requests.let_go(self._space, hand)
 
     def _delete_all(self, namespace: str | None) -> str:
         names = [

@@ -30,6 +30,7 @@ RANGES: dict[str, tuple[float, float]] = {
     'friction': (0.0, 10.0),
     'elasticity': (0.0, 1.0),
     'command_timeout': (0.0, 1e9),
+    'drag_force': (0.0, 1000.0),
 }
 COUNTS = {'iterations': (1, 1000), 'max_bodies': (0, 1_000_000)}
 
@@ -50,6 +51,7 @@ def test_the_defaults_are_those_of_the_contract() -> None:
         friction=0.5,
         elasticity=0.5,
         command_timeout=0.5,
+        drag_force=10.0,
         max_bodies=20000,
     )
 

@@ -60,6 +60,7 @@ CONTRACT: dict[str, tuple[Any, str]] = {
     'beautify': (0.12, 'live'),
     'wall_thickness': (0.1, 'live'),
     'command_timeout': (0.5, 'live'),
+    'drag_force': (10.0, 'live'),
     'history': (600.0, 'live'),
     'publish_clock': (True, 'live'),
     'viewer': ('auto', 'live'),
@@ -79,6 +80,7 @@ RANGES: dict[str, tuple[Any, Any]] = {
     'sketch_confidence': (0.0, 1.0),
     'snap': (0.0, None),
     'command_timeout': (0.0, None),
+    'drag_force': (0.0, None),
     'max_bodies': (0, None),
 }
 LIVE = [name for name, (_, kind) in CONTRACT.items() if kind == 'live']

@@ -1,0 +1,89 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Requests of hands: which body is grabbed, and where it is drawn or placed.
+
+Law: a hand whose body is gone does nothing, and is not refused.
+"""
+
+from __future__ import annotations
+
+from physsim_ros.engine.space import Space
+from physsim_ros.model.errors import NothingThere
+from physsim_ros.model.grips import Grip
+from physsim_ros.model.requests import Grab, GrabToPlace, MoveHand, PlaceHand
+from physsim_ros.model.transform import Point, Pose, rotated
+
+
+def grab_body(space: Space, request: Grab, point: Point) -> tuple[str, str]:
+    """
+    Have a hand grab the topmost body under a point.
+
+    :param point: in the world [m]
+    :return: name of the body, and a sentence that says what was done
+    :raises NothingThere: there is no body that can be grabbed
+    """
+    under = space.bodies.at(point)
+    movable = [name for name in under if not space.bodies.by_name[name].body.fixed]
+    names = movable or (under if isinstance(request, GrabToPlace) else [])
+    if not names:
+        x, y = point
+        why = 'the body there cannot be moved' if under else 'there is no body'
+        raise NothingThere(f'{why} at ({x:g}, {y:g})', field='mouse_point')
+    name = names[0]
+    x, y, yaw = space.bodies.by_name[name].pose
+    anchor = rotated((point[0] - x, point[1] - y), -yaw)
+    space.set_grip(Grip(request.hand, name, anchor, point))
+    return name, f'grabbed {name}'
+
+
+def move_hand(space: Space, request: MoveHand) -> tuple[str, str]:
+    """
+    Move a hand, and put its body there if the request is that of a paused world.
+
+    :param request: with point and yaw in the world
+    :return: name of the body, and a sentence that says what was done
+    """
+    grip = space.pipeline.mouse_joints.grip_of(request.hand)
+    if grip is None:
+        return '', f'{request.hand} holds no body'
+    space.set_grip(grip._replace(target=request.point))
+    if not isinstance(request, PlaceHand):
+        return grip.body, f'draws {grip.body}'
+    rigid = space.bodies.by_name[grip.body]
+    pose = _placed_pose(rigid.pose, grip, request)
+    if pose != rigid.pose:
+        space.set_pose(rigid, pose)
+    return grip.body, f'placed {grip.body}'
+
+
+def _placed_pose(pose: Pose, grip: Grip, request: PlaceHand) -> Pose:
+    """Return the pose of a body, now at `pose`, whose grip is where a hand places it."""
+    point, yaw = request.point, pose[2] if request.yaw is None else request.yaw
+    arm_x, arm_y = rotated(grip.anchor, yaw)
+    return point[0] - arm_x, point[1] - arm_y, yaw
+
+
+def let_go(space: Space, hand: str) -> tuple[str, str]:
+    """
+    Have a hand let go of its body.
+
+    :return: name of the body, and a sentence that says what was done
+    """
+    grip = space.pipeline.mouse_joints.grip_of(hand)
+    if grip is None:
+        return '', f'{hand} holds no body'
+    space.remove_grip(hand)
+    return grip.body, f'let go of {grip.body}'

@@ -1,0 +1,100 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+The hands of people: which of them drag a body, in which gesture, and how long they are silent.
+
+Laws: from the grab until the hand lets go is one gesture; requests that come after its grip is
+gone, or after another moment is shown, change nothing.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from physsim_ros.model.requests import Dragging, Grab, GrabToPlace, LetGo, MoveHand, PlaceHand
+
+# Steady time after which a hand without any request lets go [ns]: one whose page has gone.
+LONGEST_SILENCE = 5 * 10**9
+
+
+@dataclass(slots=True)
+class _Hand:
+    """
+    A hand that drags a body.
+
+    :param gesture: of the requests that make the drag
+    :param silent_since: steady time of its last request, or of the last time of a pause [ns];
+        None until time goes on
+    """
+
+    gesture: int
+    silent_since: int | None = None
+
+
+class Hands:
+    """The hands that drag a body at the moment that is shown."""
+
+    def __init__(self) -> None:
+        self._dragging: dict[str, _Hand] = {}
+
+    def __contains__(self, hand: str) -> bool:
+        return hand in self._dragging
+
+    def gesture_of(self, request: Dragging, gesture: int) -> int:
+        """
+        Return the gesture that a request is part of.
+
+        :param gesture: that it would be by itself
+        """
+        hand = self._dragging.get(request.hand)
+        return gesture if hand is None or isinstance(request, Grab) else hand.gesture
+
+    def note_request(self, request: Dragging, gesture: int) -> None:
+        """Note that a request of a hand was carried out."""
+        match request:
+            case Grab(hand=hand):
+                self._dragging[hand] = _Hand(gesture)
+            case MoveHand(hand=hand):
+                self._dragging[hand].silent_since = None
+            case LetGo(hand=hand):
+                self._dragging.pop(hand, None)
+
+    def note_time(self, now_ns: int, *, paused: bool) -> None:
+        """
+        Forget the hands that have been silent for too long.
+
+        :param now_ns: steady time, never going back [ns]
+        :param paused: whether the world is; its time does not count
+        """
+        for name, hand in list(self._dragging.items()):
+            if paused or hand.silent_since is None:
+                hand.silent_since = now_ns
+            elif now_ns - hand.silent_since > LONGEST_SILENCE:
+                del self._dragging[name]
+
+    def clear(self) -> None:
+        """Forget all hands: another moment is shown than the one at which they grabbed."""
+        self._dragging.clear()
+
+
+def placing(request: Dragging) -> Dragging:
+    """Return the request that a hand makes of a paused world, in which bodies are placed."""
+    match request:
+        case GrabToPlace() | PlaceHand() | LetGo():
+            return request
+        case Grab(hand=hand, point=point, frame=frame):
+            return GrabToPlace(hand=hand, point=point, frame=frame)
+        case MoveHand(hand=hand, point=point, yaw=yaw, frame=frame):
+            return PlaceHand(hand=hand, point=point, yaw=yaw, frame=frame)

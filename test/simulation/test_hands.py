@@ -1,0 +1,487 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Hands grab bodies, drag, throw and place them; every drag is rewound to the same bits."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from physsim_ros.model.errors import Malformed, Refusal
+from physsim_ros.model.requests import (
+    Anchor,
+    Configure,
+    Delete,
+    DeleteAll,
+    Grab,
+    LetGo,
+    MoveHand,
+    Restore,
+    Spawn,
+)
+from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.shapes import Box, Disc
+from physsim_ros.model.snapshot import Answer
+from physsim_ros.model.transform import Point
+from physsim_ros.simulation.simulation import Simulation
+from physsim_ros.simulation.world import World
+import pytest
+
+from ..building import BOX, DISC, DT, NOWHERE, spawn, spawning, twist
+
+PERIOD = 1e9 / 60
+TOPIC = '~/drag/feedback'
+# A rod, and the arm of a grip near its end [m].
+ROD, ARM = Box(width=2.0, height=0.1), 0.9
+FLOOR = spawning('floor/0', Box(width=40.0, height=1.0), (0.0, -0.5, 0.0), anchored=True)
+
+
+def dragged(world: World, to: Point, steps: int, hand: str = 'h') -> list[np.ndarray]:
+    """Move a hand to a point; return the twist of `a/0` after each step, and before them."""
+    world.apply(MoveHand(hand=hand, point=to))
+    twists = [twist(world, 'a/0')]
+    for _ in range(steps):
+        world.step(1)
+        twists.append(twist(world, 'a/0'))
+    return twists
+
+
+@pytest.mark.parametrize('mass', [1e-3, 1.0, 1e6])
+@pytest.mark.parametrize(('shape', 'arm'), [(DISC, 0.0), (ROD, ARM)])
+def test_a_body_follows_its_hand_without_oscillation_at_any_mass_and_arm(
+    mass: float, shape: Disc | Box, arm: float
+) -> None:
+    world = World(settings=NOWHERE)
+    spawn(world, 'a/0', shape, mass=mass)
+    world.apply(Grab(hand='h', point=(arm, 0.0)))
+    world.apply(MoveHand(hand='h', point=(arm + 0.05, 0.0)))
+    gaps = []
+    for _ in range(120):
+        world.step(1)
+        anchor, hand = world.snapshot().grip_lines[0]
+        gaps.append(hand[0] - anchor[0])
+
+    # Critically damped: (1 + w t) e^(-w t), to the error of the implicit method, of order w dt.
+    times = DT * np.arange(1, 121)
+    omega = 2.0 * math.pi * 5.0
+    wanted = 0.05 * (1.0 + omega * times) * np.exp(-omega * times)
+    assert np.abs(np.array(gaps) - wanted).max() < 0.05 * omega * DT
+    assert min(gaps) > -1e-9
+
+
+@pytest.mark.parametrize('gravity', [(0.0, -9.81), (0.0, -1.62), (0.0, 0.0)])
+@pytest.mark.parametrize('factor', [2.0, 10.0])
+def test_the_force_of_a_hand_is_bounded_in_weights_of_its_body(
+    gravity: Point, factor: float
+) -> None:
+    world = World(settings=WorldSettings(gravity=gravity, drag_force=factor))
+    spawn(world, 'a/0', DISC, mass=3.0)
+    world.apply(Grab(hand='h', point=(0.0, 0.0)))
+    world.step(60)
+
+    twists = np.array(dragged(world, (50.0, 20.0), 60))
+
+    accelerations = np.diff(twists[:, :2], axis=0) / DT - gravity
+    most = factor * (math.hypot(*gravity) or 9.81)
+    sizes = np.hypot(*accelerations.T)
+    assert sizes.max() <= most * (1.0 + 1e-9)
+    assert sizes[0] == pytest.approx(most)
+
+
+def test_a_body_that_is_let_go_flies_on_with_its_velocity() -> None:
+    world = World()
+    spawn(world, 'a/0', DISC, (0.0, 5.0, 0.0))
+    world.apply(Grab(hand='h', point=(0.1, 5.0)))
+    dragged(world, (1.0, 6.0), 20)
+    before = world.snapshot()
+
+    world.apply(LetGo(hand='h'))
+
+    assert np.array_equal(world.snapshot().twists, before.twists)
+    world.step(48)
+    time = 48 * DT
+    flown = before.centers[0] + before.twists[0, :2] * time + (0.0, -9.81 * time**2 / 2)
+    assert world.snapshot().centers[0] == pytest.approx(flown, abs=1e-9)
+
+
+def test_two_hands_hold_one_body_and_share_its_weight() -> None:
+    world = World()
+    spawn(world, 'a/0', ROD)
+    for number, x in enumerate((-ARM, ARM)):
+        world.apply(Grab(hand=f'h{number}', point=(x, 0.0)))
+    for number, x in enumerate((-ARM, ARM)):
+        world.apply(MoveHand(hand=f'h{number}', point=(x, 1.0)))
+    world.step(240)
+
+    snapshot = world.snapshot()
+    # Each spring has the effective mass at its grip, m / (1 + m r^2 / I).
+    share = 2.0 / (1.0 + ARM**2 / ROD.form.gyration)
+    sag = 9.81 / (share * (2.0 * math.pi * 5.0) ** 2)
+    assert snapshot.poses[0] == pytest.approx([0.0, 1.0 - sag, 0.0], abs=1e-4)
+    assert snapshot.twists[0] == pytest.approx([0.0, 0.0, 0.0], abs=1e-3)
+
+
+def test_a_hundred_hands_on_one_body_do_not_shake_it() -> None:
+    world = World()
+    spawn(world, 'a/0', ROD)
+    for number in range(100):
+        world.apply(Grab(hand=str(number), point=((number - 50) / 60, 0.0)))
+    world.apply(MoveHand(hand='0', point=(-0.8, 0.5)))
+    world.step(240)
+
+    assert np.abs(twist(world, 'a/0')).max() < 1e-3
+
+
+def test_the_topmost_movable_body_is_grabbed() -> None:
+    world = World(settings=NOWHERE)
+    spawn(world, 'a/0', DISC, group=1)
+    spawn(world, 'a/1', BOX, group=1)
+    spawn(world, 'a/2', BOX, group=1, anchored=True)
+    spawn(world, 'a/3', BOX, group=1, kinematic=True)
+
+    assert world.apply(Grab(hand='h', point=(0.0, 0.0))) == ('a/1', 'grabbed a/1')
+    assert world.apply(Grab(hand='h', point=(0.1, 0.0), frame='a/0'))[0] == 'a/1'
+
+
+@pytest.mark.parametrize('point', [(9.0, 9.0), (0.0, -0.5)])
+def test_a_hand_that_finds_no_movable_body_is_refused_and_keeps_what_it_holds(
+    point: Point,
+) -> None:
+    world = World()
+    world.apply(FLOOR)
+    spawn(world, 'a/0', DISC, (0.0, 3.0, 0.0))
+    world.apply(Grab(hand='h', point=(0.0, 3.0)))
+    before = world.digest()
+
+    with pytest.raises(Refusal) as refused:
+        world.apply(Grab(hand='h', point=point))
+
+    assert refused.value.code == 'nothing_there'
+    assert world.digest() == before
+
+
+@pytest.mark.parametrize('hand', ['', 'x' * 1001, 'a\nb'])
+def test_the_name_of_a_hand_can_be_printed(hand: str) -> None:
+    with pytest.raises(Malformed):
+        LetGo(hand=hand)
+
+
+def test_a_sleeping_body_wakes_and_the_hand_keeps_it_awake() -> None:
+    world = World()
+    world.apply(FLOOR)
+    spawn(world, 'a/0', BOX, (0.0, 0.5, 0.0))
+    world.step(480)
+    world.apply(Grab(hand='h', point=(0.0, 0.5)))
+    world.step(480)
+
+    world.apply(MoveHand(hand='h', point=(0.5, 1.5)))
+    world.step(240)
+
+    assert world.snapshot().poses[1, :2] == pytest.approx([0.5, 1.5], abs=0.05)
+
+
+@pytest.mark.parametrize(
+    'request_',
+    [
+        Delete(name='a/0'),
+        DeleteAll(),
+        Anchor(point=(0.0, 0.0)),
+        spawning('a/0', DISC, kinematic=True),
+        Restore(state=World().save()),
+    ],
+    ids=lambda request: type(request).__name__,
+)
+def test_a_hand_loses_a_body_that_it_can_move_no_more(request_: Spawn) -> None:
+    sim = Simulation(settings=NOWHERE)
+    sim.perform(spawning('a/0', DISC))
+    sim.submit(Grab(hand='h', point=(0.0, 0.0)), topic=TOPIC)
+    sim.advance_frame()
+    sim.perform(request_)
+
+    assert sim.advance_frame().snapshot.grips == ()
+    for request in (MoveHand(hand='h', point=(1.0, 1.0)), LetGo(hand='h')):
+        sim.submit(request, topic=TOPIC)
+    assert sim.advance_frame().answers == (Answer(topic=TOPIC, message='h holds no body'),)
+
+
+def test_a_body_keeps_its_hand_when_its_shape_changes() -> None:
+    world = World(settings=NOWHERE)
+    spawn(world, 'a/0', DISC)
+    world.apply(Grab(hand='h', point=(0.2, 0.0)))
+    spawn(world, 'a/0', BOX)
+    dragged(world, (2.2, 0.0), 240)
+
+    assert world.snapshot().poses[0, 0] == pytest.approx(2.0, abs=1e-3)
+
+
+# In time
+
+
+def drag(sim: Simulation, *, frames: int = 120) -> None:
+    """Drag `a/0` along a circle among other bodies, throw it, and go on for as long."""
+    sim.perform(FLOOR)
+    for number in range(8):
+        sim.perform(spawning(f'a/{number}', BOX, (number / 10, 0.5 + number, 0.0)))
+    for number in range(frames):
+        angle = number / 15
+        point = (2.0 * math.sin(angle), 1.5 - math.cos(angle))
+        sim.submit(
+            MoveHand(hand='h', point=point) if number else Grab(hand='h', point=(0.0, 0.5)),
+            topic=TOPIC,
+        )
+        sim.advance_frame()
+    sim.submit(LetGo(hand='h'), topic=TOPIC)
+    for _ in range(frames):
+        sim.advance_frame()
+
+
+def test_a_drag_is_rewound_and_played_again_to_the_same_bits() -> None:
+    # Checkpoints lie in the middle of the drag.
+    sim = Simulation(checkpoints=0.5)
+    drag(sim)
+    last, end = sim.world.digest(), sim.world.stamp
+    digests = {}
+    for stamp in (10**9 // 2, 10**9, 10**9 * 3 // 2, end, 10**9 // 4):
+        sim.seek(stamp)
+        digests[stamp] = sim.world.digest()
+    assert digests[end] == last
+    assert len(sim.world.grips) == 1
+
+    # Forward again, past checkpoints and the release.
+    while sim.world.stamp < end:
+        frame = sim.advance_frame()
+        assert not frame.answers
+        assert digests.get(sim.world.stamp, sim.world.digest()) == sim.world.digest()
+    assert sim.world.digest() == last
+
+
+def test_a_drag_is_one_gesture_to_undo_and_to_redo() -> None:
+    sim = Simulation()
+    drag(sim, frames=20)
+    last = sim.world.digest()
+
+    sim.undo()
+
+    assert sim.step == 0
+    assert len(sim.world) == 9
+    assert sim.world.grips == ()
+    sim.redo()
+    assert sim.world.digest() == last
+
+
+def test_only_the_grab_and_its_end_are_answered() -> None:
+    sim = Simulation(settings=NOWHERE)
+    sim.perform(spawning('a/0', DISC))
+    frames = []
+    for request in (
+        Grab(hand='h', point=(0.0, 0.0)),
+        *(MoveHand(hand='h', point=(x / 10, 0.0)) for x in range(10)),
+        LetGo(hand='h'),
+    ):
+        sim.submit(request, topic=TOPIC)
+        frames.append(sim.advance_frame())
+
+    assert [answer.message for frame in frames for answer in frame.answers] == [
+        'grabbed a/0',
+        'let go of a/0',
+    ]
+
+
+def test_a_thousand_moves_between_two_frames_are_logged_as_one() -> None:
+    sim = Simulation(settings=NOWHERE)
+    sim.perform(spawning('a/0', DISC))
+    sim.submit(Grab(hand='h', point=(0.0, 0.0)), topic=TOPIC)
+    for number in range(1001):
+        sim.submit(MoveHand(hand='h', point=(number / 1000, 0.0)), topic=TOPIC)
+    frame = sim.advance_frame()
+
+    assert frame.snapshot.grips[0].target == (1.0, 0.0)
+    history = sim.timeline.history
+    assert [type(entry.request).__name__ for entry in history.between(1, 9)] == [
+        'Grab',
+        'MoveHand',
+    ]
+
+
+def test_moves_do_not_pass_what_a_hand_does_in_between() -> None:
+    sim = Simulation(settings=NOWHERE)
+    sim.perform(spawning('a/0', DISC))
+    for request in (
+        Grab(hand='h', point=(0.0, 0.0)),
+        MoveHand(hand='h', point=(0.1, 0.0)),
+        LetGo(hand='h'),
+        Grab(hand='h', point=(0.0, 0.1)),
+        MoveHand(hand='h', point=(0.0, 0.2)),
+    ):
+        sim.submit(request, topic=TOPIC)
+
+    (grip,) = sim.advance_frame().snapshot.grips
+    assert (grip.anchor, grip.target) == ((0.0, 0.1), (0.0, 0.2))
+
+
+def test_a_silent_hand_lets_go_after_five_seconds_of_running_time() -> None:
+    sim = Simulation(settings=NOWHERE)
+    sim.perform(spawning('a/0', DISC))
+    sim.submit(Grab(hand='h', point=(0.0, 0.0)), topic=TOPIC)
+    answers = []
+    for number in range(400):
+        if number == 60:
+            sim.submit(MoveHand(hand='h', point=(0.5, 0.0)), topic=TOPIC)
+        for frame in sim.advance(round(number * PERIOD)):
+            answers += [(number, answer.message) for answer in frame.answers]
+
+    (_, grabbed), (number, told) = answers
+    assert (grabbed, told) == ('grabbed a/0', 'h is silent and has let go of a/0')
+    assert number == pytest.approx(60 + 300, abs=3)
+    # It is one gesture still.
+    sim.undo()
+    assert (sim.step, sim.world.grips) == (0, ())
+
+
+def test_a_pause_is_no_silence() -> None:
+    sim = Simulation(settings=NOWHERE)
+    sim.perform(spawning('a/0', DISC))
+    sim.submit(Grab(hand='h', point=(0.0, 0.0)), topic=TOPIC)
+    sim.advance(0)
+    sim.speed = 0.0
+    for seconds in range(1, 60):
+        sim.advance(seconds * 10**9)
+    sim.speed = 1.0
+
+    assert sim.advance_frame().snapshot.grips
+
+
+def test_a_hand_that_grabbed_at_another_time_changes_nothing() -> None:
+    sim = Simulation(settings=NOWHERE)
+    sim.perform(spawning('a/0', DISC))
+    sim.advance_frame()
+    sim.submit(Grab(hand='h', point=(0.0, 0.0)), topic=TOPIC)
+    for _ in range(60):
+        sim.advance_frame()
+    end = sim.world.stamp
+    sim.seek(10**9 // 2)
+    before = sim.world.digest()
+
+    sim.submit(MoveHand(hand='h', point=(7.0, 0.0)), topic=TOPIC)
+    sim.submit(LetGo(hand='h'), topic=TOPIC)
+    frame = sim.settle()
+
+    assert frame is not None
+    assert [answer.message for answer in frame.answers] == ['h holds no body']
+    assert sim.world.digest() == before
+    # The hand of the past lets go where its past ends.
+    while sim.world.stamp < end:
+        assert sim.advance_frame().snapshot.grips
+    assert not sim.advance_frame().snapshot.grips
+
+
+def test_a_branch_has_no_hands_of_the_course_that_it_left() -> None:
+    sim = Simulation(settings=NOWHERE)
+    sim.perform(spawning('a/0', DISC))
+    sim.submit(Grab(hand='h', point=(0.0, 0.0)), topic=TOPIC)
+    for _ in range(60):
+        sim.advance_frame()
+    sim.seek(10**9 // 2)
+    sim.perform(Configure(changes={'damping': 0.5}))
+
+    assert not sim.advance_frame().snapshot.grips
+
+
+@pytest.mark.parametrize('action', ['reset', 'undo'])
+def test_a_hand_lives_through_a_change_of_course(action: str) -> None:
+    sim = Simulation(settings=NOWHERE)
+    sim.perform(spawning('a/0', DISC))
+    sim.submit(Grab(hand='h', point=(0.0, 0.0)), topic=TOPIC)
+    sim.advance_frame()
+    getattr(sim, action)()
+
+    for request in (MoveHand(hand='h', point=(7.0, 0.0)), LetGo(hand='h')):
+        sim.submit(request, topic=TOPIC)
+    frame = sim.advance_frame()
+
+    assert [answer.message for answer in frame.answers][-1] == 'h holds no body'
+    assert not frame.snapshot.grips
+
+
+# In a paused world
+
+
+def paused(*spawns: Spawn) -> Simulation:
+    sim = Simulation(speed=0.0)
+    for request in spawns:
+        sim.perform(request)
+    return sim
+
+
+def test_in_a_paused_world_the_body_is_placed_and_turned() -> None:
+    sim = paused(spawning('a/0', BOX, (0.0, 3.0, 0.0), velocity=(1.0, 2.0)))
+    sim.submit(Grab(hand='h', point=(0.4, 3.0)), topic=TOPIC)
+    sim.submit(MoveHand(hand='h', point=(5.4, 4.0)), topic=TOPIC)
+    (frame,) = sim.advance(0)
+    assert frame.snapshot.poses[0] == pytest.approx([5.0, 4.0, 0.0])
+
+    sim.submit(MoveHand(hand='h', point=(5.4, 4.0), yaw=math.pi / 2), topic=TOPIC)
+    sim.submit(LetGo(hand='h'), topic=TOPIC)
+    (frame,) = sim.advance(1)
+
+    assert frame.snapshot.poses[0] == pytest.approx([5.4, 3.6, math.pi / 2])
+    assert frame.snapshot.twists[0] == pytest.approx([1.0, 2.0, 0.0])
+    assert frame.snapshot.step == 0
+
+
+def test_placing_is_one_gesture_and_the_same_bits_again() -> None:
+    sim = paused(FLOOR, spawning('a/0', BOX, (0.0, 0.5, 0.0)), spawning('a/1', BOX, (0, 1.5, 0)))
+    sim.advance_frame()
+    before = sim.world.digest()
+    sim.submit(Grab(hand='h', point=(0.0, 1.5)), topic=TOPIC)
+    for number in range(10):
+        sim.submit(MoveHand(hand='h', point=(number / 5, 1.5)), topic=TOPIC)
+        sim.advance(number)
+    sim.submit(LetGo(hand='h'), topic=TOPIC)
+    for _ in range(60):
+        sim.advance_frame()
+    last, end = sim.world.digest(), sim.world.stamp
+
+    sim.seek(0)
+    sim.seek(end)
+    assert sim.world.digest() == last
+    sim.undo()
+    assert sim.world.digest() == before
+
+
+def test_in_a_paused_world_a_wall_can_be_placed_but_what_moves_comes_first() -> None:
+    wall = spawning('wall/0', BOX, anchored=True)
+    sim = paused(spawning('a/0', DISC), wall)
+    for number, (hand, point) in enumerate((('g', (0.0, 0.0)), ('h', (0.45, 0.45)))):
+        sim.submit(Grab(hand=hand, point=point), topic=TOPIC)
+        sim.submit(MoveHand(hand=hand, point=(point[0] + 3.0, point[1] + number)), topic=TOPIC)
+
+    (frame,) = sim.advance(0)
+
+    assert frame.snapshot.poses[:, :2] == pytest.approx(np.array([[3.0, 0.0], [3.0, 1.0]]))
+
+
+def test_a_body_grabbed_in_a_paused_world_is_dragged_when_time_goes_on() -> None:
+    sim = paused(spawning('a/0', DISC, (0.0, 3.0, 0.0)))
+    sim.submit(Grab(hand='h', point=(0.0, 3.0)), topic=TOPIC)
+    sim.advance(0)
+    sim.speed = 1.0
+    for number in range(60):
+        sim.advance(round(number * PERIOD))
+    sim.submit(MoveHand(hand='h', point=(1.0, 3.0)), topic=TOPIC)
+    for number in range(60, 120):
+        sim.advance(round(number * PERIOD))
+
+    assert sim.world.snapshot().poses[0, :2] == pytest.approx([1.0, 3.0], abs=0.02)
