@@ -195,6 +195,13 @@ class History:
         )
         return done[first:]
 
+    def gesture_start(self, gesture: int, serial: int) -> tuple[int, int] | None:
+        """Return step and serial of the first request of a gesture before a serial, if kept."""
+        for number, entry in enumerate(self._entries[: serial - self._dropped]):
+            if entry.gesture == gesture:
+                return entry.step, self._dropped + number
+        return None
+
     @property
     def loaded(self) -> WorldState | None:
         """Return the state that was loaded last; None where none was."""

@@ -21,6 +21,8 @@ same requests in between, and so the same bits; where it does not, that is told.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from physsim_ros.model.errors import OutOfHistory, Refusal
 from physsim_ros.model.requests import Request
 from physsim_ros.model.snapshot import Answer
@@ -252,6 +254,40 @@ class Timeline(Course):
         tail = self.history.cut(step, serial, now=self.moment)
         self.seek_moment(step, serial)
         return undone, tail
+
+    def amend(
+        self, gesture: int, requests: Sequence[Request]
+    ) -> tuple[int, list[tuple[str, str] | Refusal]]:
+        """
+        Replace the requests of an earlier gesture, and simulate again up to this moment.
+
+        Later requests that the amended past refuses are dropped; so is what lay ahead.
+
+        :param gesture: its number
+        :param requests: that take its place, at its first step
+        :return: that step; and for each request what `apply` returns, or its refusal
+        :raises OutOfHistory: the gesture is kept no more
+        """
+        start, now = self.history.gesture_start(gesture, self.serial), self.moment
+        if start is None:
+            raise OutOfHistory('what is to be amended is kept no more', field='history')
+        step, serial = start
+        later = [each for each in self.history.between(serial, now[1]) if each.gesture != gesture]
+        self.history.cut(step, serial, now=now)
+        self.seek_moment(step, serial)
+        done = [self._try_apply(request, gesture) for request in requests]
+        for entry in later:
+            self.go(entry.step - self.world.step_count)
+            self._try_apply(entry.request, entry.gesture)
+        self.go(now[0] - self.world.step_count)
+        self.world.clear_contacts()
+        return step, done
+
+    def _try_apply(self, request: Request, gesture: int) -> tuple[str, str] | Refusal:
+        try:
+            return self.apply(request, gesture)
+        except Refusal as refusal:
+            return refusal
 
     def redo(self, tail: Tail) -> None:
         """

@@ -23,6 +23,7 @@ goes on differently from there.
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from physsim_ros.engine.contact_report import NO_CONTACTS
@@ -273,6 +274,37 @@ class Simulation:
             return self._turn('~/reset', 'at the beginning, time 0')
         self.past = self._no_past()
         return self._turn('~/reset', 'back at the beginning, time 0')
+
+    @property
+    def gesture(self) -> int:
+        """Return the number of the last gesture that was submitted, for `amend`."""
+        return self._gesture
+
+    def amend(
+        self, gesture: int, requests: Sequence[Request], *, topic: str, field: str = ''
+    ) -> None:
+        """
+        Replace the requests of an earlier gesture, as if these had been made then.
+
+        The world is simulated again from there up to this moment. Each request is answered.
+
+        :param gesture: number of it, as `gesture` was after it was submitted
+        :param topic: where the requests come from
+        :param field: of the message that they were made of, to be named by a refusal
+        :raises OutOfHistory: the gesture is kept no more; nothing is changed
+        """
+        self._apply_all()
+        self._catch_up()
+        step, done = self.timeline.amend(gesture, requests)
+        self._undo.do()
+        self.past.forget(step)
+        self._moved()
+        for each in done:
+            if isinstance(each, Refusal):
+                answer = Answer.refused(each, topic=topic, subject='', field=field)
+            else:
+                answer = Answer(topic=topic, subject=each[0], message=each[1])
+            self._answers.append(answer)
 
     def undo(self) -> str:
         """

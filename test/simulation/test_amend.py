@@ -1,0 +1,100 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Amending: a gesture of the past is replaced, as if it had never been anything else."""
+
+from __future__ import annotations
+
+from physsim_ros.model.errors import OutOfHistory
+from physsim_ros.model.requests import Configure, Delete, Request
+from physsim_ros.model.settings import WorldSettings
+from physsim_ros.simulation.simulation import Simulation
+import pytest
+
+from ..building import BOX, DISC, spawning
+
+FLOOR = WorldSettings(bounds=(-10.0, 0.0, 10.0, 20.0))
+
+
+def world_after(*timed: tuple[int, Request], frames: int) -> Simulation:
+    """Return a world that was asked for each request before the frame of that number."""
+    simulation = Simulation(settings=FLOOR)
+    for frame in range(frames):
+        for at, request in timed:
+            if at == frame:
+                simulation.submit(request, topic='t')
+        simulation.advance_frame()
+    return simulation
+
+
+def test_an_amended_world_is_where_it_would_have_come_with_those_requests() -> None:
+    wall, ball = spawning('t/0', BOX, (0.0, 1.0, 0.0), anchored=True), spawning('t/1', DISC)
+    later = spawning('t/2', DISC, (0.1, 3.0, 0.0))
+    straight = world_after((2, ball), (30, later), frames=90)
+    other = world_after((2, wall), frames=10)
+    gesture = other.gesture
+    for frame in range(10, 90):
+        if frame == 30:
+            other.submit(later, topic='t')
+        other.advance_frame()
+
+    other.amend(gesture, [ball], topic='t')
+
+    assert other.step == straight.step
+    assert other.world.digest() == straight.world.digest()
+
+
+def test_the_amended_gesture_is_undone_as_one() -> None:
+    simulation = world_after((2, spawning('t/0', BOX)), frames=5)
+    gesture = simulation.gesture
+    simulation.advance_frame()
+
+    simulation.amend(gesture, [spawning('t/1', DISC), spawning('t/2', DISC)], topic='t')
+    simulation.undo()
+
+    assert simulation.world.snapshot().scene.names == ()
+
+
+def test_what_the_amended_past_refuses_later_is_dropped() -> None:
+    simulation = world_after((2, spawning('t/0', BOX)), frames=5)
+    gesture = simulation.gesture
+    simulation.submit(Delete(name='t/0'), topic='t')
+    simulation.submit(Configure(changes={'damping': 0.5}), topic='t')
+    simulation.advance_frame()
+
+    simulation.amend(gesture, [spawning('t/1', DISC)], topic='t')
+
+    assert simulation.world.snapshot().scene.names == ('t/1',)
+    assert simulation.settings.damping == 0.5
+
+
+def test_a_refused_request_is_answered_and_the_others_hold() -> None:
+    simulation = world_after((2, spawning('t/0', BOX)), frames=5)
+
+    simulation.amend(simulation.gesture, [Delete(name='no/1'), spawning('t/1', DISC)], topic='t')
+
+    frame = simulation.settle()
+    assert frame is not None
+    assert [answer.code for answer in frame.answers] == ['unknown_body', '']
+    assert simulation.world.snapshot().scene.names == ('t/1',)
+
+
+def test_an_unknown_gesture_changes_nothing() -> None:
+    simulation = world_after((2, spawning('t/0', BOX)), frames=5)
+    before = simulation.world.digest()
+
+    with pytest.raises(OutOfHistory):
+        simulation.amend(simulation.gesture + 7, [spawning('t/1', DISC)], topic='t')
+
+    assert simulation.world.digest() == before
