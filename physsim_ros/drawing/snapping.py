@@ -34,6 +34,9 @@ from physsim_ros.model.transform import Point
 
 # The least share of a circle on a second body, across whose edge it was drawn.
 _ACROSS = 0.25
+# The greatest distance of a wheel's middle from the body that carries it, in radii of the wheel:
+# beyond it the two hardly overlap, and would be drawn apart if they did not touch.
+_CARRIED = 0.9
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,6 +86,11 @@ def axle_pivot(
     under = scene.bodies_at(center)[:2]
     if len(under) == 1:
         under = _with_crossed_body(under[0], center, drawn, scene)
+    if len(under) == 1 or scene.body(under[1]).anchored:
+        carrier = _carrier_of(under[0], center, settings.snap, scene)
+        if carrier is not None:
+            x, y, _ = scene.pose(under[0])
+            return (x, y), (under[0], carrier)
     for name in under:
         if isinstance(scene.body(name).shape, Disc):
             x, y, _ = scene.pose(name)
@@ -106,6 +114,28 @@ def _with_crossed_body(
     if shares.get(beside, 0.0) < _ACROSS:
         return (name,)
     return tuple(each for each in near if each in (name, beside))
+
+
+def _carrier_of(wheel: str, center: Point, snap: float, scene: SceneQuery) -> str | None:
+    """
+    Return the movable body that a wheel overlaps and that is nearest to its middle, if any.
+
+    A wheel may stand half below its chassis; it never turns about the road on which it stands.
+
+    :param wheel: name of the topmost body at the centre of the drawn circle
+    :return: None also where that body is no disc, or the circle is not about its middle
+    """
+    shape, (x, y, _) = scene.body(wheel).shape, scene.pose(wheel)
+    if not isinstance(shape, Disc) or math.dist((x, y), center) > max(snap, shape.radius / 4):
+        return None
+    near = scene.bodies_at((x, y), _CARRIED * shape.radius)
+    movable = [each for each in near if each != wheel and not scene.body(each).fixed]
+
+    def distance(name: str) -> float:
+        covered = name in scene.bodies_at((x, y))
+        return 0.0 if covered else math.dist((x, y), _surface((x, y), name, scene))
+
+    return min(movable, key=distance, default=None)
 
 
 def wall_end(point: Point, scene: SceneQuery, settings: DrawingSettings) -> Point:

@@ -546,3 +546,30 @@ def test_a_stroke_of_a_hundred_thousand_samples_is_read(world: World) -> None:
     reading = draw(world, np.column_stack((np.cos(angle), np.sin(angle))) + trembling)
 
     assert reading.meaning == 'disc'
+
+
+def test_a_wheel_half_below_its_chassis_gets_an_axle_to_it_and_none_to_the_road(
+    world: World,
+) -> None:
+    spawn(world, 'road/0', Box(width=10.0, height=1.0), (0.0, -0.5, 0.0), anchored=True)
+    spawn(world, 'chassis/0', Box(width=3.0, height=0.5), (0.0, 0.75, 0.0))
+    # m: its middle lies 0.1 below the chassis, its rim on the road
+    spawn(world, 'wheel/0', Disc(radius=0.4), (1.0, 0.4, 0.0))
+
+    reading = draw(world, circle(1.02, 0.38, 0.08))
+    carry_out(world, reading)
+
+    assert reading.meaning == 'axle'
+    (joint,) = world.snapshot().scene.joints
+    assert (joint.kind, joint.a, joint.b) == (JointKind.AXLE, 'wheel/0', 'chassis/0')
+    assert (joint.seat.ax, joint.seat.ay) == pytest.approx((0.0, 0.0))
+
+
+def test_a_wheel_beside_another_one_turns_about_the_background(world: World) -> None:
+    spawn(world, 'wheel/0', Disc(radius=0.4), (1.8, 0.4, 0.0))
+    spawn(world, 'wheel/1', Disc(radius=0.4), (1.0, 0.4, 0.0))
+
+    carry_out(world, draw(world, circle(1.0, 0.4, 0.08)))
+
+    (joint,) = world.snapshot().scene.joints
+    assert joint.b == 'world'
