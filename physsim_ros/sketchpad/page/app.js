@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: Apache-2.0
+/**
+ * The page: one object that knows its parts, what is chosen, and which tool is in hand.
+ *
+ * Start reading here; each part is a file. The world moves on the server alone (world_state.js).
+ */
+
+import {BodyPanel} from './body_panel.js';
+import {Camera} from './camera.js';
+import {Connection} from './connection.js';
+import {Cursor} from './cursor.js';
+import {find, iconButton, make} from './dom.js';
+import {Gallery} from './gallery.js';
+import {Keyboard} from './keyboard.js';
+import {Notes} from './notes.js';
+import {Pointers} from './pointer.js';
+import {Readings} from './readings.js';
+import {SceneView} from './scene_view.js';
+import {switchTheme} from './theme.js';
+import {TimeBar} from './time_bar.js';
+import {Toolbar} from './toolbar.js';
+import {WorldState} from './world_state.js';
+
+/** @typedef {import('./pointer.js').Touch} Touch */
+/**
+ * @typedef {{down(touch: Touch): void, move(touch: Touch): void, up(touch: Touch): void, cancel(): void,
+ *   draw(view: SceneView): void, turns?: boolean, turn?(angle: number): void, clicks?: number,
+ *   finish?(): void}} Tool
+ *   clicks: of a gesture, where it is made by clicks
+ */
+
+const GAP = 24; // px between the bars and a world that is framed
+const LISTED = 200; // bodies in the list for screen readers
+const LIST_EVERY = 1000; // ms
+
+export class App {
+  constructor() {
+    this.viewOnly = new URLSearchParams(location.search).has('view');
+    document.body.classList.toggle('view', this.viewOnly);
+    /** @type {Set<string>} names of the bodies that are chosen */
+    this.chosen = new Set();
+    /** @type {Record<string, any>} of what is drawn next */
+    this.material = {density: 1, friction: 0.5, elasticity: 0.5};
+    /** @type {import('./wire.js').Point} where the tool was used last */
+    this.lastAt = [0, 0];
+    this.arrows = {velocities: false, contacts: false, forces: true};
+    /** @type {Map<string, () => void>} what is to be sent with the next frame of the page */
+    this.soon = new Map();
+    this.hovered = '';
+    this.framed = false;
+
+    this.connection = new Connection();
+    this.world = new WorldState(this.connection);
+    this.camera = new Camera();
+    this.view = new SceneView(find('world', HTMLCanvasElement), this.world, this.camera);
+    this.view.overlays.push((view) => this.#drawChosen(view));
+    this.cursor = new Cursor(this);
+    this.notes = new Notes(this);
+    this.readings = new Readings(this);
+    this.panel = new BodyPanel(this);
+    this.time = new TimeBar(this);
+    this.gallery = new Gallery(this);
+    /** @type {Tool} */
+    this.tool = {down() {}, move() {}, up() {}, cancel() {}, draw() {}};
+    this.toolbar = new Toolbar(this);
+    this.pointers = new Pointers(this);
+    this.keyboard = new Keyboard(this);
+    this.#fillTop();
+    this.#listen();
+    this.connection.connect();
+    setInterval(() => this.#listBodies(), LIST_EVERY);
+  }
+
+  #fillTop() {
+    find('files', HTMLElement).append(
+      iconButton('Worlds', 'worlds', () => this.gallery.showWorlds(), 'Worlds to open'),
+      iconButton('Save', 'save', () => this.gallery.showSave(), 'Save, link, picture'));
+    const toggle = (/** @type {'velocities' | 'contacts'} */ part, /** @type {string} */ name,
+      /** @type {string} */ id, /** @type {string} */ title) => {
+      const button = iconButton(name, id, () => {
+        this.arrows[part] = !this.arrows[part];
+        button.setAttribute('aria-pressed', String(this.arrows[part]));
+        this.askForParts();
+      }, title);
+      button.setAttribute('aria-pressed', 'false');
+      return button;
+    };
+    this.recording = make('a', {target: '_blank', rel: 'noopener', hidden: true, className: 'button',
+      textContent: 'Rerun', title: 'The recording'});
+    find('looks', HTMLElement).append(
+      toggle('velocities', 'Show velocities', 'velocity', 'Velocities as arrows: 1 m is 1 m/s'),
+      toggle('contacts', 'Show forces', 'arrows', 'Forces of contact as arrows: 1 m is 10 N'),
+      iconButton('Material', 'material', () => this.panel.showMaterial(), 'What is drawn next; gravity'),
+      iconButton('Frame the world', 'fit', () => this.frame(), 'Frame the world (F)'),
+      iconButton('Light or dark', 'theme', switchTheme),
+      iconButton('Keys', 'keys', () => this.keyboard.show(), 'Keys (?)'), this.recording);
+  }
+
+  #listen() {
+    const {connection} = this, gone = find('gone', HTMLElement);
+    connection.on('welcome', ({settings = {}, rerun, view_only: viewOnly}) => {
+      this.viewOnly ||= Boolean(viewOnly);
+      document.body.classList.toggle('view', this.viewOnly);
+      Object.assign(this.material, settings, {color: settings.draw_color ?? null});
+      Object.assign(this.recording ?? {}, {href: rerun, hidden: !rerun});
+      this.askForParts();
+    });
+    connection.on('open', () => { gone.hidden = true; });
+    connection.on('closed', (status) => {
+      gone.hidden = false;
+      gone.textContent = status === 401 || status === 403 ?
+        'Wrong token: open the address that the node printed.' :
+        status ? 'The server refused this page; trying again …' : 'The server is gone; trying again …';
+      this.tool.cancel();
+    });
+    connection.on('frame', () => {
+      if (!this.framed && this.world.frame.epoch === this.world.scene.epoch) this.frame();
+    });
+    connection.on('scene', () => {
+      for (const name of this.chosen) {
+        if (!this.world.scene.bodies.some((body) => body.name === name)) this.chosen.delete(name);
+      }
+    });
+  }
+
+  /** Ask for the parts of frames that are shown. */
+  askForParts() {
+    const {velocities} = this.arrows;
+    this.connection.send('show', {...this.arrows, velocities: velocities || this.panel.name !== ''});
+  }
+
+  /** Frame the world. */
+  frame() {
+    const {view, camera} = this, wide = camera.width > 700;
+    view.insets = this.viewOnly ? {left: 0, top: 0, right: 0, bottom: 0} :
+      {left: wide ? 108 : 0, top: 64, right: 0, bottom: wide ? 76 : 168};
+    const {left, top, right, bottom} = view.insets;
+    camera.fit(this.world.extent(),
+      {left: left + GAP, top: top + GAP, right: right + GAP, bottom: bottom + GAP});
+    this.framed = true;
+    view.dirty = true;
+  }
+
+  /** Frame the world that comes next. */
+  frameNext() {
+    this.framed = false;
+  }
+
+  /**
+   * Do something once with the next frame of the page; of several under one key, the last.
+   * @param {string} key
+   * @param {() => void} action
+   */
+  eachFrame(key, action) {
+    if (!this.soon.has(key)) {
+      requestAnimationFrame(() => {
+        this.soon.get(key)?.();
+        this.soon.delete(key);
+      });
+    }
+    this.soon.set(key, action);
+  }
+
+  /** @param {Touch} touch */
+  chooseAt({at, slop}) {
+    const row = this.world.bodyAt(at, slop);
+    this.choose(row < 0 ? [] : [this.world.scene.bodies[row].name]);
+  }
+
+  /** @param {string[]} names */
+  choose(names) {
+    this.chosen = new Set(names);
+    if (names.length === 1) this.panel.showBody(names[0]);
+    else if (names.length) this.panel.showMany(names);
+    else this.panel.close();
+    this.askForParts();
+    this.view.dirty = true;
+  }
+
+  deleteChosen() {
+    if (this.chosen.size) this.connection.send('delete', {names: [...this.chosen]});
+    this.choose([]);
+  }
+
+  /** @param {?Touch} touch */
+  hover(touch) {
+    const row = touch ? this.world.bodyAt(touch.at, touch.slop) : -1;
+    const name = row < 0 ? '' : this.world.scene.bodies[row].name;
+    this.view.canvas.classList.toggle('over', row >= 0);
+    if (name !== this.hovered) this.view.dirty = true;
+    this.hovered = name;
+    this.hoveredAt = touch?.page;
+  }
+
+  endHint() {
+    find('hint', HTMLElement).classList.add('faded');
+  }
+
+  /** @param {SceneView} view */
+  #drawChosen(view) {
+    const {ctx, palette} = view;
+    for (const name of this.chosen) {
+      const row = this.world.row(name);
+      if (row >= 0) view.outline(row, palette.accent);
+    }
+    this.tool.draw(view);
+    if (!this.hovered || !this.hoveredAt) return;
+    const [x, y] = this.hoveredAt;
+    ctx.font = '13px system-ui, sans-serif';
+    ctx.textAlign = 'left';
+    ctx.lineWidth = 4;
+    ctx.strokeStyle = palette.paper;
+    ctx.strokeText(this.hovered, x + 16, y - 10);
+    ctx.fillStyle = palette.ink;
+    ctx.fillText(this.hovered, x + 16, y - 10);
+  }
+
+  #listBodies() {
+    const {world} = this, {bodies} = world.scene;
+    const texts = bodies.slice(0, LISTED).map(({name, shape, anchored}, row) => {
+      const [x, y] = world.place(row, [0, 0]);
+      return `${name}: ${shape.kind}${anchored ? ', anchored' : ''}, at ${x.toFixed(1)}, ${y.toFixed(1)} m`;
+    });
+    if (bodies.length > LISTED) texts.push(`and ${bodies.length - LISTED} more`);
+    const list = find('list', HTMLElement);
+    while (list.children.length > texts.length) list.lastChild?.remove();
+    texts.forEach((text, i) => {
+      const item = list.children[i] ?? list.appendChild(make('li'));
+      if (item.textContent !== text) item.textContent = text;
+    });
+  }
+}
+
+const app = new App();
+
+Object.assign(window, {physsim: {
+  toPage: (/** @type {number} */ x, /** @type {number} */ y) => app.camera.toPage(x, y),
+  toWorld: (/** @type {number} */ px, /** @type {number} */ py) => app.camera.toWorld(px, py),
+  get time() { return app.world.frame.time; },
+  get speed() { return app.world.frame.speed; },
+  get bodies() {
+    const {frame, scene, count} = app.world;
+    return Object.fromEntries(scene.bodies.slice(0, count).map(({name}, row) =>
+      [name, [frame.x[row], frame.y[row], frame.yaw[row]]]));
+  },
+}});

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The panel of what is chosen: properties of a body, its velocity as an arrow, its plots. */
+
+import {find, iconButton, make} from './dom.js';
+import {Plots} from './plots.js';
+import {ARROW_GAP} from './tools/hand.js';
+
+/** @typedef {import('./wire.js').Point} Point */
+
+/** Key, label, least, most, step. @type {[string, string, number, number, number][]} */
+const RANGES = [['density', 'Density [kg/m²]', 0.1, 10, 0.1], ['friction', 'Friction', 0, 2, 0.05],
+  ['elasticity', 'Bounciness', 0, 1, 0.05]];
+const GRIP = 14; // px around the tip of the velocity arrow
+const BESIDE = 0.5; // m: where a copy is put
+
+export class BodyPanel {
+  /** @param {import('./app.js').App} app */
+  constructor(app) {
+    this.app = app;
+    this.element = find('panel', HTMLElement);
+    this.plots = new Plots(app);
+    this.name = '';
+    /** @type {?Point} tip of the velocity arrow while it is dragged [px] */
+    this.tip = null;
+    app.view.overlays.push((view) => this.#drawAim(view));
+    app.connection.on('scene', () => this.#follow());
+  }
+
+  close() {
+    this.element.hidden = true;
+    this.name = '';
+    this.plots.watch('');
+  }
+
+  /** @param {string} name of a body */
+  showBody(name) {
+    const row = this.app.world.row(name), body = this.app.world.scene.bodies[row];
+    if (row < 0) return;
+    this.name = name;
+    const change = (/** @type {object} */ properties) =>
+      this.app.connection.send('change', {name, properties});
+    const anchored = make('input', {type: 'checkbox', checked: body.anchored,
+      onchange: () => change({anchored: anchored.checked})});
+    this.shown = JSON.stringify(body);
+    this.#show(name, [
+      ...fields(body, change),
+      make('label', {}, 'Anchored', anchored),
+      make('div', {className: 'row'},
+        make('button', {type: 'button', textContent: 'Copy', onclick: () => this.copy()}),
+        make('button', {type: 'button', className: 'danger', textContent: 'Delete body',
+          onclick: () => this.app.deleteChosen()})),
+      this.plots.element,
+    ]);
+    this.plots.watch(name);
+  }
+
+  /** @param {string[]} names of several bodies */
+  showMany(names) {
+    this.name = '';
+    this.plots.watch('');
+    this.#show(`${names.length} bodies`, [
+      make('p', {textContent: 'Drag them with the lasso.'}),
+      make('div', {className: 'row'}, make('button', {type: 'button', className: 'danger',
+        textContent: 'Delete bodies', onclick: () => this.app.deleteChosen()}))]);
+  }
+
+  /** What is drawn next, and gravity. */
+  showMaterial() {
+    this.app.choose([]);
+    const {app} = this, {gravity} = app.world.scene, strength = Math.hypot(...gravity);
+    const pull = range('Gravity [m/s²]', 0, 25, 0.1, strength, (value) => {
+      const [x, y] = strength ? gravity.map((each) => each / strength) : [0, -1];
+      app.connection.send('gravity', {gravity: [x * value, y * value]});
+    });
+    this.#show('What is drawn next', [
+      ...fields({...app.material, color: app.material.color ?? [0.3, 0.47, 0.66]}, (properties) => {
+        Object.assign(app.material, properties);
+        app.connection.send('draw_with', properties);
+      }),
+      make('h3', {textContent: 'World'}), pull]);
+  }
+
+  copy() {
+    const {world, connection} = this.app, row = world.row(this.name);
+    if (row >= 0) connection.send('copy', {name: this.name,
+      to: [world.frame.x[row] + BESIDE, world.frame.y[row] + BESIDE]});
+  }
+
+  /**
+   * @param {string} title
+   * @param {Node[]} content
+   */
+  #show(title, content) {
+    this.element.replaceChildren(make('header', {}, make('h2', {textContent: title}),
+      iconButton('Close', 'close', () => this.app.choose([]))), ...content);
+    this.element.hidden = false;
+  }
+
+  /** Follow a scene in which the body was changed or deleted, by whomever. */
+  #follow() {
+    if (!this.name) return;
+    const body = this.app.world.scene.bodies.find(({name}) => name === this.name);
+    if (!body) this.app.choose([]);
+    else if (JSON.stringify(body) !== this.shown && !this.element.contains(document.activeElement)) {
+      queueMicrotask(() => this.showBody(this.name));
+    }
+  }
+
+  /** @returns {?{center: Point, tip: Point}} the velocity arrow of the chosen body [px] */
+  #arrow() {
+    const {world, camera} = this.app, row = this.name ? world.row(this.name) : -1;
+    const velocities = world.frame.velocities;
+    if (row < 0 || !velocities || world.scene.bodies[row].anchored) return null;
+    const center = camera.toPage(...world.place(row, world.scene.bodies[row].centroid));
+    const vx = velocities.x[row] * camera.scale, vy = -velocities.y[row] * camera.scale;
+    const length = Math.hypot(vx, vy), [ux, uy] = length > 1 ? [vx / length, vy / length] : [1, 0];
+    return {center, tip: [center[0] + vx + ARROW_GAP * ux, center[1] + vy + ARROW_GAP * uy]};
+  }
+
+  /** @param {Point} page [px] */
+  aimedAt(page) {
+    const arrow = this.#arrow();
+    return arrow !== null && Math.hypot(page[0] - arrow.tip[0], page[1] - arrow.tip[1]) <= GRIP;
+  }
+
+  /** @param {Point} page [px] */
+  aim(page) {
+    this.tip = page;
+  }
+
+  setAim() {
+    const arrow = this.#arrow(), {app, tip} = this;
+    this.tip = null;
+    if (!arrow || !tip) return;
+    const dx = tip[0] - arrow.center[0], dy = tip[1] - arrow.center[1], length = Math.hypot(dx, dy);
+    const share = Math.max(length - ARROW_GAP, 0) / (length || 1) / app.camera.scale;
+    app.connection.send('change', {name: this.name, properties: {velocity: [dx * share, -dy * share]}});
+  }
+
+  /** @param {import('./scene_view.js').SceneView} view */
+  #drawAim(view) {
+    const arrow = this.#arrow();
+    if (!arrow) return;
+    const {camera} = this.app, tip = camera.toWorld(...this.tip ?? arrow.tip);
+    view.arrow(camera.toWorld(...arrow.center), tip, view.palette.accent);
+    view.ring(tip, 7, view.palette.accent);
+  }
+}
+
+/**
+ * @param {any} values by key
+ * @param {(properties: any) => void} change
+ * @returns {HTMLElement[]}
+ */
+function fields(values, change) {
+  const hex = `#${values.color.slice(0, 3).map((/** @type {number} */ channel) =>
+    Math.round(255 * channel).toString(16).padStart(2, '0')).join('')}`;
+  const color = make('input', {type: 'color', value: hex, onchange: () => change({color: color.value})});
+  return [
+    ...RANGES.map(([key, label, least, most, step]) => range(label, least, most, step, values[key],
+      (value) => change({[key]: value}))),
+    make('label', {}, 'Colour', color)];
+}
+
+/**
+ * @param {string} label
+ * @param {number} min
+ * @param {number} max
+ * @param {number} step
+ * @param {number} value
+ * @param {(value: number) => void} change when it is let go
+ */
+function range(label, min, max, step, value, change) {
+  const output = make('span', {textContent: String(Number(value.toPrecision(3)))});
+  const input = make('input', {type: 'range', min, max: Math.max(max, value), step, value,
+    oninput: () => { output.textContent = input.value; },
+    onchange: () => change(Number(input.value))});
+  return make('label', {}, label, output, input);
+}

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The part of the world that is shown: metres, y up, to pixels of the page, y down. */
+
+const LEAST_SCALE = 0.5, GREATEST_SCALE = 5000; // px/m
+const LEAST_SPAN = 4; // m; nothing smaller fills the page at first
+
+export class Camera {
+  constructor() {
+    this.x = this.y = 0; // the middle of the page [m]
+    this.scale = 60; // px/m
+    this.width = this.height = 1; // of the page [px]
+  }
+
+  /**
+   * @param {number} x [m]
+   * @param {number} y [m]
+   * @returns {import('./wire.js').Point} [px]
+   */
+  toPage(x, y) {
+    return [this.width / 2 + (x - this.x) * this.scale, this.height / 2 - (y - this.y) * this.scale];
+  }
+
+  /**
+   * @param {number} px [px]
+   * @param {number} py [px]
+   * @returns {import('./wire.js').Point} [m]
+   */
+  toWorld(px, py) {
+    return [this.x + (px - this.width / 2) / this.scale, this.y - (py - this.height / 2) / this.scale];
+  }
+
+  /**
+   * @param {number} dx [px]
+   * @param {number} dy [px]
+   */
+  pan(dx, dy) {
+    this.x -= dx / this.scale;
+    this.y += dy / this.scale;
+  }
+
+  /**
+   * @param {number} px the place that stays [px]
+   * @param {number} py [px]
+   * @param {number} factor
+   */
+  zoom(px, py, factor) {
+    const [x, y] = this.toWorld(px, py);
+    this.scale = Math.min(Math.max(this.scale * factor, LEAST_SCALE), GREATEST_SCALE);
+    const [nowX, nowY] = this.toWorld(px, py);
+    this.x += x - nowX;
+    this.y += y - nowY;
+  }
+
+  /**
+   * @param {number[]} box xmin, ymin, xmax, ymax [m]
+   * @param {{left: number, top: number, right: number, bottom: number}} insets covered [px]
+   */
+  fit([xmin, ymin, xmax, ymax], insets) {
+    const width = this.width - insets.left - insets.right;
+    const height = this.height - insets.top - insets.bottom;
+    this.scale = Math.max(Math.min(width / Math.max(xmax - xmin, LEAST_SPAN),
+      height / Math.max(ymax - ymin, LEAST_SPAN)), LEAST_SCALE);
+    this.x = (xmin + xmax) / 2 + (insets.right - insets.left) / 2 / this.scale;
+    this.y = (ymin + ymax) / 2 + (insets.top - insets.bottom) / 2 / this.scale;
+  }
+}

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The socket to the server: requests out with an id, messages in by type, and back when it goes. */
+
+import {decodeFrame} from './wire.js';
+
+const SHORTEST_PAUSE = 250, LONGEST_PAUSE = 3000; // ms between attempts to connect
+
+export class Connection {
+  constructor() {
+    /** @type {Map<string, ((message: any) => void)[]>} */
+    this.listeners = new Map();
+    /** @type {Map<string, (answer: import('./wire.js').Answer) => void>} */
+    this.waiting = new Map();
+    this.number = 0;
+    this.pause = SHORTEST_PAUSE;
+    /** @type {?WebSocket} */
+    this.socket = null;
+  }
+
+  /**
+   * @param {string} type of messages: one of the protocol, or frame, open, closed
+   * @param {(message: any) => void} listener
+   */
+  on(type, listener) {
+    this.listeners.set(type, [...this.listeners.get(type) ?? [], listener]);
+  }
+
+  connect() {
+    const address = `${location.protocol.replace('http', 'ws')}//${location.host}/ws`;
+    this.socket = new WebSocket(address + location.search);
+    this.socket.binaryType = 'arraybuffer';
+    this.socket.onopen = () => {
+      this.pause = SHORTEST_PAUSE;
+      this.#emit('open', null);
+    };
+    this.socket.onmessage = ({data}) => this.#receive(data);
+    this.socket.onclose = () => this.#retry();
+  }
+
+  /**
+   * @param {string} type
+   * @param {Record<string, unknown>} fields
+   * @returns {string} the id of the request; '' where nobody hears it
+   */
+  send(type, fields = {}) {
+    if (this.socket?.readyState !== WebSocket.OPEN) return '';
+    const id = String(++this.number);
+    this.socket.send(JSON.stringify({id, type, ...fields}));
+    return id;
+  }
+
+  /**
+   * @param {string} type
+   * @param {Record<string, unknown>} fields
+   * @returns {Promise<import('./wire.js').Answer>} never settles where the server goes
+   */
+  ask(type, fields = {}) {
+    const id = this.send(type, fields);
+    return new Promise((resolve) => id && this.waiting.set(id, resolve));
+  }
+
+  /** @param {string | ArrayBuffer} data */
+  #receive(data) {
+    if (typeof data !== 'string') {
+      this.#emit('frame', decodeFrame(data));
+      return;
+    }
+    const message = JSON.parse(data);
+    if (message.type === 'answer' && this.waiting.has(message.request)) {
+      this.waiting.get(message.request)?.(message);
+      this.waiting.delete(message.request);
+    }
+    this.#emit(message.type, message);
+  }
+
+  /**
+   * @param {string} type
+   * @param {any} message
+   */
+  #emit(type, message) {
+    for (const listener of this.listeners.get(type) ?? []) listener(message);
+  }
+
+  /** A socket that is refused cannot say why: the session is asked for. */
+  async #retry() {
+    this.socket = null;
+    this.waiting.clear();
+    const status = await fetch('/session', {cache: 'no-store'}).then(
+      (response) => response.status, () => 0);
+    this.#emit('closed', status);
+    setTimeout(() => this.connect(), this.pause);
+    this.pause = Math.min(2 * this.pause, LONGEST_PAUSE);
+  }
+}

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+/** Elements of the page, made short. */
+
+/**
+ * @template {keyof HTMLElementTagNameMap} T
+ * @param {T} tag
+ * @param {Record<string, any>} properties of the element; aria-… and other names with a dash are attributes
+ * @param {(Node | string)[]} children
+ * @returns {HTMLElementTagNameMap[T]}
+ */
+export function make(tag, properties = {}, ...children) {
+  const element = document.createElement(tag);
+  for (const [name, value] of Object.entries(properties)) {
+    if (name.includes('-')) element.setAttribute(name, String(value));
+    else Object.assign(element, {[name]: value});
+  }
+  element.append(...children);
+  return element;
+}
+
+/** @param {string} id of a symbol in icons.svg */
+export function icon(id) {
+  const name = 'http://www.w3.org/2000/svg', svg = document.createElementNS(name, 'svg');
+  const use = document.createElementNS(name, 'use');
+  use.setAttribute('href', `/page/icons.svg#${id}`);
+  svg.setAttribute('aria-hidden', 'true');
+  svg.append(use);
+  return svg;
+}
+
+/**
+ * @param {string} name that it is asked for by
+ * @param {string} id of its icon
+ * @param {() => void} onclick
+ * @param {string} title
+ */
+export function iconButton(name, id, onclick, title = name) {
+  return make('button', {type: 'button', 'aria-label': name, title, onclick}, icon(id));
+}
+
+/**
+ * @template {HTMLElement} T
+ * @param {string} id
+ * @param {new () => T} kind
+ * @returns {T}
+ */
+export function find(id, kind) {
+  const element = document.getElementById(id);
+  if (!(element instanceof kind)) throw new TypeError(`no ${kind.name} #${id} on this page`);
+  return element;
+}
+
+/**
+ * @param {string} name of the file
+ * @param {Blob} content
+ */
+export function download(name, content) {
+  const href = URL.createObjectURL(content);
+  make('a', {href, download: name}).click();
+  setTimeout(() => URL.revokeObjectURL(href), 1000);
+}

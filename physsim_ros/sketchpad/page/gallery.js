@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+/** Worlds: a gallery to open from, saving by name, files, a link that holds the world, a picture. */
+
+import {download, find, make} from './dom.js';
+import {packText, unpackText} from './link.js';
+
+const LONGEST_LINK = 16000; // characters
+
+export class Gallery {
+  /** @param {import('./app.js').App} app */
+  constructor(app) {
+    this.app = app;
+    this.dialog = find('dialog', HTMLDialogElement);
+    /** @type {{name: string, title: string, picture: string, shipped: boolean}[]} */
+    this.worlds = [];
+    this.dialog.addEventListener('click', (event) => {
+      if (event.target === this.dialog) this.dialog.close();
+    });
+    app.connection.on('worlds', ({worlds}) => { this.worlds = worlds; });
+    app.connection.on('welcome', () => this.#offerLink());
+  }
+
+  /**
+   * @param {string} title
+   * @param {Node[]} content
+   */
+  show(title, ...content) {
+    this.dialog.setAttribute('aria-label', title);
+    this.dialog.replaceChildren(make('header', {}, make('h2', {textContent: title}), make('button',
+      {type: 'button', 'aria-label': 'Close', textContent: '×', onclick: () => this.dialog.close()})),
+    ...content);
+    if (!this.dialog.open) this.dialog.showModal();
+  }
+
+  showWorlds() {
+    const cards = this.worlds.map(({name, title, picture}) => make('button',
+      {type: 'button', className: 'card', onclick: () => this.#open(name)},
+      picture ? make('img', {src: picture, alt: '', loading: 'lazy'}) : make('span', {className: 'blank'}),
+      title || name));
+    const file = make('input', {type: 'file', accept: '.yaml,.yml',
+      onchange: async () => file.files?.[0] && this.#upload(await file.files[0].text())});
+    this.show('Worlds', make('div', {className: 'cards'}, ...cards), make('div', {className: 'row'},
+      make('button', {type: 'button', textContent: 'Empty world', onclick: () => {
+        this.app.time.call('clear');
+        this.dialog.close();
+      }}),
+      make('label', {className: 'file'}, 'Open a file', file)));
+  }
+
+  showSave() {
+    const name = make('input', {value: 'my-world', required: true, maxLength: 64, autocomplete: 'off',
+      'aria-label': 'Name of the world'});
+    const form = make('form', {className: 'row', onsubmit: (/** @type {Event} */ event) => {
+      event.preventDefault();
+      this.app.connection.send('save', {name: name.value});
+      this.dialog.close();
+    }}, name, make('button', {textContent: 'Save world'}));
+    const action = (/** @type {string} */ label, /** @type {() => void} */ onclick) =>
+      make('button', {type: 'button', textContent: label, onclick});
+    this.show('Save', form, make('div', {className: 'row'},
+      action('Download file', async () => download('world.yaml', new Blob([await this.#text()]))),
+      action('Copy link', () => this.#copyLink()),
+      action('Picture (PNG)', () => this.app.view.canvas.toBlob((png) => png && download('world.png', png)))));
+    name.select();
+  }
+
+  /** @param {string} name */
+  async #open(name) {
+    this.dialog.close();
+    if ((await this.app.connection.ask('open', {name})).ok) this.app.frameNext();
+  }
+
+  /** @param {string} text of a world file */
+  async #upload(text) {
+    this.dialog.close();
+    const response = await fetch('/world', {method: 'POST', body: text,
+      headers: {'Content-Type': 'application/yaml'}});
+    const {ok, message} = await response.json().catch(() => ({ok: false, message: response.statusText}));
+    this.app.notes.say(message, {ok});
+    if (ok) this.app.frameNext();
+  }
+
+  /** @returns {Promise<string>} the world as a file */
+  async #text() {
+    return (await this.app.connection.ask('share')).values.yaml;
+  }
+
+  async #copyLink() {
+    const link = `${location.origin}/#world=${await packText(await this.#text())}`;
+    if (link.length > LONGEST_LINK) {
+      this.app.notes.say('This world is too large for a link: download it as a file.', {ok: false});
+      return;
+    }
+    const text = make('input', {value: link, readOnly: true, 'aria-label': 'Link'});
+    this.show('A link that holds this world', text);
+    text.select();
+    await navigator.clipboard?.writeText(link).catch(() => {});
+  }
+
+  /** A link only offers its world: whoever sends it does not decide what a class sees. */
+  #offerLink() {
+    const packed = /^#world=(.+)/.exec(location.hash)?.[1];
+    if (!packed || this.app.viewOnly) return;
+    history.replaceState(null, '', location.pathname + location.search);
+    this.show('This link holds a world', make('div', {className: 'row'}, make('button', {type: 'button',
+      textContent: 'Open it', onclick: async () => this.#upload(await unpackText(packed))})));
+  }
+}

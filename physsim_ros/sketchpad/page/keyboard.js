@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The keys of the page; `?` shows them. */
+
+import {make} from './dom.js';
+import {EDIT, TIME} from './time_bar.js';
+import {TOOLS} from './toolbar.js';
+
+const TURN = Math.PI / 12; // rad a press of R
+const ZOOM = 1.25;
+const TAP = 300; // ms: a shorter press of the space bar plays or pauses
+/** @type {Record<string, [number, number]>} */
+const ARROWS = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]};
+const FURTHER = [['Space', 'Play or pause; held, dragging moves the view'],
+  ['Arrow keys', 'Move the cursor on the canvas, with Shift finely; Enter presses and lifts the tool'],
+  ['R, Shift+R', 'Turn the body in the hand, while paused'], ['N, Shift+N', 'Choose the next body, the last'],
+  ['Delete', 'Delete what is chosen'], ['Esc', 'Drop what is unfinished'], ['+ and −, F', 'Zoom; frame the world'],
+  ['Enter', 'Close a polygon'], ['?', 'This list']];
+
+export class Keyboard {
+  /** @param {import('./app.js').App} app */
+  constructor(app) {
+    this.app = app;
+    this.since = 0;
+    document.addEventListener('keydown', (event) => this.#down(event));
+    document.addEventListener('keyup', (event) => this.#up(event));
+    addEventListener('blur', () => { app.pointers.space = false; });
+    const call = (/** @type {string} */ name) => () => app.time.call(name);
+    /** @type {Record<string, () => void>} */
+    this.keys = {
+      '?': () => this.show(), f: () => app.frame(), '+': () => this.#zoom(ZOOM), '-': () => this.#zoom(1 / ZOOM),
+      r: () => app.tool.turn?.(TURN), R: () => app.tool.turn?.(-TURN),
+      n: () => this.#next(1), N: () => this.#next(-1),
+      Delete: () => app.deleteChosen(), Backspace: () => app.deleteChosen(), Escape: () => this.#drop(),
+      j: call('rewind'), J: call('fast_rewind'), k: call('pause'), l: call('play'), L: call('fast_forward'),
+      '.': call('step'), 0: call('reset'),
+    };
+    for (const [id, , key] of TOOLS.flat()) this.keys[key] = () => app.toolbar.choose(id);
+  }
+
+  show() {
+    const rows = [...TOOLS.flat().map(([, name, key]) => [key.toUpperCase(), name]),
+      ...[...TIME, ...EDIT].map(([name, , key]) => [key, name]), ...FURTHER];
+    this.app.gallery.show('Keys', make('dl', {}, ...rows.map(([key, does]) =>
+      make('div', {}, make('dt', {}, make('kbd', {textContent: key})), make('dd', {textContent: does})))));
+  }
+
+  /** @param {KeyboardEvent} event */
+  #down(event) {
+    const {app} = this, {key, target} = event;
+    const typing = target instanceof HTMLInputElement && target.type !== 'checkbox';
+    if (typing || app.gallery.dialog.open || app.viewOnly || event.altKey) return;
+    if (event.ctrlKey || event.metaKey) {
+      const undo = key === 'z' && !event.shiftKey, redo = key === 'y' || key.toLowerCase() === 'z';
+      if (undo || redo) app.time.call(undo ? 'undo' : 'redo');
+      if (undo || redo) event.preventDefault();
+      return;
+    }
+    const button = target instanceof HTMLButtonElement || target instanceof HTMLInputElement;
+    if (key === ' ' && !button) {
+      if (!event.repeat) this.since = event.timeStamp;
+      app.pointers.space = true;
+    } else if (key === 'Enter' && !button) {
+      if (app.cursor.shown || target === app.view.canvas) app.cursor.press();
+      else app.tool.finish?.();
+    } else if (key in ARROWS && !button) {
+      app.cursor.move(...ARROWS[key], event.shiftKey);
+    } else if (key in this.keys) {
+      this.keys[key]();
+    } else return;
+    event.preventDefault();
+  }
+
+  /** @param {KeyboardEvent} event */
+  #up({key, timeStamp}) {
+    const {app} = this;
+    if (key !== ' ' || !app.pointers.space) return;
+    app.pointers.space = false;
+    if (timeStamp - this.since < TAP && !app.pointers.down.size) app.time.toggle();
+  }
+
+  /** @param {number} factor */
+  #zoom(factor) {
+    const {camera, view} = this.app;
+    camera.zoom(camera.width / 2, camera.height / 2, factor);
+    view.dirty = true;
+  }
+
+  /** @param {number} by */
+  #next(by) {
+    const {app} = this, {bodies} = app.world.scene;
+    if (!bodies.length) return;
+    const row = bodies.findIndex(({name}) => app.chosen.has(name));
+    app.choose([bodies[(row + by + bodies.length + (row < 0 && by < 0 ? 1 : 0)) % bodies.length].name]);
+  }
+
+  #drop() {
+    const {app} = this;
+    app.tool.cancel();
+    app.readings.dismiss();
+    app.cursor.hide();
+    app.choose([]);
+  }
+}

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+/** What is said: the last answer in a quiet line, and notes at a place of the world. */
+
+import {find, make} from './dom.js';
+
+const SHOWN = 4000, READ = 6000; // ms
+
+export class Notes {
+  /** @param {import('./app.js').App} app */
+  constructor(app) {
+    this.app = app;
+    this.status = find('status', HTMLElement);
+    this.places = find('places', HTMLElement);
+    /** @type {Map<HTMLElement, import('./wire.js').Point>} */
+    this.pinned = new Map();
+    this.timer = 0;
+    this.until = 0; // [ms] until then an answer to this page stays
+    app.view.overlays.push(() => this.#place());
+    app.connection.on('answer', (answer) => this.#tell(answer));
+  }
+
+  /** @param {import('./wire.js').Answer} answer */
+  #tell({request, ok, code, message, at}) {
+    const own = request !== '';
+    if (!own && performance.now() < this.until) return;
+    this.say(message, {ok, quiet: !own});
+    if (own && !ok && code !== 'not_recognised') {
+      this.pin(at ?? this.app.lastAt, [message], {kind: 'refusal'});
+    }
+  }
+
+  /**
+   * @param {string} message
+   * @param {{ok?: boolean, quiet?: boolean}} how
+   */
+  say(message, {ok = true, quiet = false} = {}) {
+    this.status.textContent = message;
+    this.status.className = `shown${ok ? '' : ' refused'}${quiet ? ' quiet' : ''}`;
+    if (!quiet) this.until = performance.now() + SHOWN;
+    clearTimeout(this.timer);
+    this.timer = setTimeout(() => this.status.classList.remove('shown'), SHOWN);
+  }
+
+  /**
+   * @param {import('./wire.js').Point} at [m]
+   * @param {(Node | string)[]} content
+   * @param {{kind?: string, stays?: boolean}} how
+   * @returns {() => void} takes it away
+   */
+  pin(at, content, {kind = '', stays = false} = {}) {
+    const note = make('div', {className: `note ${kind}`}, ...content);
+    const remove = () => {
+      note.remove();
+      this.pinned.delete(note);
+    };
+    this.places.append(note);
+    this.pinned.set(note, at);
+    this.#place();
+    if (!stays) setTimeout(remove, READ);
+    return remove;
+  }
+
+  #place() {
+    const {camera} = this.app;
+    for (const [note, at] of this.pinned) {
+      const [x, y] = camera.toPage(...at), half = note.offsetWidth / 2 + 8;
+      const left = Math.min(Math.max(x, half), Math.max(camera.width - half, half));
+      const top = Math.min(Math.max(y, note.offsetHeight + 70), camera.height - 120);
+      note.style.transform = `translate(${left}px, ${top}px) translate(-50%, calc(-100% - 14px))`;
+    }
+  }
+}

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+/**
+ * Mouse, pen and fingers on the canvas. One pointer works the tool in hand; two fingers move and zoom
+ * the view; once a stylus was seen it draws, and a finger moves the view.
+ */
+
+/** @typedef {import('./wire.js').Point} Point */
+/** @typedef {{at: Point, page: Point, time: number, slop: number}} Touch
+ *   at [m], page [px], time [s], slop: how far beside a body counts [m] */
+
+const FINGER = 14, MOUSE = 2; // px of slop
+const WHEEL = 0.0015, PINCH = 0.01; // of zoom, in powers of e a pixel of wheel
+const WHEEL_TURN = 0.002; // rad a pixel
+
+export class Pointers {
+  /** @param {import('./app.js').App} app */
+  constructor(app) {
+    this.app = app;
+    /** @type {Map<number, PointerEvent>} */
+    this.down = new Map();
+    this.working = -1; // id of the pointer that works the tool
+    this.stylus = false;
+    this.space = false; // held: dragging moves the view
+    const {canvas} = app.view;
+    canvas.addEventListener('pointerdown', (event) => this.#down(event));
+    canvas.addEventListener('pointermove', (event) => this.#move(event));
+    canvas.addEventListener('pointerup', (event) => this.#up(event));
+    canvas.addEventListener('pointercancel', (event) => this.#cancel(event));
+    canvas.addEventListener('pointerleave', () => app.hover(null));
+    canvas.addEventListener('wheel', (event) => this.#wheel(event), {passive: false});
+    canvas.addEventListener('contextmenu', (event) => event.preventDefault());
+  }
+
+  /**
+   * @param {PointerEvent} event
+   * @returns {Touch}
+   */
+  #touch(event) {
+    const {camera} = this.app, {clientX, clientY, pointerType, timeStamp} = event;
+    return {at: camera.toWorld(clientX, clientY), page: [clientX, clientY], time: timeStamp / 1000,
+      slop: (pointerType === 'touch' ? FINGER : MOUSE) / camera.scale};
+  }
+
+  /** @param {PointerEvent} event */
+  #down(event) {
+    const {app} = this;
+    app.view.canvas.setPointerCapture(event.pointerId);
+    this.stylus ||= event.pointerType === 'pen';
+    this.down.set(event.pointerId, event);
+    app.cursor.hide();
+    const moves = event.button > 0 || this.space || app.viewOnly ||
+      (this.stylus && event.pointerType === 'touch');
+    if (this.down.size === 1 && !moves) {
+      this.working = event.pointerId;
+      app.lastAt = this.#touch(event).at;
+      app.tool.down(this.#touch(event));
+    } else if (this.down.size > 1 && this.working >= 0 && !app.tool.turns) {
+      app.tool.cancel();
+      this.working = -1;
+    }
+    app.view.dirty = true;
+  }
+
+  /** @param {PointerEvent} event */
+  #move(event) {
+    const {app} = this, before = this.down.get(event.pointerId);
+    if (event.pointerId === this.working) {
+      const parts = event.getCoalescedEvents?.() ?? [];
+      for (const part of parts.length ? parts : [event]) app.tool.move(this.#touch(part));
+      app.lastAt = this.#touch(event).at;
+    } else if (before) this.#moveView(event, before);
+    else {
+      app.tool.move(this.#touch(event));
+      app.hover(this.#touch(event));
+    }
+    if (before) this.down.set(event.pointerId, event);
+    app.view.dirty = true;
+  }
+
+  /**
+   * @param {PointerEvent} event
+   * @param {PointerEvent} before
+   */
+  #moveView(event, before) {
+    const {app} = this;
+    const other = [...this.down.values()].find(({pointerId}) => pointerId !== event.pointerId);
+    const dx = event.clientX - before.clientX, dy = event.clientY - before.clientY;
+    if (!other) {
+      app.camera.pan(dx, dy);
+      return;
+    }
+    const x = other.clientX, y = other.clientY;
+    if (app.tool.turns) {
+      app.tool.turn?.(Math.atan2(before.clientY - y, before.clientX - x) -
+        Math.atan2(event.clientY - y, event.clientX - x));
+      return;
+    }
+    app.camera.pan(dx / 2, dy / 2);
+    app.camera.zoom((event.clientX + x) / 2, (event.clientY + y) / 2,
+      Math.hypot(event.clientX - x, event.clientY - y) /
+      (Math.hypot(before.clientX - x, before.clientY - y) || 1));
+  }
+
+  /** @param {PointerEvent} event */
+  #up(event) {
+    this.down.delete(event.pointerId);
+    if (event.pointerId !== this.working) return;
+    this.working = -1;
+    this.app.tool.up(this.#touch(event));
+    this.app.view.dirty = true;
+  }
+
+  /** @param {PointerEvent} event */
+  #cancel(event) {
+    this.down.delete(event.pointerId);
+    if (event.pointerId === this.working) this.app.tool.cancel();
+    this.working = -1;
+  }
+
+  /** @param {WheelEvent} event */
+  #wheel(event) {
+    const {app} = this;
+    event.preventDefault();
+    const pixels = event.deltaY * (event.deltaMode === WheelEvent.DOM_DELTA_LINE ? 16 : 1);
+    if (app.tool.turns) app.tool.turn?.(-pixels * WHEEL_TURN);
+    else app.camera.zoom(event.clientX, event.clientY, Math.exp(-pixels * (event.ctrlKey ? PINCH : WHEEL)));
+    app.view.dirty = true;
+  }
+}

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+/** Strokes until they are read, and their readings at the spot: what else it may be is one tap away. */
+
+import {make} from './dom.js';
+
+/** @typedef {import('./wire.js').Point} Point */
+
+const LIKELY = 0.05; // the least confidence of a runner-up that is offered
+
+export class Readings {
+  /** @param {import('./app.js').App} app */
+  constructor(app) {
+    this.app = app;
+    /** @type {Map<string, Point[]>} strokes by their request */
+    this.strokes = new Map();
+    this.dismiss = () => {};
+    app.view.overlays.push((view) => {
+      for (const stroke of this.strokes.values()) view.line(stroke, view.palette.accent, [8, 6]);
+    });
+    app.connection.on('reading', (reading) => this.#show(reading));
+    app.connection.on('answer', ({request, ok, code}) => {
+      if (!ok && code !== 'not_recognised') this.#forget(request);
+    });
+    app.connection.on('closed', () => this.strokes.clear());
+  }
+
+  /**
+   * @param {string} request
+   * @param {Point[]} stroke
+   */
+  await(request, stroke) {
+    this.dismiss();
+    if (request) this.strokes.set(request, stroke);
+    this.app.endHint();
+  }
+
+  /** @param {import('./wire.js').Reading} reading */
+  #show({request, meaning, confidence, runner_up, runner_up_confidence, guesses, outline, built}) {
+    const stroke = this.strokes.get(request) ?? outline;
+    if (!stroke.length) return;
+    this.dismiss();
+    const at = /** @type {Point} */ ([
+      stroke.reduce((sum, [x]) => sum + x, 0) / stroke.length, Math.max(...stroke.map(([, y]) => y))]);
+    if (built) {
+      this.#forget(request);
+      const other = runner_up && runner_up_confidence > LIKELY ?
+        [this.#choice(`or ${runner_up}`, runner_up_confidence, request, '')] : [];
+      this.dismiss = this.app.notes.pin(at, [say(meaning, confidence), ...other]);
+      return;
+    }
+    const choices = guesses.map(([guess, sure]) => this.#choice(guess, sure, request, guess));
+    const close = make('button', {type: 'button', 'aria-label': 'Forget the stroke', textContent: '×',
+      onclick: () => this.dismiss()});
+    const words = choices.length ? 'Not sure. Is it' : 'Not recognised';
+    const remove = this.app.notes.pin(at, [words, ...choices, close], {stays: true});
+    this.dismiss = () => {
+      remove();
+      this.#forget(request);
+    };
+  }
+
+  /**
+   * @param {string} label
+   * @param {number} confidence
+   * @param {string} request of the stroke
+   * @param {string} meaning '' for the runner-up
+   */
+  #choice(label, confidence, request, meaning) {
+    return make('button', {type: 'button', onclick: () => {
+      this.app.connection.send('instead', meaning ? {meaning} : {});
+      this.dismiss();
+      this.#forget(request);
+    }}, say(label, confidence));
+  }
+
+  /** @param {string} request */
+  #forget(request) {
+    this.strokes.delete(request);
+    this.app.view.dirty = true;
+  }
+}
+
+/**
+ * @param {string} meaning
+ * @param {number} confidence 0 .. 1
+ */
+function say(meaning, confidence) {
+  return `${meaning.replaceAll('_', ' ')} ${Math.round(100 * confidence)} %`;
+}

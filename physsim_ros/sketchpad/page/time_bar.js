@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+/** Time: the buttons, the slider over what is kept with the courses that were left, the clock. */
+
+import {find, iconButton, make} from './dom.js';
+
+/** Name, service, key. @type {[string, string, string][]} */
+export const TIME = [
+  ['Fast rewind', 'fast_rewind', 'Shift+J'], ['Rewind', 'rewind', 'J'], ['Pause', 'pause', 'K'],
+  ['Play', 'play', 'L'], ['Fast forward', 'fast_forward', 'Shift+L'], ['Step', 'step', '.'],
+];
+/** @type {[string, string, string][]} */
+export const EDIT = [['Undo', 'undo', 'Ctrl+Z'], ['Redo', 'redo', 'Ctrl+Y'], ['Reset', 'reset', '0']];
+const SPEEDS = [1, 0.5, 0.25, 0.1];
+
+export class TimeBar {
+  /** @param {import('./app.js').App} app */
+  constructor(app) {
+    this.app = app;
+    this.slider = find('slider', HTMLInputElement);
+    this.clock = find('clock', HTMLElement);
+    this.marks = find('marks', HTMLElement);
+    this.speed = find('speed', HTMLButtonElement);
+    /** @type {Map<string, HTMLButtonElement>} */
+    this.buttons = new Map();
+    for (const [id, group] of /** @type {const} */ ([['time', TIME], ['edit', EDIT]])) {
+      for (const [name, service, key] of group) {
+        const button = iconButton(name, service, () => this.call(service), `${name} (${key})`);
+        this.buttons.set(service, button);
+        find(id, HTMLElement).append(button);
+      }
+    }
+    this.on = ''; // the button that is pressed
+    this.shown = NaN; // speed
+    this.held = false; // by a finger or the mouse
+    this.busy = false; // a seek is on its way
+    /** @type {?number} */
+    this.wanted = null;
+    this.slider.addEventListener('input', () => this.#slide());
+    this.slider.addEventListener('pointerdown', () => { this.held = true; });
+    this.slider.addEventListener('change', () => { this.held = false; });
+    this.speed.addEventListener('click', () => this.#slower());
+    app.connection.on('timeline', () => this.#showTimeline());
+    app.connection.on('open', () => { this.busy = false; });
+    app.view.overlays.push(() => this.#showTime());
+  }
+
+  /** @param {string} service */
+  call(service) {
+    if (service === 'step' && !this.app.world.paused) this.call('pause');
+    this.app.connection.send('service', {name: service});
+  }
+
+  toggle() {
+    this.call(this.app.world.paused ? 'play' : 'pause');
+  }
+
+  #slide() {
+    if (!this.app.world.paused) this.call('pause');
+    this.wanted = Number(this.slider.value);
+    this.#seek();
+  }
+
+  async #seek() {
+    if (this.busy || this.wanted === null) return;
+    this.busy = true;
+    const time = this.wanted;
+    this.wanted = null;
+    await this.app.connection.ask('seek', {time});
+    this.busy = false;
+    this.#seek();
+  }
+
+  #slower() {
+    const next = SPEEDS[(SPEEDS.indexOf(this.app.world.frame.speed) + 1) % SPEEDS.length];
+    this.app.connection.send('speed', {speed: next});
+  }
+
+  #showTime() {
+    const {frame, timeline} = this.app.world;
+    this.clock.textContent = `${frame.time.toFixed(2)} s`;
+    if (!this.held && this.wanted === null && !this.busy) {
+      this.slider.max = String(Math.max(timeline.newest, frame.time));
+      this.slider.min = String(Math.min(timeline.oldest, frame.time));
+      this.slider.value = String(frame.time);
+    }
+    const {speed} = frame;
+    const on = speed === 0 ? 'pause' : speed > 1 ? 'fast_forward' : speed > 0 ? 'play' :
+      speed < -1 ? 'fast_rewind' : 'rewind';
+    if (on === this.on && speed === this.shown) return;
+    this.on = on;
+    this.shown = speed;
+    for (const [, service] of TIME.slice(0, 5)) {
+      this.buttons.get(service)?.setAttribute('aria-pressed', String(service === on));
+    }
+    this.speed.textContent = `${Number(speed.toFixed(2))}×`.replace('-', '−');
+    this.speed.setAttribute('aria-label', `Speed ${this.speed.textContent}`);
+  }
+
+  #showTimeline() {
+    const {undo, redo, oldest, newest, state, courses = []} = this.app.world.timeline;
+    for (const [service, words] of [['undo', undo], ['redo', redo]]) {
+      const button = this.buttons.get(service);
+      button?.classList.toggle('idle', !words);
+      if (button) button.title = words ? words[0].toUpperCase() + words.slice(1) : `Nothing to ${service}`;
+    }
+    this.clock.classList.toggle('past', state === 'in the past');
+    this.clock.title = state;
+    this.marks.replaceChildren(...courses.map(({id, from}) => {
+      const name = `Go back to the course left at ${from.toFixed(1)} s`;
+      const mark = make('button', {type: 'button', 'aria-label': name, title: name,
+        onclick: () => this.app.connection.send('course', {id})});
+      mark.style.left = `${100 * (from - oldest) / (newest - oldest || 1)}%`;
+      return mark;
+    }));
+  }
+}

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The tools: their names, keys and hints, and the bar at the left. */
+
+import {find, iconButton, make} from './dom.js';
+import {ClickTool} from './tools/click_tool.js';
+import {Hand} from './tools/hand.js';
+import {Lasso} from './tools/lasso.js';
+import {Pen} from './tools/pen.js';
+
+/** Groups of tools: id, name, key, hint. @type {[string, string, string, string][][]} */
+export const TOOLS = [[
+  ['pen', 'Pen', 'p', 'Draw freely: circles, boxes, lines, zigzags, an x to anchor'],
+  ['hand', 'Hand', 'h', 'Drag and throw bodies; tap one to change it'],
+  ['lasso', 'Lasso', 's', 'Choose several bodies; drag them, or delete them'],
+], [
+  ['circle', 'Circle', 'c', 'From the centre to the rim'],
+  ['circle_diameter', 'Circle by diameter', 'd', 'From edge to edge'],
+  ['rectangle', 'Rectangle', 'b', 'Drag one side, then click the side across'],
+  ['polygon', 'Polygon', 'g', 'Corner after corner; the first one again closes it'],
+  ['wall', 'Wall', 'w', 'A fixed line'],
+], [
+  ['anchor', 'Anchor', 'a', 'Fix a body to the background'],
+  ['release', 'Release', 'e', 'Free a body of anchor, pins and axles'],
+  ['pin', 'Pin', 'i', 'Weld two bodies'],
+  ['axle', 'Axle', 'x', 'Let two bodies turn about a point'],
+  ['spring', 'Spring', 'z', 'From body to body, or to the background'],
+  ['rod', 'Rod', 'o', 'Keeps the distance of two points'],
+  ['rope', 'Rope', 'y', 'Pulls, but does not push'],
+], [
+  ['velocity', 'Velocity', 'v', 'Drag an arrow from a body: 1 m is 1 m/s'],
+  ['gravity', 'Gravity', 'u', 'Drag an arrow: down is there'],
+  ['delete', 'Delete', 't', 'Take a body away'],
+]];
+
+/** @type {Record<string, new (app: import('./app.js').App) => import('./app.js').Tool>} */
+const OWN = {pen: Pen, hand: Hand, lasso: Lasso};
+
+export class Toolbar {
+  /** @param {import('./app.js').App} app */
+  constructor(app) {
+    this.app = app;
+    /** @type {Map<string, {tool: import('./app.js').Tool, button: HTMLButtonElement}>} */
+    this.tools = new Map();
+    const bar = find('tools', HTMLElement);
+    for (const group of TOOLS) {
+      const box = make('div', {role: 'group'});
+      for (const [id, name, key, hint] of group) {
+        const button = iconButton(name, id, () => this.choose(id), `${name} (${key.toUpperCase()}): ${hint}`);
+        this.tools.set(id, {tool: OWN[id] ? new OWN[id](app) : new ClickTool(app, id), button});
+        box.append(button);
+      }
+      bar.append(box);
+    }
+    this.choose('pen');
+  }
+
+  /** @param {string} id */
+  choose(id) {
+    const chosen = this.tools.get(id);
+    if (!chosen) return;
+    this.app.tool?.cancel();
+    this.app.tool = chosen.tool;
+    this.app.view.canvas.dataset.tool = id;
+    for (const [each, {button}] of this.tools) button.setAttribute('aria-pressed', String(each === id));
+    this.app.view.dirty = true;
+  }
+}

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+/**
+ * The tools of clicks (parameter `tool` of the node), by clicking or by dragging: centre to rim, edge to
+ * edge, a side and then its distance. The unfinished shape follows the pointer.
+ */
+
+/** @typedef {import('../pointer.js').Touch} Touch */
+/** @typedef {import('../wire.js').Point} Point */
+
+const DRAG = 6; // px: farther than that, letting go is a click too
+const CLOSE = 12; // px around the first corner of a polygon
+/** @type {Record<string, number>} */
+const CLICKS = {rectangle: 3, polygon: Infinity, anchor: 1, release: 1, pin: 1, axle: 1, delete: 1};
+const ARROWS = ['velocity', 'gravity'];
+
+export class ClickTool {
+  /**
+   * @param {import('../app.js').App} app
+   * @param {string} id of the tool
+   */
+  constructor(app, id) {
+    this.app = app;
+    this.id = id;
+    this.clicks = CLICKS[id] ?? 2;
+    /** @type {Touch[]} */
+    this.points = [];
+    /** @type {?Touch} */
+    this.start = null;
+    /** @type {?Touch} */
+    this.last = null;
+    app.connection.on('answer', ({request, ok}) => {
+      if (!ok && request && request === this.request) this.points = [];
+    });
+  }
+
+  /** @param {Touch} touch */
+  down(touch) {
+    this.start = this.last = touch;
+    if (!this.points.length && this.clicks > 1) this.#click(touch);
+    else this.waits = true;
+  }
+
+  /** @param {Touch} touch */
+  move(touch) {
+    this.last = touch;
+    this.app.view.dirty = true;
+  }
+
+  /** @param {Touch} touch */
+  up(touch) {
+    const [x, y] = this.start?.page ?? touch.page;
+    const dragged = Math.hypot(touch.page[0] - x, touch.page[1] - y) > DRAG;
+    if (this.waits || dragged) this.#click(touch);
+    this.waits = false;
+  }
+
+  cancel() {
+    if (this.points.length) this.app.connection.send('drop');
+    this.points = [];
+    this.waits = false;
+  }
+
+  /** Close an open polygon. */
+  finish() {
+    if (this.id === 'polygon' && this.points.length > 2) this.#click(this.points[0]);
+  }
+
+  /** @param {Touch} touch */
+  #click(touch) {
+    const {app, points} = this, closing = this.id === 'polygon' && points.length > 2 &&
+      Math.hypot(touch.page[0] - points[0].page[0], touch.page[1] - points[0].page[1]) < CLOSE;
+    this.request = app.connection.send('click',
+      {tool: this.id, point: closing ? points[0].at : touch.at});
+    points.push(touch);
+    if (closing || touch === points[0] && points.length > 1 || points.length >= this.clicks) {
+      this.points = [];
+    }
+    app.view.dirty = true;
+  }
+
+  /** @param {import('../scene_view.js').SceneView} view */
+  draw(view) {
+    if (!this.points.length || !this.last) return;
+    const color = view.palette.accent, points = [...this.points.map(({at}) => at), this.last.at];
+    const [p, q, r] = points;
+    const length = Math.hypot(q[0] - p[0], q[1] - p[1]);
+    if (this.id === 'circle') view.ring(p, length * view.camera.scale, color);
+    else if (this.id === 'circle_diameter') {
+      view.ring([(p[0] + q[0]) / 2, (p[1] + q[1]) / 2], length / 2 * view.camera.scale, color);
+    } else if (this.id === 'rectangle' && r && length > 0) {
+      const ux = (q[0] - p[0]) / length, uy = (q[1] - p[1]) / length;
+      const height = ux * (r[1] - p[1]) - uy * (r[0] - p[0]), dx = -uy * height, dy = ux * height;
+      view.line([p, q, [q[0] + dx, q[1] + dy], [p[0] + dx, p[1] + dy], p], color);
+    } else if (ARROWS.includes(this.id)) view.arrow(p, q, color);
+    else view.line(points, color);
+    if (this.id === 'polygon') view.ring(p, CLOSE, color);
+  }
+}

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The hand: pulls a body and throws it; in a paused world places and turns it; else moves the view. */
+
+/** @typedef {import('../pointer.js').Touch} Touch */
+/** @typedef {import('../wire.js').Point} Point */
+
+const TAP = 4; // px
+const CATCH = 120; // ms after which a body that is pressed is caught
+export const ARROW_GAP = 22; // px between a body's centre and the tail of its velocity arrow
+
+export class Hand {
+  /** @param {import('../app.js').App} app */
+  constructor(app) {
+    this.app = app;
+    /** @type {'' | 'pressed' | 'holding' | 'carrying' | 'panning' | 'aiming'} */
+    this.state = '';
+    /** @type {?Touch} */
+    this.start = null;
+    /** @type {?Touch} */
+    this.last = null;
+    this.name = '';
+    this.yaw = 0;
+    this.turned = false;
+    this.moved = false;
+    this.timer = 0;
+  }
+
+  /** @returns {boolean} whether wheel, R and a second finger turn what is held */
+  get turns() {
+    return this.state === 'holding' && this.app.world.paused;
+  }
+
+  /** @param {Touch} touch */
+  down(touch) {
+    const {world, view} = this.app, row = world.bodyAt(touch.at, touch.slop);
+    this.start = this.last = touch;
+    this.moved = false;
+    if (this.app.panel.aimedAt(touch.page)) this.state = 'aiming';
+    else if (row < 0) this.state = 'panning';
+    else {
+      this.name = world.scene.bodies[row].name;
+      this.yaw = world.frame.yaw[row];
+      this.turned = false;
+      this.state = world.scene.bodies[row].anchored ? 'carrying' : 'pressed';
+      if (this.state === 'pressed') this.timer = setTimeout(() => this.#grab(), CATCH);
+    }
+    view.dirty = true;
+  }
+
+  /** @param {Touch} touch */
+  move(touch) {
+    const {start, last, app} = this;
+    if (!start || !last) return;
+    const far = Math.hypot(touch.page[0] - start.page[0], touch.page[1] - start.page[1]) > TAP;
+    this.moved ||= far;
+    if (this.state === 'pressed' && far) this.#grab();
+    if (this.state === 'panning' && this.moved) {
+      app.camera.pan(touch.page[0] - last.page[0], touch.page[1] - last.page[1]);
+    }
+    this.last = touch;
+    if (this.state === 'holding') app.eachFrame('move', () => this.#sendMove());
+    if (this.state === 'aiming') app.panel.aim(touch.page);
+    app.view.dirty = true;
+  }
+
+  /** @param {Touch} touch */
+  up(touch) {
+    const {state, start, app} = this;
+    this.last = touch;
+    clearTimeout(this.timer);
+    this.state = '';
+    if (state === 'holding') {
+      this.#sendMove();
+      app.connection.send('let_go');
+    } else if (state === 'aiming') app.panel.setAim();
+    else if (!this.moved) app.chooseAt(touch);
+    else if (state === 'carrying' && start) {
+      app.connection.send('move_bodies', {names: [this.name],
+        by: [touch.at[0] - start.at[0], touch.at[1] - start.at[1]]});
+    }
+    app.view.dirty = true;
+  }
+
+  cancel() {
+    clearTimeout(this.timer);
+    if (this.state === 'holding') this.app.connection.send('let_go');
+    this.state = '';
+  }
+
+  /** @param {number} angle [rad] */
+  turn(angle) {
+    this.yaw += angle;
+    this.turned = true;
+    this.app.eachFrame('move', () => this.#sendMove());
+  }
+
+  #grab() {
+    clearTimeout(this.timer);
+    if (this.state !== 'pressed') return;
+    this.state = 'holding';
+    this.app.connection.send('grab', {point: this.start?.at});
+  }
+
+  #sendMove() {
+    const yaw = this.turned && this.app.world.paused ? {yaw: this.yaw} : {};
+    this.app.connection.send('move', {point: this.last?.at, ...yaw});
+  }
+
+  /** @param {import('../scene_view.js').SceneView} view */
+  draw(view) {
+    if (this.state !== 'carrying' || !this.start || !this.last) return;
+    const row = this.app.world.row(this.name);
+    if (row >= 0) view.outline(row, view.palette.accent,
+      [this.last.at[0] - this.start.at[0], this.last.at[1] - this.start.at[1]]);
+  }
+}

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The lasso: a loop chooses the bodies in it; what is chosen is moved by dragging it. */
+
+import {inside} from '../body_path.js';
+
+/** @typedef {import('../pointer.js').Touch} Touch */
+
+const TAP = 5; // px
+
+export class Lasso {
+  /** @param {import('../app.js').App} app */
+  constructor(app) {
+    this.app = app;
+    /** @type {Touch[]} */
+    this.path = [];
+    this.carrying = false;
+  }
+
+  /** @param {Touch} touch */
+  down(touch) {
+    const {world, chosen} = this.app, row = world.bodyAt(touch.at, touch.slop);
+    this.carrying = row >= 0 && chosen.has(world.scene.bodies[row].name);
+    this.path = [touch];
+  }
+
+  /** @param {Touch} touch */
+  move(touch) {
+    if (this.path.length) this.path.push(touch);
+  }
+
+  /** @param {Touch} touch */
+  up(touch) {
+    const {app, path} = this, [x, y] = path[0]?.page ?? touch.page;
+    this.path = [];
+    if (path.every(({page}) => Math.hypot(page[0] - x, page[1] - y) <= TAP)) app.chooseAt(touch);
+    else if (this.carrying) app.connection.send('move_bodies', {names: [...app.chosen], by: offset(path)});
+    else {
+      const {world} = app, loop = path.map(({at}) => at);
+      app.choose(world.scene.bodies.filter((body, row) => row < world.count &&
+        inside(loop, ...world.place(row, body.centroid))).map(({name}) => name));
+    }
+  }
+
+  cancel() {
+    this.path = [];
+  }
+
+  /** @param {import('../scene_view.js').SceneView} view */
+  draw(view) {
+    if (!this.path.length) return;
+    if (!this.carrying) view.line(this.path.map(({at}) => at), view.palette.accent, [6, 6]);
+    else for (const name of this.app.chosen) {
+      const row = this.app.world.row(name);
+      if (row >= 0) view.outline(row, view.palette.accent, offset(this.path));
+    }
+  }
+}
+
+/**
+ * @param {Touch[]} path
+ * @returns {import('../wire.js').Point} from its first to its last point [m]
+ */
+function offset(path) {
+  const [x, y] = path[0].at, [endX, endY] = path[path.length - 1].at;
+  return [endX - x, endY - y];
+}

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The world as the server told it last: scene, frame, timeline. Nothing here is guessed. */
+
+import {hits, spanOf} from './body_path.js';
+
+/** @typedef {import('./wire.js').Point} Point */
+
+export class WorldState {
+  /** @param {import('./connection.js').Connection} connection */
+  constructor(connection) {
+    /** @type {import('./wire.js').Scene} */
+    this.scene = {epoch: -1, bodies: [], joints: [], gravity: [0, -9.81], bounds: [], damping: 0};
+    /** @type {import('./wire.js').Frame} */
+    this.frame = {epoch: -1, time: 0, speed: 0, ghost: false,
+      x: new Float32Array(), y: new Float32Array(), yaw: new Float32Array()};
+    /** @type {import('./wire.js').Timeline} */
+    this.timeline = {state: 'paused', oldest: 0, now: 0, newest: 0, course: 0, undo: '', redo: '',
+      speed: 0, courses: []};
+    /** @type {?import('./wire.js').Frame} of a course that was left, at the time that is shown */
+    this.ghost = null;
+    /** @type {{epoch: number, bodies: import('./wire.js').Body[]}} */
+    this.ghostScene = {epoch: 0, bodies: []};
+    this.rate = 60; // frames a second of simulation
+    this.version = 0; // of all that is drawn
+    connection.on('welcome', (welcome) => { this.rate = welcome.rate; });
+    connection.on('scene', (scene) => { this.scene = scene; this.version++; });
+    connection.on('timeline', (timeline) => { this.timeline = timeline; this.version++; });
+    connection.on('ghost', (ghost) => {
+      this.ghostScene = ghost;
+      this.ghost = null;
+      this.version++;
+    });
+    connection.on('frame', (frame) => {
+      if (frame.ghost) this.ghost = frame.epoch === this.ghostScene.epoch ? frame : null;
+      else if (frame.epoch === this.scene.epoch) this.frame = frame;
+      this.version++;
+    });
+  }
+
+  /** @returns {boolean} whether time stands still */
+  get paused() {
+    return this.frame.speed === 0;
+  }
+
+  /** @returns {number} of bodies whose poses are known */
+  get count() {
+    return this.frame.epoch === this.scene.epoch ? this.frame.x.length : 0;
+  }
+
+  /**
+   * @param {string} name
+   * @returns {number} its row; -1 where there is none of that name
+   */
+  row(name) {
+    const row = this.scene.bodies.findIndex((body) => body.name === name);
+    return row < this.count ? row : -1;
+  }
+
+  /**
+   * @param {number} row -1 is the background
+   * @param {Point} point in the frame of that body [m]
+   * @returns {Point} in the world [m]
+   */
+  place(row, [x, y]) {
+    if (row < 0 || row >= this.count) return [x, y];
+    const cos = Math.cos(this.frame.yaw[row]), sin = Math.sin(this.frame.yaw[row]);
+    return [this.frame.x[row] + cos * x - sin * y, this.frame.y[row] + sin * x + cos * y];
+  }
+
+  /**
+   * @param {Point} point [m]
+   * @param {number} slop how far beside a body counts [m]
+   * @returns {number} the row of the topmost body there; -1 where there is none
+   */
+  bodyAt([x, y], slop = 0) {
+    const {frame, scene} = this;
+    for (let row = this.count - 1; row >= 0; row--) {
+      const dx = x - frame.x[row], dy = y - frame.y[row];
+      const cos = Math.cos(frame.yaw[row]), sin = Math.sin(frame.yaw[row]);
+      const local = /** @type {Point} */ ([cos * dx + sin * dy, cos * dy - sin * dx]);
+      if (hits(scene.bodies[row].shape, local, slop)) return row;
+    }
+    return -1;
+  }
+
+  /** @returns {number[]} xmin, ymin, xmax, ymax of what there is [m] */
+  extent() {
+    const {bounds, bodies} = this.scene;
+    if (bounds.length) return bounds;
+    const box = [Infinity, Infinity, -Infinity, -Infinity];
+    for (let row = 0; row < this.count; row++) {
+      for (const point of spanOf(bodies[row].shape)) {
+        const [x, y] = this.place(row, point);
+        box[0] = Math.min(box[0], x);
+        box[1] = Math.min(box[1], y);
+        box[2] = Math.max(box[2], x);
+        box[3] = Math.max(box[3], y);
+      }
+    }
+    return box.every(Number.isFinite) ? box : [-6, -1, 6, 6];
+  }
+}
