@@ -28,9 +28,10 @@ LONGEST_NAME = 1000
 # characters are allowed: Persian, Hindi and emoji are written with them.
 _UNPRINTABLE = {'Cc', 'Cs', 'Zl', 'Zp'}
 # Prefixes of the namespaces of markers that are no bodies: joints (`~/join` accepts it), their
-# lines, the x of an anchored body; and the namespace of the walls. A body and a joint of one name
-# are two markers.
-JOINT_PREFIX, LINES_PREFIX, CROSS_PREFIX, WALLS = 'joint:', 'lines:', 'anchor:', 'physsim:bounds'
+# lines, the x of an anchored body; and the namespaces of the walls and of hands. A body and a
+# joint of one name are two markers.
+JOINT_PREFIX, LINES_PREFIX, CROSS_PREFIX = 'joint:', 'lines:', 'anchor:'
+WALLS, HANDS = 'physsim:bounds', 'physsim:hands'
 
 
 def check_name(name: str) -> None:
@@ -59,7 +60,7 @@ def check_body_name(name: str) -> None:
     :raises Malformed: it is not `<namespace>/<id>`, or its prefix is that of other markers
     """
     check_name(name)
-    if name.startswith((JOINT_PREFIX, LINES_PREFIX, CROSS_PREFIX, WALLS)):
+    if name.startswith((JOINT_PREFIX, LINES_PREFIX, CROSS_PREFIX, WALLS, HANDS)):
         raise Malformed(f'{name!r} is no body in the picture', field='name')
 
 

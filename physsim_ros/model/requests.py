@@ -275,6 +275,11 @@ class PlaceHand(MoveHand):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class KeepHand(HandRequest):
+    """Say that a hand is still there, though it does not move."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class LetGo(HandRequest):
     """Have a hand let go of its body, which flies on."""
 
@@ -389,7 +394,7 @@ def _body_name(mapping: Mapping[Any, Any], key: str) -> str:
 
 
 Joining = Join | Unjoin | UnjoinAll | Pin | Axle
-Dragging = Grab | MoveHand | LetGo
+Dragging = Grab | MoveHand | KeepHand | LetGo
 Request = (
     Spawn
     | Delete

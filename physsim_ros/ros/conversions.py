@@ -39,18 +39,24 @@ from physsim_ros.model.requests import (
     Command,
     Delete,
     DeleteAll,
+    Grab,
     Join,
     join_from,
+    KeepHand,
+    LetGo,
+    MoveHand,
     Spawn,
     Unjoin,
     UnjoinAll,
 )
 from physsim_ros.ros.marker_shapes import points_from, shape_from
 from sensor_msgs.msg import MultiDOFJointState
-from visualization_msgs.msg import Marker
+from visualization_msgs.msg import InteractiveMarkerFeedback, Marker
 
 # The namespaces of markers with an empty one.
 NAMESPACE, JOINT_NAMESPACE = 'body', 'joint'
+# Whose hand it is whose client_id is empty.
+ANONYMOUS_HAND = 'hand'
 # The greatest roll and pitch of a planar rotation [rad]: rounding errors of float32 tools.
 MOST_TILT = 1e-3
 # The greatest length of `text` [characters]: ten times all properties with all digits.
@@ -136,6 +142,35 @@ def point_request(kind: type[_AtPoint], message: PointStamped, *, frame_id: str)
     """
     point, frame = point_in_frame(message, frame_id=frame_id)
     return kind(point=point, frame=frame)
+
+
+def hand_request(
+    feedback: InteractiveMarkerFeedback, *, frame_id: str
+) -> Grab | MoveHand | KeepHand | LetGo:
+    """
+    Return the request of a hand.
+
+    The hand is at `mouse_point`, or at the position of `pose` where that is not valid.
+
+    :param feedback: from `~/drag/feedback`; its client_id is whose hand it is
+    :param frame_id: name of the world frame
+    :raises Malformed: a number is not finite, or the name of the hand is unprintable
+    :raises BadProperty: the type of event is not one of a hand
+    """
+    hand = feedback.client_id or ANONYMOUS_HAND
+    valid = feedback.mouse_point_valid
+    position = feedback.mouse_point if valid else feedback.pose.position
+    point, frame = (position.x, position.y), _frame(feedback.header.frame_id, frame_id)
+    match feedback.event_type:
+        case InteractiveMarkerFeedback.MOUSE_DOWN:
+            return Grab(hand=hand, point=point, frame=frame)
+        case InteractiveMarkerFeedback.POSE_UPDATE:
+            return MoveHand(hand=hand, point=point, frame=frame)
+        case InteractiveMarkerFeedback.KEEP_ALIVE:
+            return KeepHand(hand=hand)
+        case InteractiveMarkerFeedback.MOUSE_UP:
+            return LetGo(hand=hand)
+    raise BadProperty(f'a hand has no event_type {feedback.event_type}', field='event_type')
 
 
 def command_request(message: MultiDOFJointState, *, frame_id: str) -> Command:

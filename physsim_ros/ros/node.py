@@ -68,7 +68,7 @@ from rclpy.utilities import remove_ros_args
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import MultiDOFJointState
 from std_msgs.msg import Float64
-from visualization_msgs.msg import Marker, MarkerArray
+from visualization_msgs.msg import InteractiveMarkerFeedback, Marker, MarkerArray
 
 
 class PhysSimNode(NodeWithoutQosEvents):
@@ -254,6 +254,7 @@ class PhysSimNode(NodeWithoutQosEvents):
         subscribe(PointStamped, '~/anchor', partial(conversions.point_request, Anchor))
         subscribe(PointStamped, '~/release', partial(conversions.point_request, Release))
         subscribe(MultiDOFJointState, '~/command', conversions.command_request)
+        subscribe(InteractiveMarkerFeedback, '~/drag/feedback', conversions.hand_request)
         self.create_subscription(MarkerArray, '~/spawn_array', self._spawn_array, LOSSLESS)
         self.create_subscription(Float64, '~/speed', self._speed, LOSSLESS)
         self.create_subscription(PointStamped, 'clicked_point', self._click, LOSSLESS)

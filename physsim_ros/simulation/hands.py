@@ -23,7 +23,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from physsim_ros.model.requests import Dragging, Grab, GrabToPlace, LetGo, MoveHand, PlaceHand
+from physsim_ros.model.requests import (
+    Dragging,
+    Grab,
+    GrabToPlace,
+    KeepHand,
+    LetGo,
+    MoveHand,
+    PlaceHand,
+)
 
 # Steady time after which a hand without any request lets go [ns]: one whose page has gone.
 LONGEST_SILENCE = 5 * 10**9
@@ -66,7 +74,7 @@ class Hands:
         match request:
             case Grab(hand=hand):
                 self._dragging[hand] = _Hand(gesture)
-            case MoveHand(hand=hand):
+            case MoveHand(hand=hand) | KeepHand(hand=hand):
                 self._dragging[hand].silent_since = None
             case LetGo(hand=hand):
                 self._dragging.pop(hand, None)
@@ -92,7 +100,7 @@ class Hands:
 def placing(request: Dragging) -> Dragging:
     """Return the request that a hand makes of a paused world, in which bodies are placed."""
     match request:
-        case GrabToPlace() | PlaceHand() | LetGo():
+        case GrabToPlace() | PlaceHand() | KeepHand() | LetGo():
             return request
         case Grab(hand=hand, point=point, frame=frame):
             return GrabToPlace(hand=hand, point=point, frame=frame)

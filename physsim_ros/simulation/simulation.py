@@ -35,6 +35,7 @@ from physsim_ros.model.requests import (
     Dragging,
     Grab,
     Join,
+    KeepHand,
     LetGo,
     MoveHand,
     Request,
@@ -467,7 +468,7 @@ class Simulation:
             except Refusal as refusal:
                 answer = Answer.refused(refusal, topic=topic, subject=subject, field=field)
             else:
-                if isinstance(request, MoveHand):
+                if isinstance(request, MoveHand | KeepHand):
                     continue
                 answer = Answer(topic=topic, subject=subject, message=message)
             self._answers.append(answer)

@@ -56,6 +56,7 @@ from physsim_ros.model.requests import (
     Grab,
     Join,
     Joining,
+    KeepHand,
     LetGo,
     MoveHand,
     Pin,
@@ -376,6 +377,8 @@ class World:
                 x, y, turned = self._in_world((*point, yaw or 0.0), frame)
                 moved = replace(request, point=(x, y), yaw=None if yaw is None else turned)
                 return hand_requests.move_hand(self._space, moved)
+            case KeepHand(hand=hand):
+                return '', f'{hand} is there'
             case LetGo(hand=hand):
                 return hand_requests.let_go(self._space, hand)
 

@@ -89,6 +89,8 @@ class FrameRecorder:
         self._joints: JointGeometry | None = None
         self._camera = Camera()
         self._touching = False
+        # Hands in the last frame.
+        self._hands = 0
         # The preview in the recording; that of the last frame, and the frame in which it began.
         self._preview = self._current = NO_PREVIEW
         self._current_since = 0
@@ -124,6 +126,8 @@ class FrameRecorder:
         before, now = self._last.snapshot, frame.snapshot
         if frame.preview != self._last.preview:
             return True
+        if now.grips != before.grips:
+            return True
         return now.scene is not before.scene or not np.array_equal(now.poses, before.poses)
 
     def _draw_run(self, frames: Sequence[Frame]) -> None:
@@ -158,6 +162,7 @@ class FrameRecorder:
             self._recording.send_columns(JOINTS, times, columns)
         self._send_energy(frames, numbers)
         self._send_contacts(frames, times)
+        self._send_hands(snapshots, times)
         self._send_previews(frames, numbers)
         self._send_events(frames, numbers)
         self._run_states.draw(frames, numbers)
@@ -179,6 +184,9 @@ class FrameRecorder:
             'world/walls': rr.Boxes3D.from_fields(fill_mode='solid', colors=wall),
             'world/contacts': rr.Points3D.from_fields(
                 radii=rr.Radius.ui_points(2.0), colors=[CONTACT]
+            ),
+            'world/hands': rr.LineStrips3D.from_fields(
+                radii=rr.Radius.ui_points(1.0), colors=[PREVIEW]
             ),
             'world/preview/lines': rr.LineStrips3D.from_fields(
                 radii=rr.Radius.ui_points(1.5), colors=[PREVIEW]
@@ -260,6 +268,16 @@ class FrameRecorder:
         positions = np.hstack((np.concatenate(points), height)).astype(np.float32)
         columns = rr.Points3D.columns(positions=positions).partition(lengths)
         self._recording.send_columns('world/contacts', times, columns)
+
+    def _send_hands(self, snapshots: Sequence[Snapshot], times: Times) -> None:
+        """Send the lines from grabbed bodies to their hands, and an empty row after the last."""
+        lengths = [len(each.grips) for each in snapshots]
+        if not self._hands and not any(lengths):
+            return
+        self._hands = lengths[-1]
+        lines = [self._raised(line) for each in snapshots for line in each.grip_lines.tolist()]
+        strips = rr.LineStrips3D.columns(strips=lines).partition(lengths)
+        self._recording.send_columns('world/hands', times, strips)
 
     def _send_previews(self, frames: Sequence[Frame], numbers: Sequence[int]) -> None:
         """Send previews that have changed, end after `LINGER` frames, or are due again."""

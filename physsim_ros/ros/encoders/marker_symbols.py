@@ -27,6 +27,7 @@ import json
 from physsim_ros.model.colors import Color
 from physsim_ros.model.names import (
     CROSS_PREFIX,
+    HANDS,
     JOINT_PREFIX,
     LINES_PREFIX,
     split_name,
@@ -42,6 +43,9 @@ Key = tuple[str, int]
 
 # Height of joints, above bodies and their crosses [m].
 _RAISED = 2 * THIN
+# Of the lines from bodies to the hands that drag them [m].
+_HAND_WIDTH = 0.02
+_HAND = (0.9, 0.2, 0.5, 1.0)
 _DARK, _LIGHT, _GREY = (0.1, 0.1, 0.1, 1.0), (0.9, 0.9, 0.9, 1.0), (0.5, 0.5, 0.5, 1.0)
 # The least luminance on which a dark line has more contrast than a light one.
 _BRIGHT = 0.35
@@ -160,6 +164,13 @@ def _cross(body: Body, key: Key) -> Symbol:
     # Luminance as of ITU-R BT.601.
     color = _DARK if 0.299 * red + 0.587 * green + 0.114 * blue > _BRIGHT else _LIGHT
     return Symbol(key, Marker.LINE_LIST, (reach / 4, 0.0, 0.0), points, THIN, color)
+
+
+def hands_symbol(count: int) -> Symbol:
+    """Return the marker of so many hands: lines from their bodies, whose points a frame writes."""
+    points = ((0.0, 0.0),) * (2 * count)
+    key = (HANDS, 0)
+    return Symbol(key, Marker.LINE_LIST, (_HAND_WIDTH, 0.0, 0.0), points, _RAISED, _HAND)
 
 
 def wall_symbol(bounds: Bounds) -> Symbol:

@@ -13,7 +13,7 @@
 # limitations under the License.
 
 """
-`~/markers`: visualization_msgs/MarkerArray, all bodies, joints and walls.
+`~/markers`: visualization_msgs/MarkerArray, all bodies, joints, walls and hands.
 
 A body is drawn with the marker that would spawn it, its material in `text`. A marker that is no
 longer drawn is deleted in each of the next `DELETE_REPEATS` messages.
@@ -34,6 +34,7 @@ from physsim_ros.model.transform import turned
 from physsim_ros.ros.encoders.cdr import CdrWriter, MessageTemplate, START
 from physsim_ros.ros.encoders.marker_symbols import (
     body_symbols,
+    hands_symbol,
     joint_symbols,
     Key,
     Symbol,
@@ -68,6 +69,8 @@ class MarkersEncoder:
     def __init__(self, frame_id: str) -> None:
         self._frame_id = frame_id
         self._scene: Scene | None = None
+        # Hands in the template, and the offset of their points, in numbers of 8 bytes.
+        self._hands, self._hands_at = 0, 0
         self._bodies: dict[str, tuple[Body, tuple[_MarkerBytes, ...]]] = {}
         self._shown: dict[Key, None] = {}
         # The deletion of each marker that is no longer drawn, and the number of the first message
@@ -81,18 +84,27 @@ class MarkersEncoder:
     def encode(self, frame: Frame) -> bytes:
         """Return the serialised message of a frame."""
         snapshot = frame.snapshot
-        if snapshot.scene is not self._scene or self._count == self._until:
-            self._build_template(snapshot.scene)
+        hands = len(snapshot.grips)
+        same = snapshot.scene is self._scene and hands == self._hands
+        if not same or self._count == self._until:
+            self._build_template(snapshot.scene, hands)
         self._count += 1
         if self._joint_columns is not None:
             self._joint_columns.fill(self._template, snapshot)
+        if hands:
+            ends = self._hands_at + 3 * np.arange(2 * hands)
+            for column, values in enumerate(snapshot.grip_lines.reshape(-1, 2).T):
+                self._template.doubles[ends + column] = values
         for offsets, values in zip(self._offsets, pose_columns(snapshot), strict=True):
             self._template.doubles[offsets] = values[self._rows]
         return self._template.stamped(snapshot.stamp)
 
-    def _build_template(self, scene: Scene) -> None:
+    def _build_template(self, scene: Scene, hands: int) -> None:
         """Build a new template, from the serialised markers of the last one where they hold."""
         markers = self._body_markers(scene)
+        if hands:
+            markers.append((-1, self._serialise(hands_symbol(hands))))
+        before = len(markers)
         joints = [(-1, marker) for pair in self._joint_markers(scene) for marker in pair]
         markers += joints
         shown = dict.fromkeys(marker.key for _, marker in markers)
@@ -117,9 +129,12 @@ class MarkersEncoder:
             offsets.append(len(writer.data))
             writer.data += marker.rest
         self._template = MessageTemplate(writer, starts)
-        first = len(markers) - len(gone) - len(joints)
-        last = first + len(joints)
-        self._joint_columns = _JointColumns(scene, offsets[first:last]) if joints else None
+        last = before + len(joints)
+        self._joint_columns = _JointColumns(scene, offsets[before:last]) if joints else None
+        self._hands, self._hands_at = (
+            hands,
+            (offsets[before - 1] + _POSED.size) // 8 if hands else 0,
+        )
         rows = np.array([row for row, _ in markers], np.intp)
         moving = rows >= 0
         self._rows = rows[moving]

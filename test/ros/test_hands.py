@@ -1,0 +1,136 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Hands on `~/drag/feedback` grab, drag, throw and place bodies."""
+
+from __future__ import annotations
+
+import math
+
+from geometry_msgs.msg import Point, Pose
+from physsim_ros.testing import PhysSim
+import pytest
+from std_msgs.msg import Header
+from visualization_msgs.msg import InteractiveMarkerFeedback, Marker, MarkerArray
+
+from ..client import Client, Event, KEPT
+from ..messages import box, disc
+
+TOPIC = '~/drag/feedback'
+DOWN, MOVE, UP = (
+    InteractiveMarkerFeedback.MOUSE_DOWN,
+    InteractiveMarkerFeedback.POSE_UPDATE,
+    InteractiveMarkerFeedback.MOUSE_UP,
+)
+
+
+def feedback(
+    kind: int, x: float = 0.0, y: float = 0.0, *, hand: str = 'anna', frame: str = ''
+) -> InteractiveMarkerFeedback:
+    return InteractiveMarkerFeedback(
+        header=Header(frame_id=frame),
+        client_id=hand,
+        event_type=kind,
+        mouse_point=Point(x=x, y=y),
+        mouse_point_valid=True,
+    )
+
+
+def test_two_hands_drag_two_bodies_and_throw_them(physsim: PhysSim, client: Client) -> None:
+    physsim.spawn(disc('a/0', at=(0.0, 5.0)))
+    physsim.spawn(disc('a/1', at=(10.0, 5.0)))
+    events = []
+    for hand, x in (('anna', 0.0), ('bert', 10.0)):
+        events += client.ask(TOPIC, feedback(DOWN, x, 5.0, hand=hand))
+    for number in range(60):
+        for hand, x in (('anna', 0.0), ('bert', 10.0)):
+            client.publish(TOPIC, feedback(MOVE, x, 5.0 + number / 20, hand=hand))
+        physsim.step()
+    # m/s: the hands go up by 1 / 20 m at once in each frame.
+    for name in ('a/0', 'a/1'):
+        assert physsim.twist(name) == pytest.approx((0.0, 3.0, 0.0), abs=0.2)
+    events += client.ask(TOPIC, feedback(UP, hand='anna'))
+    height, speed = physsim.pose('a/0')[1], physsim.twist('a/0')[1]
+    physsim.run(0.5)
+
+    assert physsim.pose('a/0')[1] == pytest.approx(height + speed / 2 - 9.81 / 8, abs=1e-9)
+    assert physsim.twist('a/1')[1] == pytest.approx(0.0, abs=0.05)
+    assert events == [
+        Event(0, TOPIC, 'a/0', 'grabbed a/0', 'ok', ''),
+        Event(0, TOPIC, 'a/1', 'grabbed a/1', 'ok', ''),
+        Event(0, TOPIC, 'a/0', 'let go of a/0', 'ok', ''),
+    ]
+    client.call('~/undo')
+    physsim.settle()
+    assert physsim.pose('a/0')[1] == pytest.approx(5.0)
+
+
+def test_a_hand_without_a_valid_mouse_point_is_at_its_pose(
+    physsim: PhysSim, client: Client
+) -> None:
+    physsim.spawn(disc('a/0', at=(3.0, 5.0)))
+    message = InteractiveMarkerFeedback(
+        event_type=DOWN, pose=Pose(position=Point(x=3.0, y=5.0)), mouse_point=Point(x=9.0)
+    )
+
+    (event,) = client.ask(TOPIC, message)
+
+    assert (event.hardware_id, event.code) == ('a/0', 'ok')
+
+
+def test_a_body_is_placed_while_the_world_is_paused(physsim: PhysSim, client: Client) -> None:
+    physsim.spawn(box('wall/0', text='{anchored: true}'))
+    client.call('~/pause')
+    client.ask(TOPIC, feedback(DOWN, 0.25, 0.0))
+    client.ask(TOPIC, feedback(MOVE, 4.25, 2.0))
+    client.ask(TOPIC, feedback(UP, 4.25, 2.0))
+
+    assert physsim.pose('wall/0') == pytest.approx((4.0, 2.0, 0.0))
+
+
+@pytest.mark.parametrize(
+    ('message', 'code', 'field'),
+    [
+        (feedback(DOWN, 9.0, 9.0), 'nothing_there', 'mouse_point'),
+        (feedback(DOWN, math.nan, 0.0), 'malformed', 'mouse_point'),
+        (feedback(MOVE, 0.0, math.inf), 'malformed', 'mouse_point'),
+        (feedback(DOWN, frame='nobody/0'), 'unknown_frame', 'header.frame_id'),
+        (feedback(DOWN, hand='a\nb'), 'malformed', 'client_id'),
+        (feedback(InteractiveMarkerFeedback.BUTTON_CLICK), 'bad_property', 'event_type'),
+    ],
+)
+def test_what_no_hand_does_is_refused_and_changes_nothing(
+    physsim: PhysSim, client: Client, message: InteractiveMarkerFeedback, code: str, field: str
+) -> None:
+    physsim.spawn(disc('a/0'))
+    before = physsim.digest()
+
+    (event,) = client.ask(TOPIC, message)
+
+    assert (event.level, event.name, event.code, event.field) == (2, TOPIC, code, field)
+    assert physsim.digest() == before
+
+
+def test_a_line_is_drawn_from_the_body_to_its_hand(physsim: PhysSim, client: Client) -> None:
+    pictures = client.listen(MarkerArray, '~/markers', KEPT)
+    physsim.spawn(disc('a/0'))
+    client.ask(TOPIC, feedback(DOWN, 0.125, 0.25))
+    client.ask(TOPIC, feedback(MOVE, 3.0, 4.0))
+    (line,) = [marker for marker in pictures[-1].markers if marker.ns == 'physsim:hands']
+    assert line.type == Marker.LINE_LIST
+    assert [(each.x, each.y) for each in line.points] == [(0.125, 0.25), (3.0, 4.0)]
+
+    client.ask(TOPIC, feedback(UP))
+    (line,) = [marker for marker in pictures[-1].markers if marker.ns == 'physsim:hands']
+    assert line.action == Marker.DELETE
