@@ -1,0 +1,104 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+What the pages of the sketchpad may ask of the node: services, speed, time, and worlds by name.
+
+Law: a page can do nothing that a service, a topic or a parameter cannot.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from physsim_ros.drawing import DrawingSettings
+from physsim_ros.model.errors import BadWorldFile, PhysSimError
+from physsim_ros.model.snapshot import Snapshot
+from physsim_ros.ros import parameters
+from physsim_ros.ros.services import Action
+from physsim_ros.simulation.simulation import Simulation
+from rclpy.parameter import Parameter
+
+SetParameter = Callable[[str, Any], None]
+
+
+class PageControl:
+    """
+    The node, as its pages use it (`sketchpad.WorldControl`).
+
+    :param simulation: of the node
+    :param values: of the parameters, by name, always up to date
+    :param actions: of the services, by name
+    :param set_parameter: sets a parameter of the node
+    :param current_snapshot: applies the waiting requests, and returns the snapshot that is shown
+    """
+
+    def __init__(
+        self,
+        *,
+        simulation: Simulation,
+        values: Mapping[str, Any],
+        actions: Mapping[str, Action],
+        set_parameter: SetParameter,
+        current_snapshot: Callable[[], Snapshot],
+    ) -> None:
+        self.simulation = simulation
+        self.current_snapshot = current_snapshot
+        self._values = values
+        self._actions = actions
+        self._set_parameter = set_parameter
+
+    @property
+    def drawing_settings(self) -> DrawingSettings:
+        """Return the settings of drawing."""
+        return parameters.drawing_settings(self._values)
+
+    def perform(self, action: str, world: str) -> str:
+        """
+        Perform what a service does, and return its message.
+
+        :raises PhysSimError: it is refused
+        """
+        before = self._values['world_file']
+        if world:
+            if action not in ('load_world', 'save_world'):
+                raise BadWorldFile(f'~/{action} takes no world', field='world')
+            self._set_parameter('world_file', world)
+        try:
+            return self._actions[action]()
+        except PhysSimError:
+            if world:
+                self._set_parameter('world_file', before)
+            raise
+
+    def set_speed(self, speed: float) -> str:
+        """
+        Set the speed of time, and return a message about it.
+
+        :raises Refusal: it is out of range
+        """
+        # + 0.0 removes the sign of a negative zero.
+        value = float(speed) + 0.0
+        parameters.check(Parameter('speed', value=value))
+        self._set_parameter('speed', value)
+        return f'speed {value:g}'
+
+    def seek(self, stamp: int) -> str:
+        """
+        Go to a simulation time [ns], and return a message about it.
+
+        :raises Refusal: it is not in the history
+        """
+        return self.simulation.seek(stamp)

@@ -1,0 +1,106 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Access to the page: tokens, cookies, hosts and origins, and the headers of every answer.
+
+Laws: nothing is served to a request without a valid cookie, but the login. A request that names a
+host by a foreign domain is refused (DNS rebinding), and so is a socket or an upload that another
+origin opens. No page of this server runs a script, or calls a host, that is not its own.
+"""
+
+from __future__ import annotations
+
+from enum import Enum
+import hmac
+from ipaddress import ip_address
+import secrets
+import socket
+from urllib.parse import urlsplit
+
+# Random bytes of a token: not to be guessed.
+_TOKEN_BYTES = 24
+# Of every answer. The sources of `connect-src` are those of this server; browsers before 2022 do
+# not count web sockets as such.
+_POLICY = (
+    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; "
+    "font-src 'self'; manifest-src 'self'; connect-src 'self' ws://{host}; "
+    "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+)
+
+
+class Role(Enum):
+    """The rights of a page."""
+
+    DRAW = 'draw'
+    VIEW = 'view'
+
+
+class Access:
+    """
+    The tokens of one server, and the checks of its requests.
+
+    :param address: that the server listens on
+    """
+
+    def __init__(self, address: str) -> None:
+        self.tokens = {role: secrets.token_urlsafe(_TOKEN_BYTES) for role in Role}
+        name = socket.gethostname().lower()
+        # A name of this machine, as its owner spells it; a foreign page cannot have it as host.
+        self._hosts = {'localhost', name, f'{name.partition(".")[0]}.local', address.lower()}
+
+    def role_of(self, token: str) -> Role | None:
+        """Return the role that a token gives; None for a wrong one."""
+        given = token.encode(errors='replace')
+        for role, known in self.tokens.items():
+            # Compared in constant time, so that no answer tells how much of a token is right.
+            if hmac.compare_digest(given, known.encode()):
+                return role
+        return None
+
+    def allows_host(self, host: str) -> bool:
+        """Tell whether a Host header names this machine: by an address, or by its own name."""
+        try:
+            name = urlsplit(f'//{host}').hostname or ''
+        except ValueError:
+            return False
+        if name in self._hosts:
+            return True
+        try:
+            ip_address(name)
+        except ValueError:
+            return False
+        return True
+
+    @staticmethod
+    def allows_origin(origin: str | None, host: str) -> bool:
+        """Tell whether an Origin header is that of this server's own pages."""
+        return origin is not None and origin.lower() == f'http://{host}'.lower()
+
+
+def headers_for(host: str) -> dict[str, str]:
+    """
+    Return the headers of every answer.
+
+    :param host: that the request was sent to, already checked
+    """
+    return {
+        'Content-Security-Policy': _POLICY.format(host=host),
+        'X-Content-Type-Options': 'nosniff',
+        'X-Frame-Options': 'DENY',
+        'Referrer-Policy': 'no-referrer',
+        'Cross-Origin-Opener-Policy': 'same-origin',
+        'Cross-Origin-Resource-Policy': 'same-origin',
+        'Cache-Control': 'no-cache',
+    }

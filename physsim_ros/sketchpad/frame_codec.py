@@ -1,0 +1,91 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Frames as bytes: poses as columns of float32, and what else a page shows.
+
+Law: a frame is encoded once for all pages that show the same.
+
+Little endian, each column on a multiple of four bytes:
+
+    u8 version, u8 flags, u16 0, u32 epoch, f64 time [s], f32 speed, u32 n
+    f32 x[n] [m], y[n] [m], yaw[n] [rad]                                   of each body's origin
+    VELOCITIES  f32 vx[n] [m/s], vy[n] [m/s], spin[n] [rad/s]              of each centre of mass
+    CONTACTS    u32 m, f32 x[m] [m], y[m] [m], nx[m], ny[m], impulse[m] [N s]
+    FORCES      u32 j, f32 force[j] [N]                                    of each joint
+
+`docs/page_protocol.md` says what a page makes of it.
+"""
+
+from __future__ import annotations
+
+from enum import IntFlag
+import struct
+
+import numpy as np
+from physsim_ros.model.arrays import Floats
+from physsim_ros.model.snapshot import Contacts, Frame
+
+VERSION = 1
+_HEADER = struct.Struct('<BBHIdfI')
+_COUNT = struct.Struct('<I')
+
+
+class Show(IntFlag):
+    """The parts of a frame that a page may ask for, besides the poses."""
+
+    POSES = 0
+    VELOCITIES = 1
+    CONTACTS = 2
+    FORCES = 4
+    HANDS = 8
+    GHOST = 16
+
+
+def encode_frame(frame: Frame, *, epoch: int, show: Show) -> bytes:
+    """
+    Return the message of a frame.
+
+    :param epoch: number of its scene
+    :param show: the parts that are asked for; parts that the frame lacks are left out
+    """
+    snapshot = frame.snapshot
+    parts: list[bytes] = [_columns(snapshot.poses)]
+    flags = Show.POSES
+    if Show.VELOCITIES in show:
+        flags |= Show.VELOCITIES
+        parts.append(_columns(snapshot.twists))
+    if Show.CONTACTS in show and frame.contacts is not None:
+        flags |= Show.CONTACTS
+        parts.append(_contacts(frame.contacts))
+    if Show.FORCES in show and len(snapshot.forces) == len(snapshot.scene.joints):
+        flags |= Show.FORCES
+        parts += [_COUNT.pack(len(snapshot.forces)), _columns(snapshot.forces[:, None])]
+    header = _HEADER.pack(
+        VERSION, flags, 0, epoch, snapshot.stamp * 1e-9, frame.speed, len(snapshot.poses)
+    )
+    return b''.join((header, *parts))
+
+
+def _contacts(contacts: Contacts) -> bytes:
+    impulses = np.hypot(contacts.impulses[:, 0], contacts.impulses[:, 1])
+    rows = np.column_stack((contacts.points, contacts.normals, impulses))
+    return _COUNT.pack(len(rows)) + _columns(rows)
+
+
+def _columns(rows: Floats) -> bytes:
+    """Return the columns of an array, one after the other, as float32."""
+    # A number beyond float32, of a body that is lost in space, becomes infinite.
+    with np.errstate(over='ignore'):
+        return np.ascontiguousarray(rows.T, dtype='<f4').tobytes()

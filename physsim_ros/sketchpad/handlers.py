@@ -1,0 +1,143 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+What is served over HTTP: the page and its modules, pictures, worlds, and the login.
+
+Law: every request passes `Guarded.prepare` before it is answered.
+"""
+
+from __future__ import annotations
+
+from http import HTTPStatus
+from pathlib import Path
+from typing import Any, NoReturn, TYPE_CHECKING
+
+from physsim_ros.sketchpad.access import headers_for, Role
+from tornado.web import HTTPError, RequestHandler, StaticFileHandler
+
+if TYPE_CHECKING:
+    from physsim_ros.sketchpad.server import Server
+
+# Of the files of the page; the machine's own table may lack some, and nothing is guessed.
+_TYPES = {
+    '.css': 'text/css; charset=utf-8',
+    '.html': 'text/html; charset=utf-8',
+    '.js': 'text/javascript; charset=utf-8',
+    '.json': 'application/json',
+    '.png': 'image/png',
+    '.svg': 'image/svg+xml',
+    '.webmanifest': 'application/manifest+json',
+}
+
+
+class Guarded(RequestHandler):
+    """
+    A handler behind the checks of host and cookie.
+
+    :ivar server: that it belongs to
+    :ivar role: that the cookie gives
+    """
+
+    needs_cookie = True
+
+    def initialize(self, server: Server) -> None:
+        self.server = server
+        self.role: Role | None = None
+
+    def set_default_headers(self) -> None:
+        """Set the headers of every answer, errors included."""
+        self.set_header('Server', 'physsim')
+        host = self.request.host
+        server = self.application.settings['server']
+        known = host if server.access.allows_host(host) else 'localhost'
+        for name, value in headers_for(known).items():
+            self.set_header(name, value)
+
+    async def prepare(self) -> None:
+        """Refuse a foreign host, and a request without the cookie."""
+        if not self.server.access.allows_host(self.request.host):
+            self.refuse(403, 'this name is not one of this machine')
+        self.role = self.server.access.role_of(self.get_cookie(self.server.cookie) or '')
+        if self.needs_cookie and self.role is None:
+            self.refuse(403, 'open the address that the node has printed: it holds the token')
+
+    def require_origin(self) -> None:
+        """Refuse a request that no page of this server has made."""
+        origin = self.request.headers.get('Origin')
+        if not self.server.access.allows_origin(origin, self.request.host):
+            self.refuse(403, 'this request comes from another page')
+
+    def refuse(self, status: int, reason: str) -> NoReturn:
+        """Answer with an error and its reason."""
+        raise HTTPError(status, reason)
+
+    def write_error(self, status_code: int, **kwargs: Any) -> None:
+        """Write the reason of an error as text, without anything of the request."""
+        error = kwargs.get('exc_info', (None, None))[1]
+        reason = error.log_message if isinstance(error, HTTPError) else None
+        self.set_header('Content-Type', 'text/plain; charset=utf-8')
+        self.finish(f'{reason or HTTPStatus(status_code).phrase}\n')
+
+
+class Login(Guarded):
+    """Exchange a token for the cookie."""
+
+    needs_cookie = False
+
+    async def get(self) -> None:
+        """Set the cookie, and show the page."""
+        token = self.get_query_argument('token', '')
+        role = self.server.access.role_of(token)
+        if role is None:
+            self.refuse(403, 'this token is wrong, or of a world that has ended')
+        self.set_cookie(
+            self.server.cookie, token, expires_days=None, httponly=True, samesite='Strict'
+        )
+        shows_only = role is Role.VIEW or 'view' in self.request.arguments
+        self.redirect('/?view' if shows_only else '/')
+
+
+class Page(Guarded):
+    """The page itself."""
+
+    async def get(self) -> None:
+        """Answer with the page."""
+        self.set_header('Content-Type', _TYPES['.html'])
+        self.finish((self.server.page_directory / 'index.html').read_bytes())
+
+
+class Session(Guarded):
+    """Whether the cookie of a page is still right: a socket that is refused cannot say why."""
+
+    async def get(self) -> None:
+        """Answer with the rights of the page."""
+        self.finish({'ok': True, 'view_only': self.role is not Role.DRAW})
+
+
+class Files(Guarded, StaticFileHandler):
+    """The files of a directory."""
+
+    def initialize(self, server: Server, path: Path) -> None:  # type: ignore[override]
+        Guarded.initialize(self, server)
+        StaticFileHandler.initialize(self, str(path))
+
+    def get_content_type(self) -> str:
+        """Return the type of a file of the page; other files are bytes."""
+        path = Path(self.absolute_path or '')
+        return _TYPES.get(path.suffix, 'application/octet-stream')
+
+    def set_extra_headers(self, path: str) -> None:
+        """Let a browser ask each time; the answer is short where nothing has changed."""
+        self.set_header('Cache-Control', 'no-cache')

@@ -1,0 +1,179 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Scenes as JSON: bodies, joints and settings, whenever they change.
+
+Law: the text of a body is encoded once and kept as long as the body is in the scene, so that one
+more body costs one text.
+"""
+
+from __future__ import annotations
+
+from functools import singledispatch
+import json
+from typing import Any
+
+from physsim_ros.model.scene import Body, Joint, Scene
+from physsim_ros.model.shapes import (
+    Box,
+    Capsule,
+    Chain,
+    Circle,
+    Compound,
+    Convex,
+    Disc,
+    Polygon,
+    Shape,
+    Triangles,
+)
+from physsim_ros.model.transform import Point
+
+
+class SceneCodec:
+    """
+    Encodes scenes, one after the other.
+
+    :ivar epoch: number of the scene that was encoded last; frames name it
+    :ivar scene: the scene that was encoded last; None before the first
+    """
+
+    def __init__(self) -> None:
+        self.epoch = 0
+        self.scene: Scene | None = None
+        # The texts of the last scene, by name, with the bodies that they describe.
+        self._texts: dict[str, tuple[Body, str]] = {}
+
+    def encode(self, scene: Scene) -> str:
+        """Return the message of a new scene."""
+        self.epoch += 1
+        self.scene = scene
+        texts = {}
+        for body in scene.bodies:
+            kept = self._texts.get(body.name)
+            # Scenes share the bodies that did not change.
+            known = kept is not None and kept[0] is body
+            texts[body.name] = kept if kept and known else (body, compact(body_entry(body)))
+        self._texts = texts
+        settings = scene.settings
+        joints = [
+            joint_entry(joint, rows)
+            for joint, rows in zip(scene.joints, scene.joint_rows.tolist(), strict=True)
+        ]
+        rest = compact(
+            {
+                'type': 'scene',
+                'epoch': self.epoch,
+                'joints': joints,
+                'gravity': settings.gravity,
+                'bounds': settings.bounds or [],
+                'damping': settings.damping,
+                'density': settings.density,
+                'friction': settings.friction,
+                'elasticity': settings.elasticity,
+            }
+        )
+        bodies = ','.join(text for _, text in texts.values())
+        return f'{rest[:-1]},"bodies":[{bodies}]}}'
+
+
+def compact(value: object) -> str:
+    """Return a value as JSON without spaces; a number that is not finite is an error."""
+    return json.dumps(value, separators=(',', ':'), allow_nan=False)
+
+
+def body_entry(body: Body) -> dict[str, Any]:
+    """Return a body without its pose; lengths in its own frame [m], mass [kg], moment [kg m²]."""
+    form = body.shape.form
+    return {
+        'name': body.name,
+        'shape': shape_entry(body.shape),
+        'color': [round(channel, 4) for channel in body.color],
+        'anchored': body.anchored,
+        'kinematic': body.kinematic,
+        'sensor': body.sensor,
+        'mass': body.total_mass,
+        'moment': body.total_mass * form.gyration,
+        'centroid': form.centroid,
+        'density': body.density,
+        'friction': body.friction,
+        'elasticity': body.elasticity,
+        'group': body.group,
+    }
+
+
+def joint_entry(joint: Joint, rows: list[int]) -> dict[str, Any]:
+    """
+    Return a joint.
+
+    :param rows: of its bodies a and b in the scene; -1 is the background
+    """
+    seat = joint.seat
+    return {
+        'name': joint.name,
+        'kind': str(joint.kind),
+        'a': rows[0],
+        'b': rows[1],
+        'points': [[seat.ax, seat.ay], [seat.bx, seat.by]],
+        'axis': [seat.ux, seat.uy],
+        'rest_length': joint.rest_length,
+        **joint.properties.explicit(),
+    }
+
+
+@singledispatch
+def shape_entry(shape: Shape) -> dict[str, Any]:
+    """Return a shape, in the frame of its body [m]."""
+    raise TypeError(f'{type(shape).__name__} has no entry')
+
+
+@shape_entry.register
+def _(shape: Disc) -> dict[str, Any]:
+    return {'kind': 'disc', 'radius': shape.radius}
+
+
+@shape_entry.register
+def _(shape: Box) -> dict[str, Any]:
+    sides = {'width': shape.width, 'height': shape.height}
+    return _polygon(shape.corners()) | sides
+
+
+@shape_entry.register
+def _(shape: Polygon) -> dict[str, Any]:
+    return _polygon(shape.outline)
+
+
+@shape_entry.register
+def _(shape: Chain) -> dict[str, Any]:
+    return {'kind': 'chain', 'points': shape.points, 'thickness': shape.thickness}
+
+
+@shape_entry.register(Triangles)
+@shape_entry.register(Compound)
+def _(shape: Triangles | Compound) -> dict[str, Any]:
+    return {'kind': 'pieces', 'pieces': [_piece_entry(piece) for piece in shape.form.pieces]}
+
+
+def _piece_entry(piece: Circle | Convex | Capsule) -> dict[str, Any]:
+    match piece:
+        case Circle(center, radius):
+            return {'kind': 'disc', 'radius': radius, 'center': center}
+        case Convex(vertices):
+            return _polygon(vertices)
+        case Capsule(start, end, radius):
+            return {'kind': 'chain', 'points': [start, end], 'thickness': 2 * radius}
+
+
+def _polygon(outline: tuple[Point, ...]) -> dict[str, Any]:
+    return {'kind': 'polygon', 'outline': outline}

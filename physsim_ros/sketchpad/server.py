@@ -1,0 +1,373 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+The server of the page: HTTP and web sockets, on a thread of its own.
+
+Laws: the world's thread never waits for a page. A frame is encoded once for all pages that show
+the same; a page gets the newest frame only; answers are not dropped.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections import deque
+from collections.abc import Callable
+from pathlib import Path
+import socket
+import threading
+import time
+from typing import Any
+
+from physsim_ros.model.errors import PhysSimError
+from physsim_ros.model.snapshot import Answer, Frame
+from physsim_ros.sketchpad.access import Access, Role
+from physsim_ros.sketchpad.frame_codec import encode_frame, Show
+from physsim_ros.sketchpad.handlers import Files, Login, Page, Session
+from physsim_ros.sketchpad.inbox import Inbox, Incoming
+from physsim_ros.sketchpad.page_socket import PageSocket
+from physsim_ros.sketchpad.scene_codec import compact, SceneCodec
+from tornado.httpserver import HTTPServer
+from tornado.netutil import bind_sockets
+from tornado.web import Application
+
+# Pages at once.
+MOST_PAGES = 64
+# Connections at once, pages included: fewer than a process may have files open.
+MOST_CONNECTIONS = 256
+# Of a message of a page, and of an uploaded world [bytes].
+MOST_BYTES = 2**20
+# From one ping to the next, and until a page without an answer is closed [s].
+PING_PERIOD = 10.0
+# Ports that are tried, from the given one on.
+_PORTS = 20
+# For the thread to end [s].
+_CLOSING = 2.0
+# Bytes a second that new scenes may take, for all pages together. Where bodies come and go in each
+# frame, a scene of many bodies is sent less often than the frames are due.
+SCENE_RATE = 20e6
+# Answers to others that are passed on, of one frame; the rest is counted.
+MOST_QUIET = 20
+
+PAGE = Path(__file__).with_name('page')
+
+
+class Server:
+    """
+    The server of one world.
+
+    :param address: to listen on
+    :param port: to listen on; where it is taken, one of the next; 0 is any
+    :param inbox: takes the messages of the pages
+    :param wake: called on the server's thread after a message has come
+    :raises PhysSimError: it cannot listen there
+
+    :ivar access: its tokens
+    :ivar port: that it listens on
+    """
+
+    def __init__(
+        self, *, address: str, port: int, inbox: Inbox, wake: Callable[[], None]
+    ) -> None:
+        self.access = Access(address)
+        self.page_directory = PAGE
+        self._address = address
+        self._inbox = inbox
+        self._wake = wake
+        self._sockets = _listening_sockets(address, port)
+        self.port: int = self._sockets[0].getsockname()[1]
+        # Cookies are shared by all ports of a host, so their name tells two worlds apart.
+        self.cookie = f'physsim_{self.port}'
+        self._pages: dict[int, PageSocket] = {}
+        self._last_number = 0
+        # Written by the world's thread.
+        self._newest: Frame | None = None
+        self._outbox: deque[tuple[int | None, str] | tuple[Answer, ...]] = deque()
+        self._scheduled = False
+        # Of the server's thread.
+        self._codec = SceneCodec()
+        self._frame: Frame | None = None
+        self._number = 0
+        self._encoded: dict[Show, bytes] = {}
+        self._scene_text = ''
+        self._scene_due = 0.0
+        self._loop = asyncio.new_event_loop()
+        self._ended = asyncio.Event()
+        self._thread = threading.Thread(target=self._run, name='sketchpad', daemon=True)
+        self._thread.start()
+
+    # The world's thread
+
+    def url(self, role: Role) -> str:
+        """Return the address of a page with its token."""
+        host = _reachable_host(self._address)
+        return f'http://{host}:{self.port}/login?token={self.access.tokens[role]}'
+
+    def show(self, frame: Frame) -> None:
+        """Send a frame, and its answers, to all pages."""
+        self._newest = frame
+        if frame.answers:
+            self._outbox.append(frame.answers)
+        self._schedule()
+
+    def send(self, content: dict[str, Any], *, page: int | None = None) -> None:
+        """
+        Send a message.
+
+        :param content: becomes JSON
+        :param page: number of the page; None is all of them
+        """
+        self._outbox.append((page, compact(content)))
+        self._schedule()
+
+    def answer(self, answers: tuple[Answer, ...]) -> None:
+        """Send answers outside of a frame."""
+        self._outbox.append(answers)
+        self._schedule()
+
+    def close(self) -> None:
+        """Close all pages, and end the thread."""
+        try:
+            self._loop.call_soon_threadsafe(self._ended.set)
+        except RuntimeError:
+            # The loop has ended by itself.
+            return
+        self._thread.join(_CLOSING)
+
+    def _schedule(self) -> None:
+        """Have the server's thread send what is there, once for all that comes until then."""
+        if self._scheduled or not self._thread.is_alive():
+            return
+        self._scheduled = True
+        self._loop.call_soon_threadsafe(self._flush)
+
+    # The server's thread
+
+    @property
+    def is_full(self) -> bool:
+        """Whether there are as many pages as there may be."""
+        return len(self._pages) >= MOST_PAGES
+
+    def add_page(self, page: PageSocket) -> int:
+        """Begin to send frames to a page; return its number."""
+        self._last_number += 1
+        self._pages[self._last_number] = page
+        self.update_page(page)
+        return self._last_number
+
+    def remove_page(self, page: PageSocket) -> None:
+        """Send nothing more to a page."""
+        self._pages.pop(page.number, None)
+
+    def inbox_put(self, incoming: Incoming) -> bool:
+        """Hand a message to the world's thread; return whether there was room for it."""
+        if not self._inbox.put(incoming):
+            return False
+        self._wake()
+        return True
+
+    def update_page(self, page: PageSocket) -> None:
+        """Send the newest frame, and its scene, to a page that has not got it and is not busy."""
+        if page.is_busy or self._frame is None or page.frame == self._number:
+            return
+        if page.epoch != self._codec.epoch:
+            page.epoch = self._codec.epoch
+            page.send(self._scene_text)
+        page.frame = self._number
+        if page.show not in self._encoded:
+            self._encoded[page.show] = encode_frame(
+                self._frame, epoch=self._codec.epoch, show=page.show
+            )
+        page.send(self._encoded[page.show])
+
+    def _run(self) -> None:
+        asyncio.set_event_loop(self._loop)
+        try:
+            self._loop.run_until_complete(self._serve())
+        finally:
+            self._loop.close()
+
+    async def _serve(self) -> None:
+        server = _BoundedServer(
+            self._application(),
+            max_body_size=MOST_BYTES,
+            max_buffer_size=2 * MOST_BYTES,
+            max_header_size=2**16,
+            idle_connection_timeout=60.0,
+            body_timeout=10.0,
+        )
+        server.add_sockets(self._sockets)
+        await self._ended.wait()
+        server.stop()
+        for page in list(self._pages.values()):
+            page.close(1001, 'the world has ended')
+        await server.close_all_connections()
+
+    def _application(self) -> Application:
+        own = {'server': self}
+        return Application(
+            [
+                ('/', Page, own),
+                ('/login', Login, own),
+                ('/session', Session, own),
+                ('/ws', PageSocket, own),
+                ('/page/(.*)', Files, own | {'path': self.page_directory}),
+            ],
+            server=self,
+            websocket_max_message_size=MOST_BYTES,
+            websocket_ping_interval=PING_PERIOD,
+            websocket_ping_timeout=PING_PERIOD,
+            # Answers with an error are the business of those who asked.
+            log_function=lambda _: None,
+        )
+
+    def _flush(self) -> None:
+        """Send what the world's thread has left here."""
+        self._scheduled = False
+        while self._outbox:
+            item = self._outbox.popleft()
+            if isinstance(item[0], Answer):
+                self._send_answers(item)  # type: ignore[arg-type]
+            else:
+                number, text = item  # type: ignore[misc]
+                pages = self._pages.values() if number is None else [self._pages.get(number)]
+                for page in list(pages):
+                    if page is not None:
+                        page.send(text)
+        self._send_frame()
+
+    def _send_frame(self) -> None:
+        frame = self._newest
+        if frame is None or frame is self._frame:
+            return
+        if frame.snapshot.scene is not self._codec.scene:
+            wait = self._scene_due - time.monotonic()
+            if wait > 0.0:
+                # Other frames may come until then; the newest is sent.
+                self._loop.call_later(wait, self._send_frame)
+                return
+            self._scene_text = self._codec.encode(frame.snapshot.scene)
+            cost = len(self._scene_text) * len(self._pages) / SCENE_RATE
+            self._scene_due = time.monotonic() + cost
+        self._frame = frame
+        self._number += 1
+        self._encoded.clear()
+        for page in list(self._pages.values()):
+            self.update_page(page)
+
+    def _send_answers(self, answers: tuple[Answer, ...]) -> None:
+        quiet: list[str] = []
+        others = 0
+        for answer in answers:
+            number, id_ = asker_of(answer.asker)
+            page = self._pages.get(number)
+            if page is not None:
+                page.send(compact(answer_content(answer, id_)))
+            others += 1
+            if others <= MOST_QUIET:
+                quiet.append(compact(answer_content(answer, '')))
+                for each in list(self._pages.values()):
+                    if each is not page:
+                        each.send(quiet[-1])
+        if others > MOST_QUIET:
+            more = Answer(topic='events', message=f'and {others - MOST_QUIET} more answers')
+            text = compact(answer_content(more, ''))
+            for each in list(self._pages.values()):
+                each.send(text)
+
+
+class _BoundedServer(HTTPServer):
+    """A server that closes connections beyond a number at once."""
+
+    def handle_stream(self, stream: Any, address: Any) -> None:
+        if len(self._connections) >= MOST_CONNECTIONS:
+            stream.close()
+            return
+        super().handle_stream(stream, address)
+
+
+def asker_key(page: int, id_: str) -> str:
+    """Return the key of a message of a page, for its answers."""
+    return f'{page}:{id_}'
+
+
+def asker_of(key: str) -> tuple[int, str]:
+    """Return page and identifier of a key; 0 where it is of no page."""
+    page, _, id_ = key.partition(':')
+    return (int(page), id_) if page else (0, '')
+
+
+def answer_content(answer: Answer, id_: str) -> dict[str, Any]:
+    """
+    Return the message of an answer.
+
+    :param id_: of the message that it answers; '' for others and events
+    """
+    return {
+        'type': 'answer',
+        'request': id_,
+        'ok': not answer.code,
+        'code': answer.code,
+        'message': answer.message,
+        'subject': answer.subject,
+        'topic': answer.topic,
+        'field': answer.field,
+        'values': dict(answer.values),
+    }
+
+
+def _listening_sockets(address: str, port: int) -> list[socket.socket]:
+    """
+    Return sockets that listen on a port, or on one of the next.
+
+    :raises PhysSimError: the address is none of this machine, or all ports are taken
+    """
+    last = port if port == 0 else min(port + _PORTS - 1, 65535)
+    for tried in range(port, last + 1):
+        try:
+            return bind_sockets(tried, address)
+        except PermissionError as error:
+            reason = str(error)
+        except OSError as error:
+            if tried == last or not _is_taken(error):
+                raise PhysSimError(
+                    f'the sketchpad cannot listen on {address!r}, port {tried}: {error}'
+                ) from error
+            continue
+        raise PhysSimError(f'the sketchpad may not listen on port {tried}: {reason}')
+    raise PhysSimError(f'the ports {port} to {last} are all taken')
+
+
+def _is_taken(error: OSError) -> bool:
+    import errno
+
+    return error.errno == errno.EADDRINUSE
+
+
+def _reachable_host(address: str) -> str:
+    """Return the host of the page's address: that of this machine where it listens on all."""
+    if address in ('', '0.0.0.0', '::'):
+        return _own_address()
+    return f'[{address}]' if ':' in address else address
+
+
+def _own_address() -> str:
+    """Return the address of this machine in its network; no packet is sent."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        try:
+            # TEST-NET-1, RFC 5737: routed like any other address, and nobody's.
+            probe.connect(('192.0.2.1', 9))
+        except OSError:
+            return socket.gethostname()
+        return str(probe.getsockname()[0])

@@ -1,0 +1,132 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+The sketchpad of a world: its server, and a session for each open page.
+
+Law: the world's thread decides; it handles the messages of pages between two frames, for a bounded
+time.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+import time
+from typing import Any
+
+from physsim_ros.model.snapshot import Answer, Frame
+from physsim_ros.sketchpad.access import Role
+from physsim_ros.sketchpad.inbox import Closed, Inbox, Incoming, Opened
+from physsim_ros.sketchpad.page_session import PageSession, WorldControl
+from physsim_ros.sketchpad.server import Server
+
+# Time for messages of pages between two frames [s]: a quarter of a frame at 60 Hz. A stroke takes
+# some 3 ms.
+BUDGET = 0.004
+
+
+class Sketchpad:
+    """
+    The sketchpad of a world.
+
+    :param world: that the pages draw in
+    :param welcome: what a page is told first: version, frame, rate
+    :param address: to listen on
+    :param port: to listen on, or the first free one after it
+    :param wake: called on the server's thread when a message has come
+    :raises PhysSimError: it cannot listen there
+    """
+
+    def __init__(
+        self,
+        world: WorldControl,
+        *,
+        welcome: dict[str, Any],
+        address: str,
+        port: int,
+        wake: Callable[[], None],
+    ) -> None:
+        self._world = world
+        self._welcome = welcome
+        self._inbox = Inbox()
+        self._sessions: dict[int, PageSession] = {}
+        self._server = Server(address=address, port=port, inbox=self._inbox, wake=wake)
+
+    def url(self, role: Role = Role.DRAW) -> str:
+        """Return the address of a page with its token."""
+        return self._server.url(role)
+
+    @property
+    def wants_contacts(self) -> bool:
+        """Whether a page is open, which may show contacts."""
+        return bool(self._sessions)
+
+    def handle_messages(self) -> None:
+        """Handle the messages of pages, as many as there is time for."""
+        deadline = time.perf_counter() + BUDGET
+        while (incoming := self._inbox.take()) is not None:
+            self._handle(incoming)
+            if time.perf_counter() > deadline:
+                return
+
+    def show(self, frame: Frame) -> None:
+        """Send a frame and its answers to all pages; never blocks."""
+        self._server.show(frame)
+
+    def report(self, answer: Answer) -> None:
+        """Send an answer outside of a frame."""
+        self._server.answer((answer,))
+
+    def close(self) -> None:
+        """Close all pages, and end the server's thread."""
+        self._server.close()
+
+    def _handle(self, incoming: Incoming) -> None:
+        number, id_, message = incoming
+        match message:
+            case Opened(role=role):
+                self._open(number, role)
+            case Closed():
+                session = self._sessions.pop(number, None)
+                if session is not None:
+                    session.close()
+            case _:
+                session = self._sessions.get(number)
+                if session is not None:
+                    session.handle(id_, message)
+
+    def _open(self, number: int, role: Role) -> None:
+        def send(content: dict[str, Any]) -> None:
+            self._server.send(content, page=number)
+
+        self._sessions[number] = PageSession(self._world, page=number, role=role, send=send)
+        settings = self._world.simulation.settings
+        drawing = self._world.drawing_settings
+        send(
+            {
+                'type': 'welcome',
+                'client': str(number),
+                **self._welcome,
+                'view_only': role is not Role.DRAW,
+                'settings': {
+                    'density': settings.density,
+                    'friction': settings.friction,
+                    'elasticity': settings.elasticity,
+                    'gravity': settings.gravity,
+                    'draw_velocity': drawing.draw_velocity,
+                    'draw_color': drawing.draw_color,
+                    'snap': drawing.snap,
+                },
+            }
+        )
