@@ -33,11 +33,12 @@ endif
 
 run: $(STAMP)
 	@echo 'Where to look:'
+	@echo '  the page  draw with pen and mouse, at the address printed below'
 	@echo '  Rerun     opens by itself where there is a display, else at the address printed below'
 	@echo '  RViz      fixed frame `world`, add MarkerArray /physsim/markers'
 	@echo '  ros2      topics and services under /physsim'
 	@echo 'Ctrl-C ends it.'
-	@exec $(BIN)/physsim --ros-args -p world_file:=demo $(ARGS)
+	@exec $(BIN)/physsim --ros-args -p world_file:=demo -p sketchpad:=serve $(ARGS)
 
 test: $(STAMP)
 	$(BIN)/python -m pytest --numprocesses=auto --maxprocesses=8 --dist=worksteal $(ARGS)

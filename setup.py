@@ -47,6 +47,7 @@ setup(
         'Topic :: Scientific/Engineering :: Physics',
     ],
     packages=find_packages(include=[PACKAGE, f'{PACKAGE}.*']),
+    package_data={f'{PACKAGE}.sketchpad': ['page/*', 'page/*/*']},
     # Relative names, as setuptools wants them: every caller of setup.py stands beside it.
     data_files=[
         ('share/ament_index/resource_index/packages', [f'resource/{PACKAGE}']),
@@ -69,6 +70,8 @@ setup(
         'scipy>=1.13',
         # Reads SVG; pure Python, and needs nothing itself.
         'svgelements>=1.9,<2',
+        # Serves the page; needs nothing itself.
+        'tornado>=6.4,<7',
     ],
     extras_require={
         # ROS 2 Jazzy as wheels. Without fastrtps importing rclpy fails: it brings the only

@@ -181,6 +181,7 @@ class Answer:
     :param code: '' for success, else the stable code of the refusal
     :param field: the offending field of a refusal
     :param values: further pairs of key and value
+    :param asker: key of the message that asked, '' for one of ROS and for events
     """
 
     topic: str
@@ -189,15 +190,23 @@ class Answer:
     code: str = ''
     field: str = ''
     values: tuple[tuple[str, str], ...] = ()
+    asker: str = ''
 
     @classmethod
     def refused(
-        cls, refusal: Refusal, *, topic: str, subject: str = '', field: str = ''
+        cls,
+        refusal: Refusal,
+        *,
+        topic: str,
+        subject: str = '',
+        field: str = '',
+        asker: str = '',
     ) -> Answer:
         """
         Return the answer to a refused request.
 
         :param field: the only field of the request; '' if it has several
+        :param asker: key of the message that asked
         """
         return cls(
             topic=topic,
@@ -206,6 +215,7 @@ class Answer:
             code=refusal.code,
             field=refusal.field if refusal.field == _FRAME or not field else field,
             values=refusal.values,
+            asker=asker,
         )
 
 

@@ -51,10 +51,12 @@ from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer, Frame, Snapshot
 from physsim_ros.ros import conversions, parameters, stroke_reader
 from physsim_ros.ros.diagnostics import FrameStatistics
+from physsim_ros.ros.page_control import PageControl
 from physsim_ros.ros.publishers import Publishers
 from physsim_ros.ros.qos_safe_node import LOSSLESS, NodeWithoutQosEvents
 from physsim_ros.ros.services import create_services, WorldFiles
 from physsim_ros.simulation.simulation import Simulation
+from physsim_ros.sketchpad import Role, Sketchpad
 from physsim_ros.view import Viewer, ViewerMode
 from rcl_interfaces.msg import SetParametersResult
 import rclpy
@@ -98,6 +100,7 @@ class PhysSimNode(NodeWithoutQosEvents):
         )
         self._parameter_service = parameters.ParameterServices(self)
         self._viewer = Viewer()
+        self._sketchpad: Sketchpad | None = None
         try:
             self._set_up()
         except BaseException:
@@ -137,7 +140,7 @@ class PhysSimNode(NodeWithoutQosEvents):
             self.world_files.begin_with()
             self._mirror_settings()
         self._create_subscriptions()
-        create_services(
+        actions = create_services(
             self,
             self.simulation,
             self.world_files,
@@ -146,12 +149,22 @@ class PhysSimNode(NodeWithoutQosEvents):
             advance_frame=self.advance_frame,
             on_success=self._mirror_settings,
         )
+        self._page_control = PageControl(
+            simulation=self.simulation,
+            values=self._values,
+            actions=actions,
+            set_parameters=self.set_parameters,
+            current_snapshot=self._current_snapshot,
+        )
+        self._open_sketchpad()
         self.add_on_set_parameters_callback(self._check_parameters)
         self.add_post_set_parameters_callback(self._apply_parameters)
 
     def start(self) -> None:
         """Start the timers, on a steady clock, and the viewer."""
         self._started = True
+        if self._sketchpad is not None:
+            _print_addresses(self._sketchpad)
         if self._values['record_file']:
             self.record(Path(self._values['record_file']))
         self._open_viewer()
@@ -169,6 +182,7 @@ class PhysSimNode(NodeWithoutQosEvents):
         :param now_ns: steady time, monotonic [ns]
         """
         began = time.perf_counter_ns()
+        self._handle_pages()
         self._update_contact_recording()
         frames = self.simulation.advance(now_ns)
         stepped = time.perf_counter_ns()
@@ -205,9 +219,12 @@ class PhysSimNode(NodeWithoutQosEvents):
             frame = replace(frame, preview=self._session.preview)
         self.frame = frame
         self._viewer.show(frame, real_time_factor=self._statistics.real_time_factor)
+        if self._sketchpad is not None:
+            self._sketchpad.show(frame)
 
     def advance_frame(self) -> None:
         """Advance the world by one publish period, at any time, and publish the frame."""
+        self._handle_pages()
         self._update_contact_recording()
         self.publish_frame(self.simulation.advance_frame())
 
@@ -228,11 +245,15 @@ class PhysSimNode(NodeWithoutQosEvents):
     def _update_contact_recording(self) -> None:
         """Record contacts while there is a subscriber or a viewer."""
         self.simulation.watch_contacts(
-            self._world_publishers.wants_contacts or self._viewer.is_open
+            self._world_publishers.wants_contacts
+            or self._viewer.is_open
+            or (self._sketchpad is not None and self._sketchpad.wants_contacts)
         )
 
     def destroy_node(self) -> None:
-        """Close the viewer, and destroy the node."""
+        """Close the viewer and the sketchpad, and destroy the node."""
+        if self._sketchpad is not None:
+            self._sketchpad.close()
         self._viewer.close()
         super().destroy_node()
 
@@ -332,12 +353,16 @@ class PhysSimNode(NodeWithoutQosEvents):
 
         :param field: of the message, for the refusal
         """
-        self.apply_requests()
         try:
-            yield self.simulation.world.snapshot() if self.frame is None else self.frame.snapshot
+            yield self._current_snapshot()
         except Refusal as refusal:
             self.simulation.refuse(refusal, topic=topic, subject='', field=field)
         self._world_publishers.publish_preview(self._session.preview)
+
+    def _current_snapshot(self) -> Snapshot:
+        """Apply the waiting requests, and return the snapshot that is shown."""
+        self.apply_requests()
+        return self.simulation.world.snapshot() if self.frame is None else self.frame.snapshot
 
     def _refuse_command(self, refusal: Refusal, topic: str) -> None:
         """Publish a refusal outside of a frame, after the answers to earlier requests."""
@@ -347,6 +372,8 @@ class PhysSimNode(NodeWithoutQosEvents):
     def _report_answer(self, answer: Answer) -> None:
         """Publish and log an answer outside of a frame."""
         self._world_publishers.publish_answer(answer)
+        if self._sketchpad is not None:
+            self._sketchpad.report(answer)
         self._log_answer(answer)
 
     def _log_answer(self, answer: Answer) -> None:
@@ -394,6 +421,8 @@ class PhysSimNode(NodeWithoutQosEvents):
             self._world_publishers.publish_clock = self._values['publish_clock']
         if 'viewer' in names and self._started:
             self._open_viewer()
+        if 'sketchpad' in names:
+            self._open_sketchpad()
 
     def _mirror_settings(self) -> None:
         """Set the parameters to the settings and speed of the world."""
@@ -402,6 +431,57 @@ class PhysSimNode(NodeWithoutQosEvents):
             self.set_parameters(parameters.world_parameters(settings))
         if self.simulation.speed != self._values['speed']:
             self.set_parameters([Parameter('speed', value=self.simulation.speed)])
+
+    # Sketchpad
+
+    def _open_sketchpad(self) -> None:
+        """Open or close the sketchpad, as the parameter says."""
+        wanted = self._values['sketchpad'] == 'serve'
+        if wanted == (self._sketchpad is not None):
+            return
+        if self._sketchpad is not None:
+            self._sketchpad.close()
+            self._sketchpad = None
+            return
+        self._sketchpad = Sketchpad(
+            self._page_control,
+            welcome={
+                'version': 1,
+                'frame_id': self._frame_id,
+                'rate': self._values['publish_rate'],
+                'rerun': '',
+            },
+            address=self._values['sketchpad_address'],
+            port=self._values['sketchpad_port'],
+            wake=self._wake,
+        )
+        if self.frame is not None:
+            self._sketchpad.show(replace(self.frame, answers=()))
+        else:
+            # A page shows the world before its time has begun.
+            self.apply_requests()
+        if self._started:
+            _print_addresses(self._sketchpad)
+
+    @property
+    def sketchpad(self) -> Sketchpad | None:
+        """Return the sketchpad; None where it is not served."""
+        return self._sketchpad
+
+    def _handle_pages(self) -> None:
+        if self._sketchpad is not None:
+            self._sketchpad.handle_messages()
+
+    def _wake(self) -> None:
+        """Have the messages of pages handled; called on the thread of the sketchpad."""
+        executor = self.executor
+        # With timers, the next tick handles them.
+        if not self._started and executor is not None:
+            executor.create_task(self._serve_pages)
+
+    def _serve_pages(self) -> None:
+        self._handle_pages()
+        self.apply_requests()
 
     # Viewer and diagnostics
 
@@ -430,6 +510,12 @@ class PhysSimNode(NodeWithoutQosEvents):
                 viewer=self._viewer.state,
             )
         )
+
+
+def _print_addresses(sketchpad: Sketchpad) -> None:
+    """Print where the page is, for the person at the terminal."""
+    sys.stdout.write(f'Draw on it: {sketchpad.url()}\nOnly watch: {sketchpad.url(Role.VIEW)}\n')
+    sys.stdout.flush()
 
 
 def reduce_latency() -> None:

@@ -31,7 +31,7 @@ from physsim_ros.ros.services import Action
 from physsim_ros.simulation.simulation import Simulation
 from rclpy.parameter import Parameter
 
-SetParameter = Callable[[str, Any], None]
+SetParameters = Callable[[list[Parameter]], object]
 
 
 class PageControl:
@@ -41,7 +41,7 @@ class PageControl:
     :param simulation: of the node
     :param values: of the parameters, by name, always up to date
     :param actions: of the services, by name
-    :param set_parameter: sets a parameter of the node
+    :param set_parameters: sets parameters of the node
     :param current_snapshot: applies the waiting requests, and returns the snapshot that is shown
     """
 
@@ -51,14 +51,14 @@ class PageControl:
         simulation: Simulation,
         values: Mapping[str, Any],
         actions: Mapping[str, Action],
-        set_parameter: SetParameter,
+        set_parameters: SetParameters,
         current_snapshot: Callable[[], Snapshot],
     ) -> None:
         self.simulation = simulation
         self.current_snapshot = current_snapshot
         self._values = values
         self._actions = actions
-        self._set_parameter = set_parameter
+        self._set_parameters = set_parameters
 
     @property
     def drawing_settings(self) -> DrawingSettings:
@@ -75,12 +75,12 @@ class PageControl:
         if world:
             if action not in ('load_world', 'save_world'):
                 raise BadWorldFile(f'~/{action} takes no world', field='world')
-            self._set_parameter('world_file', world)
+            self._set_parameters([Parameter('world_file', value=world)])
         try:
             return self._actions[action]()
         except PhysSimError:
             if world:
-                self._set_parameter('world_file', before)
+                self._set_parameters([Parameter('world_file', value=before)])
             raise
 
     def set_speed(self, speed: float) -> str:
@@ -90,10 +90,10 @@ class PageControl:
         :raises Refusal: it is out of range
         """
         # + 0.0 removes the sign of a negative zero.
-        value = float(speed) + 0.0
-        parameters.check(Parameter('speed', value=value))
-        self._set_parameter('speed', value)
-        return f'speed {value:g}'
+        parameter = Parameter('speed', value=float(speed) + 0.0)
+        parameters.check(parameter)
+        self._set_parameters([parameter])
+        return f'speed {parameter.value:g}'
 
     def seek(self, stamp: int) -> str:
         """

@@ -151,6 +151,24 @@ _OF_NODE = {
     ),
     'viewer_url': Spec(default='', meaning='Rerun server to connect to', read_only=True),
     'record_file': Spec(default='', meaning='.rrd file written beside any viewer', read_only=True),
+    'sketchpad': Spec(
+        default='none',
+        meaning='none, or serve: the page in the browser, to draw on',
+        choices=('none', 'serve'),
+    ),
+    'sketchpad_address': Spec(
+        default='127.0.0.1',
+        meaning='address that the page is served on; another one than of loopback shows it to '
+        'the network',
+        read_only=True,
+    ),
+    'sketchpad_port': Spec(
+        default=8765,
+        meaning='port of the page; where it is taken, one of the next 20; 0 is any',
+        low=0,
+        high=65535,
+        read_only=True,
+    ),
 }
 # Parameters of the world and of drawing, whose defaults and ranges are those of the settings.
 _MEANINGS = {

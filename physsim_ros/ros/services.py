@@ -103,9 +103,9 @@ def create_services(
     set_speed: Callable[[float], object],
     advance_frame: Callable[[], None],
     on_success: Callable[[], None],
-) -> None:
+) -> Mapping[str, Action]:
     """
-    Create the services of the world.
+    Create the services of the world; return what each does, by name.
 
     :param node: that offers them
     :param simulation: of the world
@@ -142,6 +142,7 @@ def create_services(
     }
     for name, action in actions.items():
         node.create_service(Trigger, f'~/{name}', _callback(action, on_success))
+    return actions
 
 
 def _callback(action: Action, on_success: Callable[[], None]) -> Callable[..., Trigger.Response]:

@@ -69,6 +69,7 @@ class _Asked:
     subject: str
     gesture: int
     field: str = ''
+    asker: str = ''
 
 
 class Simulation:
@@ -185,7 +186,13 @@ class Simulation:
     # Asking
 
     def submit(
-        self, request: Request, *, topic: str, joined: bool = False, field: str = ''
+        self,
+        request: Request,
+        *,
+        topic: str,
+        joined: bool = False,
+        field: str = '',
+        asker: str = '',
     ) -> None:
         """
         Queue a request; nothing moves until the next frame, which carries the answer.
@@ -193,6 +200,7 @@ class Simulation:
         :param topic: where it comes from
         :param joined: whether it belongs to the one before, and is undone together with it
         :param field: the one field that it was made of, to be named by a refusal; '' is none
+        :param asker: key of the message that asks, which the answer names; '' for none
         """
         if isinstance(request, MoveHand) and request.hand in self._moves:
             self._moves[request.hand].request = request
@@ -207,7 +215,7 @@ class Simulation:
                 | Command(names=(subject,))
             ):
                 pass
-        self._queue(request, topic, subject, joined=joined, field=field)
+        self._queue(request, topic, subject, joined=joined, field=field, asker=asker)
         match request:
             case MoveHand(hand=hand):
                 self._moves[hand] = self._requests[-1]
@@ -226,9 +234,10 @@ class Simulation:
         subject: str,
         joined: bool = False,
         field: str = '',
+        asker: str = '',
     ) -> None:
         """Queue the answer to what could not even be a request, so that answers keep the order."""
-        self._queue(refusal, topic, subject, joined=joined, field=field)
+        self._queue(refusal, topic, subject, joined=joined, field=field, asker=asker)
 
     def perform(self, request: Request) -> str:
         """
@@ -448,15 +457,17 @@ class Simulation:
         *,
         joined: bool,
         field: str = '',
+        asker: str = '',
     ) -> None:
         self._gesture += not joined
-        self._requests.append(_Asked(request, topic, subject, self._gesture, field))
+        self._requests.append(_Asked(request, topic, subject, self._gesture, field, asker))
 
     def _apply_all(self) -> None:
         self._moves.clear()
         while self._requests:
             asked = self._requests.popleft()
             request, topic, subject, field = asked.request, asked.topic, asked.subject, asked.field
+            asker = asked.asker
             self._changed = True
             if isinstance(request, Answer):
                 self._answers.append(request)
@@ -466,11 +477,13 @@ class Simulation:
                     raise request
                 subject, message = self._apply(request, asked.gesture)
             except Refusal as refusal:
-                answer = Answer.refused(refusal, topic=topic, subject=subject, field=field)
+                answer = Answer.refused(
+                    refusal, topic=topic, subject=subject, field=field, asker=asker
+                )
             else:
                 if isinstance(request, MoveHand | KeepHand):
                     continue
-                answer = Answer(topic=topic, subject=subject, message=message)
+                answer = Answer(topic=topic, subject=subject, message=message, asker=asker)
             self._answers.append(answer)
 
     def _apply(self, request: Request, gesture: int) -> tuple[str, str]:

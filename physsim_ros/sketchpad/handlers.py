@@ -53,6 +53,7 @@ class Guarded(RequestHandler):
     needs_cookie = True
 
     def initialize(self, server: Server) -> None:
+        """Set the server."""
         self.server = server
         self.role: Role | None = None
 
@@ -82,6 +83,11 @@ class Guarded(RequestHandler):
     def refuse(self, status: int, reason: str) -> NoReturn:
         """Answer with an error and its reason."""
         raise HTTPError(status, reason)
+
+    def log_exception(self, *details: Any) -> None:
+        """Log the errors of this server, not those of its clients."""
+        if not isinstance(details[1], HTTPError):
+            super().log_exception(*details)
 
     def write_error(self, status_code: int, **kwargs: Any) -> None:
         """Write the reason of an error as text, without anything of the request."""
@@ -130,6 +136,7 @@ class Files(Guarded, StaticFileHandler):
     """The files of a directory."""
 
     def initialize(self, server: Server, path: Path) -> None:  # type: ignore[override]
+        """Set server and directory."""
         Guarded.initialize(self, server)
         StaticFileHandler.initialize(self, str(path))
 
@@ -137,7 +144,3 @@ class Files(Guarded, StaticFileHandler):
         """Return the type of a file of the page; other files are bytes."""
         path = Path(self.absolute_path or '')
         return _TYPES.get(path.suffix, 'application/octet-stream')
-
-    def set_extra_headers(self, path: str) -> None:
-        """Let a browser ask each time; the answer is short where nothing has changed."""
-        self.set_header('Cache-Control', 'no-cache')

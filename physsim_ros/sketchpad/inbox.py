@@ -50,12 +50,12 @@ class Incoming(NamedTuple):
     A message, and the page that sent it.
 
     :ivar page: number of the page
-    :ivar id: of the message; '' for the server's own
+    :ivar request: identifier of the message; '' for the server's own
     :ivar message: what is to be done
     """
 
     page: int
-    id: str
+    request: str
     message: Message | Opened | Closed
 
 

@@ -65,12 +65,12 @@ class Envelope(NamedTuple):
     """
     A message that is not checked yet.
 
-    :ivar id: that the page gave to it; its answers carry it
+    :ivar request: identifier that the page gave to it; its answers carry it
     :ivar kind: its `type`
     :ivar fields: everything else
     """
 
-    id: str
+    request: str
     kind: str
     fields: dict[str, Any]
 

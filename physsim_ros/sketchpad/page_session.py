@@ -51,11 +51,11 @@ class WorldControl(Protocol):
 
     @property
     def simulation(self) -> Simulation:
-        """The world and its time."""
+        """Return the world and its time."""
 
     @property
     def drawing_settings(self) -> DrawingSettings:
-        """The settings of drawing."""
+        """Return the settings of drawing."""
 
     def current_snapshot(self) -> Snapshot:
         """Apply the waiting requests, and return the snapshot that is shown."""
@@ -157,9 +157,7 @@ class PageSession:
                 self._send_reading(id_, dict(refusal.values), outline=[], built=False)
             self._refuse(refusal, '~/stroke', asker)
             return
-        self._send_reading(
-            id_, dict(reading.values), outline=reading.outline.tolist(), built=True
-        )
+        self._send_reading(id_, dict(reading.values), outline=reading.outline.tolist(), built=True)
         self._tell(replace(reading_answer(reading, topic='~/stroke'), asker=asker))
         self._submit_all(reading.requests, '~/stroke', asker)
 

@@ -57,6 +57,7 @@ class PageSocket(Guarded, WebSocketHandler):
     """
 
     def initialize(self, server: Server) -> None:
+        """Set the server, and begin without number."""
         super().initialize(server)
         self.number = 0
         self.show = Show.POSES
@@ -77,7 +78,7 @@ class PageSocket(Guarded, WebSocketHandler):
         if self.server.is_full:
             self.refuse(503, 'there are as many pages open as there may be')
 
-    def open(self) -> None:
+    def open(self) -> None:  # noqa: A003 - tornado's name
         """Welcome the page."""
         self.view_only = self.role is not Role.DRAW or 'view' in self.request.arguments
         self.set_nodelay(True)
@@ -94,7 +95,7 @@ class PageSocket(Guarded, WebSocketHandler):
         try:
             # Binary messages are no JSON either.
             envelope = read_envelope(message if isinstance(message, str) else '')
-            id_ = envelope.id
+            id_ = envelope.request
             checked = message_from(envelope)
         except Refusal as refusal:
             self.answer(id_, code=refusal.code, message=str(refusal), values=refusal.values)

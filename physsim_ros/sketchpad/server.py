@@ -24,6 +24,8 @@ from __future__ import annotations
 import asyncio
 from collections import deque
 from collections.abc import Callable
+import errno
+from ipaddress import ip_address
 from pathlib import Path
 import socket
 import threading
@@ -77,9 +79,7 @@ class Server:
     :ivar port: that it listens on
     """
 
-    def __init__(
-        self, *, address: str, port: int, inbox: Inbox, wake: Callable[[], None]
-    ) -> None:
+    def __init__(self, *, address: str, port: int, inbox: Inbox, wake: Callable[[], None]) -> None:
         self.access = Access(address)
         self.page_directory = PAGE
         self._address = address
@@ -238,9 +238,9 @@ class Server:
         while self._outbox:
             item = self._outbox.popleft()
             if isinstance(item[0], Answer):
-                self._send_answers(item)  # type: ignore[arg-type]
+                self._send_answers(item)
             else:
-                number, text = item  # type: ignore[misc]
+                number, text = item
                 pages = self._pages.values() if number is None else [self._pages.get(number)]
                 for page in list(pages):
                     if page is not None:
@@ -340,7 +340,7 @@ def _listening_sockets(address: str, port: int) -> list[socket.socket]:
         except PermissionError as error:
             reason = str(error)
         except OSError as error:
-            if tried == last or not _is_taken(error):
+            if tried == last or error.errno != errno.EADDRINUSE:
                 raise PhysSimError(
                     f'the sketchpad cannot listen on {address!r}, port {tried}: {error}'
                 ) from error
@@ -349,17 +349,19 @@ def _listening_sockets(address: str, port: int) -> list[socket.socket]:
     raise PhysSimError(f'the ports {port} to {last} are all taken')
 
 
-def _is_taken(error: OSError) -> bool:
-    import errno
-
-    return error.errno == errno.EADDRINUSE
-
-
 def _reachable_host(address: str) -> str:
     """Return the host of the page's address: that of this machine where it listens on all."""
-    if address in ('', '0.0.0.0', '::'):
+    if not address or _is_unspecified(address):
         return _own_address()
     return f'[{address}]' if ':' in address else address
+
+
+def _is_unspecified(address: str) -> bool:
+    """Tell whether an address stands for all of a machine: 0.0.0.0 or ::."""
+    try:
+        return ip_address(address).is_unspecified
+    except ValueError:
+        return False
 
 
 def _own_address() -> str:

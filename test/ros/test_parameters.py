@@ -66,6 +66,9 @@ CONTRACT: dict[str, tuple[Any, str]] = {
     'viewer': ('auto', 'live'),
     'viewer_url': ('', 'read-only'),
     'record_file': ('', 'read-only'),
+    'sketchpad': ('none', 'live'),
+    'sketchpad_address': ('127.0.0.1', 'read-only'),
+    'sketchpad_port': (8765, 'read-only'),
     'max_bodies': (20000, 'live'),
 }
 # The contract's ranges: the ends are good, what lies just beyond is not.

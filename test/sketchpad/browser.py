@@ -1,0 +1,192 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""A page as a test has it: an HTTP client with a cookie, and sockets, in the fixture's time."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Coroutine
+import json
+import struct
+import time
+from typing import Any, NamedTuple
+
+import numpy as np
+from physsim_ros.sketchpad import Role
+from physsim_ros.testing import PhysSim
+from tornado.httpclient import AsyncHTTPClient, HTTPRequest, HTTPResponse
+from tornado.websocket import websocket_connect, WebSocketClientConnection
+
+# Far more than anything here takes [s].
+PATIENCE = 20.0
+
+
+class Picture(NamedTuple):
+    """A frame as a page gets it."""
+
+    flags: int
+    epoch: int
+    time: float
+    speed: float
+    count: int
+    columns: np.ndarray  # (3, n) float32 and what else is shown, as it comes
+
+    @property
+    def poses(self) -> np.ndarray:
+        """(n, 3) float32."""
+        return self.columns[: 3 * self.count].reshape(3, -1).T
+
+
+def decoded(message: bytes) -> Picture:
+    """Decode a frame as the page's own module does."""
+    version, flags, zero, epoch, seconds, speed, count = struct.unpack_from('<BBHIdfI', message)
+    assert (version, zero) == (1, 0)
+    return Picture(flags, epoch, seconds, speed, count, np.frombuffer(message[24:], '<f4'))
+
+
+class Page:
+    """An open socket, with all that came from it."""
+
+    def __init__(self, browser: Browser, socket: WebSocketClientConnection) -> None:
+        self.browser = browser
+        self.socket = socket
+        self.frames: list[Picture] = []
+        self.messages: list[dict[str, Any]] = []
+        self.closed = False
+        self._numbers = 0
+        self._reading = browser.loop.create_task(self._read())
+
+    async def _read(self) -> None:
+        while (message := await self.socket.read_message()) is not None:
+            if isinstance(message, bytes):
+                self.frames.append(decoded(message))
+            else:
+                self.messages.append(json.loads(message))
+        self.closed = True
+
+    def send(self, kind: str, **fields: Any) -> str:
+        """Send a message, and return its id."""
+        self._numbers += 1
+        id_ = f'm{self._numbers}'
+        self.send_raw(json.dumps({'id': id_, 'type': kind, **fields}))
+        return id_
+
+    def send_raw(self, message: str | bytes) -> None:
+        async def write() -> None:
+            await self.socket.write_message(message, binary=isinstance(message, bytes))
+
+        self.browser.run(write())
+
+    def of_type(self, kind: str) -> list[dict[str, Any]]:
+        return [each for each in self.messages if each['type'] == kind]
+
+    def answers(self, id_: str) -> list[dict[str, Any]]:
+        return [each for each in self.of_type('answer') if each['request'] == id_]
+
+    def ask(self, kind: str, **fields: Any) -> dict[str, Any]:
+        """Send a message, and return its last answer, when the first is there."""
+        id_ = self.send(kind, **fields)
+        self.browser.until(lambda: self.answers(id_))
+        return self.answers(id_)[-1]
+
+    def until(self, predicate: Callable[[], object]) -> None:
+        self.browser.until(predicate)
+
+    def close(self) -> None:
+        self.socket.close()
+        self.until(lambda: self.closed)
+
+
+class Browser:
+    """
+    Clients of the page of a world, driven together with it.
+
+    :param physsim: a world with a sketchpad
+    """
+
+    def __init__(self, physsim: PhysSim) -> None:
+        self.physsim = physsim
+        sketchpad = physsim.node.sketchpad
+        assert sketchpad is not None
+        self.login = sketchpad.url()
+        self.view_login = sketchpad.url(Role.VIEW)
+        self.base = self.login.partition('/login')[0]
+        self.loop = asyncio.new_event_loop()
+        self.cookie = self.login_cookie(self.login)
+
+    def run(self, coroutine: Coroutine[Any, Any, Any]) -> Any:
+        """Wait for something, while the world's messages are handled; return its result."""
+        task = self.loop.create_task(coroutine)
+        self.until(task.done)
+        return task.result()
+
+    def until(self, predicate: Callable[[], object]) -> None:
+        """Run until something holds."""
+        deadline = time.monotonic() + PATIENCE
+        while not predicate():
+            assert time.monotonic() < deadline, 'it did not come about in time'
+            self.loop.run_until_complete(self._pass())
+            self.physsim.settle()
+
+    async def _pass(self) -> None:
+        """Let the sockets work for as long as a message takes on its way."""
+        await asyncio.sleep(0.001)
+
+    def fetch(self, path: str, *, cookie: str | None = None, **options: Any) -> HTTPResponse:
+        """Return the response to a request, whatever its status."""
+        return self.run(self._fetch(path, self.cookie if cookie is None else cookie, options))
+
+    def _fetch(
+        self, path: str, cookie: str, options: dict[str, Any]
+    ) -> Coroutine[Any, Any, HTTPResponse]:
+        async def fetch() -> HTTPResponse:
+            headers = {'Cookie': cookie} | options.pop('headers', {})
+            return await AsyncHTTPClient().fetch(
+                self.base + path,
+                headers=headers,
+                follow_redirects=False,
+                raise_error=False,
+                **options,
+            )
+
+        return fetch()
+
+    def login_cookie(self, url: str) -> str:
+        """Log in, and return the cookie; '' where none is given."""
+        response = self.fetch(url.removeprefix(self.base), cookie='')
+        return response.headers.get('Set-Cookie', '').partition(';')[0]
+
+    def open_page(
+        self, path: str = '/ws', *, cookie: str | None = None, origin: str | None = None
+    ) -> Page:
+        """Open a socket as a page does."""
+        headers = {
+            'Cookie': self.cookie if cookie is None else cookie,
+            'Origin': self.base if origin is None else origin,
+        }
+        if not headers['Origin']:
+            del headers['Origin']
+
+        async def connect() -> WebSocketClientConnection:
+            request = HTTPRequest(self.base.replace('http', 'ws') + path, headers=headers)
+            return await websocket_connect(request, max_message_size=2**27)
+
+        return Page(self, self.run(connect()))
+
+    def close(self) -> None:
+        for task in asyncio.all_tasks(self.loop):
+            task.cancel()
+        self.loop.run_until_complete(self._pass())
+        self.loop.close()
