@@ -30,7 +30,7 @@ from physsim_ros.drawing.strokes import corner_detection, request_builder
 from physsim_ros.drawing.strokes.context import Context, Interpretation
 from physsim_ros.drawing.strokes.features import Features
 from physsim_ros.drawing.strokes.fitting import rectangle, traced
-from physsim_ros.drawing.strokes.glyphs import axle
+from physsim_ros.drawing.strokes.glyphs import axle, weld
 from physsim_ros.drawing.strokes.hypothesis import falls, Hypothesis, LEAST, rises
 from physsim_ros.drawing.strokes.polyline import angles, point_of, smoothed, turns, widened
 from physsim_ros.model.arrays import Floats
@@ -106,10 +106,12 @@ def disc_interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[I
 def rectangle_interpretations(
     hypothesis: Hypothesis, context: Context
 ) -> Iterator[Interpretation]:
-    """Yield a rectangle."""
+    """Yield a weld and a rectangle."""
+    pin = weld.interpretation(hypothesis.points, context, weight=hypothesis.weight)
+    yield pin
     yield Interpretation(
         meaning='rectangle',
-        weight=hypothesis.weight,
+        weight=hypothesis.weight - pin.weight,
         build=partial(request_builder.rectangle, hypothesis.points, context),
     )
 

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""The arrow, drawn in free space: the new direction of gravity."""
+"""The arrow: in free space the new direction of gravity, from a body its velocity."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ from physsim_ros.drawing.strokes.hypothesis import falls, Hypothesis, LEAST, ris
 from physsim_ros.drawing.strokes.polyline import point_of
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NotRecognised
-from physsim_ros.model.requests import Configure
+from physsim_ros.model.requests import Command, Configure
 
 PRIMITIVE = 'arrow'
 # The least gap between the ends of an arrow, in shares of its length.
@@ -77,13 +77,34 @@ def _arrow_from_tail(points: Floats) -> Hypothesis:
 
 
 def interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[Interpretation]:
-    """Yield a turn of gravity."""
+    """Yield a velocity where the tail lies on a body that can move, else a turn of gravity."""
     points = hypothesis.points
-    free = not context.scene.bodies_at(point_of(points[0]))
+    under = context.scene.bodies_at(point_of(points[0]))
+    moving = next((name for name in under if not context.scene.body(name).anchored), None)
+    if moving is not None:
+        yield Interpretation(
+            meaning='velocity',
+            weight=hypothesis.weight,
+            build=partial(_set_velocity, moving, points, context),
+        )
+        return
+    free = not under
     yield Interpretation(
         meaning='gravity',
         weight=hypothesis.weight * (1.0 if free else MISPLACED),
         build=partial(_turn_gravity, points, context),
+    )
+
+
+def _set_velocity(name: str, points: Floats, context: Context) -> Outcome:
+    """Set the velocity of a body: 1 m of the arrow for 1 m/s; its spin stays."""
+    x, y = (points[1] - points[0]).tolist()
+    twist = x, y, context.scene.twist(name)[2]
+    return Outcome(
+        requests=(Command(names=(name,), twists=(twist,)),),
+        subject=name,
+        message=f'{name} moves with ({x:.3g}, {y:.3g}) m/s',
+        outline=context.drawn.points,
     )
 
 
