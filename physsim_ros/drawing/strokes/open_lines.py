@@ -82,7 +82,7 @@ def interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[Interp
     yield Interpretation(
         meaning=str(kind),
         weight=hypothesis.weight * share,
-        build=partial(request_builder.join, kind, points, context),
+        build=partial(request_builder.join, kind, context.drawn.points, context),
     )
     yield Interpretation(
         meaning='wall',
@@ -93,11 +93,12 @@ def interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[Interp
 
 def _joint_along(points: Floats, context: Context) -> tuple[JointKind, float]:
     """Return the kind of joint that a line would be, and its share of the weight, 0 .. 1."""
-    start, end = point_of(points[0]), point_of(points[-1])
-    ends = request_builder.joint_ends(points, context)
+    drawn = context.drawn.points
+    start, end = point_of(drawn[0]), point_of(drawn[-1])
+    ends = request_builder.joint_ends(drawn, context)
     sides = np.diff(points, axis=0)
     between = ends is not None and ends[1].body != WORLD
-    curve = simplified(context.drawn.points, points)
+    curve = simplified(drawn, points)
     if between and curve is not None and math.dist(start, end) < _SAGGING * path_length(curve):
         return JointKind.ROPE, BETWEEN
     if math.dist(start, end) > _STRAIGHT * float(np.hypot(*sides.T).sum()):

@@ -11,6 +11,7 @@
 # WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
 # See the License for the specific language governing permissions and
 # limitations under the License.
+
 """The round arrow about an axle: a motor that turns by the arrow's angle in a second."""
 
 from __future__ import annotations
@@ -36,7 +37,7 @@ from physsim_ros.model.transform import Point
 
 PRIMITIVE = 'round arrow'
 # Distance of the points between which the pen turns at the tip [points].
-_STRIDE = 5
+_STRIDE = 3
 # The least turn of the pen at the tip [rad]: barbs point back.
 _TURN = 1.5
 
