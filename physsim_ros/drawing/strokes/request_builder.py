@@ -73,8 +73,14 @@ def rectangle(points: Floats, context: Context) -> Outcome:
 
 def polygon(points: Floats, context: Context) -> Outcome:
     """Return a polygon, of its corners."""
+    return smooth_polygon(
+        regularisation.polygon_outline(points, context.settings.beautify), context
+    )
+
+
+def smooth_polygon(corners: Floats, context: Context) -> Outcome:
+    """Return a polygon that is not regularised: its corners are points of a curve."""
     name = context.scene.next_body()
-    corners = regularisation.polygon_outline(points, context.settings.beautify)
     return Outcome(
         requests=(body_requests.polygon(name, list(map(point_of, corners)), context.settings),),
         subject=name,

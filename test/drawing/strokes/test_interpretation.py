@@ -497,6 +497,23 @@ def test_a_scribble_from_body_to_body_deletes_both(world: World) -> None:
     assert reading.requests == (Delete(name='a/0'), Delete(name='a/1'))
 
 
+@pytest.mark.parametrize('size', [0.7, 1.4, 3.0])
+def test_a_pentagram_and_a_zigzag_of_five_lines_over_a_body_delete_nothing(
+    world: World, size: float
+) -> None:
+    spawn(world, 'a/0', Box(width=1.0, height=1.0))
+    angle = math.pi / 2 + 0.8 * math.pi * np.arange(6)
+    star = size * np.column_stack((np.cos(angle), np.sin(angle)))
+
+    reading = draw(world, star)
+    zigzag = draw(world, [(size * (n / 5 - 0.5), 0.4 * size * (-1) ** n) for n in range(6)])
+
+    assert reading.meaning == 'polygon'
+    (request,) = reading.requests
+    assert isinstance(request, Spawn)
+    assert not any(isinstance(each, Delete) for each in zigzag.requests)
+
+
 def test_a_scribble_in_the_open_is_refused(world: World) -> None:
     with pytest.raises(NothingThere, match='there are none'):
         draw(world, scribble(0.0, 0.0, 1.0, 1.0))
