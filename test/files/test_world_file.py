@@ -622,6 +622,7 @@ def test_a_body_that_was_cut_into_pieces_leaves_no_memory(resting: Path) -> None
     restored(state).step(10)
 
 
+@settings(deadline=None)
 @given(
     ids=st.lists(st.integers(0, 20), min_size=5, max_size=5, unique=True),
     pairs=st.lists(
