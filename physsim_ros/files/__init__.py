@@ -27,7 +27,6 @@ from physsim_ros.files.world_file import (
     load_world,
     save_world,
     shipped_worlds,
-    user_worlds,
 )
 from physsim_ros.files.world_schema import PARAMETERS, SETTINGS
 from physsim_ros.files.yaml12 import load_mapping
@@ -46,5 +45,4 @@ __all__ = [
     'save_world',
     'shipped',
     'shipped_worlds',
-    'user_worlds',
 ]

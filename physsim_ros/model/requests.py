@@ -84,10 +84,7 @@ class Spawn:
         check_body_name(self.name)
         check_pose(self.pose, 'pose')
         if self.color is not None:
-            check_finite(self.color, 4, 'color')
-            if not all(0.0 <= channel <= 1.0 for channel in self.color):
-                raise BadProperty('each channel of color must lie in 0 .. 1', field='color')
-            object.__setattr__(self, 'color', tuple(map(float, self.color)))
+            object.__setattr__(self, 'color', _checked_color(self.color))
         check_finite((self.lifetime,), 1, 'lifetime')
         if not 0.0 <= self.lifetime <= LONGEST:
             raise BadProperty(
@@ -97,10 +94,71 @@ class Spawn:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class ChangeBody:
+    """
+    Change the properties of a body that are named here; everything else is kept.
+
+    :param name: of the body
+    :param properties: that are set
+    :param color: red, green, blue, alpha, each 0 .. 1; None keeps it
+    :param pose: of the body's origin; None keeps it
+    :param frame: of the pose: '' for the world, or a body's name
+    :raises Malformed: a number is not finite, or an array has the wrong length
+    :raises BadProperty: a pose or colour is out of range
+    """
+
+    name: str
+    properties: Properties = field(default_factory=Properties)
+    color: Color | None = None
+    pose: Pose | None = None
+    frame: str = ''
+
+    def __post_init__(self) -> None:
+        if self.pose is not None:
+            check_pose(self.pose, 'pose')
+        if self.color is not None:
+            object.__setattr__(self, 'color', _checked_color(self.color))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MoveBodies:
+    """
+    Move bodies by one vector, all of them, or none if one is refused; velocities are kept.
+
+    :param names: the bodies, each once
+    :param by: vector of the world [m]
+    :raises Malformed: no body is named, one is named twice, or a number is not finite
+    :raises BadProperty: the vector is too long
+    """
+
+    names: tuple[str, ...]
+    by: Point
+
+    def __post_init__(self) -> None:
+        _check_names(self.names)
+        check_point(self.by, 'by')
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Delete:
     """Remove the body of that name, and its joints."""
 
     name: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DeleteBodies:
+    """
+    Remove several bodies, and their joints; none if one is not there.
+
+    :param names: the bodies, each once
+    :raises Malformed: no body is named, or one is named twice
+    """
+
+    names: tuple[str, ...]
+
+    def __post_init__(self) -> None:
+        _check_names(self.names)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -395,18 +453,33 @@ def _body_name(mapping: Mapping[Any, Any], key: str) -> str:
 
 Joining = Join | Unjoin | UnjoinAll | Pin | Axle
 Dragging = Grab | MoveHand | KeepHand | LetGo
-Request = (
+OfBodies = (
     Spawn
-    | Delete
-    | DeleteAll
-    | Joining
+    | ChangeBody
+    | MoveBodies
+    | Command
     | Anchor
     | Release
-    | Dragging
-    | Command
-    | Configure
-    | Restore
+    | Delete
+    | DeleteBodies
+    | DeleteAll
 )
+Request = OfBodies | Joining | Dragging | Configure | Restore
+
+
+def _checked_color(color: Color) -> Color:
+    check_finite(color, 4, 'color')
+    if not all(0.0 <= channel <= 1.0 for channel in color):
+        raise BadProperty('each channel of color must lie in 0 .. 1', field='color')
+    red, green, blue, alpha = map(float, color)
+    return red, green, blue, alpha
+
+
+def _check_names(names: tuple[str, ...]) -> None:
+    if not names:
+        raise Malformed('no body is named', field='names')
+    if len(set(names)) != len(names):
+        raise Malformed('a body is named twice', field='names')
 
 
 def check_point(point: Point, name: str) -> None:

@@ -30,6 +30,7 @@ from physsim_ros.engine.contact_report import NO_CONTACTS
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import BadProperty, Refusal
 from physsim_ros.model.requests import (
+    ChangeBody,
     Command,
     Delete,
     Dragging,
@@ -209,6 +210,7 @@ class Simulation:
         match request:
             case (
                 Spawn(name=subject)
+                | ChangeBody(name=subject)
                 | Delete(name=subject)
                 | Join(name=subject)
                 | Unjoin(name=subject)
@@ -487,9 +489,15 @@ class Simulation:
             self._answers.append(answer)
 
     def _apply(self, request: Request, gesture: int) -> tuple[str, str]:
+        made = self.timeline.moment
         if isinstance(request, Dragging):
-            return self._drag(request, gesture)
-        return self._apply_to_world(request, gesture)
+            done = self._drag(request, gesture)
+        else:
+            done = self._apply_to_world(request, gesture)
+        if self.timeline.moment != made:
+            # A branch has no hands of the course that it leaves.
+            self._release_grips()
+        return done
 
     def _drag(self, request: Dragging, gesture: int) -> tuple[str, str]:
         if request.hand not in self._hands and not isinstance(request, Grab):

@@ -25,40 +25,32 @@ from dataclasses import replace
 import hashlib
 import math
 
-from physsim_ros.engine.body import REST, RigidBody
+from physsim_ros.engine.body import REST
 from physsim_ros.engine.body_pool import BodyPool
 from physsim_ros.engine.checkpoint import restore_checkpoint, take_checkpoint
 from physsim_ros.engine.observation import digest_parts, observe_bodies
 from physsim_ros.engine.space import Space
 from physsim_ros.model.checkpoint import BodyState, Checkpoint, Motion, WorldState
-from physsim_ros.model.checks import HEAVIEST, LIGHTEST
-from physsim_ros.model.colors import color_of
-from physsim_ros.model.errors import (
-    Anchored,
-    BadProperty,
-    NothingThere,
-    UnknownBody,
-    UnknownFrame,
-    WorldFull,
-)
 from physsim_ros.model.grips import Grip
 from physsim_ros.model.joints import JointKind
-from physsim_ros.model.names import split_name
 from physsim_ros.model.requests import (
     Anchor,
     Axle,
-    check_pose,
+    ChangeBody,
     Command,
     Configure,
     Delete,
     DeleteAll,
+    DeleteBodies,
     Dragging,
     Grab,
     Join,
     Joining,
     KeepHand,
     LetGo,
+    MoveBodies,
     MoveHand,
+    OfBodies,
     Pin,
     Release,
     Request,
@@ -67,11 +59,11 @@ from physsim_ros.model.requests import (
     Unjoin,
     UnjoinAll,
 )
-from physsim_ros.model.scene import Body
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Contacts, Snapshot
-from physsim_ros.model.transform import Point, Pose, rotated
-from physsim_ros.simulation import hand_requests, joint_requests
+from physsim_ros.model.transform import Point
+from physsim_ros.simulation import body_requests, hand_requests, joint_requests
+from physsim_ros.simulation.lookup import points_in_world, pose_in_world
 
 
 class World:
@@ -208,19 +200,9 @@ class World:
             return self._join(request)
         if isinstance(request, Dragging):
             return self._drag(request)
+        if isinstance(request, OfBodies):
+            return self._change_bodies(request)
         match request:
-            case Spawn():
-                return self._spawn(request)
-            case Delete(name=name):
-                self._space.remove(self._known(name).body.name)
-                return name, f'deleted {name}'
-            case DeleteAll(namespace=namespace):
-                return '', self._delete_all(namespace)
-            case Anchor(point=point, frame=frame) | Release(point=point, frame=frame):
-                anchored = isinstance(request, Anchor)
-                return self._set_anchored(point, frame, anchored=anchored)
-            case Command():
-                return self._command(request)
             case Configure(changes=changes):
                 self._configure(replace(self._settings, **changes))
                 return '', f'set {", ".join(changes)}'
@@ -286,136 +268,63 @@ class World:
 
     # Requests
 
-    def _spawn(self, request: Spawn) -> tuple[str, str]:
-        name, said = request.name, request.properties
-        old = self._space.bodies.by_name.get(name)
-        count, most = len(self._space.bodies.by_name), self._settings.max_bodies
-        if old is None and count >= most:
-            raise WorldFull(f'the world holds {count} bodies; it may hold {most}')
-        pose = self._in_world(request.pose, request.frame)
-        body = self._described(request, old.body if old else None)
-        _check_weight(body)
-        moves = (said.velocity or (0.0, 0.0)) != (0.0, 0.0) or bool(said.spin)
-        if body.anchored and moves:
-            raise Anchored(f'{name} is anchored; it has no velocity', field='velocity')
-        twist = REST if old is None or old.body.anchored else self._space.twist_of(old)
-        if said.velocity is not None:
-            twist = (*said.velocity, twist[2])
-        if said.spin is not None:
-            twist = (twist[0], twist[1], said.spin)
-        if body.anchored:
-            twist = REST
-        if old is not None:
-            self._space.change(old, body, pose, twist)
-            return name, f'changed {name}'
-        self._space.add(body, self._spawned, pose, twist)
-        self._spawned += 1
-        return name, f'spawned {name}'
+    def _change_bodies(self, request: OfBodies) -> tuple[str, str]:
+        space = self._space
+        match request:
+            case Spawn():
+                return self._spawn(request)
+            case ChangeBody():
+                return body_requests.change_body(space, request)
+            case MoveBodies():
+                return body_requests.move_bodies(space, request)
+            case Command():
+                return body_requests.command_bodies(space, request, self._wrenches_until())
+            case Anchor(point=point, frame=frame) | Release(point=point, frame=frame):
+                (point,) = points_in_world(space, (point,), frame)
+                anchored = isinstance(request, Anchor)
+                return body_requests.set_anchored(space, point, anchored=anchored)
+            case Delete(name=name):
+                return body_requests.delete_bodies(space, (name,), 'name')
+            case DeleteBodies(names=names):
+                return body_requests.delete_bodies(space, names)
+            case DeleteAll(namespace=namespace):
+                return body_requests.delete_all(space, namespace)
 
-    def _described(self, request: Spawn, old: Body | None) -> Body:
-        """Return the body that a spawn asks for: what it says, else what was, else defaults."""
-        said = request.properties
-        if old is None:
-            old = Body(
-                name=request.name,
-                shape=request.shape,
-                color=request.color or color_of(request.name),
-                mass=None,
-                density=self._settings.density,
-                friction=self._settings.friction,
-                elasticity=self._settings.elasticity,
-                anchored=False,
-                kinematic=False,
-                group=0,
-                sensor=False,
-                expires=None,
-            )
-        changes = said.explicit()
-        for motion in ('velocity', 'spin'):
-            changes.pop(motion, None)
-        if said.density is not None:
-            changes['mass'] = None
-        if request.color is not None:
-            changes['color'] = request.color
-        if request.lifetime > 0:
-            changes['expires'] = self._step_after(request.lifetime)
-        return replace(old, shape=request.shape, **changes)
+    def _spawn(self, request: Spawn) -> tuple[str, str]:
+        expires = self._step_after(request.lifetime) if request.lifetime > 0 else None
+        done = body_requests.spawn_body(
+            self._space, request, self._settings, serial=self._spawned, expires=expires
+        )
+        self._spawned = max(self._spawned, self._space.bodies.by_name[request.name].serial + 1)
+        return done
 
     def _join(self, request: Joining) -> tuple[str, str]:
         match request:
             case Join(points=points, frame=frame):
-                return joint_requests.join(self._space, request, self._points(points, frame))
+                placed = points_in_world(self._space, points, frame)
+                return joint_requests.join(self._space, request, placed)
             case Unjoin(name=name):
                 return joint_requests.unjoin(self._space, name)
             case UnjoinAll(namespace=namespace):
                 return '', joint_requests.unjoin_all(self._space, namespace)
             case Pin(point=point, frame=frame) | Axle(point=point, frame=frame):
                 kind = JointKind.PIN if isinstance(request, Pin) else JointKind.AXLE
-                (point,) = self._points((point,), frame)
+                (point,) = points_in_world(self._space, (point,), frame)
                 return joint_requests.pin(self._space, kind, point)
-
-    def _set_anchored(self, point: Point, frame: str, *, anchored: bool) -> tuple[str, str]:
-        ((x, y),) = self._points((point,), frame)
-        name = self.body_at((x, y))
-        if name is None:
-            raise NothingThere(f'there is no body at ({x:g}, {y:g})', field='point')
-        rigid = self._space.bodies.by_name[name]
-        if rigid.body.anchored != anchored:
-            body = replace(rigid.body, anchored=anchored)
-            self._space.change(rigid, body, rigid.pose, REST)
-        if anchored:
-            return name, f'anchored {name}'
-        loosened = joint_requests.loosen(self._space, name, (x, y))
-        return name, ' and removed '.join((f'released {name}', *loosened))
 
     def _drag(self, request: Dragging) -> tuple[str, str]:
         match request:
             case Grab(point=point, frame=frame):
-                (point,) = self._points((point,), frame)
+                (point,) = points_in_world(self._space, (point,), frame)
                 return hand_requests.grab_body(self._space, request, point)
             case MoveHand(point=point, yaw=yaw, frame=frame):
-                x, y, turned = self._in_world((*point, yaw or 0.0), frame)
+                x, y, turned = pose_in_world(self._space, (*point, yaw or 0.0), frame)
                 moved = replace(request, point=(x, y), yaw=None if yaw is None else turned)
                 return hand_requests.move_hand(self._space, moved)
             case KeepHand(hand=hand):
                 return '', f'{hand} is there'
             case LetGo(hand=hand):
                 return hand_requests.let_go(self._space, hand)
-
-    def _delete_all(self, namespace: str | None) -> str:
-        names = [
-            name
-            for name in self._space.bodies.by_name
-            if namespace is None or split_name(name)[0] == namespace
-        ]
-        for name in names:
-            self._space.remove(name)
-        return f'deleted {len(names)} bodies'
-
-    def _command(self, request: Command) -> tuple[str, str]:
-        rigids = [self._known(name, 'joint_names') for name in request.names]
-        for rigid in rigids:
-            if rigid.body.anchored and (request.twists or request.wrenches):
-                raise Anchored(
-                    f'{rigid.body.name} is anchored; it takes a pose only', field='joint_names'
-                )
-            if rigid.body.kinematic and request.wrenches:
-                raise BadProperty(
-                    f'{rigid.body.name} is kinematic; forces do not move it', field='wrench'
-                )
-        # Twists and wrenches are of the world, but a frame that there is not is a mistake.
-        self._in_world(REST, request.frame)
-        poses = [self._in_world(pose, request.frame) for pose in request.poses]
-        for rigid, pose in zip(rigids, poses, strict=False):
-            self._space.set_pose(rigid, pose)
-        for rigid, twist in zip(rigids, request.twists, strict=False):
-            self._space.set_twist(rigid, twist)
-        until = self._wrenches_until()
-        for rigid, wrench in zip(rigids, request.wrenches, strict=False):
-            self._space.set_wrench(rigid, wrench, until)
-        if len(rigids) == 1:
-            return request.names[0], f'commanded {request.names[0]}'
-        return '', f'commanded {len(rigids)} bodies'
 
     def _wrenches_until(self) -> int | None:
         """Return the step until which a wrench acts that is asked for now; None is for ever."""
@@ -458,28 +367,6 @@ class World:
         self._settings = state.settings
         self._replace_space(space, BodyPool())
 
-    def _points(self, points: tuple[Point, ...], frame: str) -> tuple[Point, ...]:
-        """Return points of a frame as points of the world."""
-        return tuple(self._in_world((*point, 0.0), frame)[:2] for point in points)
-
-    def _known(self, name: str, field: str = 'name') -> RigidBody:
-        if name not in self._space.bodies.by_name:
-            raise UnknownBody(f'there is no body {name!r}', field=field)
-        return self._space.bodies.by_name[name]
-
-    def _in_world(self, pose: Pose, frame: str) -> Pose:
-        if not frame:
-            return pose
-        if frame not in self._space.bodies.by_name:
-            raise UnknownFrame(
-                f'frame {frame!r} is neither the world nor a body', field='header.frame_id'
-            )
-        x, y, yaw = self._space.bodies.by_name[frame].pose
-        turned_x, turned_y = rotated((pose[0], pose[1]), yaw)
-        result = (x + turned_x, y + turned_y, yaw + pose[2])
-        check_pose(result, 'pose')
-        return result
-
     def _step_after(self, seconds: float) -> int:
         return self.step_count + steps_in(seconds, self.physics_rate)
 
@@ -499,14 +386,3 @@ def _hand_over(old: Space, new: Space) -> None:
     report = new.pipeline.contact_report
     report.copy_sums(old.pipeline.contact_report, old.table.ids, new.table.ids)
     new.broken = old.broken
-
-
-def _check_weight(body: Body) -> None:
-    """Refuse a body whose size and density make it too light or too heavy."""
-    if not LIGHTEST <= body.total_mass <= HEAVIEST:
-        field = 'density' if body.mass is None else 'mass'
-        raise BadProperty(
-            f'the body would weigh {body.total_mass:g} kg; {LIGHTEST:g} to {HEAVIEST:g} kg can be '
-            'simulated',
-            field=field,
-        )

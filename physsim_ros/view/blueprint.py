@@ -13,7 +13,7 @@
 # limitations under the License.
 
 """
-The layout of the viewer: the world, and beside it run states, plots and the log of events.
+The layout of the viewer: the world in full width, and below it time, log and plots in tabs.
 
 Law: the bounds of the view of the world never change; the camera moves instead (`camera`), so that
 a user's pan and zoom persist.
@@ -21,56 +21,46 @@ a user's pan and zoom persist.
 
 from __future__ import annotations
 
-from physsim_ros.view import run_state_track
+from physsim_ros.view import event_log, plots, run_state_track, traces, velocities
+from physsim_ros.view.frame_batch import RECORDED
 import rerun.blueprint as rrb
 
-# Size of the view of the world [pixels].
-WIDTH, HEIGHT = 1600, 1000
-# Time span of the plots: ten seconds at 60 Hz [frames].
-PLOTTED = 600
+# Size of the view of the world [pixels]: of the shape that it has in a window of 16 : 9.
+WIDTH, HEIGHT = 1600, 640
 PAPER = (250, 250, 247)
+# Time span of the traces of bodies [s].
+_TRACED = 5.0
 
 
 def blueprint() -> rrb.Blueprint:
     """Return the blueprint of the layout."""
-    recent = rrb.VisibleTimeRange(
-        'frame',
-        start=rrb.TimeRangeBoundary.cursor_relative(seq=-PLOTTED),
-        end=rrb.TimeRangeBoundary.cursor_relative(),
+    world = rrb.Spatial2DView(
+        origin='world/camera',
+        contents='world/**',
+        name='World',
+        background=PAPER,
+        visual_bounds=rrb.VisualBounds2D(x_range=(0, WIDTH), y_range=(0, HEIGHT)),
+        overrides={
+            traces.PATH: [
+                rrb.VisibleTimeRanges(
+                    timeline=RECORDED,
+                    start=rrb.TimeRangeBoundary.cursor_relative(seconds=-_TRACED),
+                    end=rrb.TimeRangeBoundary.cursor_relative(),
+                )
+            ],
+            # Shown by a click on the eye in the panel of the blueprint.
+            velocities.PATH: [rrb.EntityBehavior(visible=False)],
+        },
+    )
+    log = rrb.Horizontal(
+        run_state_track.run_state_view(),
+        event_log.log_view(),
+        column_shares=[1, 2],
+        name='Time and log',
     )
     return rrb.Blueprint(
-        rrb.Horizontal(
-            rrb.Spatial2DView(
-                origin='world/camera',
-                contents='world/**',
-                name='World',
-                background=PAPER,
-                visual_bounds=rrb.VisualBounds2D(x_range=(0, WIDTH), y_range=(0, HEIGHT)),
-            ),
-            rrb.Vertical(
-                run_state_track.run_state_view(),
-                rrb.TimeSeriesView(
-                    origin='energy',
-                    name='Energy [J]',
-                    time_ranges=recent,
-                    plot_legend=rrb.PlotLegend(corner=rrb.Corner2D.RightTop),
-                ),
-                rrb.TimeSeriesView(
-                    origin='real_time_factor',
-                    name='Real-time factor',
-                    time_ranges=recent,
-                    plot_legend=rrb.PlotLegend(visible=False),
-                ),
-                rrb.TextLogView(
-                    origin='events',
-                    name='Events',
-                    columns=rrb.TextLogColumns(text_log_columns=['loglevel', 'body']),
-                ),
-                row_shares=[2, 3, 2, 2],
-            ),
-            column_shares=[3, 1],
-        ),
+        rrb.Vertical(world, rrb.Tabs(log, *plots.plot_views(), active_tab=0), row_shares=[3, 1]),
         rrb.BlueprintPanel(state='collapsed'),
         rrb.SelectionPanel(state='collapsed'),
-        rrb.TimePanel(state='collapsed', timeline='frame', play_state='following'),
+        rrb.TimePanel(state='collapsed', timeline=RECORDED, play_state='following'),
     )

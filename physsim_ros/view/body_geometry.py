@@ -13,291 +13,176 @@
 # limitations under the License.
 
 """
-The geometry of bodies in Rerun: flat rectangles, discs and triangles in body frames.
+The bodies of a scene in Rerun: one mesh for all bodies that look alike, and a pose for each.
 
-Law: geometry changes only with the scene; positions follow from the poses by array operations.
+Laws: a mesh is sent when it changes, poses follow from those of the bodies by array operations;
+bodies are drawn in spawn order, the last one on top.
 """
 
 from __future__ import annotations
 
-from collections import defaultdict
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
-from itertools import pairwise
+from collections.abc import Hashable, Mapping
+from dataclasses import dataclass, field
 import math
-from typing import NamedTuple
+from types import MappingProxyType
 
 import numpy as np
-from numpy.typing import NDArray
-from physsim_ros.model.arrays import Floats, Singles
-from physsim_ros.model.colors import Color
+from physsim_ros.model.arrays import Floats
 from physsim_ros.model.scene import Body, Scene
 from physsim_ros.model.settings import Bounds
-from physsim_ros.model.shapes import Box, Capsule, Circle, Compound, Convex, Disc, Piece, Polygon
-from physsim_ros.model.transform import Point
+from physsim_ros.model.shapes import Box, Disc
+from physsim_ros.model.transform import turned
+from physsim_ros.view.body_mesh import body_mesh, opacity
+from physsim_ros.view.joint_symbols import Form
+from physsim_ros.view.mesh_group import MeshGroup, Path
 
-# A flat rectangle or disc, or a corner of a triangle: x, y [m], yaw [rad] in the body frame; half
-# extents [m], 0 of a corner; red, green, blue, alpha, each 0 .. 1.
-Element = tuple[float, float, float, float, float, float, float, float, float]
-# The elements of one body: (k, 9) float32 of each kind.
-Elements = dict[str, Singles]
-
-# Kinds of elements: rectangles, discs, and triangles. Translucent triangles are a kind of their
-# own, since opacity is that of a whole mesh.
-RECTANGLES = ('boxes', 'marks', 'outlines')
-TRIANGLES = ('polygons', 'ghosts')
-# Entities of the kinds, for free and for anchored bodies: the latter seldom move.
-PLACES = ('world', 'world/anchored')
-# Half the thickness of a body, and the depth over which later bodies lie above earlier ones
-# [units]: enough for the renderer's depth buffer, too little to be seen from the side.
-THICK, DEPTH = 0.01, 0.02
-# Half the width of lines [units].
-FINE = 0.025
-# Factor on the opacity of a sensor.
-TRANSLUCENT = 0.4
-DARK, LIGHT = (0.08, 0.08, 0.1, 1.0), (1.0, 1.0, 1.0, 1.0)
-# Factor of Rerun's shading of a solid seen from above, in linear light (its lighting.wgsl: 0.2 and
-# half of a light from (1, 3, 5)). Meshes without normals are not shaded.
-LIT = 0.2 + 0.5 * 5 / math.sqrt(35)
+ROOT = 'world/bodies'
+# Depth over which later bodies lie above earlier ones [units]: enough for the renderer's depth
+# buffer, too little for a difference in perspective.
+DEPTH = 0.02
+# Ratio of two sizes up to which boxes or discs share a scaled mesh: their outlines differ in width
+# by as much.
+_LADDER = 1.5
 
 
-class Tracks(NamedTuple):
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class BodyGroup(MeshGroup):
     """
-    Poses of n bodies in f frames: position [m], and cosine and sine of yaw and of half of it.
+    The bodies that share a mesh.
 
-    Each is (f, n) float32.
+    :param first: of the bodies, the one that the mesh is made for
     """
 
-    x: Singles
-    y: Singles
-    cos: Singles
-    sin: Singles
-    half_cos: Singles
-    half_sin: Singles
-
-    @classmethod
-    def of(cls, poses: Floats) -> Tracks:
-        """Return the tracks of poses, (f, n, 3) float64: x, y [m], yaw [rad]."""
-        x, y, half = np.moveaxis(poses, 2, 0)
-        cos, sin = np.cos(half / 2), np.sin(half / 2)
-        each = (x, y, cos**2 - sin**2, 2 * sin * cos, cos, sin)
-        return cls(*(values.astype(np.float32) for values in each))
+    first: Body
 
 
-@dataclass(frozen=True, slots=True)
-class Table:
-    """
-    The elements of one entity.
+@dataclass(slots=True)
+class _Members:
+    """Rows and scales of the bodies of a group, and the group of the same key before."""
 
-    :param kind: of RECTANGLES or TRIANGLES, or discs
-    :param rows: (k,) intp: rows of their bodies
-    :param local_poses: (k, 3) float32: x, y [m], yaw [rad] in the body frame
-    :param sizes: (k, 3) float32: half extents [m]
-    :param colors: (k, 4) uint8
-    :param depth: (k,) float32: z [m]
-    """
-
-    kind: str
-    rows: NDArray[np.intp]
-    local_poses: Singles
-    sizes: Singles
-    colors: NDArray[np.uint8]
-    depth: Singles
-
-    def centers(self, tracks: Tracks) -> Singles:
-        """Return the positions of the elements, (f * k, 3) float32 [m]."""
-        centers = np.empty((len(tracks.x), len(self.rows), 3), dtype=np.float32)
-        centers[..., 0] = tracks.x[:, self.rows]
-        centers[..., 1] = tracks.y[:, self.rows]
-        centers[..., 2] = self.depth
-        x, y = self.local_poses[:, 0], self.local_poses[:, 1]
-        if x.any() or y.any():
-            cos, sin = tracks.cos[:, self.rows], tracks.sin[:, self.rows]
-            centers[..., 0] += cos * x - sin * y
-            centers[..., 1] += sin * x + cos * y
-        return centers.reshape(-1, 3)
-
-    def quaternions(self, tracks: Tracks) -> Singles:
-        """Return the rotations of the elements, (f * k, 4) float32: quaternions x, y, z, w."""
-        cos, sin = tracks.half_cos[:, self.rows], tracks.half_sin[:, self.rows]
-        rotations = np.zeros((*cos.shape, 4), dtype=np.float32)
-        if self.local_poses[:, 2].any():
-            own_cos, own_sin = (
-                np.cos(self.local_poses[:, 2] / 2),
-                np.sin(self.local_poses[:, 2] / 2),
-            )
-            cos, sin = cos * own_cos - sin * own_sin, sin * own_cos + cos * own_sin
-        rotations[..., 2], rotations[..., 3] = sin, cos
-        return rotations.reshape(-1, 4)
+    first: Body
+    before: BodyGroup | None
+    symbols: Form
+    rows: list[int] = field(default_factory=list)
+    names: list[str] = field(default_factory=list)
+    scales: list[tuple[float, float, float]] = field(default_factory=list)
 
 
 class BodyGeometry:
     """
-    The geometry of the bodies of one scene.
+    The bodies of one scene in groups.
 
     :param scene: with the bodies
     :param unit: length of a unit of the view [m]
-    :param before: the geometry of the scene before; elements of the same bodies are taken from it
+    :param before: the geometry of the scene before; its meshes and paths are used again
+    :param symbols: of joints, by the row of the body that they are drawn on
 
-    :ivar tables: path of an entity -> its elements, at least one
+    :ivar groups: with at least one body each
     """
 
-    def __init__(self, scene: Scene, unit: float, before: BodyGeometry | None = None) -> None:
+    def __init__(
+        self,
+        scene: Scene,
+        unit: float,
+        before: BodyGeometry | None = None,
+        symbols: Mapping[int, Form] = MappingProxyType({}),
+    ) -> None:
         self.scene = scene
         self.unit = unit
-        known = before.known_elements if before is not None and before.unit == unit else {}
-        # By identity; the reference to the body keeps its id from being reused.
-        self.known_elements: dict[int, tuple[Body, Elements]] = {}
-        parts: defaultdict[tuple[str, str], list[tuple[int, Singles]]] = defaultdict(list)
+        # Keys are found again by the identity of a body; the reference keeps the id from reuse.
+        self._keys: dict[int, tuple[Body, Hashable]] = {}
+        known = {} if before is None else before._keys  # noqa: SLF001  of the same class
+        kept = {} if before is None or before.unit != unit else before._by_key  # noqa: SLF001
+        members: dict[Hashable, _Members] = {}
         for row, body in enumerate(scene.bodies):
-            key = id(body)
-            _, elements = self.known_elements[key] = known.get(key) or (
-                body,
-                _elements_of(body, unit),
-            )
-            place = PLACES[body.anchored]
-            for kind, part in elements.items():
-                parts[place, kind].append((row, part))
+            if row in symbols:
+                key: Hashable = body.shape, *_look(body), symbols[row]
+            else:
+                _, key = self._keys[id(body)] = known.get(id(body)) or (body, _appearance(body))
+            group = members.get(key)
+            if group is None:
+                group = members[key] = _Members(body, kept.get(key), symbols.get(row, ()))
+            group.rows.append(row)
+            group.names.append(body.name)
+            group.scales.append(_scale(body, group.first))
+        self._by_key: dict[Hashable, BodyGroup] = {}
+        taken = {each.before.path for each in members.values() if each.before is not None}
         spacing = DEPTH * unit / max(1, len(scene.bodies))
-        self.tables = {
-            f'{place}/{kind}': _table(kind, each, thick=THICK * unit, spacing=spacing)
-            for (place, kind), each in parts.items()
-        }
+        for key, each in members.items():
+            self._by_key[key] = _group(each, unit, spacing, taken)
+        self.groups = list(self._by_key.values())
 
-    def extent(self, tracks: Tracks) -> Bounds:
-        """Return left, bottom, right, top [m] of all bodies in a frame; at least one body."""
+    def extent(self, poses: Floats) -> Bounds:
+        """
+        Return left, bottom, right, top [m] of all bodies; at least one body.
+
+        :param poses: (n, 3) float64: x, y [m], yaw [rad]
+        """
         low, high = [], []
-        for table in self.tables.values():
-            reach = table.sizes[:, :2]
-            if table.kind in RECTANGLES:
-                _, _, sin, cos = table.quaternions(tracks).T[..., None]
-                reach = np.abs(cos**2 - sin**2) * reach + np.abs(2 * sin * cos) * reach[:, ::-1]
-            centers = table.centers(tracks)[:, :2]
-            low.append(centers - reach)
-            high.append(centers + reach)
-        left, bottom = np.concatenate(low).min(axis=0).tolist()
-        right, top = np.concatenate(high).max(axis=0).tolist()
+        for group in self.groups:
+            (left, bottom), (right, top) = group.mesh.extent
+            corners = np.array(((left, bottom), (right, bottom), (right, top), (left, top)))
+            scales = np.ones((1, 3)) if group.scales is None else group.scales
+            offsets = turned(corners * scales[:, None, :2], poses[group.rows, 2][:, None])
+            places = poses[group.rows, None, :2] + offsets
+            low.append(places.min(axis=(0, 1)))
+            high.append(places.max(axis=(0, 1)))
+        left, bottom = np.min(low, axis=0).tolist()
+        right, top = np.max(high, axis=0).tolist()
         return left, bottom, right, top
 
 
-def _table(kind: str, parts: list[tuple[int, Singles]], *, thick: float, spacing: float) -> Table:
-    bodies, arrays = zip(*parts, strict=True)
-    rows = np.repeat(bodies, [len(each) for each in arrays])
-    elements = np.concatenate(arrays)
-    depth = rows * spacing
-    if kind in TRIANGLES:
-        depth += thick
-    elif kind in {'marks', 'outlines'}:
-        # Above their body, below the next one.
-        thick += spacing / 2
-    return Table(
-        kind=kind,
+def _appearance(body: Body) -> Hashable:
+    """Return a key that is equal for bodies that share a mesh."""
+    shape: Hashable = body.shape
+    match body.shape:
+        case Disc(radius=radius):
+            shape = _rung(radius)
+        case Box(width=width, height=height):
+            shape = _rung(width), _rung(height)
+    return shape, *_look(body)
+
+
+def _look(body: Body) -> tuple[Hashable, ...]:
+    """Return what decides how a body of some shape looks."""
+    return body.color, body.anchored, body.kinematic, body.sensor
+
+
+def _rung(size: float) -> int:
+    return round(math.log(size, _LADDER))
+
+
+def _scale(body: Body, first: Body) -> tuple[float, float, float]:
+    """Return the size of a body by that of the first of its group."""
+    match body.shape, first.shape:
+        case Disc(radius=radius), Disc(radius=base):
+            return radius / base, radius / base, 1.0
+        case Box(width=width, height=height), Box(width=wide, height=high):
+            return width / wide, height / high, 1.0
+    return 1.0, 1.0, 1.0
+
+
+def _group(members: _Members, unit: float, spacing: float, taken: set[Path]) -> BodyGroup:
+    before = members.before
+    scales = np.array(members.scales, dtype=np.float32)
+    rows = np.array(members.rows, dtype=np.intp)
+    mesh = None if before is None or before.first.shape != members.first.shape else before.mesh
+    return BodyGroup(
+        path=before.path if before is not None else _new_path(members.first.name, taken),
+        first=members.first,
+        names=tuple(members.names),
+        mesh=mesh or body_mesh(members.first, unit, members.symbols),
+        opacity=opacity(members.first),
         rows=rows,
-        local_poses=elements[:, :3],
-        sizes=np.insert(elements[:, 3:5], 2, thick, axis=1),
-        colors=sent_colors(elements[:, 5:], shaded=kind not in TRIANGLES),
-        depth=depth.astype(np.float32),
+        scales=None if (scales == 1.0).all() else scales,
+        depths=(rows * spacing).astype(np.float32),
     )
 
 
-def sent_colors(colors: Singles, *, shaded: bool) -> NDArray[np.uint8]:
-    """
-    Return the colours to send, so that Rerun displays the given ones despite its shading.
-
-    A colour that is too bright for a shaded solid is darkened; its hue stays.
-
-    :param colors: (k, 4) float32: red, green, blue, alpha, each 0 .. 1
-    :param shaded: whether Rerun shades the geometry
-    :return: (k, 4) uint8
-    """
-    # https://www.w3.org/TR/css-color-4/#color-conversion-code: sRGB to linear light and back.
-    brightest = 1.055 * LIT ** (1 / 2.4) - 0.055
-    peak = colors[:, :3].max(axis=1, keepdims=True, initial=brightest)
-    seen = np.column_stack((colors[:, :3] * (brightest / peak), colors[:, 3]))
-    if shaded:
-        level = seen[:, :3]
-        light = np.where(level <= 0.04045, level / 12.92, ((level + 0.055) / 1.055) ** 2.4) / LIT
-        seen[:, :3] = np.where(
-            light <= 0.0031308, light * 12.92, 1.055 * light ** (1 / 2.4) - 0.055
-        )
-    levels: NDArray[np.uint8] = np.rint(np.clip(seen, 0.0, 1.0) * 255).astype(np.uint8)
-    return levels
-
-
-def _elements_of(body: Body, unit: float) -> Elements:
-    """Return the elements of a body."""
-    shape, form = body.shape, body.shape.form
-    ghost = body.sensor or body.color[3] < 1
-    red, green, blue, alpha = body.color
-    color = (red, green, blue, alpha * (TRANSLUCENT if body.sensor else 1.0))
-    ink = DARK if ghost or 0.3 * red + 0.6 * green + 0.1 * blue > 0.35 else LIGHT
-    fine = FINE * unit
-    elements: defaultdict[str, list[Element]] = defaultdict(list)
-    for piece in form.pieces:
-        match piece:
-            case Circle((x, y), radius):
-                elements['discs'].append((x, y, 0.0, radius, radius, *color))
-            case Capsule(start, end, radius):
-                elements['boxes'].append(_bar(start, end, radius, color))
-                elements['discs'] += ((*at, 0.0, radius, radius, *color) for at in (start, end))
-            case Convex(corners) if isinstance(shape, Box | Compound):
-                (left, bottom), _, (right, top), _ = corners
-                middle = ((left + right) / 2, (bottom + top) / 2)
-                size = ((right - left) / 2, (top - bottom) / 2)
-                elements['boxes'].append((*middle, 0.0, *size, *color))
-            case Convex(corners):
-                elements['ghosts' if ghost else 'polygons'] += (
-                    (*corner, 0.0, 0.0, 0.0, *color)
-                    for second, third in pairwise(corners[1:])
-                    for corner in (corners[0], second, third)
-                )
-    if isinstance(shape, Disc) and not body.anchored:
-        width = min(fine, 0.1 * shape.radius)
-        elements['marks'].append(_bar((0.0, 0.0), (0.9 * shape.radius, 0.0), width, ink))
-    if body.anchored:
-        x, y = min(map(_middle, form.pieces), key=lambda at: math.dist(at, form.centroid))
-        arm = min(max(0.4 * form.inner, 0.08 * unit), 0.2 * unit)
-        for rise in (arm, -arm):
-            ends = (x - arm, y - rise), (x + arm, y + rise)
-            elements['marks'].append(_bar(*ends, 1.2 * fine, ink))
-    if body.sensor or body.kinematic:
-        ink = (red, green, blue, 1.0) if body.sensor else ink
-        elements['outlines'] += (
-            _bar(start, end, fine, ink, overlap=fine)
-            for outline in _outlines(body)
-            for start, end in pairwise((*outline, outline[0]))
-        )
-    return {kind: np.array(each, dtype=np.float32) for kind, each in elements.items()}
-
-
-def _bar(start: Point, end: Point, half: float, color: Color, *, overlap: float = 0.0) -> Element:
-    """Return the rectangle along a line, of a half width, longer at each end by `overlap` [m]."""
-    (x, y), length = _middle(Capsule(start, end, half)), math.dist(start, end)
-    yaw = math.atan2(end[1] - start[1], end[0] - start[0])
-    return (x, y, yaw, length / 2 + overlap, half, *color)
-
-
-def _middle(piece: Piece) -> Point:
-    match piece:
-        case Circle(center, _):
-            return center
-        case Capsule((x1, y1), (x2, y2), _):
-            return (x1 + x2) / 2, (y1 + y2) / 2
-        case Convex(corners):
-            x, y = zip(*corners, strict=True)
-            return math.fsum(x) / len(x), math.fsum(y) / len(y)
-
-
-def _outlines(body: Body) -> Iterator[Sequence[Point]]:
-    """Yield the closed outlines of a body; a chain has none."""
-    if isinstance(body.shape, Polygon):
-        yield body.shape.outline
-        return
-    for piece in body.shape.form.pieces:
-        if isinstance(piece, Convex):
-            yield piece.vertices
-        elif isinstance(piece, Circle):
-            (x, y), radius = piece.center, piece.radius
-            # 48 sides look round up to a radius of three units.
-            angles = np.linspace(0.0, 2 * np.pi, 48, endpoint=False).tolist()
-            yield [(x + radius * math.cos(each), y + radius * math.sin(each)) for each in angles]
+def _new_path(name: str, taken: set[Path]) -> Path:
+    """Return the path of an entity that is called like a body, and take it."""
+    path = (*ROOT.split('/'), *name.rsplit('/', 1))
+    while path in taken:
+        path = (*path, 'and others')
+    taken.add(path)
+    return path

@@ -58,6 +58,11 @@ class Camera:
         left, bottom, right, top = self._area
         return PIXELS * max((right - left) / WIDTH, (top - bottom) / HEIGHT)
 
+    @property
+    def area(self) -> Bounds:
+        """Left, bottom, right, top of what it shows [m]."""
+        return self._area
+
     def show_bounds(self, bounds: Bounds) -> None:
         """Aim at the boundary of the world: left, bottom, right, top [m]."""
         self._area, self._aimed = _widened(bounds, _MARGIN / 2), True

@@ -13,9 +13,10 @@
 # limitations under the License.
 
 """
-The joints of a scene in Rerun: one entity of line strips, sent for many frames at once.
+The joints of a scene in Rerun: symbols that keep their form, lines that do not, and dots of force.
 
-Law: a scene without joints sends nothing, and joints whose bodies did not move are not sent again.
+Laws: a scene without joints sends nothing, and joints whose bodies did not move are not sent
+again. A joint that has no line shows its force by a dot.
 """
 
 from __future__ import annotations
@@ -24,30 +25,63 @@ import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.scene import Scene
-from physsim_ros.view.body_geometry import FINE
-from physsim_ros.view.joint_glyphs import JointLines
-import pyarrow as pa
+from physsim_ros.view import columns
+from physsim_ros.view.body_mesh import JOINT_INK, JOINT_LINE
+from physsim_ros.view.joint_glyphs import is_rigid, JointLines
+from physsim_ros.view.joint_symbols import Form, symbol_sizes, symbols_of
+from physsim_ros.view.mesh import MeshBuilder
+from physsim_ros.view.mesh_group import MeshGroup
 import rerun as rr
 
-PATH = 'world/joints'
+ROOT = 'world/joints'
 # Half the size of the smallest visible symbol [units].
 _LEAST = 0.1
+# Radius of a dot, in half sizes of the symbol.
+_DOT = 0.6
 
 
 class JointGeometry:
     """
-    The line strips of the joints of one scene, as columns of components.
+    The joints of one scene, as columns of components.
 
     :param scene: with the joints
     :param unit: length of a unit of the view [m]
-    :param height: z of the strips, above all bodies [m]
+    :param height: z of the joints, above all bodies [m]
+
+    :ivar body_symbols: symbols of bodies by their rows
+    :ivar groups: of the other symbols
     """
 
     def __init__(self, scene: Scene, unit: float, height: float) -> None:
-        self._lines = JointLines(scene, least=_LEAST * unit)
-        self._height = height
-        self._radius = 0.8 * FINE * unit
+        self._scene = scene
+        least = _LEAST * unit
+        self._lines = JointLines(scene, least=least, chosen=lambda strip: not is_rigid(strip))
+        self._height, self._radius = height, JOINT_LINE * unit
         self._bodies = np.unique(scene.joint_rows[scene.joint_rows >= 0])
+        sizes = symbol_sizes(scene, least)
+        self._dotted = np.setdiff1d(np.arange(len(scene.joints)), self._lines.owner)
+        self._dots = np.array([_DOT * sizes[row] for row in self._dotted], dtype=np.float32)
+        self.body_symbols, symbols = symbols_of(scene, sizes)
+        joints = np.array([each.joint for each in symbols], np.intp)
+        sides = np.array([each.side for each in symbols], np.intp)
+        self._places = joints, np.array([each.point for each in symbols], np.intp)
+        self._sides = scene.joint_rows[joints, sides]
+        self.groups = [
+            self._group(row, scene.joints[each.joint].name, each.form)
+            for row, each in enumerate(symbols)
+        ]
+
+    def _group(self, row: int, joint: str, form: Form) -> MeshGroup:
+        builder = MeshBuilder()
+        for strip in form:
+            builder.add_line(strip, self._radius, JOINT_INK)
+        return MeshGroup(
+            path=(*ROOT.split('/'), *joint.rsplit('/', 1), str(row)),
+            names=(joint,),
+            mesh=builder.mesh(),
+            rows=np.array([row], np.intp),
+            depths=np.full(1, self._height, np.float32),
+        )
 
     def has_moved(self, moved: NDArray[np.bool_]) -> bool:
         """
@@ -57,50 +91,63 @@ class JointGeometry:
         """
         return bool(moved[self._bodies].any())
 
-    def columns(self, poses: Floats, forces: list[Floats]) -> list[rr.ComponentColumn]:
+    def symbol_poses(self, poses: Floats) -> Floats:
         """
-        Return the strips of each frame.
+        Return the poses of the symbols in frames, (f, s, 3) float64.
+
+        :param poses: (f, n, 3) float64: of the bodies, x, y [m], yaw [rad]
+        """
+        result = np.empty((len(poses), len(self._sides), 3))
+        points = self._lines.points(poses)
+        result[..., :2] = points[:, *self._places]
+        background = np.zeros((len(poses), 1))
+        result[..., 2] = np.concatenate((poses[..., 2], background), axis=1)[:, self._sides]
+        return result
+
+    def line_columns(self, poses: Floats, forces: list[Floats]) -> list[rr.ComponentColumn]:
+        """
+        Return the lines of each frame; none where no joint has a line.
 
         :param poses: (f, n, 3) float64: of the bodies, x, y [m], yaw [rad]
         :param forces: (j,) float64 each: of the joints [N], empty where they are unknown
         """
         lines, frames = self._lines, len(poses)
+        if not len(lines.owner):
+            return []
         corners = lines.corners(poses)
         places = np.full((frames, corners.shape[1], 3), self._height, dtype=np.float32)
         places[..., :2] = corners
-        colors = np.stack([lines.colors(each) for each in forces])[:, lines.owner]
-        levels = np.rint(colors * 255).astype(np.uint8).reshape(-1, 4)
         lengths = [len(lines.owner)] * frames
+        every = np.tile(lines.lengths, frames)
         return [
-            rr.ComponentColumn(_STRIPS, _Strips(places, lines.lengths), lengths=lengths),
-            rr.ComponentColumn(_COLORS, rr.components.ColorBatch(levels), lengths=lengths),
-            rr.ComponentColumn(
-                _RADII,
-                rr.components.RadiusBatch(np.full(frames, self._radius, np.float32)),
-                lengths=[1] * frames,
+            columns.column(columns.STRIPS, (places.reshape(-1, 3), every), lengths),
+            columns.column(columns.STRIP_COLORS, self._levels(forces, lines.owner), lengths),
+            columns.column(
+                columns.STRIP_RADII, np.full(frames, self._radius, np.float32), [1] * frames
             ),
         ]
 
+    def dot_columns(self, poses: Floats, forces: list[Floats]) -> list[rr.ComponentColumn]:
+        """
+        Return the dots of each frame; none where every joint has a line.
 
-class _Strips:
-    """Line strips as an Arrow array; `LineStrip3DBatch` (Rerun 0.41) is a loop in Python."""
+        :param poses: (f, n, 3) float64: of the bodies, x, y [m], yaw [rad]
+        :param forces: (j,) float64 each: of the joints [N], empty where they are unknown
+        """
+        frames, count = len(poses), len(self._dotted)
+        if not count:
+            return []
+        places = np.full((frames, count, 3), self._height, dtype=np.float32)
+        places[..., :2] = self._lines.points(poses)[:, self._dotted, 0]
+        lengths = [count] * frames
+        return [
+            columns.column(columns.POSITIONS, places.reshape(-1, 3), lengths),
+            columns.column(columns.POINT_COLORS, self._levels(forces, self._dotted), lengths),
+            columns.column(columns.POINT_RADII, np.tile(self._dots, frames), lengths),
+        ]
 
-    def __init__(self, places: NDArray[np.float32], lengths: NDArray[np.intp]) -> None:
-        self._places, self._lengths = places, lengths
-
-    def as_arrow_array(self) -> pa.Array:
-        """Return a list of corners for each strip of each frame."""
-        every = np.tile(self._lengths, len(self._places))
-        offsets = np.concatenate(([0], np.cumsum(every))).astype(np.int32)
-        corner = pa.list_(pa.field('item', pa.float32(), nullable=False), 3)
-        flat = pa.FixedSizeListArray.from_arrays(pa.array(self._places.ravel()), type=corner)
-        kind = pa.list_(pa.field('item', corner, nullable=False))
-        return pa.ListArray.from_arrays(pa.array(offsets), flat, type=kind)
-
-
-_STRIPS, _RADII, _COLORS = (
-    column.descriptor
-    for column in rr.LineStrips3D.columns(
-        strips=[[(0, 0, 0), (1, 0, 0)]], radii=[1.0], colors=[(0, 0, 0)]
-    )
-)
+    def _levels(self, forces: list[Floats], joints: NDArray[np.intp]) -> NDArray[np.uint8]:
+        """Return the colours of some joints in each frame, (f * k, 4) uint8."""
+        colors = np.stack([self._lines.colors(each) for each in forces])[:, joints]
+        levels: NDArray[np.uint8] = np.rint(colors * 255).astype(np.uint8)
+        return levels.reshape(-1, 4)

@@ -22,7 +22,7 @@ slate at 0, then amber, red at `break_force` or at ten times the weight of its b
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 import math
 
@@ -72,18 +72,35 @@ class Corner:
 Strip = list[Corner]
 
 
+def is_rigid(strip: Strip) -> bool:
+    """Return whether a strip keeps its form, about one point in the frame of one body."""
+    first = strip[0]
+    return first.along in {0.0, 1.0} and all(
+        (each.along, each.across, each.sag, each.on_b) == (first.along, 0.0, 0.0, first.on_b)
+        for each in strip
+    )
+
+
 class JointLines:
     """
     The line strips of all joints of a scene.
 
     :param scene: with the joints
     :param least: half the size of the smallest symbol [m]
+    :param chosen: tells which strips; those of all others are left out
 
+    :ivar seats: (j, 2, 2) float64: points of the joints in the frames of a and b [m]
     :ivar owner: (s,) intp: index of the joint of each strip
     :ivar lengths: (s,) intp: number of corners of each strip
     """
 
-    def __init__(self, scene: Scene, *, least: float = SMALL) -> None:
+    def __init__(
+        self,
+        scene: Scene,
+        *,
+        least: float = SMALL,
+        chosen: Callable[[Strip], bool] = lambda _: True,
+    ) -> None:
         self._scene = scene
         bodies = dict(zip(scene.names, scene.bodies, strict=True))
         corners: list[Corner] = []
@@ -92,19 +109,21 @@ class JointLines:
         lengths: list[int] = []
         for number, joint in enumerate(scene.joints):
             for strip in joint_strips(joint, symbol_size(joint, bodies, least=least)):
+                if not chosen(strip):
+                    continue
                 corners += strip
                 joints += [number] * len(strip)
                 owner.append(number)
                 lengths.append(len(strip))
         self.owner, self.lengths = np.array(owner, np.intp), np.array(lengths, np.intp)
         self._joints = np.array(joints, np.intp)
-        self._along = np.array([each.along for each in corners])[:, None]
-        self._across = np.array([each.across for each in corners])[:, None]
-        self._sag = np.array([each.sag for each in corners])[:, None]
-        self._arms = np.array([each.arm for each in corners]).reshape(-1, 2)
+        self._along = np.array([each.along for each in corners], np.float64)[:, None]
+        self._across = np.array([each.across for each in corners], np.float64)[:, None]
+        self._sag = np.array([each.sag for each in corners], np.float64)[:, None]
+        self._arms = np.array([each.arm for each in corners], np.float64).reshape(-1, 2)
         on_b = np.array([each.on_b for each in corners], np.intp)
         self._rows = scene.joint_rows[self._joints, on_b]
-        self._seats = _drawn_seats(scene)
+        self.seats = _drawn_seats(scene)
         self._full_scale = np.array(
             [_full_scale_force(joint, scene, bodies) for joint in scene.joints]
         )
@@ -124,7 +143,7 @@ class JointLines:
         """
         background = np.zeros((*poses.shape[:-2], 1, 3))
         frames = np.concatenate((poses, background), axis=-2)[..., self._scene.joint_rows, :]
-        return frames[..., :2] + turned(self._seats, frames[..., 2])
+        return frames[..., :2] + turned(self.seats, frames[..., 2])
 
     def corners(self, poses: Floats) -> Floats:
         """

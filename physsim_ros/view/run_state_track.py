@@ -12,76 +12,159 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""The track of run states and branches of time, a state timeline in Rerun."""
+"""
+The tracks of time: run states, branches, past and present, and marks of what changed the world.
+
+Law: words are short, so that they are seen whole; sentences are in the log.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable
+from dataclasses import fields
 
+from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Frame
+from physsim_ros.view.frame_batch import FrameBatch
 import rerun as rr
 import rerun.blueprint as rrb
 
-# Green while playing, orange while rewinding; the faster, the darker.
-_COLORS = {
-    'playing slowly': (160, 205, 150),
-    'playing': (84, 162, 75),
-    'playing fast': (40, 110, 40),
-    'paused': (150, 150, 150),
-    'rewinding slowly': (250, 190, 125),
-    'rewinding': (245, 133, 24),
-    'rewinding fast': (190, 80, 10),
+RUN, PAST, COURSE, MARKS = 'time/run', 'time/past', 'time/course', 'time/marks'
+# Green while playing, orange while rewinding; the faster, the darker. No colour is in two tracks.
+_RUN_COLORS = {
+    'slow': (160, 205, 150),
+    'play': (84, 162, 75),
+    'fast': (40, 110, 40),
+    'pause': (150, 150, 150),
+    'slowly back': (250, 190, 125),
+    'back': (245, 133, 24),
+    'fast back': (190, 80, 10),
 }
+_PAST_COLORS = {'present': (215, 225, 238), 'past': (62, 73, 137)}
+# Of courses in turn: blues, violets and browns.
+_COURSE_COLORS = (
+    (76, 120, 168),
+    (178, 121, 162),
+    (157, 117, 93),
+    (114, 183, 178),
+    (121, 112, 196),
+    (219, 166, 192),
+)
+_MARK_COLOR = (228, 87, 86)
 # Topics of answers after which a new branch of time begins.
 _BRANCHING = {'branch', '~/undo', '~/redo', '~/reset'}
+# Topics of answers that are marked, and the word of each.
+_MARKED = {
+    '~/load_world': 'load',
+    '~/reset': 'reset',
+    '~/clear': 'clear',
+    '~/undo': 'undo',
+    '~/redo': 'redo',
+    'branch': 'branch',
+    'divergence': 'divergence',
+}
+# Duration of a mark [frames].
+_MARKED_FOR = 30
+
+
+class PastWatch:
+    """Tells whether a frame lies before the newest step of its branch."""
+
+    def __init__(self) -> None:
+        self._newest = 0
+
+    def is_past(self, frame: Frame) -> bool:
+        """Return whether a frame is in the past; frames are given in order."""
+        step = frame.snapshot.step
+        branching = any(each.topic in _BRANCHING and not each.code for each in frame.answers)
+        self._newest = step if branching else max(step, self._newest)
+        return step < self._newest
 
 
 class RunStateTrack:
     """
-    Logs run states and branches of time.
+    Sends run states, branches of time and marks.
 
     :param recording: stream to log to
     """
 
     def __init__(self, recording: rr.RecordingStream) -> None:
         self._recording = recording
-        self._state = ''
+        self._states: dict[str, str | None] = {}
         self._branches = 0
-        styles = rr.StateConfiguration(values=list(_COLORS), colors=list(_COLORS.values()))
-        recording.log('time/run', styles, static=True)
+        self._past = PastWatch()
+        self._settings: WorldSettings | None = None
+        self._mark_ends: int | None = None
+        self._marks: set[str] = set()
+        self._styles: dict[str, dict[str, tuple[int, int, int]]] = {}
+        self._style(RUN, _RUN_COLORS)
+        self._style(PAST, _PAST_COLORS)
 
-    def draw(self, frames: Sequence[Frame], numbers: Sequence[int]) -> None:
-        """
-        Log the changes of run state and branch in frames.
-
-        :param numbers: of the frames, on the timeline `frame`, which never goes back
-        """
-        for frame, number in zip(frames, numbers, strict=True):
-            state = _state(frame.speed)
-            if state != self._state:
-                self._state = state
-                self._send('time/run', state, number)
-            branching = [answer for answer in frame.answers if answer.topic in _BRANCHING]
-            if branching or self._branches == 0:
+    def send(self, batch: FrameBatch) -> None:
+        """Send the changes in the frames of a batch."""
+        for index, frame in enumerate(batch.frames):
+            times = batch.times_at([index])[:1]
+            self._send(RUN, run_state(frame.speed), times)
+            self._send(PAST, 'past' if self._past.is_past(frame) else 'present', times)
+            topics = [answer.topic for answer in frame.answers if not answer.code]
+            if self._branches == 0 or _BRANCHING.intersection(topics):
                 self._branches += 1
-                reason = f': {branching[-1].message}' if branching else ''
-                self._send('time/course', f'{self._branches}{reason}', number)
+                color = _COURSE_COLORS[(self._branches - 1) % len(_COURSE_COLORS)]
+                self._style(COURSE, {str(self._branches): color})
+                self._send(COURSE, str(self._branches), times)
+            self._send_mark(self._mark_words(frame, topics), batch.numbers[index], times)
 
-    def _send(self, path: str, state: str, number: int) -> None:
-        time = [rr.TimeColumn('frame', sequence=[number])]
-        self._recording.send_columns(path, time, rr.StateChange.columns(state=[state]))
+    def _mark_words(self, frame: Frame, topics: Iterable[str]) -> list[str]:
+        """Return the words for what changed the world in a frame."""
+        words = [_MARKED[topic] for topic in topics if topic in _MARKED]
+        settings, before = frame.snapshot.scene.settings, self._settings
+        if before is not None and settings is not before:
+            words += [
+                each.name
+                for each in fields(settings)
+                if getattr(settings, each.name) != getattr(before, each.name)
+            ]
+        self._settings = settings
+        return list(dict.fromkeys(words))
+
+    def _send_mark(self, words: list[str], number: int, times: list[rr.TimeColumn]) -> None:
+        if words:
+            word = ', '.join(words)
+            if word not in self._marks:
+                self._marks.add(word)
+                self._style(MARKS, {word: _MARK_COLOR})
+            self._send(MARKS, word, times)
+            self._mark_ends = number + _MARKED_FOR
+        elif self._mark_ends is not None and number >= self._mark_ends:
+            self._send(MARKS, None, times)
+            self._mark_ends = None
+
+    def _style(self, path: str, colors: dict[str, tuple[int, int, int]]) -> None:
+        """Log the colours of states; those of other states of the track stay."""
+        known = self._styles.setdefault(path, {})
+        known.update(colors)
+        style = rr.StateConfiguration(values=list(known), colors=list(known.values()))
+        self._recording.log(path, style, static=True)
+
+    def _send(self, path: str, state: str | None, times: list[rr.TimeColumn]) -> None:
+        """Send a state that differs from the one before."""
+        if path not in self._states or self._states[path] != state:
+            self._states[path] = state
+            states = [state] if state is not None else []
+            column = rr.StateChange.columns(state=states or ['']).partition([len(states) or 1])
+            self._recording.send_columns(path, times, column)
 
 
-def _state(speed: float) -> str:
-    """Return the name of the run state of a speed; Rerun has one colour for each."""
+def run_state(speed: float) -> str:
+    """Return the word for a speed; Rerun has one colour for each."""
     if speed == 0.0:
-        return 'paused'
-    direction, pace = 'playing' if speed > 0.0 else 'rewinding', abs(speed)
-    if pace == 1.0:
-        return direction
-    return f'{direction} fast' if pace > 1.0 else f'{direction} slowly'
+        return 'pause'
+    pace = abs(speed)
+    if speed > 0.0:
+        return 'play' if pace == 1.0 else 'fast' if pace > 1.0 else 'slow'
+    return 'back' if pace == 1.0 else 'fast back' if pace > 1.0 else 'slowly back'
 
 
 def run_state_view() -> rrb.StateTimelineView:
-    """Return the view of the track, for the blueprint."""
+    """Return the view of the tracks, for the blueprint."""
     return rrb.StateTimelineView(origin='time', name='Time')

@@ -36,6 +36,7 @@ from typing import TYPE_CHECKING
 from urllib.parse import quote, urlsplit
 
 from physsim_ros.model.snapshot import Answer, Frame
+from physsim_ros.view.frame_context import FrameContext
 from physsim_ros.view.sink_worker import (
     ANSWERS,
     Endpoint,
@@ -170,7 +171,7 @@ class _RerunSink:
         self._recorder = FrameRecorder(self._recording)
 
     def draw(self, frames: Sequence[Frame], *, real_time_factor: float) -> None:
-        self._recorder.draw(frames, real_time_factor=real_time_factor)
+        self._recorder.draw(frames, context=FrameContext(real_time_factor=real_time_factor))
 
     def flush(self, timeout: float) -> None:
         try:

@@ -28,11 +28,17 @@ from physsim_ros.model.joints import JointKind, JointProperties
 from physsim_ros.model.requests import (
     Anchor,
     Axle,
+    ChangeBody,
     Command,
     Configure,
     Delete,
     DeleteAll,
+    DeleteBodies,
+    Grab,
     Join,
+    LetGo,
+    MoveBodies,
+    MoveHand,
     Pin,
     Release,
     Request,
@@ -85,6 +91,19 @@ def spawns(draw: Any) -> Spawn:
     )
 
 
+properties = st.sampled_from(
+    [
+        Properties(),
+        Properties(density=3.0),
+        Properties(friction=0.1, elasticity=0.0),
+        Properties(velocity=(1.0, 2.0)),
+        Properties(anchored=True),
+        Properties(anchored=False),
+    ]
+)
+colors = st.sampled_from([None, (1.0, 0.0, 0.0, 1.0)])
+
+
 @st.composite
 def commands(draw: Any) -> Command:
     three = st.tuples(coordinates, coordinates, coordinates)
@@ -111,6 +130,8 @@ def joins(draw: Any) -> Join:
     )
 
 
+hands = st.sampled_from(['left', 'right'])
+several_names = st.lists(names, min_size=1, max_size=3, unique=True).map(tuple)
 requests: st.SearchStrategy[Request] = st.one_of(
     spawns(),
     spawns(),
@@ -126,6 +147,11 @@ requests: st.SearchStrategy[Request] = st.one_of(
     joins(),
     joint_names.map(lambda name: Unjoin(name=name)),
     st.builds(UnjoinAll),
+    st.builds(ChangeBody, name=names, properties=properties, color=colors),
+    st.builds(MoveBodies, names=several_names, by=points),
+    st.builds(DeleteBodies, names=several_names),
+    st.builds(Grab, hand=hands, point=points),
+    st.builds(LetGo, hand=hands),
 )
 
 
@@ -166,7 +192,7 @@ class TimeMachine(RuleBasedStateMachine):
         assert frame is not None
         # What has changed anything will be done again.
         changed = self.simulation.world.digest() != digest
-        assert not changed or self.simulation.timeline.serial == made + 1
+        assert not changed or self.simulation.timeline.serial > made
         self.after_request(frame, step, accepted=not frame.answers[0].code)
 
     @rule(request=requests)
@@ -194,6 +220,18 @@ class TimeMachine(RuleBasedStateMachine):
             self.drop_after(step)
             self.seen[step] = frame
         else:
+            self.look(frame)
+
+    @rule(hand=hands, name=names, to=points, frames=st.integers(1, 20))
+    def drag(self, hand: str, name: str, to: tuple[float, float], frames: int) -> None:
+        snapshot, step = self.simulation.world.snapshot(), self.simulation.step
+        self.simulation.submit(Grab(hand=hand, point=(0.0, 0.0), frame=name), topic='')
+        for number in range(frames):
+            point = (to[0], to[1] + number / 10)
+            self.simulation.submit(MoveHand(hand=hand, point=point), topic='')
+            frame = self.simulation.advance_frame()
+            if number == 0 and snapshot.scene.names.count(name):
+                self.drop_after(step)
             self.look(frame)
 
     # Time
@@ -234,7 +272,8 @@ class TimeMachine(RuleBasedStateMachine):
         if not self.simulation.timeline.history.last_gesture(self.simulation.timeline.serial):
             return
         self.simulation.undo()
-        for _ in range(frames):
+        # A hand that is there no more lets go, after which nothing can be redone.
+        for _ in range(0 if self.simulation.world.grips else frames):
             self.simulation.advance_frame()
         self.simulation.redo()
         assert (self.simulation.step, self.simulation.world.digest()) == (step, digest)
@@ -256,6 +295,8 @@ class TimeMachine(RuleBasedStateMachine):
         history = simulation.timeline.history
         simulation.seek(round(history.head * 1e9 / 240))
         self.look(simulation.settle())
+        # Hands are not saved.
+        self.look(simulation.advance_frame())
         other = self.new()
         other.begin(simulation.save())
         first = simulation.step

@@ -16,11 +16,8 @@
 
 from __future__ import annotations
 
-from contextlib import contextmanager
 from dataclasses import dataclass, replace
 import math
-from pathlib import Path
-import time
 
 import numpy as np
 from physsim_ros.model.preview import NO_PREVIEW, Preview
@@ -28,22 +25,20 @@ from physsim_ros.model.scene import Body, Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon, Triangles
 from physsim_ros.model.snapshot import Answer, Contacts, Frame, Snapshot
-from physsim_ros.view.recording import FrameRecorder, LINGER, REPEAT
+from physsim_ros.model.transform import cross
+from physsim_ros.view.frame_context import FrameContext
+from physsim_ros.view.preview_lines import LINGER
+from physsim_ros.view.recording import FrameRecorder, REPEAT
 import pytest
-
-from ..rerun_program import free_port, is_open, rerun
 
 rr = pytest.importorskip('rerun')
 chunk = pytest.importorskip('rerun.chunk')
 
+# Frames are four steps apart.
 STEP_NS = 4_166_667
 RED, BLUE = (0.8, 0.05, 0.1, 1.0), (0.1, 0.2, 0.8, 1.0)
-# Rerun's own light on a surface that faces the camera, its lighting.wgsl.
-LIT = 0.2 + 0.5 * 5 / math.sqrt(35)
-# One in 255 from rounding to bytes, twice.
-COLOR_TOLERANCE = 2 / 255
-# Seconds for a viewer to start, and to show a recording, on a machine that is busy.
-PATIENCE = 60.0
+# Half of one in 255 from rounding to bytes.
+COLOR_TOLERANCE = 0.51 / 255
 # float32 at a metre or ten.
 TOLERANCE = 2e-6
 
@@ -82,10 +77,14 @@ def frame(of, poses, *, step=0, **changes):
 class Row:
     """What an entity was sent at a frame."""
 
-    frame: int
-    step: int
+    recorded: int
     stamp: int
     value: np.ndarray
+
+    @property
+    def frame(self):
+        """Return the number of the frame; those of these tests are 1/60 s apart."""
+        return round(self.recorded * 60e-9)
 
 
 class Recording:
@@ -97,14 +96,14 @@ class Recording:
         self._stream.set_sinks(rr.FileSink(path))
         self.picture = FrameRecorder(self._stream)
 
-    def draw(self, *frames, real_time_factor=1.0):
-        self.picture.draw(frames, real_time_factor=real_time_factor)
+    def draw(self, *frames, **context):
+        self.picture.draw(frames, context=FrameContext(**context))
 
     def close(self):
         self._stream.disconnect()
 
     def rows(self, entity, component):
-        """Return all rows of a component, in the order of frames; no more can be drawn then."""
+        """Return all rows of a component, in the order of time; no more can be drawn then."""
         self.close()
         rows = []
         for each in chunk.RrdReader(self.path).stream():
@@ -120,14 +119,68 @@ class Recording:
                 for *row, value in zip(*times, values, strict=True)
                 if value is not None
             ]
-        return sorted(rows, key=lambda row: row.frame)
+        return sorted(rows, key=lambda row: row.recorded)
 
     def last(self, entity, component):
         """Return what a component is in the end."""
         return self.rows(entity, component)[-1].value
 
+    def shapes(self, entity):
+        """Return the instances of an entity as they were drawn, a list for each frame."""
+        corners = self.last(entity, 'Mesh3D:vertex_positions')[:, :2]
+        triangles = self.last(entity, 'Mesh3D:triangle_indices')
+        colors = unpack(self.last(entity, 'Mesh3D:vertex_colors'))
+        columns = ('translations', 'rotation_axis_angles', 'scales')
+        places, turns, scales = (
+            self.rows(entity, f'InstancePoses3D:{column}') for column in columns
+        )
+        frames = []
+        for number, (place, turn) in enumerate(zip(places, turns, strict=True)):
+            instances = []
+            for row, (x, y, z) in enumerate(place.value):
+                scale = scales[number].value[row, :2] if scales else 1.0
+                yaw = turn.value[row]['angle']
+                assert turn.value[row]['axis'] == [0, 0, 1]
+                cos, sin = math.cos(yaw), math.sin(yaw)
+                turned = corners * scale @ np.array([[cos, sin], [-sin, cos]])
+                instances.append(Drawn(turned + np.array((x, y)), triangles, colors, z))
+            frames.append(instances)
+        return frames
 
-TIMELINES = ('frame', 'step', 'sim_time')
+    def shape(self, entity):
+        """Return the only instance of an entity in its only frame."""
+        ((only,),) = self.shapes(entity)
+        return only
+
+
+@dataclass
+class Drawn:
+    """The mesh of a body where it was drawn: corners (v, 2) [m], triangles, colours, z [m]."""
+
+    corners: np.ndarray
+    triangles: np.ndarray
+    colors: np.ndarray
+    z: float
+
+    @property
+    def bounds(self):
+        """Left, bottom, right, top [m]."""
+        return [*self.corners.min(axis=0), *self.corners.max(axis=0)]
+
+    def color_at(self, x, y):
+        """Return the colour that is seen at a point: that of the last triangle there, or None."""
+        a, b, c = np.moveaxis(self.corners[self.triangles], 1, 0)
+        sides = [
+            cross(second - first, (x, y) - first) for first, second in ((a, b), (b, c), (c, a))
+        ]
+        inside = np.all([side >= 0 for side in sides], axis=0)
+        inside |= np.all([side <= 0 for side in sides], axis=0)
+        if not inside.any():
+            return None
+        return tuple(self.colors[self.triangles[np.flatnonzero(inside)[-1], 0]])
+
+
+TIMELINES = ('recorded', 'sim_time')
 
 
 @pytest.fixture
@@ -137,46 +190,54 @@ def recording(tmp_path):
     it.close()
 
 
-def seen(colors):
-    """Return colours, (k, 4) 0 .. 1, as they are seen on a solid under Rerun's light."""
-    level = unpack(colors)
-    rgb = level[:, :3]
-    linear = np.where(rgb <= 0.04045, rgb / 12.92, ((rgb + 0.055) / 1.055) ** 2.4) * LIT
-    level[:, :3] = np.where(
-        linear <= 0.0031308, linear * 12.92, 1.055 * linear ** (1 / 2.4) - 0.055
-    )
-    return level
-
-
 def unpack(colors):
     """Return packed colours as (k, 4) 0 .. 1."""
     packed = np.array(colors, dtype=np.uint32)
     return np.stack([(packed >> shift & 255) / 255 for shift in (24, 16, 8, 0)], axis=1)
 
 
-def test_boxes_have_the_place_turn_size_and_colour_that_were_asked_for(recording):
-    two = scene(body(), body('box/1', Box(width=0.5, height=3.0), BLUE))
+def test_a_box_has_the_place_turn_size_and_colour_that_were_asked_for(recording):
+    recording.draw(frame(scene(body()), [(-3.0, 4.0, math.pi / 2)]))
 
-    recording.draw(frame(two, [(1.0, 2.0, 0.0), (-3.0, 4.0, math.pi / 3)]))
-
-    centers = recording.last('world/boxes', 'Boxes3D:centers')
-    turns = recording.last('world/boxes', 'Boxes3D:quaternions')
-    sizes = recording.last('world/boxes', 'Boxes3D:half_sizes')
-    colors = seen(recording.last('world/boxes', 'Boxes3D:colors'))
-    np.testing.assert_allclose(centers[:, :2], [(1.0, 2.0), (-3.0, 4.0)], atol=TOLERANCE)
-    np.testing.assert_allclose(sizes[:, :2], [(1.0, 0.5), (0.25, 1.5)], atol=TOLERANCE)
-    upright, turned = (0, 0, 0, 1), (0, 0, math.sin(math.pi / 6), math.cos(math.pi / 6))
-    np.testing.assert_allclose(turns, [upright, turned], atol=TOLERANCE)
-    np.testing.assert_allclose(colors, [RED, BLUE], atol=COLOR_TOLERANCE)
+    box = recording.shape('world/bodies/box/0')
+    assert box.bounds == pytest.approx((-3.5, 3.0, -2.5, 5.0), abs=TOLERANCE)
+    assert box.color_at(-3.0, 4.0) == pytest.approx(RED, abs=COLOR_TOLERANCE)
+    assert box.color_at(-3.6, 4.0) is None
 
 
-def test_discs_have_the_place_size_and_colour_that_were_asked_for(recording):
-    recording.draw(frame(scene(body(shape=Disc(radius=0.7))), [(1.0, 2.0, 9.0)]))
+def test_bodies_that_look_alike_are_one_entity_and_each_has_its_own_size_and_name(recording):
+    sizes = (0.45, 0.5, 0.54)
+    discs = [body(f'ball/{n}', Disc(radius=size)) for n, size in enumerate(sizes)]
 
-    assert recording.last('world/discs', 'Cylinders3D:centers')[0, :2] == pytest.approx((1.0, 2.0))
-    assert recording.last('world/discs', 'Cylinders3D:radii') == pytest.approx(0.7)
-    colors = seen(recording.last('world/discs', 'Cylinders3D:colors'))
-    np.testing.assert_allclose(colors, [RED], atol=COLOR_TOLERANCE)
+    recording.draw(frame(scene(*discs), [(4.0 * n, 1.0, 9.0) for n in range(3)]))
+
+    (drawn,) = recording.shapes('world/bodies/ball/0')
+    for number, (size, disc) in enumerate(zip(sizes, drawn, strict=True)):
+        box = (4 * number - size, 1 - size, 4 * number + size, 1 + size)
+        assert disc.bounds == pytest.approx(box, abs=0.002 * size)
+    assert [*recording.last('world/bodies/ball/0', 'name')] == ['ball/0', 'ball/1', 'ball/2']
+
+
+def test_a_disc_is_round(recording):
+    recording.draw(frame(scene(body(shape=Disc(radius=100.0))), [(0, 0, 0)]))
+
+    disc = recording.shape('world/bodies/box/0')
+    reach = np.hypot(*disc.corners.T)
+    rim = disc.corners[reach > 99.9]
+    angles = np.sort(np.arctan2(rim[:, 1], rim[:, 0]))
+    # The middle of a chord: half a pixel within a circle of 400 pixels.
+    assert 1 - math.cos(np.diff(angles).max() / 2) < 0.5 / 400
+
+
+def test_every_body_has_an_outline_that_is_darker_than_it(recording):
+    star = Polygon(outline=((0, 0), (4, 0), (4, 4), (2, 1), (0, 4)))
+    recording.draw(frame(scene(body(shape=star)), [(0, 0, 0)]))
+
+    drawn = recording.shape('world/bodies/box/0')
+    fill, edge = drawn.color_at(2.0, 0.5), drawn.color_at(2.0, 0.005)
+    assert fill == pytest.approx(RED, abs=COLOR_TOLERANCE)
+    assert all(dark <= light for dark, light in zip(edge, fill, strict=True))
+    assert edge[0] < 0.7 * fill[0]
 
 
 def test_a_mark_on_a_disc_shows_that_it_rolls(recording):
@@ -184,121 +245,120 @@ def test_a_mark_on_a_disc_shows_that_it_rolls(recording):
 
     recording.draw(frame(disc, [(0, 0, 0)]), frame(disc, [(0, 0, math.pi / 2)], step=4))
 
-    first, second = recording.rows('world/marks', 'Boxes3D:centers')
-    assert first.value[0, 1] == pytest.approx(0.0, abs=TOLERANCE)
-    assert second.value[0, 0] == pytest.approx(0.0, abs=TOLERANCE)
-    assert second.value[0, 1] == pytest.approx(first.value[0, 0])
+    (first,), (second,) = recording.shapes('world/bodies/box/0')
+    assert first.color_at(0.5, 0.003) != first.color_at(0.003, 0.5)
+    assert second.color_at(0.003, 0.5) == first.color_at(0.5, 0.003)
+    assert second.color_at(0.5, 0.003) == pytest.approx(RED, abs=COLOR_TOLERANCE)
 
 
 @pytest.mark.parametrize(
     'shape',
     [
         Polygon(outline=((0, 0), (4, 0), (0, 2))),
+        Polygon(outline=((0, 0), (0, 2), (4, 0))),
         Polygon(outline=((0, 0), (2, 0), (2, 2), (1, 0.5))),
         Triangles(vertices=((0, 0), (1, 0), (0, 1), (2, 0), (3, 0), (2, -1))),
+        Chain(points=((0, 0), (4, 0), (4, 3)), thickness=0.2),
+        Compound(element=Box(width=0.2, height=0.2), centers=((-1, 0), (1, 0))),
     ],
-    ids=['ramp', 'concave', 'triangles'],
+    ids=['ramp', 'clockwise', 'concave', 'triangles', 'chain', 'compound'],
 )
-def test_polygons_are_filled_where_they_are(recording, shape):
+def test_a_shape_is_filled_where_it_is_and_nowhere_else(recording, shape):
     recording.draw(frame(scene(body(shape=shape)), [(5.0, 1.0, 0.4)]))
 
-    corners = recording.last('world/polygons', 'Mesh3D:vertex_positions').reshape(-1, 3, 3)[
-        ..., :2
-    ]
-    a, b, c = np.moveaxis(corners, 1, 0)
-    areas = np.abs(np.linalg.det(np.stack((b - a, c - a), axis=2))) / 2
-    assert areas.sum() == pytest.approx(shape.form.area, rel=1e-5)
-    x, y = shape.form.centroid
-    there = (5 + math.cos(0.4) * x - math.sin(0.4) * y, 1 + math.sin(0.4) * x + math.cos(0.4) * y)
-    middle = (corners.mean(axis=1) * areas[:, None]).sum(axis=0) / areas.sum()
-    assert middle == pytest.approx(there, rel=1e-5)
+    drawn = recording.shape('world/bodies/box/0')
+    grid = np.random.default_rng(7).uniform(-1.3, 4.3, (2000, 2))
+    there = grid @ np.array([[math.cos(0.4), math.sin(0.4)], [-math.sin(0.4), math.cos(0.4)]])
+    filled = [drawn.color_at(x, y) is not None for x, y in there + np.array((5.0, 1.0))]
+    expected = np.array([is_within(shape, *point) for point in grid])
+    # Points within a hundredth of an edge may lie on either side of a chord.
+    assert np.mean(filled != expected) < 0.005
 
 
-def test_polygons_have_the_colour_that_was_asked_for(recording):
-    shape = Polygon(outline=((0, 0), (1, 0), (0, 1)))
-
-    recording.draw(frame(scene(body(shape=shape)), [(0, 0, 0)]))
-
-    # Meshes are not shaded.
-    colors = unpack(recording.last('world/polygons', 'Mesh3D:vertex_colors'))
-    np.testing.assert_allclose(colors, [RED] * 3, atol=COLOR_TOLERANCE)
-
-
-def test_a_chain_is_bars_with_round_ends(recording):
-    chain = Chain(points=((0, 0), (4, 0), (4, 3)), thickness=0.2)
-
-    recording.draw(frame(scene(body(shape=chain)), [(1.0, 0.0, 0.0)]))
-
-    bars = recording.last('world/boxes', 'Boxes3D:centers')[:, :2]
-    ends = recording.last('world/discs', 'Cylinders3D:centers')[:, :2]
-    np.testing.assert_allclose(bars, [(3, 0), (5, 1.5)], atol=TOLERANCE)
-    assert {tuple(end) for end in ends.tolist()} == {(1, 0), (5, 0), (5, 3)}
+def is_within(shape, x, y):
+    """Tell whether a point lies in a shape, by its pieces."""
+    for piece in shape.form.pieces:
+        if hasattr(piece, 'vertices'):
+            corners = np.array(piece.vertices)
+            edges = np.roll(corners, -1, axis=0) - corners
+            if (cross(edges, (x, y) - corners) >= 0).all():
+                return True
+        else:
+            start, end = np.array(piece.start), np.array(piece.end)
+            along = np.clip(
+                (((x, y) - start) @ (end - start)) / ((end - start) @ (end - start)), 0, 1
+            )
+            if math.dist((x, y), start + along * (end - start)) <= piece.radius:
+                return True
+    return False
 
 
-def test_a_compound_turns_as_one(recording):
-    compound = Compound(element=Box(width=0.2, height=0.2), centers=((-1, 0), (1, 0)))
+def test_a_later_body_lies_above_an_earlier_one(recording):
+    two = scene(body('a/0', color=RED), body('a/1', color=BLUE), body('a/2', color=RED))
 
-    recording.draw(frame(scene(body(shape=compound)), [(0, 5, math.pi / 2)]))
+    recording.draw(frame(two, [(0, 0, 0), (0.5, 0, 0), (0.7, 0, 0)]))
 
-    centers = recording.last('world/boxes', 'Boxes3D:centers')[:, :2]
-    np.testing.assert_allclose(centers, [(0, 4), (0, 6)], atol=TOLERANCE)
-
-
-def test_a_later_body_lies_above_an_earlier_one_and_its_mark_above_both(recording):
-    discs = scene(body('a/0', Disc(radius=1.0)), body('a/1', Disc(radius=1.0)))
-
-    recording.draw(frame(discs, [(0, 0, 0), (0.5, 0, 0)]))
-
-    def tops(entity, centers, sizes):
-        middle = recording.last(entity, centers)[:, 2]
-        size = recording.last(entity, sizes)
-        return middle + (size[:, 2] if size.ndim == 2 else size / 2)
-
-    below, above = tops('world/discs', 'Cylinders3D:centers', 'Cylinders3D:lengths')
-    mark_below, mark_above = tops('world/marks', 'Boxes3D:centers', 'Boxes3D:half_sizes')
-    assert below < mark_below < above < mark_above
+    ((first, last),) = recording.shapes('world/bodies/a/0')
+    assert first.z < recording.shape('world/bodies/a/1').z < last.z
 
 
-def test_an_anchored_body_bears_an_x(recording):
-    recording.draw(frame(scene(body(anchored=True)), [(3.0, 4.0, 0.0)]))
+def test_an_anchored_body_bears_an_anchor_and_a_free_one_does_not(recording):
+    both = scene(body(anchored=True), body('box/1', color=BLUE))
+    recording.draw(frame(both, [(3.0, 4.0, 0.0), (9.0, 4.0, 0.0)]))
 
-    centers = recording.last('world/anchored/marks', 'Boxes3D:centers')
-    turns = recording.last('world/anchored/marks', 'Boxes3D:quaternions')
-    yaws = 2 * np.arctan2(turns[:, 2], turns[:, 3])
-    np.testing.assert_allclose(centers[:, :2], [(3.0, 4.0)] * 2, atol=TOLERANCE)
-    assert sorted(yaws) == pytest.approx([-math.pi / 4, math.pi / 4])
+    anchored, free = recording.shape('world/bodies/box/0'), recording.shape('world/bodies/box/1')
+    # The shank of the anchor is upright, in the middle of the body.
+    assert anchored.color_at(3.001, 4.001) != pytest.approx(RED, abs=COLOR_TOLERANCE)
+    assert free.color_at(9.001, 4.001) == pytest.approx(BLUE, abs=COLOR_TOLERANCE)
 
 
-def test_the_x_of_a_concave_body_lies_on_the_body(recording):
+def test_the_anchor_of_a_concave_body_lies_on_the_body(recording):
     horseshoe = Polygon(outline=((0, 0), (4, 0), (4, 4), (3, 4), (3, 1), (1, 1), (1, 4), (0, 4)))
 
     recording.draw(frame(scene(body(shape=horseshoe, anchored=True)), [(0, 0, 0)]))
 
-    (x, y, _), _ = recording.last('world/anchored/marks', 'Boxes3D:centers')
-    assert y < 1 or not 1 < x < 3
+    drawn = recording.shape('world/bodies/box/0')
+    inked = drawn.corners[(drawn.colors[:, :3] > 0.99).all(axis=1)]
+    assert len(inked)
+    assert all(is_within(horseshoe, *corner) for corner in inked)
 
 
-def test_a_sensor_is_translucent_and_outlined_and_a_kinematic_body_outlined(recording):
-    both = scene(body(sensor=True), body('box/1', kinematic=True))
+def test_a_sensor_is_translucent(recording):
+    recording.draw(frame(scene(body(sensor=True), body('box/1')), [(0, 0, 0), (5, 0, 0)]))
 
-    recording.draw(frame(both, [(0, 0, 0), (5, 0, 0)]))
-
-    sensor, kinematic = unpack(recording.last('world/boxes', 'Boxes3D:colors'))
-    assert sensor[3] < 0.5
-    assert kinematic[3] == 1
-    assert len(recording.last('world/outlines', 'Boxes3D:centers')) == 4 + 4
+    factors = [
+        unpack(recording.last(f'world/bodies/box/{n}', 'Mesh3D:albedo_factor'))[0, 3]
+        for n in (0, 1)
+    ]
+    assert factors[0] < 0.5
+    assert factors[1] == 1
 
 
 def test_the_walls_lie_just_outside_the_bounds(recording):
     recording.draw(frame(scene(bounds=(-10.0, 0.0, 10.0, 12.0)), []))
 
-    centers = recording.last('world/walls', 'Boxes3D:centers')[:, :2]
-    sizes = recording.last('world/walls', 'Boxes3D:half_sizes')[:, :2]
-    floor, ceiling, left, right = np.hstack((centers - sizes, centers + sizes))
+    corners = recording.last('world/walls', 'Mesh3D:vertex_positions')[:, :2].reshape(-1, 6, 2)
+    low, high = corners.min(axis=1), corners.max(axis=1)
+    floor, ceiling, left, right = np.hstack((low, high))
     assert floor[3] == pytest.approx(0.0, abs=1e-6)
     assert ceiling[1] == pytest.approx(12.0)
     assert left[2] == pytest.approx(-10.0)
     assert right[0] == pytest.approx(10.0)
+
+
+def test_the_grid_has_a_line_at_every_whole_metre_and_says_which(recording):
+    recording.draw(frame(scene(bounds=(-10.0, 0.0, 10.0, 12.0)), []))
+
+    lines = [
+        np.array(line) for line in recording.last('world/grid', 'LineStrips3D:strips').tolist()
+    ]
+    upright = sorted(line[0, 0] for line in lines if line[0, 0] == line[1, 0])
+    assert np.diff(upright) == pytest.approx(1.0)
+    assert any(abs(x) < TOLERANCE for x in upright)
+    places = recording.last('world/grid/metres', 'Points3D:positions')
+    labels = recording.last('world/grid/metres', 'Points3D:labels')
+    for (x, y, _), label in zip(places, labels, strict=True):
+        assert label in {f'{x:g} m', f'{y:g} m'}
 
 
 def test_what_has_been_deleted_is_cleared(recording):
@@ -309,22 +369,21 @@ def test_what_has_been_deleted_is_cleared(recording):
 
     recording.draw(frame(with_box, [(0, 0, 0), (1, 0, 0)]), frame(without, [(1, 0, 0)], step=4))
 
-    (cleared,) = recording.rows('world/boxes', 'Clear:is_recursive')
+    (cleared,) = recording.rows('world/bodies/box/0', 'Clear:is_recursive')
     assert cleared.frame == 1
-    assert len(recording.last('world/discs', 'Cylinders3D:centers')) == 1
-    assert recording.rows('world/discs', 'Clear:is_recursive') == []
+    assert len(recording.last('world/bodies/disc/0', 'InstancePoses3D:translations')) == 1
+    assert recording.rows('world/bodies/disc/0', 'Clear:is_recursive') == []
 
 
-def test_the_frame_timeline_goes_on_while_time_goes_back(recording):
+def test_the_recorded_time_goes_on_while_the_world_goes_back(recording):
     box = scene(body())
 
     for batch in ((0, 4, 8), (4, 0), (4,)):
         recording.draw(*(frame(box, [(step, 0, 0)], step=step) for step in batch))
 
-    rows = recording.rows('world/boxes', 'Boxes3D:centers')
+    rows = recording.rows('world/bodies/box/0', 'InstancePoses3D:translations')
     assert [row.frame for row in rows] == [0, 1, 2, 3, 4, 5]
-    assert [row.step for row in rows] == [0, 4, 8, 4, 0, 4]
-    assert [row.stamp for row in rows] == [row.step * STEP_NS for row in rows]
+    assert [row.stamp for row in rows] == [step * STEP_NS for step in (0, 4, 8, 4, 0, 4)]
     assert [row.value[0, 0] for row in rows] == [0, 4, 8, 4, 0, 4]
 
 
@@ -332,21 +391,21 @@ def test_what_was_drawn_does_not_change_with_what_is_drawn_next(recording):
     box = scene(body())
 
     for step in range(20):
-        recording.draw(frame(box, [(step, 0, 0)], step=step))
+        recording.draw(frame(box, [(step, 0, 0)], step=4 * step))
 
-    rows = recording.rows('world/boxes', 'Boxes3D:centers')
+    rows = recording.rows('world/bodies/box/0', 'InstancePoses3D:translations')
     assert [row.value[0, 0] for row in rows] == list(range(20))
 
 
 def test_geometry_is_sent_with_the_scene_and_again_now_and_then(recording):
     box = scene(body())
-    frames = [frame(box, [(step, 0, 0)], step=step) for step in range(REPEAT + 10)]
+    frames = [frame(box, [(step, 0, 0)], step=4 * step) for step in range(REPEAT + 10)]
 
-    for first in range(0, len(frames), 10):
-        end = first + 10
+    for first in range(0, len(frames), 60):
+        end = first + 60
         recording.draw(*frames[first:end])
 
-    rows = recording.rows('world/boxes', 'Boxes3D:half_sizes')
+    rows = recording.rows('world/bodies/box/0', 'Mesh3D:vertex_positions')
     assert [row.frame for row in rows] == [0, REPEAT]
 
 
@@ -357,8 +416,8 @@ def test_what_rests_is_not_sent_again(recording):
     recording.draw(frame(both, [(0, 5, 0), (0, 0, 0)]))
     recording.draw(frame(both, [(0, 4, 0), (0, 0, 0)], step=4))
 
-    assert len(recording.rows('world/boxes', 'Boxes3D:centers')) == 2
-    assert len(recording.rows('world/anchored/polygons', 'Mesh3D:vertex_positions')) == 1
+    assert len(recording.rows('world/bodies/box/0', 'InstancePoses3D:translations')) == 2
+    assert len(recording.rows('world/bodies/ground/0', 'InstancePoses3D:translations')) == 1
 
 
 def test_an_anchored_body_that_is_put_elsewhere_is_drawn_there(recording):
@@ -367,8 +426,7 @@ def test_an_anchored_body_that_is_put_elsewhere_is_drawn_there(recording):
     recording.draw(frame(ground, [(0, 0, 0)]))
     recording.draw(frame(ground, [(2, 0, 0)], step=4))
 
-    assert recording.last('world/anchored/boxes', 'Boxes3D:centers')[0, 0] == 2
-    assert recording.last('world/anchored/marks', 'Boxes3D:centers')[0, 0] == 2
+    assert recording.last('world/bodies/box/0', 'InstancePoses3D:translations')[0, 0] == 2
 
 
 def test_a_paused_world_adds_nothing(recording):
@@ -377,7 +435,7 @@ def test_a_paused_world_adds_nothing(recording):
     recording.draw(*[paused] * 5)
     recording.draw(*[paused] * 5)
 
-    assert len(recording.rows('world/boxes', 'Boxes3D:centers')) == 1
+    assert len(recording.rows('world/bodies/box/0', 'InstancePoses3D:translations')) == 1
 
 
 def test_what_happens_to_a_paused_world_is_drawn(recording):
@@ -389,7 +447,7 @@ def test_what_happens_to_a_paused_world_is_drawn(recording):
     recording.draw(paused, moved_by_hand, told)
 
     assert [row.frame for row in recording.rows('events', 'TextLog:text')] == [2]
-    assert recording.last('world/boxes', 'Boxes3D:centers')[0, 0] == 1
+    assert recording.last('world/bodies/box/0', 'InstancePoses3D:translations')[0, 0] == 1
 
 
 def test_every_answer_is_an_event_and_a_refusal_an_error(recording):
@@ -402,34 +460,103 @@ def test_every_answer_is_an_event_and_a_refusal_an_error(recording):
 
     texts = [row.value.item() for row in recording.rows('events', 'TextLog:text')]
     levels = [row.value.item() for row in recording.rows('events', 'TextLog:level')]
-    assert texts == ['~/spawn  box/0  spawned', '~/pin  no body there  [nothing_there]']
+    assert texts == ['box/0  spawned  (~/spawn)', 'nothing_there  no body there  (~/pin)']
     assert levels == ['INFO', 'ERROR']
 
 
-def test_energies_and_the_real_time_factor_are_plotted(recording):
-    now = frame(scene(body()), [(0, 3, 0)])
+def test_energies_and_momenta_are_plotted(recording):
+    now = frame(scene(body()), [(2, 3, 0)])
 
-    recording.draw(now, real_time_factor=0.5)
+    recording.draw(now)
 
     kinetic, potential = now.snapshot.kinetic_energy, now.snapshot.potential_energy
-    energies = recording.last('energy', 'Scalars:scalars')
-    assert energies == pytest.approx([kinetic, potential, kinetic + potential])
-    assert recording.last('real_time_factor', 'Scalars:scalars') == pytest.approx(0.5)
+    energies = recording.last('plots/energy', 'Scalars:scalars')
+    assert energies == pytest.approx([kinetic, potential, 0.0, kinetic + potential])
+    # 2 kg at 1 m/s along x and y, at (2, 3), and a moment of 5/6 kg m² at 1 rad/s.
+    assert recording.last('plots/momentum', 'Scalars:scalars') == pytest.approx([2.0, 2.0])
+    about = recording.last('plots/angular_momentum', 'Scalars:scalars')
+    assert about == pytest.approx(2 * (2 - 3) + 5 / 6)
 
 
-def test_contacts_are_points_as_long_as_they_last(recording):
+@pytest.mark.parametrize(('speed', 'factor', 'shown'), [(4.0, 2.0, 0.5), (-1.0, -1.0, 1.0)])
+def test_the_real_time_factor_is_by_the_speed_that_was_asked(recording, speed, factor, shown):
+    recording.draw(frame(scene(body()), [(0, 3, 0)], speed=speed), real_time_factor=factor)
+
+    assert recording.last('plots/pace', 'Scalars:scalars') == pytest.approx(shown)
+
+
+def test_a_world_that_nothing_paces_has_no_real_time_factor(recording):
+    recording.draw(frame(scene(body()), [(0, 3, 0)]), real_time_factor=0.0)
+
+    assert recording.rows('plots/pace', 'Scalars:scalars') == []
+
+
+def contacts(*impulses, pair=(0, -1)):
+    """Return contacts at (1, 2) with impulses on the second body [N s]."""
+    count = len(impulses)
+    return Contacts(
+        pairs=np.array([pair] * count, dtype=np.int64).reshape(-1, 2),
+        points=np.array([[1.0, 2.0]] * count).reshape(-1, 2),
+        normals=np.array([[0.0, -1.0]] * count).reshape(-1, 2),
+        impulses=np.array(impulses, dtype=np.float64).reshape(-1, 2),
+    )
+
+
+def test_contacts_are_arrows_by_force_on_the_movable_body_as_long_as_they_last(recording):
     box = scene(body())
-    point = np.array([[1.0, 2.0]])
-    touching = Contacts(pairs=np.array([[0, -1]]), points=point, normals=point, impulses=point)
-    none = np.empty((0, 2))
-    apart = Contacts(pairs=none.astype(int), points=none, normals=none, impulses=none)
+    weight = 2.0 * 9.81
+    press, heavy = contacts((0.0, -weight / 60)), contacts((0.0, -2 * weight / 60))
 
-    for step, contacts in enumerate((apart, touching, apart, apart)):
-        recording.draw(frame(box, [(step, 0, 0)], step=step, contacts=contacts))
+    for number, each in enumerate((contacts(), press, heavy, contacts(), contacts())):
+        recording.draw(frame(box, [(number, 0, 0)], step=4 * number, contacts=each))
 
-    rows = recording.rows('world/contacts', 'Points3D:positions')
-    assert [(row.frame, len(row.value)) for row in rows] == [(1, 1), (2, 0)]
-    assert rows[0].value[0, :2] == pytest.approx((1.0, 2.0))
+    origins = recording.rows('world/contacts', 'Arrows3D:origins')
+    vectors = recording.rows('world/contacts', 'Arrows3D:vectors')
+    assert [(row.frame, len(row.value)) for row in origins] == [(1, 1), (2, 1), (3, 0)]
+    assert origins[0].value[0, :2] == pytest.approx((1.0, 2.0))
+    first, second = vectors[0].value[0], vectors[1].value[0]
+    assert first[0] == 0
+    assert first[1] > 0
+    assert second == pytest.approx(2 * first, rel=1e-4)
+
+
+def test_thousands_of_contacts_are_sent_less_often(recording):
+    box = scene(body())
+    crowd = contacts(*[(0.0, -1.0)] * 1500)
+
+    recording.draw(*(frame(box, [(n, 0, 0)], step=4 * n, contacts=crowd) for n in range(60)))
+
+    rows = recording.rows('world/contacts', 'Arrows3D:origins')
+    assert 1 < len(rows) <= 8
+    assert rows[-1].frame == 59
+
+
+def test_a_body_that_is_traced_leaves_its_way_and_flies_beside_its_parabola(recording):
+    ball = scene(body('ball/0', Disc(radius=0.5)))
+    for number in range(10):
+        time = 4 * number * STEP_NS * 1e-9
+        at = (time, 5 + time - 9.81 * time**2 / 2, 0)
+        recording.draw(frame(ball, [at], step=4 * number), traced=('ball/0', 'nobody/0'))
+
+    heights = [row.value for row in recording.rows('plots/bodies/ball/0', 'Scalars:scalars')]
+    assert len(heights) == 10
+    for height, flight in heights:
+        assert flight == pytest.approx(height, abs=1e-9)
+    way = recording.last('world/traces/ball/0', 'LineStrips3D:strips')
+    assert len(way) == 1
+
+
+def test_time_speed_and_the_past_are_written_in_the_picture(recording):
+    box = scene(body())
+    for number, (step, speed) in enumerate(((240, 1.0), (236, -2.0), (236, 0.0))):
+        recording.draw(frame(box, [(number, 0, 0)], step=step, speed=speed))
+
+    words = [row.value.item() for row in recording.rows('world/camera/status', 'Points2D:labels')]
+    assert words == [
+        '1.00 s  × 1',
+        '0.98 s  × 2 back  in the past',
+        '0.98 s  paused  in the past',
+    ]
 
 
 def eyes(recording):
@@ -454,7 +581,7 @@ def test_what_is_half_drawn_lies_over_the_world_until_it_is_dropped(recording):
 def test_the_reading_of_a_stroke_is_seen_for_a_while(recording):
     box, read = scene(body()), Preview(lines=(((0, 0), (3, 4)),), label='wall 90%')
     for step in range(LINGER + 2):
-        recording.draw(frame(box, [(step, 0, 0)], step=step, preview=read))
+        recording.draw(frame(box, [(step, 0, 0)], step=4 * step, preview=read))
 
     rows = recording.rows('world/preview/lines', 'LineStrips3D:strips')
     assert [(row.frame, len(row.value)) for row in rows] == [(0, 1), (LINGER, 0)]
@@ -471,12 +598,12 @@ def test_the_camera_stands_still_while_bodies_move(recording):
 
 
 def test_the_camera_looks_at_the_bounds_and_follows_them(recording):
-    recording.draw(frame(scene(bounds=(0.0, 0.0, 10.0, 4.0)), []))
-    recording.draw(frame(scene(bounds=(100.0, 0.0, 300.0, 4.0)), [], step=4))
+    recording.draw(frame(scene(bounds=(0.0, 0.0, 10.0, 2.0)), []))
+    recording.draw(frame(scene(bounds=(100.0, 0.0, 300.0, 40.0)), [], step=4))
 
     first, second = eyes(recording)
-    assert first[:2] == pytest.approx((5.0, 2.0))
-    assert second[:2] == pytest.approx((200.0, 2.0))
+    assert first[:2] == pytest.approx((5.0, 1.0))
+    assert second[:2] == pytest.approx((200.0, 20.0))
     assert second[2] == pytest.approx(20 * first[2], rel=1e-5)
 
 
@@ -494,56 +621,3 @@ def test_an_empty_world_can_be_drawn(recording):
     recording.draw(frame(scene(), []), frame(scene(), [], step=4))
 
     assert len(eyes(recording)) == 2
-
-
-def has_vulkan():
-    return any(Path('/usr/share/vulkan/icd.d').glob('*.json'))
-
-
-@contextmanager
-def shown(path):
-    """Give a connection to a viewer without a screen that shows a recording."""
-    port = free_port()
-    process = rerun(path, '--headless', f'--port={port}', '--window-size=1200x800')
-    try:
-        deadline = time.monotonic() + PATIENCE
-        while not is_open(port) and time.monotonic() < deadline:
-            pass
-        yield rr.experimental.ViewerClient.connect(f'rerun+http://127.0.0.1:{port}/proxy')
-    finally:
-        process.kill()
-        process.wait()
-
-
-@pytest.mark.skipif(
-    not has_vulkan(), reason='no Vulkan driver: apt-get install mesa-vulkan-drivers libvulkan1'
-)
-def test_on_the_screen_a_red_box_is_red_and_up_is_up(recording, tmp_path):
-    image = pytest.importorskip('PIL.Image')
-    picture = tmp_path / 'screen.png'
-    red, blue = body(shape=Box(width=4.0, height=2.0)), body('box/1', color=BLUE)
-    world = scene(red, blue, bounds=(-10.0, 0.0, 10.0, 12.0))
-    recording.draw(frame(world, [(-5.0, 10.0, 0.0), (5.0, 2.0, 0.0)]))
-    recording.close()
-
-    with shown(recording.path) as viewer:
-        deadline, before = time.monotonic() + PATIENCE, None
-        while True:
-            viewer.save_screenshot(str(picture))
-            pixels = np.asarray(image.open(picture).convert('RGB')) / 255
-            red_rows, red_columns = np.nonzero(np.abs(pixels - RED[:3]).max(axis=2) < 4 / 255)
-            blue_rows, blue_columns = np.nonzero(np.abs(pixels - BLUE[:3]).max(axis=2) < 4 / 255)
-            # It draws what has been read so far; two alike are all of it.
-            count = len(red_rows), len(blue_rows)
-            if (all(count) and count == before) or time.monotonic() > deadline:
-                break
-            before = count
-
-    assert red_rows.mean() < blue_rows.mean()
-    assert red_columns.mean() < blue_columns.mean()
-    # 4 m by 2 m, and ten metres apart: to the pixel or two at an edge.
-    width, height = np.ptp(red_columns) + 1, np.ptp(red_rows) + 1
-    assert width / height == pytest.approx(2.0, rel=0.05)
-    assert (blue_columns.mean() - red_columns.mean()) / width == pytest.approx(10 / 4, rel=0.05)
-    # The whole of it, and nothing else.
-    assert len(red_rows) == pytest.approx(width * height, rel=0.02)

@@ -194,7 +194,7 @@ def test_a_recording_holds_every_frame_once_it_is_closed(viewers, tmp_path):
     show(viewer, 1000)
     viewer.close()
 
-    assert rows(path)['/world/boxes'] >= 1000
+    assert rows(path)['/world/bodies/box/0'] >= 1000
     assert ', ended, 1000 frames, 0 dropped' in viewer.state
 
 
@@ -211,7 +211,7 @@ def test_a_file_that_cannot_be_written_is_told_and_the_rest_goes_on(viewers, ser
 
     assert failure.topic == 'viewer'
     assert str(path) in failure.message
-    server.wait_for('/world/boxes', 50)
+    server.wait_for('/world/bodies/box/0', 50)
 
 
 def test_a_disk_that_fills_up_is_told(viewers):
@@ -287,7 +287,7 @@ def test_who_looks_late_at_what_is_served_sees_all_of_it(viewers, tmp_path):
     path = tmp_path / 'late.rrd'
     late = rerun(stream, '--save', path)
     try:
-        rows_when(path, '/world/boxes', 20)
+        rows_when(path, '/world/bodies/box/0', 20)
     finally:
         late.kill()
         late.wait()
@@ -444,7 +444,7 @@ def test_a_server_that_comes_late_is_found_and_gets_every_answer(viewers, server
     viewer.close()
 
     written = server.wait_for('/events', 200)
-    assert written['/world/boxes'] >= 60
+    assert written['/world/bodies/box/0'] >= 60
 
 
 def test_a_server_that_goes_and_comes_again_is_found_again(viewers, server):
@@ -462,7 +462,7 @@ def test_a_server_that_goes_and_comes_again_is_found_again(viewers, server):
     viewer.close()
 
     # With the geometry, as nothing of before has been kept.
-    assert server.wait_for('/world/boxes', 10)['/world/camera'] == 1
+    assert server.wait_for('/world/bodies/box/0', 10)['/world/camera'] == 1
 
 
 # The whole life of a process whose viewer freezes: a frozen one would keep this one from ending.

@@ -12,26 +12,23 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Subscribe to the answers, and take none."""
+"""What a program knows at a frame beside the frame itself."""
 
 from __future__ import annotations
 
-import time
-
-from diagnostic_msgs.msg import DiagnosticStatus
-from visitor import ALL, Visitor
+from dataclasses import dataclass
 
 
-def main() -> None:
-    visitor = Visitor()
-    subscription = visitor.node.create_subscription(
-        DiagnosticStatus, '/physsim/events', lambda _: None, ALL
-    )
-    visitor.spin_until(subscription.get_publisher_count, 'answers')
-    print('DEAF', flush=True)  # noqa: T201 - the test may begin
-    while True:
-        time.sleep(1.0)
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FrameContext:
+    """
+    Figures of the program at a frame, which the world does not have.
 
+    :param real_time_factor: simulation seconds a second; 0 where nothing paces the world
+    :param cost: of the frame, its steps and its publishing [s]; 0 is unknown
+    :param traced: names of the bodies whose way and flight are shown
+    """
 
-if __name__ == '__main__':
-    main()
+    real_time_factor: float = 0.0
+    cost: float = 0.0
+    traced: tuple[str, ...] = ()

@@ -1,0 +1,249 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Requests for bodies: spawned, changed, moved, commanded, anchored and deleted.
+
+Law: all is checked before anything is changed.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from physsim_ros.engine.body import REST, RigidBody
+from physsim_ros.engine.space import Space
+from physsim_ros.model.body_properties import Properties
+from physsim_ros.model.checks import HEAVIEST, LIGHTEST
+from physsim_ros.model.colors import color_of
+from physsim_ros.model.errors import Anchored, BadProperty, NothingThere, WorldFull
+from physsim_ros.model.names import split_name
+from physsim_ros.model.requests import ChangeBody, check_pose, Command, MoveBodies, Spawn
+from physsim_ros.model.scene import Body
+from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.transform import Point, Pose
+from physsim_ros.simulation import joint_requests
+from physsim_ros.simulation.lookup import body_of_name, pose_in_world
+
+# What a request did: the body concerned, or '', and a sentence that says so.
+Done = tuple[str, str]
+
+
+def spawn_body(
+    space: Space, request: Spawn, settings: WorldSettings, *, serial: int, expires: int | None
+) -> Done:
+    """
+    Add a body, or change the one of that name.
+
+    :param serial: of the body if it is new
+    :param expires: step at whose end it is removed; None is never, or as before
+    :raises Refusal: and nothing is changed
+    """
+    name = request.name
+    old = space.bodies.by_name.get(name)
+    count, most = len(space.bodies.by_name), settings.max_bodies
+    if old is None and count >= most:
+        raise WorldFull(f'the world holds {count} bodies; it may hold {most}')
+    pose = pose_in_world(space, request.pose, request.frame)
+    changes: dict[str, Any] = {'shape': request.shape}
+    if request.color is not None:
+        changes['color'] = request.color
+    if expires is not None:
+        changes['expires'] = expires
+    if old is not None:
+        _change(space, old, changes, pose, request.properties)
+        return name, f'changed {name}'
+    body = _changed(_default_body(request, settings), changes, request.properties)
+    space.add(body, serial, pose, _changed_twist(body, REST, request.properties))
+    return name, f'spawned {name}'
+
+
+def change_body(space: Space, request: ChangeBody) -> Done:
+    """
+    Change those properties of a body that a request names, and nothing else.
+
+    :raises Refusal: and nothing is changed
+    """
+    rigid, name = body_of_name(space, request.name), request.name
+    pose = rigid.pose
+    if request.pose is not None:
+        pose = pose_in_world(space, request.pose, request.frame)
+    changes = {} if request.color is None else {'color': request.color}
+    _change(space, rigid, changes, pose, request.properties)
+    return name, f'changed {name}'
+
+
+def move_bodies(space: Space, request: MoveBodies) -> Done:
+    """
+    Move bodies by one vector; their velocities are kept.
+
+    :raises Refusal: and nothing is changed
+    """
+    rigids = [body_of_name(space, name, 'names') for name in request.names]
+    dx, dy = request.by
+    poses = [(rigid.pose[0] + dx, rigid.pose[1] + dy, rigid.pose[2]) for rigid in rigids]
+    for pose in poses:
+        check_pose(pose, 'by')
+    _set_poses(space, rigids, poses)
+    return _told('moved', request.names)
+
+
+def command_bodies(space: Space, request: Command, until: int | None) -> Done:
+    """
+    Set poses, twists or wrenches of bodies.
+
+    :param until: step at which the wrenches end; None is never
+    :raises Refusal: and nothing is changed
+    """
+    rigids = [body_of_name(space, name, 'joint_names') for name in request.names]
+    for rigid in rigids:
+        if rigid.body.anchored and (request.twists or request.wrenches):
+            raise Anchored(
+                f'{rigid.body.name} is anchored; it takes a pose only', field='joint_names'
+            )
+        if rigid.body.kinematic and request.wrenches:
+            raise BadProperty(
+                f'{rigid.body.name} is kinematic; forces do not move it', field='wrench'
+            )
+    # Twists and wrenches are of the world, but a frame that there is not is a mistake.
+    pose_in_world(space, REST, request.frame)
+    poses = [pose_in_world(space, pose, request.frame) for pose in request.poses]
+    _set_poses(space, rigids, poses)
+    for rigid, twist in zip(rigids, request.twists, strict=False):
+        space.set_twist(rigid, twist)
+    for rigid, wrench in zip(rigids, request.wrenches, strict=False):
+        space.set_wrench(rigid, wrench, until)
+    return _told('commanded', request.names)
+
+
+def set_anchored(space: Space, point: Point, *, anchored: bool) -> Done:
+    """
+    Anchor or release the topmost body under a point of the world [m].
+
+    :raises NothingThere: there is none
+    """
+    x, y = point
+    name = next(iter(space.bodies.at(point)), None)
+    if name is None:
+        raise NothingThere(f'there is no body at ({x:g}, {y:g})', field='point')
+    rigid = space.bodies.by_name[name]
+    if rigid.body.anchored != anchored:
+        body = replace(rigid.body, anchored=anchored)
+        space.change(rigid, body, rigid.pose, REST)
+    if anchored:
+        return name, f'anchored {name}'
+    loosened = joint_requests.loosen(space, name, point)
+    return name, ' and removed '.join((f'released {name}', *loosened))
+
+
+def delete_bodies(space: Space, names: tuple[str, ...], field: str = 'names') -> Done:
+    """
+    Remove bodies, and their joints.
+
+    :param field: of the request, for the refusal
+    :raises UnknownBody: there is no body of one of the names; nothing is changed
+    """
+    for name in names:
+        body_of_name(space, name, field)
+    for name in names:
+        space.remove(name)
+    return _told('deleted', names)
+
+
+def delete_all(space: Space, namespace: str | None) -> Done:
+    """Remove all bodies, or all of a namespace, and their joints."""
+    names = [
+        name
+        for name in space.bodies.by_name
+        if namespace is None or split_name(name)[0] == namespace
+    ]
+    delete_bodies(space, tuple(names))
+    return '', f'deleted {len(names)} bodies'
+
+
+def _told(verb: str, names: tuple[str, ...]) -> Done:
+    if len(names) == 1:
+        return names[0], f'{verb} {names[0]}'
+    return '', f'{verb} {len(names)} bodies'
+
+
+def _set_poses(space: Space, rigids: list[RigidBody], poses: list[Pose]) -> None:
+    """Put bodies somewhere else; without poses, none."""
+    for rigid, pose in zip(rigids, poses, strict=False):
+        space.set_pose(rigid, pose)
+
+
+def _default_body(request: Spawn, settings: WorldSettings) -> Body:
+    """Return a new body with the default material of the world."""
+    return Body(
+        name=request.name,
+        shape=request.shape,
+        color=color_of(request.name),
+        mass=None,
+        density=settings.density,
+        friction=settings.friction,
+        elasticity=settings.elasticity,
+        anchored=False,
+        kinematic=False,
+        group=0,
+        sensor=False,
+        expires=None,
+    )
+
+
+def _change(
+    space: Space, old: RigidBody, changes: dict[str, Any], pose: Pose, properties: Properties
+) -> None:
+    body = _changed(old.body, changes, properties)
+    twist = REST if old.body.anchored else space.twist_of(old)
+    space.change(old, body, pose, _changed_twist(body, twist, properties))
+
+
+def _changed(old: Body, changes: dict[str, Any], properties: Properties) -> Body:
+    """
+    Return a body with other properties.
+
+    :raises BadProperty: it would be too light or too heavy
+    """
+    said = properties.explicit()
+    for motion in ('velocity', 'spin'):
+        said.pop(motion, None)
+    if properties.density is not None:
+        said['mass'] = None
+    body = replace(old, **changes, **said)
+    if not LIGHTEST <= body.total_mass <= HEAVIEST:
+        field = 'density' if body.mass is None else 'mass'
+        raise BadProperty(
+            f'the body would weigh {body.total_mass:g} kg; {LIGHTEST:g} to {HEAVIEST:g} kg can be '
+            'simulated',
+            field=field,
+        )
+    return body
+
+
+def _changed_twist(body: Body, twist: Pose, properties: Properties) -> Pose:
+    """
+    Return the twist of a body with other properties.
+
+    :param twist: that it has now
+    :raises Anchored: an anchored body is to move
+    """
+    moves = (properties.velocity or (0.0, 0.0)) != (0.0, 0.0) or bool(properties.spin)
+    if body.anchored and moves:
+        raise Anchored(f'{body.name} is anchored; it has no velocity', field='velocity')
+    if body.anchored:
+        return REST
+    vx, vy = twist[:2] if properties.velocity is None else properties.velocity
+    return vx, vy, twist[2] if properties.spin is None else properties.spin

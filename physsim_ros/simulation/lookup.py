@@ -1,0 +1,63 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Names, points and poses of requests, looked up in a space."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from physsim_ros.engine.body import RigidBody
+from physsim_ros.engine.space import Space
+from physsim_ros.model.errors import UnknownBody, UnknownFrame
+from physsim_ros.model.requests import check_pose
+from physsim_ros.model.transform import Point, Pose, rotated
+
+
+def body_of_name(space: Space, name: str, field: str = 'name') -> RigidBody:
+    """
+    Return the body of a name.
+
+    :param field: of the request, for the refusal
+    :raises UnknownBody: there is none
+    """
+    if name not in space.bodies.by_name:
+        raise UnknownBody(f'there is no body {name!r}', field=field)
+    return space.bodies.by_name[name]
+
+
+def pose_in_world(space: Space, pose: Pose, frame: str) -> Pose:
+    """
+    Return a pose of a frame as a pose of the world.
+
+    :param frame: '' for the world, or a body's name
+    :raises UnknownFrame: there is no such body
+    :raises BadProperty: the pose is too far away
+    """
+    if not frame:
+        return pose
+    if frame not in space.bodies.by_name:
+        raise UnknownFrame(
+            f'frame {frame!r} is neither the world nor a body', field='header.frame_id'
+        )
+    x, y, yaw = space.bodies.by_name[frame].pose
+    turned_x, turned_y = rotated((pose[0], pose[1]), yaw)
+    result = (x + turned_x, y + turned_y, yaw + pose[2])
+    check_pose(result, 'pose')
+    return result
+
+
+def points_in_world(space: Space, points: Iterable[Point], frame: str) -> tuple[Point, ...]:
+    """Return points of a frame as points of the world; raises as `pose_in_world`."""
+    return tuple(pose_in_world(space, (*point, 0.0), frame)[:2] for point in points)

@@ -1,0 +1,62 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Arrows over the bodies: contacts and velocities."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+import math
+
+import numpy as np
+from physsim_ros.model.arrays import Floats
+from physsim_ros.view import columns
+import rerun as rr
+
+# Greatest mean number of arrows in a frame of each kind: of more, fewer frames have arrows.
+_BUDGET = 150
+
+
+def sampling_period(count: int) -> int:
+    """Return the period at which arrows are sent [frames], for a number of them."""
+    return max(1, math.ceil(count / _BUDGET))
+
+
+def nice_number(value: float) -> float:
+    """Return the least number of 1, 2, 5 times a power of ten that is at least a value > 0."""
+    power = 10.0 ** math.floor(math.log10(value))
+    return next(
+        step * power for step in (1.0, 2.0, 5.0, 10.0) if step * power >= value * (1 - 1e-9)
+    )
+
+
+def arrow_columns(
+    origins: Floats, vectors: Floats, height: float, lengths: Sequence[int]
+) -> list[rr.ComponentColumn]:
+    """
+    Return arrows in the plane as columns.
+
+    :param origins: (k, 2) float64: of all rows [m]
+    :param vectors: (k, 2) float64 [m]
+    :param height: z of the arrows [m]
+    :param lengths: number of arrows of each row
+    """
+    places = np.full((len(origins), 3), height, dtype=np.float32)
+    places[:, :2] = origins
+    ways = np.zeros((len(vectors), 3), dtype=np.float32)
+    ways[:, :2] = vectors
+    return [
+        columns.column(columns.ORIGINS, places, lengths),
+        columns.column(columns.VECTORS, ways, lengths),
+    ]

@@ -1,0 +1,111 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Frames of one scene that are logged together, and the times at which they are logged.
+
+The timeline `recorded` is the time of the picture: it never goes back, also while the world does,
+and runs at the pace of the wall clock while the world keeps up. `sim_time` is the world's.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import groupby
+
+import numpy as np
+from physsim_ros.model.arrays import Floats, Ints
+from physsim_ros.model.scene import Scene
+from physsim_ros.model.snapshot import Frame
+import rerun as rr
+
+RECORDED = 'recorded'
+Times = list[rr.TimeColumn]
+
+# Time between two frames of which nothing better is known [ns].
+_PERIOD = 16_666_667
+# Shortest and longest time between two frames [ns]: a seek is no long time for the picture.
+_SHORTEST, _LONGEST = 1_000_000, 1_000_000_000
+
+
+class FrameBatch:
+    """
+    Frames of one scene.
+
+    :param frames: at least one, in order
+    :param numbers: of them, without gaps
+    :param recorded: (f,) int64: time of the picture of each [ns]
+
+    :ivar poses: (f, n, 3) float64: of the bodies, x, y [m], yaw [rad]
+    """
+
+    def __init__(self, frames: Sequence[Frame], numbers: range, recorded: Ints) -> None:
+        self.frames = frames
+        self.numbers = numbers
+        self.recorded = recorded
+        self.scene: Scene = frames[0].snapshot.scene
+        self.poses: Floats = np.stack([each.snapshot.poses for each in frames])
+        self._stamps = np.array([each.snapshot.stamp for each in frames], dtype=np.int64)
+        self.times = self.times_at(range(len(frames)))
+
+    def __len__(self) -> int:
+        return len(self.frames)
+
+    def times_at(self, indices: Sequence[int]) -> Times:
+        """Return the times of some of the frames, by their index in the batch."""
+        rows = list(indices)
+        return [
+            rr.TimeColumn(RECORDED, duration=self.recorded[rows].astype('timedelta64[ns]')),
+            rr.TimeColumn('sim_time', duration=self._stamps[rows].astype('timedelta64[ns]')),
+        ]
+
+    def sampled(self, period: int) -> list[int]:
+        """Return the indices of every `period`-th frame of the recording, and of the last one."""
+        last = len(self.frames) - 1
+        return [
+            index
+            for index, number in enumerate(self.numbers)
+            if number % period == 0 or index == last
+        ]
+
+
+class RecordedClock:
+    """
+    The number and the time of frames in a recording.
+
+    :ivar recorded: time of the last frame [ns]
+    """
+
+    def __init__(self) -> None:
+        self._count = 0
+        self.recorded = 0
+        self._before: Frame | None = None
+
+    def batches(self, frames: Sequence[Frame]) -> Iterator[FrameBatch]:
+        """Yield frames in batches of one scene each."""
+        for _, group in groupby(frames, key=lambda frame: id(frame.snapshot.scene)):
+            run = list(group)
+            recorded = np.array([self._advance(frame) for frame in run], dtype=np.int64)
+            numbers = range(self._count, self._count + len(run))
+            self._count = numbers.stop
+            yield FrameBatch(run, numbers, recorded)
+
+    def _advance(self, frame: Frame) -> int:
+        """Return the time of the next frame [ns]."""
+        if self._before is not None:
+            way = abs(frame.snapshot.stamp - self._before.snapshot.stamp)
+            period = way / abs(frame.speed) if frame.speed and way else _PERIOD
+            self.recorded += round(min(max(period, _SHORTEST), _LONGEST))
+        self._before = frame
+        return self.recorded

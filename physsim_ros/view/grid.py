@@ -1,0 +1,82 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The grid under the world: lines at whole numbers of metres, and their coordinates."""
+
+from __future__ import annotations
+
+import math
+
+from physsim_ros.model.settings import Bounds
+from physsim_ros.view.arrows import nice_number
+import rerun as rr
+
+LINES, LABELS = 'world/grid', 'world/grid/metres'
+# Least distance of two lines [units].
+_LEAST = 0.8
+# Lines from one labelled line to the next.
+_LABELLED = 5
+# How far the grid goes beyond the area that the camera shows, in shares of its longer side.
+_BEYOND = 0.6
+_FAINT, _CLEAR, _INK = (228, 229, 224), (203, 205, 200), (250, 250, 247)
+# Distance of the labels from the lower edge of the area: they hang below their points [units].
+_ABOVE = 0.7
+
+
+def grid_columns(
+    area: Bounds, unit: float
+) -> tuple[list[rr.ComponentColumn], list[rr.ComponentColumn]]:
+    """
+    Return the lines, below all bodies, and the labels, as columns of one row.
+
+    :param area: that the camera shows: left, bottom, right, top [m]
+    :param unit: length of a unit of the view [m]
+    """
+    left, bottom, right, top = area
+    spacing = nice_number(_LEAST * unit)
+    beyond = _BEYOND * max(right - left, top - bottom)
+    columns = _multiples(left - beyond, right + beyond, spacing)
+    rows = _multiples(bottom - beyond, top + beyond, spacing)
+    (x1, x2), (y1, y2) = ((each[0] * spacing, each[-1] * spacing) for each in (columns, rows))
+    z = -0.1 * unit
+    lines = [((n * spacing, y1, z), (n * spacing, y2, z)) for n in columns]
+    lines += [((x1, n * spacing, z), (x2, n * spacing, z)) for n in rows]
+    numbers = (*columns, *rows)
+    strips = rr.LineStrips3D.columns(
+        strips=lines,
+        colors=[_FAINT if number % _LABELLED else _CLEAR for number in numbers],
+        # Negative radii are ui points.
+        radii=[-0.5 if number else -1.0 for number in numbers],
+    )
+    labelled = [
+        ((n * spacing, bottom + _ABOVE * unit, z), n) for n in columns if n % _LABELLED == 0
+    ]
+    labelled += [((left, n * spacing, z), n) for n in rows if n % _LABELLED == 0]
+    points = rr.Points3D.columns(
+        positions=[point for point, _ in labelled],
+        labels=[f'{number * spacing:g} m' for _, number in labelled],
+    )
+    return list(strips.partition([len(lines)])), list(points.partition([len(labelled)]))
+
+
+def send_style(recording: rr.RecordingStream) -> None:
+    """Log the style of the labels."""
+    style = rr.Points3D.from_fields(
+        colors=[_INK], radii=rr.Radius.ui_points(0.0), show_labels=True
+    )
+    recording.log(LABELS, style, static=True)
+
+
+def _multiples(low: float, high: float, spacing: float) -> range:
+    return range(math.floor(low / spacing), math.ceil(high / spacing) + 1)

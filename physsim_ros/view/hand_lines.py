@@ -1,0 +1,70 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Hands: a line from the grip of each on a body to the hand, and its name there."""
+
+from __future__ import annotations
+
+import numpy as np
+from physsim_ros.view import columns
+from physsim_ros.view.frame_batch import FrameBatch
+import rerun as rr
+
+LINES, HANDS = 'world/hands/lines', 'world/hands'
+_COLOR = (230, 51, 128)
+
+
+class HandLines:
+    """
+    Sends the hands of frames.
+
+    :param recording: stream to log to
+    """
+
+    def __init__(self, recording: rr.RecordingStream) -> None:
+        self._recording = recording
+        self._shown = False
+        lines = rr.LineStrips3D.from_fields(radii=rr.Radius.ui_points(1.5), colors=[_COLOR])
+        hands = rr.Points3D.from_fields(
+            radii=rr.Radius.ui_points(5.0), colors=[_COLOR], point_shading='flat'
+        )
+        recording.log(LINES, lines, static=True)
+        recording.log(HANDS, hands, static=True)
+
+    def send(self, batch: FrameBatch, height: float) -> None:
+        """
+        Send the hands of a batch: an empty row after the last hand, then none.
+
+        :param height: z of the lines [m]
+        """
+        ends = [each.snapshot.grip_lines for each in batch.frames]
+        lengths = [len(each) for each in ends]
+        if not self._shown and not any(lengths):
+            return
+        self._shown = lengths[-1] > 0
+        corners = np.full((sum(lengths), 2, 3), height, dtype=np.float32)
+        corners[..., :2] = np.concatenate(ends)
+        strips = corners.reshape(-1, 3), np.full(len(corners), 2, dtype=np.intp)
+        names = [grip.hand for each in batch.frames for grip in each.snapshot.grips]
+        self._recording.send_columns(
+            LINES, batch.times, [columns.column(columns.STRIPS, strips, lengths)]
+        )
+        self._recording.send_columns(
+            HANDS,
+            batch.times,
+            [
+                columns.column(columns.POSITIONS, corners[:, 1], lengths),
+                columns.column(columns.POINT_LABELS, names, lengths),
+            ],
+        )

@@ -1,0 +1,110 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Meshes in a recording: sent when they change, and the poses of their instances when these move.
+
+Law: meshes are sent on the timeline, not as static data, so that the past looks as it did.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+from physsim_ros.model.arrays import Floats
+from physsim_ros.view import columns
+from physsim_ros.view.frame_batch import Times
+from physsim_ros.view.mesh_group import MeshGroup, Path
+import rerun as rr
+
+
+class MeshTrack:
+    """
+    Sends groups of instances.
+
+    :param recording: stream to log to
+    """
+
+    def __init__(self, recording: rr.RecordingStream) -> None:
+        self._recording = recording
+        self._sent: dict[Path, MeshGroup] = {}
+
+    def send_meshes(self, groups: Sequence[MeshGroup], times: Times, *, everything: bool) -> None:
+        """
+        Send meshes and names of new groups, and clear the entities of groups that are gone.
+
+        :param groups: to be seen from now on
+        :param times: of one frame
+        :param everything: send the groups that have been sent, too
+        """
+        by_path = {group.path: group for group in groups}
+        for path in self._sent.keys() - by_path.keys():
+            clear = rr.Clear.columns(is_recursive=[False])
+            self._recording.send_columns(rr.new_entity_path([*path]), times, clear)
+        for path, group in by_path.items():
+            before = self._sent.get(path)
+            if everything or before is None or before.mesh is not group.mesh:
+                self._send_mesh(group, times)
+            if everything or before is None or before.names != group.names:
+                names = rr.AnyValues.columns(name=list(group.names)).partition([len(group.names)])
+                self._recording.send_columns(rr.new_entity_path([*path]), times, names)
+        self._sent = by_path
+
+    def send_poses(
+        self,
+        groups: Sequence[MeshGroup],
+        poses: Floats,
+        times: Times,
+        moved: NDArray[np.bool_],
+    ) -> None:
+        """
+        Send the poses of the groups in which an instance has moved.
+
+        :param poses: (f, n, 3) float64: x, y [m], yaw [rad] of all instances in frames
+        :param times: of the frames
+        :param moved: (n,) bool: whether each instance has
+        """
+        for group in groups:
+            if not moved[group.rows].any():
+                continue
+            lengths = [len(group.rows)] * len(poses)
+            values = [
+                columns.column(columns.TRANSLATIONS, group.translations(poses), lengths),
+                columns.column(columns.ROTATIONS, group.yaws(poses), lengths),
+            ]
+            if group.scales is not None:
+                # Rerun (0.41) takes all components of a pose from one row.
+                scales = np.tile(group.scales, (len(poses), 1))
+                values.append(columns.column(columns.SCALES, scales, lengths))
+            self._recording.send_columns(rr.new_entity_path([*group.path]), times, values)
+
+    def _send_mesh(self, group: MeshGroup, times: Times) -> None:
+        mesh = group.mesh
+        vertices = np.zeros((len(mesh.vertices), 3), dtype=np.float32)
+        vertices[:, :2] = mesh.vertices
+        lengths = [[len(vertices)], [len(mesh.triangles)], [len(vertices)], [1]]
+        fields = (
+            rr.Mesh3D.columns(vertex_positions=vertices),
+            rr.Mesh3D.columns(triangle_indices=mesh.triangles),
+            rr.Mesh3D.columns(vertex_colors=mesh.colors),
+            rr.Mesh3D.columns(albedo_factor=[(255, 255, 255, round(255 * group.opacity))]),
+        )
+        parts = [
+            part
+            for field, length in zip(fields, lengths, strict=True)
+            for part in field.partition(length)
+        ]
+        self._recording.send_columns(rr.new_entity_path([*group.path]), times, parts)

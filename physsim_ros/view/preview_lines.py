@@ -1,0 +1,82 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The preview of an unfinished drawing, or the reading of a stroke for some seconds."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from physsim_ros.model.arrays import Singles
+from physsim_ros.model.preview import NO_PREVIEW
+from physsim_ros.model.transform import Point
+from physsim_ros.view.frame_batch import FrameBatch
+import rerun as rr
+
+LINES, POINTS = 'world/preview/lines', 'world/preview/points'
+# Duration of the preview of a stroke [frames].
+LINGER = 180
+_COLOR = (230, 51, 128)
+
+
+class PreviewLines:
+    """
+    Sends previews.
+
+    :param recording: stream to log to
+    """
+
+    def __init__(self, recording: rr.RecordingStream) -> None:
+        self._recording = recording
+        # The preview in the recording; that of the last frame, and the frame in which it began.
+        self._sent = self._current = NO_PREVIEW
+        self._since = 0
+        lines = rr.LineStrips3D.from_fields(radii=rr.Radius.ui_points(1.5), colors=[_COLOR])
+        points = rr.Points3D.from_fields(
+            radii=rr.Radius.ui_points(3.0), colors=[_COLOR], show_labels=True
+        )
+        recording.log(LINES, lines, static=True)
+        recording.log(POINTS, points, static=True)
+
+    def send(self, batch: FrameBatch, *, height: float, repeat: int) -> None:
+        """
+        Send previews that have changed, end after `LINGER` frames, or are due again.
+
+        :param height: z of the lines [m]
+        :param repeat: period of sending a preview again [frames]
+        """
+        for index, number in enumerate(batch.numbers):
+            preview = batch.frames[index].preview
+            if preview != self._current:
+                self._current, self._since = preview, number
+            if not preview.points and number - self._since >= LINGER:
+                preview = NO_PREVIEW
+            if preview == self._sent and (preview == NO_PREVIEW or number % repeat):
+                continue
+            self._sent = preview
+            times = batch.times_at([index])
+            lines = [_raised(line, height) for line in preview.lines]
+            strips = rr.LineStrips3D.columns(strips=lines).partition([len(lines)])
+            self._recording.send_columns(LINES, times, strips)
+            # The label has a point of its own.
+            places = [*preview.points, *([preview.top] if preview.label else [])]
+            labels = ['' for _ in preview.points] + [preview.label] * bool(preview.label)
+            dots = rr.Points3D.columns(positions=_raised(places, height), labels=labels)
+            self._recording.send_columns(POINTS, times, dots.partition([len(places)]))
+
+
+def _raised(points: Sequence[Point], height: float) -> Singles:
+    """Return points of the plane at a height, (n, 3) float32 [m]."""
+    return np.array([(x, y, height) for x, y in points], dtype=np.float32).reshape(-1, 3)

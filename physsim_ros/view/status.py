@@ -1,0 +1,91 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Words in the picture: simulation time, speed, and whether the world is in the past."""
+
+from __future__ import annotations
+
+from physsim_ros.model.snapshot import Frame
+from physsim_ros.view.contact_arrows import COLOR, force_scale
+from physsim_ros.view.frame_batch import FrameBatch
+from physsim_ros.view.run_state_track import PastWatch
+import rerun as rr
+
+# In pixels of the image of the camera, so that they stay when the camera moves.
+PATH, SCALE = 'world/camera/status', 'world/camera/force'
+# Period of the words [frames]: ten times a second is legible.
+SAMPLE = 6
+# Top left of the words, and of the legend of forces [pixels].
+_AT, _LEGEND = (70.0, 12.0), (30.0, 44.0)
+_INK = (250, 250, 247)
+
+
+class Status:
+    """
+    Sends the words.
+
+    :param recording: stream to log to
+    """
+
+    def __init__(self, recording: rr.RecordingStream) -> None:
+        self._recording = recording
+        self._past = PastWatch()
+        self._words = ''
+        style = rr.Points2D.from_fields(
+            positions=[_AT], colors=[_INK], radii=rr.Radius.ui_points(0.0), show_labels=True
+        )
+        recording.log(PATH, style, static=True)
+
+    def send(self, batch: FrameBatch) -> None:
+        """Send the words of every `SAMPLE`-th frame, and where the run state changes."""
+        words = [
+            (index, status_words(frame, past=self._past.is_past(frame)))
+            for index, frame in enumerate(batch.frames)
+        ]
+        chosen = set(batch.sampled(SAMPLE))
+        rows = []
+        for index, text in words:
+            if index in chosen or text.split('  ')[1:] != self._words.split('  ')[1:]:
+                rows.append((index, text))
+                self._words = text
+        labels = rr.Points2D.columns(labels=[text for _, text in rows])
+        times = batch.times_at([index for index, _ in rows])
+        self._recording.send_columns(PATH, times, labels)
+
+    def send_scale(self, batch: FrameBatch, pixels: float) -> None:
+        """
+        Send the legend of the arrows of contacts, at the first frame of a batch.
+
+        :param pixels: length of a unit of the view
+        """
+        x, y = _LEGEND
+        times = batch.times_at([0])
+        arrow = rr.Arrows2D.columns(
+            origins=[(x, y)], vectors=[(pixels, 0.0)], colors=[COLOR],
+            labels=[f'{force_scale(batch.scene):g} N'],
+        )  # fmt: skip
+        self._recording.send_columns(SCALE, times, arrow)
+
+
+def status_words(frame: Frame, *, past: bool) -> str:
+    """Return simulation time, speed, and whether the world is in the past."""
+    words = [f'{frame.snapshot.stamp * 1e-9:.2f} s', _speed_words(frame.speed)]
+    return '  '.join([*words, *(['in the past'] if past else [])])
+
+
+def _speed_words(speed: float) -> str:
+    if speed == 0.0:
+        return 'paused'
+    factor = f'\N{MULTIPLICATION SIGN} {abs(speed):g}'
+    return factor if speed > 0.0 else f'{factor} back'

@@ -1,0 +1,134 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Bodies are changed by the properties that are named, and moved and deleted by the name."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from physsim_ros.model.body_properties import Properties
+from physsim_ros.model.errors import Refusal
+from physsim_ros.model.requests import ChangeBody, DeleteBodies, MoveBodies, Request
+from physsim_ros.model.shapes import Disc
+from physsim_ros.simulation.simulation import Simulation
+from physsim_ros.simulation.world import World
+import pytest
+
+from ..building import body, BOX, DISC, ELL, NOWHERE, spawn, spawning, twist
+
+
+def changed(world: World, **properties: object) -> None:
+    message = world.apply(ChangeBody(name='a/0', properties=Properties(**properties)))
+    assert message == ('a/0', 'changed a/0')
+
+
+def test_only_what_is_named_changes() -> None:
+    world = World(settings=NOWHERE)
+    spawn(world, 'a/0', ELL, (1.0, 2.0, 0.3), velocity=(1.0, 2.0), spin=3.0, lifetime=9.0)
+    world.step(7)
+    before, snapshot = body(world, 'a/0'), world.snapshot()
+
+    changed(world, friction=0.25)
+    assert body(world, 'a/0') == replace(before, friction=0.25)
+    changed(world, density=7.0, elasticity=0.125)
+    world.apply(ChangeBody(name='a/0', color=(1, 0, 0, 1)))
+
+    assert body(world, 'a/0') == replace(
+        before, friction=0.25, density=7.0, elasticity=0.125, color=(1.0, 0.0, 0.0, 1.0)
+    )
+    assert world.snapshot().poses == pytest.approx(snapshot.poses, abs=1e-12)
+    assert world.snapshot().twists == pytest.approx(snapshot.twists, abs=1e-12)
+
+
+def test_pose_velocity_and_role_change_too() -> None:
+    world = World(settings=NOWHERE)
+    spawn(world, 'a/0', DISC, velocity=(1.0, 0.0))
+    spawn(world, 'b/0', DISC, (5.0, 5.0, 0.0))
+
+    changed(world, velocity=(0.0, 4.0))
+    assert twist(world, 'a/0') == pytest.approx((0.0, 4.0, 0.0))
+    world.apply(ChangeBody(name='a/0', pose=(1.0, 2.0, 0.5), frame='b/0'))
+    assert world.snapshot().poses[0] == pytest.approx((6.0, 7.0, 0.5))
+    changed(world, anchored=True)
+    assert twist(world, 'a/0') == pytest.approx((0.0, 0.0, 0.0))
+    changed(world, anchored=False)
+    world.step(10)
+    assert world.snapshot().poses[0] == pytest.approx((6.0, 7.0, 0.5))
+
+
+def test_bodies_are_moved_together_and_keep_their_motion() -> None:
+    world = World(settings=NOWHERE)
+    spawn(world, 'a/0', ELL, (0.0, 0.0, 0.3), velocity=(1.0, 2.0), spin=3.0)
+    spawn(world, 'a/1', BOX, (5.0, 0.0, 0.0), anchored=True)
+    spawn(world, 'a/2', BOX, (9.0, 0.0, 0.0))
+    before = world.snapshot()
+
+    assert world.apply(MoveBodies(names=('a/0', 'a/1'), by=(1.0, -2.0))) == ('', 'moved 2 bodies')
+
+    moved = world.snapshot().poses - before.poses
+    assert moved == pytest.approx(np.array([[1, -2, 0], [1, -2, 0], [0, 0, 0]]))
+    assert np.array_equal(world.snapshot().twists, before.twists)
+
+
+def test_several_are_deleted_with_one_gesture() -> None:
+    sim = Simulation(settings=NOWHERE)
+    for number in range(4):
+        sim.perform(spawning_at(number))
+    sim.submit(DeleteBodies(names=('a/0', 'a/2')), topic='')
+    frame = sim.settle()
+    assert frame is not None
+    assert frame.snapshot.scene.names == ('a/1', 'a/3')
+    sim.undo()
+    assert len(sim.world) == 4
+
+
+def spawning_at(number: int) -> Request:
+    return spawning(f'a/{number}', BOX, (3.0 * number, 0.0, 0.0))
+
+
+@pytest.mark.parametrize(
+    ('request_', 'code', 'field'),
+    [
+        (ChangeBody(name='z/0', properties=Properties(friction=1.0)), 'unknown_body', 'name'),
+        (ChangeBody(name='a/0', pose=(0.0, 0.0, 0.0), frame='z/0'), 'unknown_frame',
+         'header.frame_id'),
+        (ChangeBody(name='a/1', properties=Properties(spin=1.0)), 'anchored', 'velocity'),
+        (ChangeBody(name='a/0', properties=Properties(density=1e12, friction=0.0)),
+         'bad_property', 'density'),
+        (MoveBodies(names=('a/0', 'z/0'), by=(1.0, 0.0)), 'unknown_body', 'names'),
+        (MoveBodies(names=('a/1', 'a/2'), by=(1e7, 0.0)), 'bad_property', 'by'),
+        (DeleteBodies(names=('a/0', 'z/0')), 'unknown_body', 'names'),
+    ],
+)  # fmt: skip
+def test_what_is_refused_changes_nothing(request_: Request, code: str, field: str) -> None:
+    world = World(settings=NOWHERE)
+    spawn(world, 'a/0', Disc(radius=2.0))
+    spawn(world, 'a/1', BOX, (5.0, 0.0, 0.0), anchored=True)
+    spawn(world, 'a/2', BOX, (9.0, 0.0, 0.0))
+    before = world.digest()
+
+    with pytest.raises(Refusal) as refused:
+        world.apply(request_)
+
+    assert (refused.value.code, refused.value.field) == (code, field)
+    assert world.digest() == before
+
+
+@pytest.mark.parametrize('names', [(), ('a/0', 'a/0')])
+def test_bodies_are_named_once_each(names: tuple[str, ...]) -> None:
+    for make in (lambda: DeleteBodies(names=names), lambda: MoveBodies(names=names, by=(1, 0))):
+        with pytest.raises(Refusal):
+            make()

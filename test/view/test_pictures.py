@@ -1,0 +1,218 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+The pictures of Rerun's own renderer: bodies are where they should be, in the colours asked for.
+
+One viewer without a screen serves the module; each test opens a recording of its own in it.
+"""
+
+from __future__ import annotations
+
+import io
+import itertools
+from pathlib import Path
+import time
+
+import numpy as np
+from physsim_ros.model.body_properties import Properties
+from physsim_ros.model.requests import Configure, Spawn
+from physsim_ros.model.shapes import Box, Disc, Polygon
+from physsim_ros.simulation.simulation import Simulation
+from physsim_ros.view.frame_context import FrameContext
+from physsim_ros.view.recording import FrameRecorder
+import pytest
+
+from ..rerun_program import free_port, is_open, rerun
+
+rr = pytest.importorskip('rerun')
+image = pytest.importorskip('PIL.Image')
+experimental = pytest.importorskip('rerun.experimental')
+
+pytestmark = pytest.mark.skipif(
+    not any(Path('/usr/share/vulkan/icd.d').glob('*.json')),
+    reason='no Vulkan driver: apt-get install mesa-vulkan-drivers libvulkan1',
+)
+
+# Seconds for a viewer to start, and to show a recording, on a machine that is busy.
+PATIENCE = 60.0
+RED, BLUE, GREEN = (0.8, 0.05, 0.1, 1.0), (0.1, 0.2, 0.8, 1.0), (0.1, 0.6, 0.2, 1.0)
+# Of levels 0 .. 255: one from rounding.
+COLOR_TOLERANCE = 2
+
+
+@pytest.fixture(scope='module')
+def viewer():
+    """Start a viewer without a screen."""
+    port = free_port()
+    process = rerun('--headless', f'--port={port}', '--window-size=1000x700')
+    deadline, url = time.monotonic() + PATIENCE, f'rerun+http://127.0.0.1:{port}/proxy'
+    try:
+        while not is_open(port):
+            assert time.monotonic() < deadline, 'the viewer did not start'
+            assert process.poll() is None, 'the viewer ended'
+        yield experimental.ViewerClient.connect(url)
+    finally:
+        process.kill()
+        process.wait()
+
+
+class Film:
+    """A recording of a simulation, and what a viewer shows of it."""
+
+    def __init__(self, path, viewer):
+        self._path, self._viewer = path, viewer
+        self._stream = rr.RecordingStream('physsim')
+        self._stream.set_sinks(rr.FileSink(path))
+        self._recorder = FrameRecorder(self._stream)
+        self._shown = False
+        self.times = {}
+
+    def draw(self, frame, *, mark=''):
+        """Draw a frame; `mark` names its time."""
+        context = FrameContext(cost=0.001, real_time_factor=1.0)
+        self._recorder.draw([frame], context=context)
+        self.times[mark] = self._recorder.recorded
+
+    def look(self, mark):
+        """Return the picture of the world at a time, (h, w, 3) uint8, when it is complete."""
+        if not self._shown:
+            self._stream.disconnect()
+            self._viewer.open(str(self._path))
+            self._shown = True
+        self._viewer.set_time('recorded', duration=self.times[mark] * 1e-9, play_state='paused')
+        deadline, before = time.monotonic() + PATIENCE, None
+        while True:
+            state = self._viewer.get_state()
+            views = {view.name: view for view in state.views}
+            if 'World' in views:
+                png = self._viewer.take_screenshot(views['World'].view_id)
+                pixels = np.asarray(image.open(io.BytesIO(png)).convert('RGB'))
+                # A viewer draws what it has read so far; two alike are all of it.
+                if before is not None and np.array_equal(before, pixels):
+                    break
+                before = pixels
+            assert time.monotonic() < deadline, 'the picture did not come to rest'
+        errors = [
+            (view.name, report.summary)
+            for view in views.values()
+            for report in view.reports
+            if report.severity.lower() == 'error'
+        ]
+        assert not errors
+        return pixels
+
+
+@pytest.fixture
+def film(tmp_path, viewer):
+    it = Film(tmp_path / 'film.rrd', viewer)
+    yield it
+    viewer.close('all')
+
+
+def pixels_of(picture, color):
+    """Return rows and columns of the pixels of a colour."""
+    wanted = np.rint(np.array(color[:3]) * 255)
+    return np.nonzero(np.abs(picture - wanted).max(axis=2) <= COLOR_TOLERANCE)
+
+
+def middle(picture, color):
+    """Return column and row of the middle of the pixels of a colour."""
+    rows, columns = pixels_of(picture, color)
+    assert len(rows), f'nothing has the colour {color}'
+    return np.array((columns.mean(), rows.mean()))
+
+
+def world(*requests, **settings):
+    """Return a simulation that begins with requests, 20 m wide."""
+    simulation = Simulation(physics_rate=240, publish_rate=60)
+    simulation.perform(Configure(changes={'bounds': (-10.0, 0.0, 10.0, 8.0), **settings}))
+    for request in requests:
+        simulation.perform(request)
+    return simulation
+
+
+def spawn(name, shape, pose, color, **properties):
+    return Spawn(
+        name=name, shape=shape, pose=pose, color=color, properties=Properties(**properties)
+    )
+
+
+def test_colours_sizes_and_directions_are_those_that_were_asked_for(film):
+    simulation = world(
+        spawn('red/0', Box(width=4.0, height=2.0), (-5.0, 6.0, 0.0), RED, anchored=True),
+        spawn('blue/0', Box(width=2.0, height=2.0), (5.0, 2.0, 0.0), BLUE, anchored=True),
+    )
+    film.draw(simulation.advance_frame(), mark='now')
+
+    picture = film.look('now')
+
+    assert (middle(picture, RED) < middle(picture, BLUE)).all(), 'x is not right, or y not up'
+    rows, columns = pixels_of(picture, RED)
+    width, height = np.ptp(columns), np.ptp(rows)
+    # 4 m by 2 m without their outlines, and ten metres apart: to the pixel or two at an edge.
+    assert width / height == pytest.approx(2.0, rel=0.05)
+    across = middle(picture, BLUE)[0] - middle(picture, RED)[0]
+    assert across / width == pytest.approx(10 / 4, rel=0.05)
+
+
+def test_bodies_are_where_they_were_in_the_past_in_a_branch_and_now(film):
+    simulation = world(
+        spawn('ball/0', Disc(radius=0.6), (-8.0, 4.0, 0.0), RED, velocity=(4.0, 0.0)),
+        spawn('wedge/0', Polygon(outline=((0, 0), (2, 0), (0, 2))), (6.0, 5.0, 0.0), GREEN,
+              anchored=True),
+        gravity=(0.0, 0.0),
+    )  # fmt: skip
+    clock = itertools.count()
+
+    def run(frames, mark):
+        for _ in range(frames):
+            for frame in simulation.advance(next(clock) * 16_666_667):
+                film.draw(frame, mark=mark)
+
+    run(61, 'first')
+    simulation.speed = -1.0
+    run(30, 'past')
+    simulation.speed = 1.0
+    stone = spawn('stone/0', Disc(radius=0.6), (0.0, 1.5, 0.0), BLUE)
+    simulation.submit(stone, topic='~/spawn')
+    run(60, 'branch')
+
+    pictures = {mark: film.look(mark) for mark in ('first', 'past', 'branch')}
+
+    # One scale for all: the camera stands still.
+    x = {mark: middle(picture, RED)[0] for mark, picture in pictures.items()}
+    scale = (middle(pictures['branch'], BLUE)[0] - x['past']) / 6.0
+    assert x['first'] - x['past'] == pytest.approx(2.0 * scale, abs=0.2 * scale)
+    assert x['branch'] - x['past'] == pytest.approx(4.0 * scale, abs=0.2 * scale)
+    wedge = [middle(picture, GREEN) for picture in pictures.values()]
+    assert np.ptp(wedge, axis=0) == pytest.approx([0.0, 0.0], abs=0.5)
+    for mark in ('first', 'past'):
+        assert not len(pixels_of(pictures[mark], BLUE)[0]), 'the branch is seen before it began'
+
+
+def test_a_disc_is_round_to_the_pixel(film):
+    simulation = world(
+        spawn('disc/0', Disc(radius=3.5), (0.0, 4.0, 0.0), BLUE, anchored=True), gravity=(0.0, 0.0)
+    )
+    film.draw(simulation.advance_frame(), mark='now')
+
+    picture = film.look('now')
+
+    rows, columns = pixels_of(picture, BLUE)
+    center = (np.array((np.ptp(columns), np.ptp(rows))) / 2) + (columns.min(), rows.min())
+    reach = np.hypot(columns - center[0], rows - center[1])
+    angles = np.arctan2(rows - center[1], columns - center[0])
+    rim = [reach[np.abs(angles - angle) < 0.05].max() for angle in np.linspace(-3.0, 3.0, 60)]
+    assert np.ptp(rim) < 2.0
