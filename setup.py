@@ -55,6 +55,7 @@ setup(
         (f'{SHARE}/config', sorted(glob('config/*.yaml'))),
         (f'{SHARE}/config/drawings', sorted(glob('config/drawings/*'))),
         (f'{SHARE}/config/worlds', sorted(glob('config/worlds/*.yaml'))),
+        (f'{SHARE}/docs/worlds', sorted(glob('docs/worlds/*.png'))),
     ],
     zip_safe=False,
     python_requires='>=3.11',

@@ -27,6 +27,7 @@ import math
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.requests import Spawn
+from physsim_ros.model.scene import Body
 from physsim_ros.model.shapes import Box, Chain, Disc, Polygon, Shape
 from physsim_ros.model.transform import Point, Pose
 
@@ -86,6 +87,32 @@ def wall(name: str, points: Sequence[Point], settings: DrawingSettings) -> Spawn
         pose=(x, y, yaw),
         color=settings.draw_color,
         properties=Properties(anchored=True),
+    )
+
+
+def copy(name: str, body: Body, pose: Pose) -> Spawn:
+    """
+    Return the request for a body like another one, at rest and for ever.
+
+    :param name: of the new body
+    :param body: the other one
+    :param pose: of the new body's origin [m, rad]
+    """
+    return Spawn(
+        name=name,
+        shape=body.shape,
+        pose=pose,
+        color=body.color,
+        properties=Properties(
+            mass=body.mass,
+            density=body.density if body.mass is None else None,
+            friction=body.friction,
+            elasticity=body.elasticity,
+            anchored=body.anchored,
+            kinematic=body.kinematic,
+            group=body.group,
+            sensor=body.sensor,
+        ),
     )
 
 

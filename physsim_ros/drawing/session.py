@@ -23,13 +23,14 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 import numpy as np
+from physsim_ros.drawing import body_requests
 from physsim_ros.drawing.clicks.gesture import Gesture
 from physsim_ros.drawing.clicks.tools import ClickResult, Tool
 from physsim_ros.drawing.scene_query import DRAWN, SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes.interpretation import interpret_stroke, Reading
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.errors import NotRecognised
+from physsim_ros.model.errors import NotRecognised, UnknownBody
 from physsim_ros.model.names import split_name
 from physsim_ros.model.preview import Line, NO_PREVIEW, Preview
 from physsim_ros.model.requests import Join, Request, Spawn
@@ -106,6 +107,24 @@ class DrawingSession:
         self.preview = _reading_preview(reading)
         self._reserve_names(reading.requests)
         return reading
+
+    def copy(self, name: str, position: Point, snapshot: Snapshot) -> Spawn:
+        """
+        Return the request for a copy of a body, at rest.
+
+        :param name: of the body
+        :param position: of the copy [m]
+        :param snapshot: of the world
+        :raises UnknownBody: there is no such body
+        """
+        scene = self._query(snapshot)
+        if name not in scene.names:
+            raise UnknownBody(f'there is no body {name}', field='name')
+        request = body_requests.copy(
+            scene.next_body(), scene.body(name), (*position, scene.pose(name)[2])
+        )
+        self._reserve_names((request,))
+        return request
 
     def _query(self, snapshot: Snapshot) -> SceneQuery:
         return SceneQuery(snapshot, first=self._next_body, first_joint=self._next_joint)

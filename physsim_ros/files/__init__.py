@@ -20,7 +20,7 @@ recognised in `drawing`. Start with `world_file`, then `world_reader` and `world
 """
 
 from physsim_ros.files.drawing_file import BadDrawing, find_drawing, load_drawing, Pace
-from physsim_ros.files.resources import shipped
+from physsim_ros.files.resources import shipped, shipped_pictures
 from physsim_ros.files.world_file import (
     find_world,
     hides_shipped,
@@ -28,7 +28,9 @@ from physsim_ros.files.world_file import (
     save_world,
     shipped_worlds,
 )
+from physsim_ros.files.world_reader import state_from
 from physsim_ros.files.world_schema import PARAMETERS, SETTINGS
+from physsim_ros.files.world_writer import text_of
 from physsim_ros.files.yaml12 import load_mapping
 
 __all__ = [
@@ -44,5 +46,8 @@ __all__ = [
     'load_world',
     'save_world',
     'shipped',
+    'shipped_pictures',
     'shipped_worlds',
+    'state_from',
+    'text_of',
 ]

@@ -27,11 +27,20 @@ def shipped(folder: str) -> Path:
 
     :param folder: name of the directory below `config`
     """
-    source = Path(__file__).resolve().parents[2] / 'config' / folder
+    return _shipped(Path('config') / folder)
+
+
+def shipped_pictures() -> Path:
+    """Return the directory of the pictures of shipped worlds, `<name>.png`."""
+    return _shipped(Path('docs') / 'worlds')
+
+
+def _shipped(folder: Path) -> Path:
+    source = Path(__file__).resolve().parents[2] / folder
     if source.is_dir():
         return source
     for prefix in (*os.environ.get('AMENT_PREFIX_PATH', '').split(os.pathsep), sys.prefix):
-        installed = Path(prefix) / 'share' / 'physsim_ros' / 'config' / folder
+        installed = Path(prefix) / 'share' / 'physsim_ros' / folder
         if prefix and installed.is_dir():
             return installed
     return source

@@ -453,6 +453,7 @@ class PhysSimNode(NodeWithoutQosEvents):
             },
             address=self._values['sketchpad_address'],
             port=self._values['sketchpad_port'],
+            world_dir=self.world_files.directory,
             wake=self._wake,
         )
         if self.frame is not None:

@@ -24,6 +24,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from physsim_ros.drawing import DrawingSettings
+from physsim_ros.files import state_from, text_of
 from physsim_ros.model.errors import BadWorldFile, PhysSimError
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.ros import parameters
@@ -82,6 +83,20 @@ class PageControl:
             if world:
                 self._set_parameters([Parameter('world_file', value=before)])
             raise
+
+    def world_text(self) -> str:
+        """Return the world as the text of a world file."""
+        return text_of(self.simulation.save(), self.simulation.physics_rate)
+
+    def replace_world(self, content: Mapping[Any, Any]) -> str:
+        """
+        Replace the world by that of a file, and return a message about it.
+
+        :param content: of the file
+        :raises Refusal: it is refused
+        """
+        simulation = self.simulation
+        return simulation.load(state_from(content, simulation.settings, simulation.physics_rate))
 
     def set_speed(self, speed: float) -> str:
         """

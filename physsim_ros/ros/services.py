@@ -49,6 +49,11 @@ class WorldFiles:
         self._values = values
         self._directory = Path(values['world_dir'])
 
+    @property
+    def directory(self) -> Path:
+        """Return the directory of the user's worlds."""
+        return self._directory
+
     def begin_with(self) -> None:
         """
         Start the simulation with the file, from any directory.

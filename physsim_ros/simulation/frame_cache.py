@@ -116,6 +116,21 @@ class Past:
         """Return what was noticed since the last call."""
         return self._course.take_answers()
 
+    def snapshots(self, end: int, count: int) -> list[Snapshot]:
+        """
+        Return kept snapshots in the order of time.
+
+        :param end: step of the last one, at most
+        :param count: of the last ones, at most
+        """
+        found: list[Snapshot] = []
+        for mark in sorted(self._reels, key=lambda mark: -mark.step):
+            shots = self._reels[mark].shots
+            found += (shots[step].snapshot for step in sorted(shots, reverse=True) if step <= end)
+            if len(found) >= count:
+                break
+        return found[:count][::-1]
+
     def keep(self, shot: Shot) -> None:
         """Keep a shot of what has just been shown."""
         self._bodies = len(shot.snapshot.poses)

@@ -22,7 +22,7 @@ folders import the names below.
 """
 
 from physsim_ros.sketchpad.access import Role
-from physsim_ros.sketchpad.page_session import WorldControl
 from physsim_ros.sketchpad.sketchpad import Sketchpad
+from physsim_ros.sketchpad.world_control import WorldControl
 
 __all__ = ['Role', 'Sketchpad', 'WorldControl']

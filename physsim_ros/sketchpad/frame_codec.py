@@ -24,6 +24,7 @@ Little endian, each column on a multiple of four bytes:
     VELOCITIES  f32 vx[n] [m/s], vy[n] [m/s], spin[n] [rad/s]              of each centre of mass
     CONTACTS    u32 m, f32 x[m] [m], y[m] [m], nx[m], ny[m], impulse[m] [N s]
     FORCES      u32 j, f32 force[j] [N]                                    of each joint
+    HANDS       u32 h, f32 x[h] [m], y[h] [m], hand x[h] [m], hand y[h] [m]   of each grip
 
 `docs/page_protocol.md` says what a page makes of it.
 """
@@ -43,7 +44,12 @@ _COUNT = struct.Struct('<I')
 
 
 class Show(IntFlag):
-    """The parts of a frame that a page may ask for, besides the poses."""
+    """
+    The parts of a frame besides the poses.
+
+    Velocities, contacts and forces are there where a page asks for them, hands while they drag; a
+    ghost is a course of events that was left.
+    """
 
     POSES = 0
     VELOCITIES = 1
@@ -72,6 +78,10 @@ def encode_frame(frame: Frame, *, epoch: int, show: Show) -> bytes:
     if Show.FORCES in show and len(snapshot.forces) == len(snapshot.scene.joints):
         flags |= Show.FORCES
         parts += [_COUNT.pack(len(snapshot.forces)), _columns(snapshot.forces[:, None])]
+    if snapshot.grips:
+        flags |= Show.HANDS
+        lines = snapshot.grip_lines.reshape(-1, 4)
+        parts += [_COUNT.pack(len(lines)), _columns(lines)]
     header = _HEADER.pack(
         VERSION, flags, 0, epoch, snapshot.stamp * 1e-9, frame.speed, len(snapshot.poses)
     )

@@ -31,6 +31,8 @@ from physsim_ros.sketchpad.messages import Message
 
 # Messages of one page that wait: a second of a moving hand at 60 Hz.
 CAPACITY = 64
+# Number of the server itself among the pages.
+SERVER = 0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

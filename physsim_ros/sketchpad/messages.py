@@ -29,9 +29,21 @@ from typing import Any, NamedTuple
 import numpy as np
 from physsim_ros.drawing import Tool
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.checks import check_key, flag, number, pair, shown
+from physsim_ros.model.body_properties import Properties, properties_from
+from physsim_ros.model.checks import check_key, flag, number, pair, shown, Within
+from physsim_ros.model.colors import Color, color_from
 from physsim_ros.model.errors import BadProperty, Malformed
-from physsim_ros.model.requests import check_point, Configure, Delete, Request
+from physsim_ros.model.requests import (
+    check_point,
+    Configure,
+    Delete,
+    Dragging,
+    Grab,
+    LetGo,
+    LONGEST,
+    MoveHand,
+    Request,
+)
 from physsim_ros.model.settings import MOST_SAMPLES
 from physsim_ros.model.transform import Point
 from physsim_ros.sketchpad.frame_codec import Show
@@ -113,6 +125,70 @@ class Drop:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class UseHand:
+    """
+    Grab, drag or let go with the hand of this page.
+
+    :param request: of some hand, whose name is replaced by that of the page's own
+    """
+
+    request: Dragging
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DrawWith:
+    """
+    Choose the material of what this page draws next.
+
+    :param properties: that bodies get; those that are not set stay as they were
+    :param color: that bodies get; None stays as it was
+    """
+
+    properties: Properties
+    color: Color | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Copy:
+    """
+    Add a body like another one, at rest.
+
+    :param name: of the body
+    :param to: position of the copy [m]
+    """
+
+    name: str
+    to: Point
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Watch:
+    """
+    Ask for the past of a body, as far as it was shown.
+
+    :param name: of the body; '' is none
+    """
+
+    name: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Share:
+    """Ask for the world as the text of a world file."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Upload:
+    """
+    Replace the world by that of a file.
+
+    :param content: of the world file
+    """
+
+    content: Mapping[Any, Any]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Perform:
     """
     Perform what a service does.
@@ -134,9 +210,9 @@ class SetSpeed:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Seek:
-    """Go to a simulation time [s]."""
+    """Go to a simulation time [ns]."""
 
-    time: float
+    stamp: int
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -146,7 +222,26 @@ class ShowParts:
     show: Show
 
 
-Message = Submit | Stroke | Click | Drop | Perform | SetSpeed | Seek | ShowParts
+Message = (
+    Submit
+    | Stroke
+    | Click
+    | Drop
+    | UseHand
+    | DrawWith
+    | Copy
+    | Watch
+    | Share
+    | Upload
+    | Perform
+    | SetSpeed
+    | Seek
+    | ShowParts
+)
+# Messages that a page may send which only shows the world.
+OF_VIEWERS = (ShowParts, Watch)
+# Name of a hand until it gets that of its page.
+_HAND = 'page'
 
 
 def read_envelope(text: str) -> Envelope:
@@ -261,6 +356,60 @@ def _perform(fields: Mapping[str, Any]) -> Perform:
     return Perform(action=action, world=_text(fields.get('world', ''), 'world'))
 
 
+def _seek(fields: Mapping[str, Any]) -> Seek:
+    return Seek(stamp=round(Within(0.0, LONGEST, 's')(fields.get('time'), 'time') * 1e9))
+
+
+def _save(fields: Mapping[str, Any]) -> Perform:
+    return Perform(action='save_world', world=_world_name(fields))
+
+
+def _open(fields: Mapping[str, Any]) -> Perform:
+    return Perform(action='load_world', world=_world_name(fields))
+
+
+def _world_name(fields: Mapping[str, Any]) -> str:
+    name = _text(fields.get('name'), 'name')
+    if not name:
+        raise BadProperty('a world has a name', field='name')
+    return name
+
+
+def _grab(fields: Mapping[str, Any]) -> UseHand:
+    return UseHand(request=Grab(hand=_HAND, point=pair(fields.get('point'), 'point')))
+
+
+def _move(fields: Mapping[str, Any]) -> UseHand:
+    yaw = number(fields['yaw'], 'yaw') if 'yaw' in fields else None
+    return UseHand(request=MoveHand(hand=_HAND, point=pair(fields.get('point'), 'point'), yaw=yaw))
+
+
+def _let_go(_: Mapping[str, Any]) -> UseHand:
+    return UseHand(request=LetGo(hand=_HAND))
+
+
+# What a page may choose for what it draws.
+_MATERIAL = ['density', 'friction', 'elasticity', 'velocity']
+
+
+def _draw_with(fields: Mapping[str, Any]) -> DrawWith:
+    properties = {key: fields[key] for key in _MATERIAL if key in fields}
+    color = _color(fields['color']) if 'color' in fields else None
+    return DrawWith(properties=properties_from(properties), color=color)
+
+
+def _color(value: object) -> Color:
+    return color_from(_text(value, 'color'))
+
+
+def _copy(fields: Mapping[str, Any]) -> Copy:
+    return Copy(name=_text(fields.get('name'), 'name'), to=_point(fields.get('to'), 'to'))
+
+
+def _watch(fields: Mapping[str, Any]) -> Watch:
+    return Watch(name=_text(fields.get('name'), 'name'))
+
+
 def _delete(fields: Mapping[str, Any]) -> Submit:
     names = _names(fields.get('names'), 'names')
     return Submit(requests=tuple(Delete(name=name) for name in names), topic='~/spawn')
@@ -287,9 +436,18 @@ _READERS: dict[str, tuple[list[str], Callable[[Mapping[str, Any]], Message]]] = 
     'stroke': (['points'], _stroke),
     'click': (['tool', 'point'], _click),
     'drop': ([], lambda _: Drop()),
+    'grab': (['point'], _grab),
+    'move': (['point', 'yaw'], _move),
+    'let_go': ([], _let_go),
+    'draw_with': ([*_MATERIAL, 'color'], _draw_with),
+    'copy': (['name', 'to'], _copy),
+    'watch': (['name'], _watch),
+    'share': ([], lambda _: Share()),
+    'save': (['name'], _save),
+    'open': (['name'], _open),
     'service': (['name', 'world'], _perform),
     'speed': (['speed'], lambda fields: SetSpeed(speed=number(fields.get('speed'), 'speed'))),
-    'seek': (['time'], lambda fields: Seek(time=number(fields.get('time'), 'time'))),
+    'seek': (['time'], _seek),
     'delete': (['names'], _delete),
     'gravity': (['gravity'], _gravity),
     'show': (list(_PARTS), _show),

@@ -12,76 +12,37 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""
-One page on the world's thread: its tool, its unfinished gesture, its materials.
 
-Law: a session changes nothing itself; it submits requests, and answers those that it refuses.
+"""
+One page on the world's thread: its pen, its tool, its hand and its materials.
+
+Law: a session changes nothing itself; it submits requests, and each message has an answer.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import replace
-from typing import Any, Protocol
+import time
+from typing import Any
 
-from physsim_ros.drawing import DrawingSession, DrawingSettings, reading_answer
-from physsim_ros.model.errors import NotRecognised, PhysSimError, Refusal
-from physsim_ros.model.preview import Preview
-from physsim_ros.model.requests import Request
-from physsim_ros.model.snapshot import Answer, Snapshot
-from physsim_ros.simulation.simulation import Simulation
-from physsim_ros.sketchpad.access import Role
-from physsim_ros.sketchpad.messages import (
-    Click,
-    Drop,
-    Message,
-    Perform,
-    Seek,
-    SetSpeed,
-    Stroke,
-    Submit,
-)
-from physsim_ros.sketchpad.server import asker_key
+from physsim_ros.drawing import DrawingSession, reading_answer, Tool
+from physsim_ros.model.errors import NotRecognised, PhysSimError, Refusal, WorldFull
+from physsim_ros.model.preview import NO_PREVIEW, Preview
+from physsim_ros.model.requests import KeepHand, LetGo, Request
+from physsim_ros.model.snapshot import Answer
+from physsim_ros.sketchpad import messages
+from physsim_ros.sketchpad.answers import answer_content, asker_key, request_of
+from physsim_ros.sketchpad.body_past import body_past
+from physsim_ros.sketchpad.material import Material
+from physsim_ros.sketchpad.world_control import WorldControl
+
+# From one request of a hand that holds still to the next [s]; one that is silent for 5 s lets go.
+HAND_PERIOD = 2.0
+# Length of a world that a page may have as text [characters].
+MOST_SHARED = 2**20
 
 Send = Callable[[dict[str, Any]], None]
-
-
-class WorldControl(Protocol):
-    """What the node does for its pages."""
-
-    @property
-    def simulation(self) -> Simulation:
-        """Return the world and its time."""
-
-    @property
-    def drawing_settings(self) -> DrawingSettings:
-        """Return the settings of drawing."""
-
-    def current_snapshot(self) -> Snapshot:
-        """Apply the waiting requests, and return the snapshot that is shown."""
-
-    def perform(self, action: str, world: str) -> str:
-        """
-        Perform what a service does, and return a message about it.
-
-        :param action: name of the service
-        :param world: name of the world to save or load; '' is that of parameter `world_file`
-        :raises PhysSimError: it is refused
-        """
-
-    def set_speed(self, speed: float) -> str:
-        """
-        Set the speed of time, and return a message about it.
-
-        :raises Refusal: it is out of range
-        """
-
-    def seek(self, stamp: int) -> str:
-        """
-        Go to a simulation time [ns], and return a message about it.
-
-        :raises Refusal: it is not in the history
-        """
 
 
 class PageSession:
@@ -90,79 +51,127 @@ class PageSession:
 
     :param world: that it draws in
     :param page: number of the page
-    :param role: of the page
     :param send: sends a message to the page
+    :param on_save: called when a world was saved
     """
 
-    def __init__(self, world: WorldControl, *, page: int, role: Role, send: Send) -> None:
-        self.role = role
+    def __init__(
+        self, world: WorldControl, *, page: int, send: Send, on_save: Callable[[], None]
+    ) -> None:
+        self._on_save = on_save
         self._world = world
         self._page = page
         self._send = send
         self._drawing = DrawingSession(world.drawing_settings)
-        self._preview: Preview = self._drawing.preview
+        self._preview: Preview = NO_PREVIEW
+        self._material = Material()
+        self._hand = f'page {page}'
+        # Steady time of the last request of the hand [s]; None while it holds nothing.
+        self._hand_used: float | None = None
+        self._actions: dict[type, Callable[[Any, str], None]] = {
+            messages.Submit: self._submit,
+            messages.Stroke: self._stroke,
+            messages.Click: self._click,
+            messages.Drop: self._drop,
+            messages.UseHand: self._use_hand,
+            messages.DrawWith: self._draw_with,
+            messages.Copy: self._copy,
+            messages.Watch: self._watch,
+            messages.Share: self._share,
+            messages.Upload: self._upload,
+            messages.Perform: self._perform,
+            messages.SetSpeed: self._set_speed,
+            messages.Seek: self._seek,
+        }
 
-    def handle(self, id_: str, message: Message) -> None:
+    def handle(self, message: messages.Message, request_id: str) -> None:
         """
         Do what a message asks for.
 
-        :param id_: of the message, for its answers
+        :param request_id: of the message, for its answers
         """
-        asker = asker_key(self._page, id_)
-        match message:
-            case Submit(requests=requests, topic=topic):
-                self._submit_all(requests, topic, asker)
-            case Click():
-                self._click(message, asker)
-            case Stroke():
-                self._stroke(message, asker, id_)
-            case Drop():
-                self._drawing = DrawingSession(self._world.drawing_settings, self._drawing.tool)
-            case Perform(action=action, world=world):
-                self._report(f'~/{action}', asker, lambda: self._world.perform(action, world))
-            case SetSpeed(speed=speed):
-                self._report('~/speed', asker, lambda: self._world.set_speed(speed))
-            case Seek(time=time):
-                self._report('~/seek', asker, lambda: self._world.seek(round(time * 1e9)))
-        self._send_preview()
+        self._drawing.settings = self._world.drawing_settings
+        self._actions[type(message)](message, asker_key(self._page, request_id))
+        if self._drawing.preview != self._preview:
+            self._preview = preview = self._drawing.preview
+            lines = [*preview.lines, *([preview.points] if preview.points else [])]
+            self._send({'type': 'preview', 'lines': lines, 'label': preview.label})
+
+    def keep_hand(self, now: float) -> None:
+        """
+        Keep what the hand holds still, as long as the page is open.
+
+        :param now: steady time [s]
+        """
+        if self._hand_used is not None and now - self._hand_used > HAND_PERIOD:
+            self._hand_used = now
+            self._submit_all((KeepHand(hand=self._hand),), '~/drag/feedback', '')
 
     def close(self) -> None:
-        """End what the page has begun."""
+        """Let go of what the hand of the page holds."""
+        if self._hand_used is not None:
+            self._submit_all((LetGo(hand=self._hand),), '~/drag/feedback', '')
+
+    # Requests
+
+    def _submit(self, message: messages.Submit, asker: str) -> None:
+        self._submit_all(message.requests, message.topic, asker)
+
+    def _use_hand(self, message: messages.UseHand, asker: str) -> None:
+        holds = not isinstance(message.request, LetGo)
+        self._hand_used = time.monotonic() if holds else None
+        self._submit_all((replace(message.request, hand=self._hand),), '~/drag/feedback', asker)
+
+    def _copy(self, message: messages.Copy, asker: str) -> None:
+        try:
+            snapshot = self._world.current_snapshot()
+            copy = self._drawing.copy(message.name, message.to, snapshot)
+        except Refusal as refusal:
+            self._refuse(refusal, '~/spawn', asker)
+        else:
+            self._submit_all((copy,), '~/spawn', asker)
 
     def _submit_all(self, requests: Iterable[Request], topic: str, asker: str) -> None:
         """Submit requests that are undone together."""
         for number, request in enumerate(requests):
             self._world.simulation.submit(request, topic=topic, joined=number > 0, asker=asker)
 
-    def _click(self, click: Click, asker: str) -> None:
-        self._drawing.settings = self._world.drawing_settings
-        self._drawing.tool = click.tool
+    # Drawing
+
+    def _click(self, message: messages.Click, asker: str) -> None:
+        self._drawing.tool = message.tool
         try:
             snapshot = self._world.current_snapshot()
-            result = self._drawing.click(click.point, '', snapshot)
+            result = self._drawing.click(message.point, '', snapshot)
         except Refusal as refusal:
             self._refuse(refusal, 'clicked_point', asker)
             return
         if result.message:
             self._tell(Answer(topic='clicked_point', message=result.message, asker=asker))
-        self._submit_all(result.requests, 'clicked_point', asker)
+        self._submit_all(self._material.applied(result.requests), 'clicked_point', asker)
 
-    def _stroke(self, stroke: Stroke, asker: str, id_: str) -> None:
-        self._drawing.settings = self._world.drawing_settings
+    def _drop(self, _: messages.Drop, asker: str) -> None:
+        # Another tool drops the unfinished gesture.
+        tool, self._drawing.tool = self._drawing.tool, Tool.NONE
+        self._drawing.tool = tool
+        self._answer(asker, 'dropped what was unfinished')
+
+    def _stroke(self, message: messages.Stroke, asker: str) -> None:
         try:
             snapshot = self._world.current_snapshot()
-            reading = self._drawing.stroke(stroke.samples, '', snapshot)
+            reading = self._drawing.stroke(message.samples, '', snapshot)
         except Refusal as refusal:
             if isinstance(refusal, NotRecognised):
-                self._send_reading(id_, dict(refusal.values), outline=[], built=False)
+                self._send_reading(asker, dict(refusal.values), outline=[], built=False)
             self._refuse(refusal, '~/stroke', asker)
             return
-        self._send_reading(id_, dict(reading.values), outline=reading.outline.tolist(), built=True)
+        outline = reading.outline.tolist()
+        self._send_reading(asker, dict(reading.values), outline=outline, built=True)
         self._tell(replace(reading_answer(reading, topic='~/stroke'), asker=asker))
-        self._submit_all(reading.requests, '~/stroke', asker)
+        self._submit_all(self._material.applied(reading.requests), '~/stroke', asker)
 
     def _send_reading(
-        self, id_: str, values: dict[str, str], *, outline: list[list[float]], built: bool
+        self, asker: str, values: dict[str, str], *, outline: list[list[float]], built: bool
     ) -> None:
         ranked = (('reading', 'confidence'), ('runner_up', 'runner_up_confidence'))
         guesses = [
@@ -172,7 +181,7 @@ class PageSession:
         self._send(
             {
                 'type': 'reading',
-                'request': id_,
+                'request': request_of(asker),
                 'meaning': meaning,
                 'confidence': confidence,
                 'runner_up': second,
@@ -182,6 +191,42 @@ class PageSession:
                 'built': built,
             }
         )
+
+    def _draw_with(self, message: messages.DrawWith, asker: str) -> None:
+        self._material.choose(message)
+        self._answer(asker, 'the material of what is drawn next')
+
+    # Time and worlds
+
+    def _perform(self, message: messages.Perform, asker: str) -> None:
+        action, world = message.action, message.world
+        self._report(f'~/{action}', asker, lambda: self._world.perform(action, world))
+        if action == 'save_world':
+            self._on_save()
+
+    def _set_speed(self, message: messages.SetSpeed, asker: str) -> None:
+        self._report('~/speed', asker, lambda: self._world.set_speed(message.speed))
+
+    def _seek(self, message: messages.Seek, asker: str) -> None:
+        self._report('~/seek', asker, lambda: self._world.seek(message.stamp))
+
+    def _upload(self, message: messages.Upload, asker: str) -> None:
+        self._report('~/load_world', asker, lambda: self._world.replace_world(message.content))
+
+    def _share(self, _: messages.Share, asker: str) -> None:
+        text = self._world.world_text()
+        if len(text) > MOST_SHARED:
+            message = f'the world as text is longer than {MOST_SHARED} characters'
+            self._answer(asker, message, code=WorldFull.code)
+        else:
+            self._answer(asker, 'the world as text', values=(('yaml', text),))
+
+    def _watch(self, message: messages.Watch, asker: str) -> None:
+        past = body_past(self._world.simulation, message.name)
+        request = request_of(asker)
+        self._send({'type': 'body', 'request': request, 'name': message.name, **past})
+
+    # Answers
 
     def _report(self, topic: str, asker: str, action: Callable[[], str]) -> None:
         """Perform an action, and queue the answer of its message or of its refusal."""
@@ -200,9 +245,14 @@ class PageSession:
     def _tell(self, answer: Answer) -> None:
         self._world.simulation.tell(answer)
 
-    def _send_preview(self) -> None:
-        preview = self._drawing.preview
-        if preview != self._preview:
-            self._preview = preview
-            lines = [*preview.lines, *([preview.points] if preview.points else [])]
-            self._send({'type': 'preview', 'lines': lines, 'label': preview.label})
+    def _answer(
+        self,
+        asker: str,
+        message: str,
+        *,
+        code: str = '',
+        values: tuple[tuple[str, str], ...] = (),
+    ) -> None:
+        """Answer this page alone, about what is nobody else's business."""
+        answer = Answer(topic='page', message=message, code=code, values=values, asker=asker)
+        self._send(answer_content(answer, request_of(asker)))

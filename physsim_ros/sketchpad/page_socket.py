@@ -30,7 +30,7 @@ from physsim_ros.sketchpad.access import Role
 from physsim_ros.sketchpad.frame_codec import Show
 from physsim_ros.sketchpad.handlers import Guarded
 from physsim_ros.sketchpad.inbox import Closed, Incoming, Opened
-from physsim_ros.sketchpad.messages import message_from, read_envelope, ShowParts
+from physsim_ros.sketchpad.messages import message_from, OF_VIEWERS, read_envelope, ShowParts
 from physsim_ros.sketchpad.scene_codec import compact
 from tornado.websocket import WebSocketClosedError, WebSocketHandler
 
@@ -105,7 +105,7 @@ class PageSocket(Guarded, WebSocketHandler):
             # Sent once more, with other parts.
             self.frame = 0
             self.server.update_page(self)
-        elif self.view_only:
+        elif self.view_only and not isinstance(checked, OF_VIEWERS):
             self.answer(id_, code='view_only', message='this page only shows the world')
         elif not self.server.inbox_put(Incoming(self.number, id_, checked)):
             self.answer(id_, code='busy', message='the world is too busy; nothing was done')

@@ -32,14 +32,19 @@ import threading
 import time
 from typing import Any
 
+from physsim_ros.files import shipped_pictures
 from physsim_ros.model.errors import PhysSimError
 from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.sketchpad.access import Access, Role
+from physsim_ros.sketchpad.answers import answer_content, asker_of
 from physsim_ros.sketchpad.frame_codec import encode_frame, Show
+from physsim_ros.sketchpad.gallery import gallery_content
 from physsim_ros.sketchpad.handlers import Files, Login, Page, Session
-from physsim_ros.sketchpad.inbox import Inbox, Incoming
+from physsim_ros.sketchpad.inbox import Inbox, Incoming, SERVER
+from physsim_ros.sketchpad.messages import Message
 from physsim_ros.sketchpad.page_socket import PageSocket
 from physsim_ros.sketchpad.scene_codec import compact, SceneCodec
+from physsim_ros.sketchpad.world_handlers import Download, UploadWorld
 from tornado.httpserver import HTTPServer
 from tornado.netutil import bind_sockets
 from tornado.web import Application
@@ -71,6 +76,7 @@ class Server:
 
     :param address: to listen on
     :param port: to listen on; where it is taken, one of the next; 0 is any
+    :param world_dir: directory of the user's worlds
     :param inbox: takes the messages of the pages
     :param wake: called on the server's thread after a message has come
     :raises PhysSimError: it cannot listen there
@@ -79,9 +85,18 @@ class Server:
     :ivar port: that it listens on
     """
 
-    def __init__(self, *, address: str, port: int, inbox: Inbox, wake: Callable[[], None]) -> None:
+    def __init__(
+        self,
+        *,
+        address: str,
+        port: int,
+        world_dir: Path,
+        inbox: Inbox,
+        wake: Callable[[], None],
+    ) -> None:
         self.access = Access(address)
         self.page_directory = PAGE
+        self.world_dir = world_dir
         self._address = address
         self._inbox = inbox
         self._wake = wake
@@ -91,6 +106,9 @@ class Server:
         self.cookie = f'physsim_{self.port}'
         self._pages: dict[int, PageSocket] = {}
         self._last_number = 0
+        # Of the questions of the server itself.
+        self._asked = 0
+        self._replies: dict[str, asyncio.Future[Answer]] = {}
         # Written by the world's thread.
         self._newest: Frame | None = None
         self._outbox: deque[tuple[int | None, str] | tuple[Answer, ...]] = deque()
@@ -136,6 +154,10 @@ class Server:
         self._outbox.append(answers)
         self._schedule()
 
+    def list_worlds(self) -> None:
+        """Have all pages told which worlds there are now."""
+        self._loop.call_soon_threadsafe(self._send_worlds)
+
     def close(self) -> None:
         """Close all pages, and end the thread."""
         try:
@@ -163,6 +185,7 @@ class Server:
         """Begin to send frames to a page; return its number."""
         self._last_number += 1
         self._pages[self._last_number] = page
+        page.send(compact(gallery_content(self.world_dir)))
         self.update_page(page)
         return self._last_number
 
@@ -176,6 +199,18 @@ class Server:
             return False
         self._wake()
         return True
+
+    async def ask(self, message: Message) -> Answer:
+        """Have the world's thread handle a message of the server itself; return the answer."""
+        self._asked += 1
+        request_id = str(self._asked)
+        reply: asyncio.Future[Answer] = self._loop.create_future()
+        self._replies[request_id] = reply
+        try:
+            self.inbox_put(Incoming(SERVER, request_id, message))
+            return await reply
+        finally:
+            del self._replies[request_id]
 
     def update_page(self, page: PageSocket) -> None:
         """Send the newest frame, and its scene, to a page that has not got it and is not busy."""
@@ -223,6 +258,9 @@ class Server:
                 ('/session', Session, own),
                 ('/ws', PageSocket, own),
                 ('/page/(.*)', Files, own | {'path': self.page_directory}),
+                ('/gallery/(.*)', Files, own | {'path': shipped_pictures()}),
+                ('/world', UploadWorld, own),
+                (r'/world/([^/]+)\.yaml', Download, own),
             ],
             server=self,
             websocket_max_message_size=MOST_BYTES,
@@ -246,6 +284,11 @@ class Server:
                     if page is not None:
                         page.send(text)
         self._send_frame()
+
+    def _send_worlds(self) -> None:
+        text = compact(gallery_content(self.world_dir))
+        for page in list(self._pages.values()):
+            page.send(text)
 
     def _send_frame(self) -> None:
         frame = self._newest
@@ -274,6 +317,8 @@ class Server:
             page = self._pages.get(number)
             if page is not None:
                 page.send(compact(answer_content(answer, id_)))
+            elif number == SERVER and id_ in self._replies:
+                self._replies[id_].set_result(answer)
             others += 1
             if others <= MOST_QUIET:
                 quiet.append(compact(answer_content(answer, '')))
@@ -295,36 +340,6 @@ class _BoundedServer(HTTPServer):
             stream.close()
             return
         super().handle_stream(stream, address)
-
-
-def asker_key(page: int, id_: str) -> str:
-    """Return the key of a message of a page, for its answers."""
-    return f'{page}:{id_}'
-
-
-def asker_of(key: str) -> tuple[int, str]:
-    """Return page and identifier of a key; 0 where it is of no page."""
-    page, _, id_ = key.partition(':')
-    return (int(page), id_) if page else (0, '')
-
-
-def answer_content(answer: Answer, id_: str) -> dict[str, Any]:
-    """
-    Return the message of an answer.
-
-    :param id_: of the message that it answers; '' for others and events
-    """
-    return {
-        'type': 'answer',
-        'request': id_,
-        'ok': not answer.code,
-        'code': answer.code,
-        'message': answer.message,
-        'subject': answer.subject,
-        'topic': answer.topic,
-        'field': answer.field,
-        'values': dict(answer.values),
-    }
 
 
 def _listening_sockets(address: str, port: int) -> list[socket.socket]:

@@ -22,14 +22,16 @@ time.
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 import time
 from typing import Any
 
 from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.sketchpad.access import Role
-from physsim_ros.sketchpad.inbox import Closed, Inbox, Incoming, Opened
-from physsim_ros.sketchpad.page_session import PageSession, WorldControl
+from physsim_ros.sketchpad.inbox import Closed, Inbox, Incoming, Opened, SERVER
+from physsim_ros.sketchpad.page_session import PageSession
 from physsim_ros.sketchpad.server import Server
+from physsim_ros.sketchpad.world_control import WorldControl
 
 # Time for messages of pages between two frames [s]: a quarter of a frame at 60 Hz. A stroke takes
 # some 3 ms.
@@ -44,6 +46,7 @@ class Sketchpad:
     :param welcome: what a page is told first: version, frame, rate
     :param address: to listen on
     :param port: to listen on, or the first free one after it
+    :param world_dir: directory of the user's worlds
     :param wake: called on the server's thread when a message has come
     :raises PhysSimError: it cannot listen there
     """
@@ -55,13 +58,17 @@ class Sketchpad:
         welcome: dict[str, Any],
         address: str,
         port: int,
+        world_dir: Path,
         wake: Callable[[], None],
     ) -> None:
         self._world = world
         self._welcome = welcome
         self._inbox = Inbox()
+        self._server = Server(
+            address=address, port=port, world_dir=world_dir, inbox=self._inbox, wake=wake
+        )
         self._sessions: dict[int, PageSession] = {}
-        self._server = Server(address=address, port=port, inbox=self._inbox, wake=wake)
+        self._server_session = self._session(SERVER)
 
     def url(self, role: Role = Role.DRAW) -> str:
         """Return the address of a page with its token."""
@@ -74,10 +81,13 @@ class Sketchpad:
 
     def handle_messages(self) -> None:
         """Handle the messages of pages, as many as there is time for."""
-        deadline = time.perf_counter() + BUDGET
+        now = time.monotonic()
+        for session in self._sessions.values():
+            session.keep_hand(now)
+        deadline = now + BUDGET
         while (incoming := self._inbox.take()) is not None:
             self._handle(incoming)
-            if time.perf_counter() > deadline:
+            if time.monotonic() > deadline:
                 return
 
     def show(self, frame: Frame) -> None:
@@ -93,7 +103,7 @@ class Sketchpad:
         self._server.close()
 
     def _handle(self, incoming: Incoming) -> None:
-        number, id_, message = incoming
+        number, request_id, message = incoming
         match message:
             case Opened(role=role):
                 self._open(number, role)
@@ -102,18 +112,15 @@ class Sketchpad:
                 if session is not None:
                     session.close()
             case _:
-                session = self._sessions.get(number)
+                session = self._server_session if number == SERVER else self._sessions.get(number)
                 if session is not None:
-                    session.handle(id_, message)
+                    session.handle(message, request_id)
 
     def _open(self, number: int, role: Role) -> None:
-        def send(content: dict[str, Any]) -> None:
-            self._server.send(content, page=number)
-
-        self._sessions[number] = PageSession(self._world, page=number, role=role, send=send)
+        self._sessions[number] = self._session(number)
         settings = self._world.simulation.settings
         drawing = self._world.drawing_settings
-        send(
+        self._server.send(
             {
                 'type': 'welcome',
                 'client': str(number),
@@ -128,5 +135,12 @@ class Sketchpad:
                     'draw_color': drawing.draw_color,
                     'snap': drawing.snap,
                 },
-            }
+            },
+            page=number,
         )
+
+    def _session(self, number: int) -> PageSession:
+        def send(content: dict[str, Any]) -> None:
+            self._server.send(content, page=number)
+
+        return PageSession(self._world, page=number, send=send, on_save=self._server.list_worlds)

@@ -25,6 +25,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from physsim_ros.sketchpad import Role
+from physsim_ros.sketchpad.frame_codec import Show
 from physsim_ros.testing import PhysSim
 from tornado.httpclient import AsyncHTTPClient, HTTPRequest, HTTPResponse
 from tornado.websocket import websocket_connect, WebSocketClientConnection
@@ -47,6 +48,16 @@ class Picture(NamedTuple):
     def poses(self) -> np.ndarray:
         """(n, 3) float32."""
         return self.columns[: 3 * self.count].reshape(3, -1).T
+
+    @property
+    def hands(self) -> bool:
+        """Whether hands drag bodies."""
+        return bool(self.flags & Show.HANDS)
+
+    @property
+    def hand_lines(self) -> np.ndarray:
+        """(h, 4) float32: grip x, y, hand x, y; of a frame without other parts."""
+        return self.columns[3 * self.count + 1 :].reshape(4, -1).T
 
 
 def decoded(message: bytes) -> Picture:

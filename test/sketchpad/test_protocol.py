@@ -14,9 +14,12 @@
 
 """What a page gets is what the world is, and what it sends becomes the world's own requests."""
 
+import json
 import math
 
 import numpy as np
+from physsim_ros.model.grips import Grip
+from physsim_ros.testing import PhysSim
 import pytest
 
 from .browser import Browser
@@ -25,6 +28,10 @@ from .browser import Browser
 def circle(x: float, y: float, radius: float) -> list[list[float]]:
     turns = [math.tau * each / 60 for each in range(61)]
     return [[x + radius * math.cos(a), y + radius * math.sin(a), a / 6] for a in turns]
+
+
+def grips(physsim: PhysSim) -> tuple[Grip, ...]:
+    return physsim.node.simulation.world.snapshot().grips
 
 
 def test_a_page_gets_the_poses_of_the_world(browser: Browser) -> None:
@@ -56,3 +63,81 @@ def test_a_wrong_token_opens_nothing(browser: Browser) -> None:
     assert browser.fetch('/login?token=guess', cookie='').code == 403
     for path in ('/', '/session', '/page/app.js', '/ws'):
         assert browser.fetch(path, cookie='').code == 403
+
+
+def test_the_hand_of_a_page_throws_a_body(browser: Browser) -> None:
+    physsim, page = browser.physsim, browser.open_page()
+    page.send('stroke', points=circle(0.0, 5.0, 0.5))
+    page.until(lambda: physsim.names)
+    (name,) = physsim.names
+    physsim.step()
+    assert page.ask('grab', point=[0.0, 5.0])['ok']
+    for number in range(1, 11):
+        page.send('move', point=[0.2 * number, 5.0])
+        page.until(lambda x=0.2 * number: grips(physsim)[0].target[0] == x)
+        physsim.step()
+    page.until(lambda: page.frames[-1].hands and page.frames[-1].time == physsim.time)
+    assert page.frames[-1].hand_lines[0, 2] == pytest.approx(2.0)
+    assert page.ask('let_go')['ok']
+    assert physsim.twist(name).vx > 1.0
+
+
+def test_a_page_that_is_closed_lets_go(browser: Browser) -> None:
+    physsim, page = browser.physsim, browser.open_page()
+    page.send('stroke', points=circle(0.0, 5.0, 0.5))
+    page.until(lambda: physsim.names)
+    page.ask('grab', point=[0.0, 5.0])
+    assert grips(physsim)
+    page.close()
+    browser.until(lambda: not grips(physsim))
+
+
+def test_a_page_draws_with_its_own_material(browser: Browser) -> None:
+    physsim, page, other = browser.physsim, browser.open_page(), browser.open_page()
+    assert page.ask('draw_with', density=7.0, velocity=[2.0, 0.0], color='#ff0000')['ok']
+    for each, x in ((page, 0.0), (other, 3.0)):
+        each.send('click', tool='circle', point=[x, 5.0])
+        each.ask('click', tool='circle', point=[x + 0.5, 5.0])
+    page.ask('copy', name=physsim.names[0], to=[6.0, 5.0])
+    page.until(lambda: len(page.of_type('scene')[-1]['bodies']) == 3)
+    scene = page.of_type('scene')[-1]
+    assert [body['density'] for body in scene['bodies']] == [7.0, 1.0, 7.0]
+    assert scene['bodies'][0]['color'] == [1.0, 0.0, 0.0, 1.0] == scene['bodies'][2]['color']
+    assert [physsim.twist(name).vx for name in physsim.names] == [2.0, 0.0, 0.0]
+
+
+def test_worlds_are_listed_saved_opened_shared_and_uploaded(browser: Browser) -> None:
+    physsim, page = browser.physsim, browser.open_page()
+    page.until(lambda: page.of_type('worlds'))
+    shipped = {each['name']: each for each in page.of_type('worlds')[0]['worlds']}
+    assert shipped['newtons_cradle']['shipped']
+    picture = browser.fetch(shipped['newtons_cradle']['picture'])
+    assert picture.code == 200
+    assert picture.headers['Content-Type'] == 'image/png'
+    page.send('stroke', points=circle(0.0, 5.0, 0.5))
+    page.until(lambda: physsim.names)
+    before = physsim.names, physsim.pose(physsim.names[0])
+    assert page.ask('save', name='mine')['ok']
+    page.until(lambda: 'mine' in [each['name'] for each in page.of_type('worlds')[-1]['worlds']])
+    text = page.ask('share')['values']['yaml']
+    assert browser.fetch('/world/mine.yaml').body.decode() == text
+    assert page.ask('open', name='newtons_cradle')['ok']
+    assert len(physsim.names) > 5
+    response = browser.fetch('/world', method='POST', body=text, headers={'Origin': browser.base})
+    assert json.loads(response.body)['ok']
+    assert (physsim.names, physsim.pose(physsim.names[0])) == before
+    assert page.ask('open', name='../../etc/passwd')['code'] == 'bad_world_file'
+
+
+def test_the_past_of_a_body_is_told(browser: Browser) -> None:
+    physsim, page = browser.physsim, browser.open_page()
+    page.send('stroke', points=circle(0.0, 5.0, 0.5))
+    page.until(lambda: physsim.names)
+    physsim.run(0.5)
+    page.send('watch', name=physsim.names[0])
+    page.until(lambda: page.of_type('body'))
+    (body,) = page.of_type('body')
+    times = np.array(body['time'])
+    assert len(times) == 31
+    assert np.array(body['y']) == pytest.approx(body['y'][0] - 9.81 / 2 * times**2, abs=1e-6)
+    assert np.array(body['vy']) == pytest.approx(-9.81 * times, abs=1e-6)

@@ -1,0 +1,74 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+
+"""The worlds that a page offers: those that ship with the package, and the user's own."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from physsim_ros.files import shipped_pictures, shipped_worlds
+
+# Worlds of the user that are listed.
+MOST_WORLDS = 500
+# Start of a file in which its title is looked for [characters].
+_TITLE_WITHIN = 400
+
+
+def gallery_content(world_dir: Path) -> dict[str, Any]:
+    """
+    Return the message of all worlds.
+
+    :param world_dir: directory of the user's worlds
+    """
+    shipped = [_entry(path, shipped=True) for path in _files(shipped_worlds())]
+    own = [_entry(path, shipped=False) for path in _files(world_dir)[:MOST_WORLDS]]
+    # A world of the user comes before the shipped one of its name.
+    worlds = {entry['name']: entry for entry in shipped + own}
+    return {'type': 'worlds', 'worlds': list(worlds.values())}
+
+
+def _files(directory: Path) -> list[Path]:
+    try:
+        return sorted(
+            path
+            for path in directory.glob('*.yaml')
+            if path.is_file() and not path.name.startswith('.')
+        )
+    except OSError:
+        # A directory that may not be read has no worlds.
+        return []
+
+
+def _entry(path: Path, *, shipped: bool) -> dict[str, Any]:
+    name = path.stem
+    picture = shipped and (shipped_pictures() / f'{name}.png').is_file()
+    return {
+        'name': name,
+        # A comment of the user's is nobody else's business.
+        'title': _title(path) if shipped else name,
+        'picture': f'/gallery/{name}.png' if picture else '',
+        'shipped': shipped,
+    }
+
+
+def _title(path: Path) -> str:
+    """Return the first sentence of the comment that a file begins with."""
+    with path.open(encoding='utf-8') as file:
+        start = file.read(_TITLE_WITHIN)
+    lines = start.splitlines()
+    comment = ' '.join(line.removeprefix('#').strip() for line in lines if line.startswith('#'))
+    return comment.partition('.')[0] or path.stem

@@ -1,0 +1,54 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+
+"""The material of what a page draws: its own choice, before that of the world."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+from physsim_ros.model.body_properties import Properties
+from physsim_ros.model.colors import Color
+from physsim_ros.model.requests import Request, Spawn
+from physsim_ros.sketchpad.messages import DrawWith
+
+
+class Material:
+    """What a page has chosen so far; the rest is that of the world."""
+
+    def __init__(self) -> None:
+        self._properties = Properties()
+        self._color: Color | None = None
+
+    def choose(self, choice: DrawWith) -> None:
+        """Take over what a message sets."""
+        self._properties = replace(self._properties, **choice.properties.explicit())
+        self._color = choice.color or self._color
+
+    def applied(self, requests: Iterable[Request]) -> tuple[Request, ...]:
+        """Return requests of a drawing, with this material where they add bodies."""
+        return tuple(self._applied(each) if isinstance(each, Spawn) else each for each in requests)
+
+    def _applied(self, spawn: Spawn) -> Spawn:
+        chosen = self._properties.explicit()
+        if spawn.properties.anchored:
+            # A wall stays where it is.
+            chosen.pop('velocity', None)
+        return replace(
+            spawn,
+            color=self._color or spawn.color,
+            properties=replace(spawn.properties, **chosen),
+        )

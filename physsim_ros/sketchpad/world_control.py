@@ -1,0 +1,74 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+
+"""What a page may ask of the node, apart from requests of the world."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, Protocol
+
+from physsim_ros.drawing import DrawingSettings
+from physsim_ros.model.snapshot import Snapshot
+from physsim_ros.simulation.simulation import Simulation
+
+
+class WorldControl(Protocol):
+    """What the node does for its pages."""
+
+    @property
+    def simulation(self) -> Simulation:
+        """Return the world and its time."""
+
+    @property
+    def drawing_settings(self) -> DrawingSettings:
+        """Return the settings of drawing."""
+
+    def current_snapshot(self) -> Snapshot:
+        """Apply the waiting requests, and return the snapshot that is shown."""
+
+    def perform(self, action: str, world: str) -> str:
+        """
+        Perform what a service does, and return a message about it.
+
+        :param action: name of the service
+        :param world: name of the world to save or load; '' is that of parameter `world_file`
+        :raises PhysSimError: it is refused
+        """
+
+    def world_text(self) -> str:
+        """Return the world as the text of a world file."""
+
+    def replace_world(self, content: Mapping[Any, Any]) -> str:
+        """
+        Replace the world by that of a file, and return a message about it.
+
+        :param content: of the file
+        :raises Refusal: it is refused
+        """
+
+    def set_speed(self, speed: float) -> str:
+        """
+        Set the speed of time, and return a message about it.
+
+        :raises Refusal: it is out of range
+        """
+
+    def seek(self, stamp: int) -> str:
+        """
+        Go to a simulation time [ns], and return a message about it.
+
+        :raises Refusal: it is not in the history
+        """

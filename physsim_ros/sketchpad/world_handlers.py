@@ -1,0 +1,88 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+
+"""Worlds over HTTP: files to download, files to upload."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import Any
+
+from physsim_ros.files import find_world, load_mapping
+from physsim_ros.model.errors import Malformed, Refusal
+from physsim_ros.model.snapshot import Answer
+from physsim_ros.sketchpad.access import Role
+from physsim_ros.sketchpad.handlers import Guarded
+from physsim_ros.sketchpad.messages import Upload
+
+# Uploads at once.
+MOST_UPLOADS = 4
+# Until the world has taken over a file [s]: one of a megabyte takes some seconds.
+TIMEOUT = 60.0
+
+
+class Download(Guarded):
+    """A world file, by the rules of service `~/load_world`."""
+
+    async def get(self, name: str) -> None:
+        """Answer with a file."""
+        try:
+            path = find_world(name, world_dir=self.server.world_dir, confined=True)
+            content = path.read_bytes()
+        except (Refusal, OSError):
+            self.refuse(404, 'there is no such world')
+        self.set_header('Content-Type', 'application/yaml; charset=utf-8')
+        self.set_header('Content-Disposition', f'attachment; filename="{path.name}"')
+        self.finish(content)
+
+
+class UploadWorld(Guarded):
+    """Replace the world by that of an uploaded file."""
+
+    uploads = 0
+
+    async def post(self) -> None:
+        """Answer with `ok`, `message` and `code`, when the world has taken over the file."""
+        self.require_origin()
+        if self.role is not Role.DRAW:
+            self.refuse(403, 'this page only shows the world')
+        if UploadWorld.uploads >= MOST_UPLOADS:
+            self.refuse(503, 'too many uploads at once')
+        UploadWorld.uploads += 1
+        try:
+            self.finish(await self._replace_world())
+        finally:
+            UploadWorld.uploads -= 1
+
+    async def _replace_world(self) -> dict[str, Any]:
+        try:
+            text = self.request.body.decode()
+        except UnicodeDecodeError:
+            return _content(Malformed('the file is not UTF-8', field='file'))
+        try:
+            # YAML of a megabyte takes a second to be read; meanwhile the pages get their frames.
+            content = await asyncio.to_thread(load_mapping, text, field='the file')
+        except Refusal as refusal:
+            return _content(refusal)
+        try:
+            answer = await asyncio.wait_for(self.server.ask(Upload(content=content)), TIMEOUT)
+        except TimeoutError:
+            self.refuse(503, 'the world is too busy')
+        return {'ok': not answer.code, 'message': answer.message, 'code': answer.code}
+
+
+def _content(refusal: Refusal) -> dict[str, Any]:
+    answer = Answer.refused(refusal, topic='~/load_world')
+    return {'ok': False, 'message': answer.message, 'code': answer.code}
