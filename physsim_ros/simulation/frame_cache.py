@@ -123,13 +123,11 @@ class Past:
         :param end: step of the last one, at most
         :param count: of the last ones, at most
         """
-        found: list[Snapshot] = []
-        for mark in sorted(self._reels, key=lambda mark: -mark.step):
-            shots = self._reels[mark].shots
-            found += (shots[step].snapshot for step in sorted(shots, reverse=True) if step <= end)
-            if len(found) >= count:
-                break
-        return found[:count][::-1]
+        shots: dict[int, Shot] = {}
+        for mark in sorted(self._reels, key=lambda mark: mark.moment):
+            shots |= self._reels[mark].shots
+        steps = sorted(step for step in shots if step <= end)[-count:]
+        return [shots[step].snapshot for step in steps]
 
     def keep(self, shot: Shot) -> None:
         """Keep a shot of what has just been shown."""

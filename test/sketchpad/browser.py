@@ -57,7 +57,8 @@ class Picture(NamedTuple):
     @property
     def hand_lines(self) -> np.ndarray:
         """(h, 4) float32: grip x, y, hand x, y; of a frame without other parts."""
-        return self.columns[3 * self.count + 1 :].reshape(4, -1).T
+        begin = 3 * self.count + 1
+        return self.columns[begin:].reshape(4, -1).T
 
 
 def decoded(message: bytes) -> Picture:
