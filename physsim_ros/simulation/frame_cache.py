@@ -145,14 +145,18 @@ class Past:
             return shot
         return Shot(shot.snapshot, old.contacts)
 
-    def forget(self, step: int) -> None:
-        """Drop the shots from a step on: it goes on differently from there."""
+    def forget(self, step: int) -> list[Shot]:
+        """Drop the shots from a step on, and return them: it goes on differently from there."""
         self._making = None
+        dropped: list[Shot] = []
         for mark in [mark for mark in self._reels if mark.step >= step]:
-            del self._reels[mark]
+            dropped += self._reels.pop(mark).shots.values()
         for reel in self._reels.values():
             for number in [number for number in reel.shots if number >= step]:
-                reel.size -= reel.shots.pop(number).size
+                shot = reel.shots.pop(number)
+                reel.size -= shot.size
+                dropped.append(shot)
+        return dropped
 
     def shot(self, step: int, *, watching: bool) -> Shot:
         """

@@ -29,6 +29,9 @@ from physsim_ros.model.checkpoint import Checkpoint, WorldState
 from physsim_ros.model.errors import OutOfHistory
 from physsim_ros.model.requests import Request, Restore
 
+# A step, and the number of requests made until then.
+Moment = tuple[int, int]
+
 
 @dataclass(slots=True, eq=False)
 class Entry:
@@ -40,12 +43,14 @@ class Entry:
     :param gesture: requests of one gesture are undone together
     :param seen: whether that step has been shown with it; what came to a running world shows only
         in the next frame
+    :param subject: name of the body or joint concerned, or ''
     """
 
     step: int
     request: Request
     gesture: int
     seen: bool = False
+    subject: str = ''
 
 
 class Mark(NamedTuple):
@@ -64,7 +69,7 @@ class Mark(NamedTuple):
     digest: str
 
     @property
-    def moment(self) -> tuple[int, int]:
+    def moment(self) -> Moment:
         """Return step and serial."""
         return self.step, self.serial
 
@@ -81,7 +86,7 @@ class Tail(NamedTuple):
     :ivar serial: number of requests made until then
     """
 
-    after: tuple[int, int]
+    after: Moment
     entries: tuple[Entry, ...]
     marks: tuple[Mark, ...]
     head: int
@@ -108,6 +113,8 @@ class History:
         self._loaded: WorldState | None = None
         # The number of requests up to the last that loaded anything.
         self._restored = 0
+        # The number of requests before the first one of each gesture.
+        self._gestures: dict[int, int] = {}
         self._marks = [first]
         # The last step that was reached.
         self.head = first.step
@@ -128,6 +135,11 @@ class History:
     def oldest(self) -> int:
         """Return the oldest step that can be gone back to."""
         return max(self._marks[0].step, self.head - self._length)
+
+    @property
+    def end(self) -> Moment:
+        """Return the last moment that was reached."""
+        return self.head, self._dropped + len(self._entries)
 
     @property
     def checkpoints(self) -> list[Mark]:
@@ -183,24 +195,27 @@ class History:
         last = self._marks[-1]
         return step - last.step >= self._spacing or self._restored > last.serial
 
-    def last_gesture(self, serial: int) -> list[Entry]:
+    def last_gesture(self, serial: int) -> tuple[Entry, int] | None:
         """
-        Return the requests of the last gesture before a serial; none where none is kept.
+        Return the first request of the last gesture before a serial; None where none is kept.
 
-        Among them are those of other gestures that came in between: time goes back before them.
+        :return: it, and the number of requests from it on; among them are those of other gestures
+            that came in between, since time goes back before them
         """
-        done = self._entries[: serial - self._dropped]
-        first = next(
-            (place for place, entry in enumerate(done) if entry.gesture == done[-1].gesture), 0
-        )
-        return done[first:]
+        if serial <= self._dropped:
+            return None
+        first = self._gestures[self._entries[serial - self._dropped - 1].gesture]
+        return self._entries[first - self._dropped], serial - first
 
-    def gesture_start(self, gesture: int, serial: int) -> tuple[int, int] | None:
+    def gesture_before(self, serial: int, default: int) -> int:
+        """Return the gesture of the last request before a serial; a default where none is kept."""
+        place = serial - self._dropped - 1
+        return self._entries[place].gesture if place >= 0 else default
+
+    def gesture_start(self, gesture: int, serial: int) -> Moment | None:
         """Return step and serial of the first request of a gesture before a serial, if kept."""
-        for number, entry in enumerate(self._entries[: serial - self._dropped]):
-            if entry.gesture == gesture:
-                return entry.step, self._dropped + number
-        return None
+        first = self._gestures.get(gesture, serial)
+        return (self._entries[first - self._dropped].step, first) if first < serial else None
 
     @property
     def loaded(self) -> WorldState | None:
@@ -216,16 +231,16 @@ class History:
             self.head = step
             self._forget()
 
-    def note(self, entry: Entry, serial: int) -> bool:
-        """
-        Add a request as the next after a serial; what lay ahead of it is dropped.
+    def lies_ahead(self, step: int, serial: int) -> bool:
+        """Return whether anything is known of the time after a moment."""
+        return self.head > step or serial < self._dropped + len(self._entries)
 
-        :return: whether anything lay ahead
-        """
-        ahead = self.head > entry.step or serial < self._dropped + len(self._entries)
-        self._cut(entry.step, serial)
-        self._add(entry)
-        return ahead
+    def add_entry(self, entry: Entry) -> None:
+        """Add a request that changed the world, as the last."""
+        self._gestures.setdefault(entry.gesture, self._dropped + len(self._entries))
+        self._entries.append(entry)
+        if isinstance(entry.request, Restore):
+            self._restored = self._dropped + len(self._entries)
 
     def see(self, step: int, serial: int) -> None:
         """Note that a step has been shown, with the requests up to a serial."""
@@ -240,7 +255,7 @@ class History:
         """Add a checkpoint, as the last."""
         self._marks.append(mark)
 
-    def cut(self, step: int, serial: int, *, now: tuple[int, int]) -> Tail:
+    def cut(self, step: int, serial: int, *, now: Moment) -> Tail:
         """
         Cut off what came after a moment.
 
@@ -251,30 +266,47 @@ class History:
         after, done, left = self._marks[-1].moment, len(self._entries), len(self._marks)
         return Tail(after, entries[done:], marks[left:], head, *now)
 
+    def exchange(self, tail: Tail, begins: Moment, *, now: Moment) -> Tail:
+        """
+        Cut off what came after a moment, and let things go on as in another tail.
+
+        :param begins: the moment at which the two part
+        :param now: the moment at which that is asked
+        :return: what is cut off
+        :raises OutOfHistory: the beginning is too long ago; nothing is changed
+        """
+        self._check_splice(tail)
+        own = self.cut(*begins, now=now)
+        # Checkpoints that only this course has made, at that very moment.
+        common = bisect_right(self._marks, tail.after, key=lambda each: each.moment)
+        marks = (*self._marks[common:], *own.marks)
+        own = own._replace(after=self._marks[common - 1].moment, marks=marks)
+        self.splice(tail)
+        return own
+
     def splice(self, tail: Tail) -> None:
         """
         Let things go on again as they did before they were cut off.
 
         :raises OutOfHistory: that is too long ago
         """
-        if self._marks[0].moment > tail.after:
-            raise OutOfHistory('what was undone is kept no more', field='history')
+        self._check_splice(tail)
         while self._marks[-1].moment > tail.after:
             self._marks.pop()
         for entry in tail.entries:
-            self._add(entry)
+            self.add_entry(entry)
         self._marks += tail.marks
         self.head = tail.head
         self._forget()
 
-    def _add(self, entry: Entry) -> None:
-        self._entries.append(entry)
-        if isinstance(entry.request, Restore):
-            self._restored = self._dropped + len(self._entries)
+    def _check_splice(self, tail: Tail) -> None:
+        if self._marks[0].moment > tail.after:
+            raise OutOfHistory('what was undone is kept no more', field='history')
 
     def _cut(self, step: int, serial: int) -> None:
         left = serial - self._dropped
         del self._entries[left:]
+        self._index_gestures()
         self._restored = min(self._restored, serial)
         while self._marks[-1].step > step or self._marks[-1].serial > serial:
             self._marks.pop()
@@ -291,3 +323,9 @@ class History:
                     self._loaded = entry.request.state
             del self._entries[:old]
             self._dropped = self._marks[0].serial
+            self._index_gestures()
+
+    def _index_gestures(self) -> None:
+        self._gestures.clear()
+        for place, entry in enumerate(self._entries):
+            self._gestures.setdefault(entry.gesture, self._dropped + place)

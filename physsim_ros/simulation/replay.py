@@ -21,11 +21,13 @@ same requests in between, and so the same bits; where it does not, that is told.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+import itertools
 
 from physsim_ros.model.errors import OutOfHistory, Refusal
 from physsim_ros.model.requests import Request
 from physsim_ros.model.snapshot import Answer
+from physsim_ros.simulation.courses import Courses
 from physsim_ros.simulation.history import Entry, History, Mark, Tail
 from physsim_ros.simulation.world import World
 
@@ -134,9 +136,20 @@ class Timeline(Course):
     :param world: at its beginning
     :param length: steps that are kept
     :param spacing: steps from one checkpoint to the next, at least
+    :param courses: numbers of its courses; None counts from 1
+
+    :ivar courses: those that were left
     """
 
-    def __init__(self, world: World, *, length: int, spacing: int) -> None:
+    def __init__(
+        self,
+        world: World,
+        *,
+        length: int,
+        spacing: int,
+        courses: Iterator[int] | None = None,
+    ) -> None:
+        self.courses = Courses(courses or itertools.count(1))
         first = Mark(world.step_count, 0, world.renew(), world.digest())
         super().__init__(world, History(first, length=length, spacing=spacing))
         self._resumed = first.moment
@@ -144,7 +157,7 @@ class Timeline(Course):
 
     def apply(self, request: Request, gesture: int) -> tuple[str, str]:
         """
-        Carry out a request; what lay ahead is dropped, where it changes anything.
+        Carry out a request; where it changes anything and something lay ahead, a course begins.
 
         :return: the body concerned, or '', and a sentence that says what was done
         :raises Refusal: and nothing is changed
@@ -154,18 +167,24 @@ class Timeline(Course):
         done = self.world.apply(request)
         if not self.world.changed:
             return done
-        step, serial = self.moment
-        if self.history.note(Entry(step, request, gesture), serial):
-            message = f'what lay after {step * self.world.dt:.3f} s is dropped'
+        if self.history.lies_ahead(*self.moment):
+            left = self.courses.branch(
+                self.moment, self.history.cut(*self.moment, now=self.moment)
+            )
+            seconds = self.world.step_count * self.world.dt
+            message = f'course {self.courses.current} begins at {seconds:.3f} s; {left} is kept'
             self._told.append(Answer(topic='branch', message=message))
+        else:
+            self.courses.drop_after(self.moment)
+        step = self.world.step_count
+        self.history.add_entry(Entry(step, request, gesture, subject=done[0]))
         self.serial += 1
         return done
 
     @property
     def is_newest(self) -> bool:
         """Whether nothing lies ahead of this moment."""
-        head = self.history.head
-        return self.moment == (head, self.history.made_at(head))
+        return self.moment == self.history.end
 
     def see(self) -> None:
         """Note that this moment is shown."""
@@ -240,20 +259,42 @@ class Timeline(Course):
             return
         self._add_checkpoint()
 
-    def undo(self) -> tuple[list[Entry], Tail]:
+    def undo(self) -> Tail:
         """
         Go back to the moment before the last gesture.
 
-        :return: what is undone, and what `redo` needs
+        :return: what `redo` needs, the undone gesture first
         :raises OutOfHistory: there is none
         """
         undone = self.history.last_gesture(self.serial)
-        if not undone:
+        if undone is None:
             raise OutOfHistory('there is nothing to undo', field='history')
-        step, serial = undone[0].step, self.serial - len(undone)
+        step, serial = undone[0].step, self.serial - undone[1]
         tail = self.history.cut(step, serial, now=self.moment)
         self.seek_moment(step, serial)
-        return undone, tail
+        return tail
+
+    def return_to_course(self, number: int) -> int:
+        """
+        Return to a course that was left, at this time or its last.
+
+        :return: the step from which on things go differently
+        :raises OutOfHistory: the course is kept no more; nothing is changed
+        """
+        path = self.courses.path_to(number, self.history)
+        if not path:
+            return self.history.head
+        now = self.moment
+        for course in path:
+            tail = self.history.exchange(course.tail, course.begins, now=now)
+            self.courses.exchange(course, tail)
+        history = self.history
+        step = max(history.oldest, min(now[0], history.head))
+        moment = step, history.seen_at(step)
+        # Not from here: these steps may be of the course that is left.
+        self.resume(history.before(*moment))
+        self.seek_moment(*moment)
+        return min(course.begins for course in path)[0]
 
     def amend(
         self, gesture: int, requests: Sequence[Request]
@@ -272,6 +313,7 @@ class Timeline(Course):
         if start is None:
             raise OutOfHistory('what is to be amended is kept no more', field='history')
         step, serial = start
+        self.courses.drop_after((step, serial))
         later = [each for each in self.history.between(serial, now[1]) if each.gesture != gesture]
         self.history.cut(step, serial, now=now)
         self.seek_moment(step, serial)

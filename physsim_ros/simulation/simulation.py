@@ -25,6 +25,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass
+import itertools
 
 from physsim_ros.engine.contact_report import NO_CONTACTS
 from physsim_ros.model.checkpoint import WorldState
@@ -45,9 +46,11 @@ from physsim_ros.model.requests import (
     Unjoin,
 )
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.snapshot import Answer, Frame
+from physsim_ros.model.snapshot import Answer, Frame, Snapshot
+from physsim_ros.model.timeline import CourseSpan, TimelineStatus
 from physsim_ros.simulation.clock import Clock
 from physsim_ros.simulation.frame_cache import Past, Shot
+from physsim_ros.simulation.ghosts import Ghosts
 from physsim_ros.simulation.hands import Hands, placing
 from physsim_ros.simulation.replay import Timeline
 from physsim_ros.simulation.undo import Undo
@@ -118,6 +121,8 @@ class Simulation:
         self._history = history
         self._checkpoints = checkpoints
         empty = WorldState(settings=settings or WorldSettings())
+        self._course_numbers = itertools.count(1)
+        self._ghosts = Ghosts()
         self._undo = Undo(self._timeline_of, empty)
         self.past = self._no_past()
         # The step that is shown where the world itself is at another; None where it is there.
@@ -161,6 +166,45 @@ class Simulation:
         if speed < 0.0:
             self._hands.clear()
         self._clock.speed = speed
+
+    @property
+    def status(self) -> TimelineStatus:
+        """Return where the world is in its time, and what can be undone and returned to."""
+        history, dt = self.timeline.history, 1.0 / self.physics_rate
+        moment = self.timeline.moment
+        if self._shown is not None:
+            moment = self.step, history.seen_at(self.step)
+        if self.speed < 0.0:
+            state = 'rewinding'
+        elif moment != history.end:
+            state = 'in the past'
+        else:
+            state = 'playing' if self.speed else 'paused'
+        courses = self.timeline.courses
+        return TimelineStatus(
+            state=state,
+            speed=self.speed,
+            oldest=history.oldest * dt,
+            now=moment[0] * dt,
+            newest=history.head * dt,
+            course=courses.current,
+            undo=self._undo.undo_words(moment[1]),
+            redo=self._undo.redo_words,
+            courses=tuple(
+                CourseSpan(course.number, course.begins[0] * dt, course.tail.head * dt)
+                for course in courses.reachable(history)
+            ),
+        )
+
+    def ghost(self, course: int, seconds: float) -> Snapshot | None:
+        """
+        Return what a course that was left has shown at a simulation time.
+
+        :param course: number of the course
+        :param seconds: simulation time [s]
+        :return: the last snapshot until then; None where none is kept
+        """
+        return self._ghosts.snapshot_at(course, self._steps(seconds))
 
     @property
     def history(self) -> float:
@@ -341,6 +385,26 @@ class Simulation:
         self._follow(self._undo.redo())
         return self._turn('~/redo', f'redid what was undone, at {self._time()}')
 
+    def return_to_course(self, number: int) -> str:
+        """
+        Return to a course of events that was left, at the time that is shown or its last.
+
+        :param number: of the course
+        :raises OutOfHistory: it is kept no more; nothing is changed
+        """
+        self._apply_all()
+        self._catch_up()
+        self.timeline.see()
+        left = self.timeline.courses.current
+        step = self.timeline.return_to_course(number)
+        if number != left:
+            self._keep_ghost(left, step)
+            for shot in self._ghosts.take_course(number):
+                self.past.keep(shot)
+            self._undo.do()
+            self._hands.clear()
+        return self._turn('~/timeline', f'on course {number}, at {self._time()}')
+
     def seek(self, stamp: int) -> str:
         """
         Go to a simulation time [ns], and say so.
@@ -518,8 +582,7 @@ class Simulation:
         for grip in timeline.world.grips:
             if grip.hand not in self._hands:
                 # Undone together with what came last.
-                last = timeline.history.last_gesture(timeline.serial)
-                gesture = last[-1].gesture if last else self._gesture
+                gesture = timeline.history.gesture_before(timeline.serial, self._gesture)
                 self._apply_to_world(LetGo(hand=grip.hand), gesture)
                 message = f'{grip.hand} is silent and has let go of {grip.body}'
                 self._answers.append(
@@ -528,13 +591,20 @@ class Simulation:
 
     def _apply_to_world(self, request: Request, gesture: int) -> tuple[str, str]:
         self._catch_up()
-        head = self.timeline.history.head
+        courses = self.timeline.courses
+        before = courses.current
         done = self.timeline.apply(request, gesture)
         if self.timeline.world.changed:
             self._undo.do()
-        if self.timeline.history.head < head:
-            self.past.forget(self.step)
+        if courses.current != before:
+            self._keep_ghost(before, self.step)
         return done
+
+    def _keep_ghost(self, left: int, step: int) -> None:
+        """Keep what a course has shown from a step on, from which another one is in force."""
+        self._ghosts.add_course(left, self.past.forget(step))
+        kept = self.timeline.courses.reachable(self.timeline.history)
+        self._ghosts.retain({course.number for course in kept})
 
     def _frame(self, *, moved: bool) -> Frame:
         snapshot, contacts = self._shown or self._look(moved=moved)
@@ -572,7 +642,10 @@ class Simulation:
         world.apply(Restore(state=state))
         world.watching = self._watching
         return Timeline(
-            world, length=self._steps(self._history), spacing=self._steps(self._checkpoints)
+            world,
+            length=self._steps(self._history),
+            spacing=self._steps(self._checkpoints),
+            courses=self._course_numbers,
         )
 
     def _no_past(self) -> Past:

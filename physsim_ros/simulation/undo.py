@@ -26,6 +26,7 @@ from typing import NamedTuple
 
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import OutOfHistory
+from physsim_ros.model.requests import Grab
 from physsim_ros.simulation.history import Entry, Tail
 from physsim_ros.simulation.replay import Timeline
 
@@ -34,7 +35,12 @@ MOST_UNDONE, MOST_RESETS = 100, 10
 
 # What requests are called whose classes' names are no words for it.
 _WORDS = {
+    'changebody': 'change',
     'configure': 'settings',
+    'deletebodies': 'delete of several',
+    'grab': 'drag',
+    'grabtoplace': 'place',
+    'movebodies': 'move',
     'restore': 'load',
     'deleteall': 'delete of many',
     'unjoin': 'delete',
@@ -91,17 +97,45 @@ class Undo:
         :raises OutOfHistory: there is none in the history
         """
         try:
-            undone, tail = self.timeline.undo()
+            tail = self.timeline.undo()
         except OutOfHistory:
             # Before the reset come the requests since then, though they are kept no more.
-            begun = self.timeline.serial == 0 and self.timeline.history.oldest == 0
-            if not (self._left and begun):
+            if not (self._left and self._is_begun):
                 raise
             self._leave(self._undone)
             self.timeline, self._beginning = self._left.pop()
             return 'reset', None
         self._undone.append(tail)
-        return _named(undone), undone[0].step
+        return self._described_tail(tail), tail.entries[0].step
+
+    def undo_words(self, serial: int) -> str:
+        """
+        Return what `undo` would do, in words; '' if nothing.
+
+        :param serial: number of requests made until the moment that is shown
+        """
+        undone = self.timeline.history.last_gesture(serial)
+        if undone is not None:
+            return f'undo {_described(*undone)}'
+        return 'undo reset' if self._left and self._is_begun else ''
+
+    @property
+    def redo_words(self) -> str:
+        """Return what `redo` would do, in words; '' if nothing."""
+        if not self._undone:
+            return ''
+        undone = self._undone[-1]
+        return f'redo {self._described_tail(undone)}' if isinstance(undone, Tail) else 'redo reset'
+
+    @property
+    def _is_begun(self) -> bool:
+        """Whether nothing has been done since the beginning, as far as the history reaches."""
+        return self.timeline.serial == 0 and self.timeline.history.oldest == 0
+
+    def _described_tail(self, tail: Tail) -> str:
+        """Return the gesture in words that was undone with a tail, the last one."""
+        entry = tail.entries[0]
+        return _described(entry, tail.serial - self.timeline.serial)
 
     def redo(self) -> int | None:
         """
@@ -139,9 +173,15 @@ class _Left(NamedTuple):
     beginning: WorldState
 
 
-def _named(entries: list[Entry]) -> str:
-    """Return what a gesture was, in words."""
-    kind = type(entries[0].request).__name__.lower()
-    name = getattr(entries[0].request, 'name', '')
-    more = f' and {len(entries) - 1} more' if len(entries) > 1 else ''
-    return f'{_WORDS.get(kind, kind)} {name}'.rstrip() + more
+def _described(entry: Entry, count: int) -> str:
+    """
+    Return a gesture in words.
+
+    :param entry: its first request
+    :param count: of its requests
+    """
+    kind = type(entry.request).__name__.lower()
+    words = f'{_WORDS.get(kind, kind)} {entry.subject}'.rstrip()
+    # All moves of a hand are one drag.
+    more = count > 1 and not isinstance(entry.request, Grab)
+    return f'{words} and {count - 1} more' if more else words

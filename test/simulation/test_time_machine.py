@@ -172,6 +172,8 @@ class TimeMachine(RuleBasedStateMachine):
         self.simulation.watch_contacts(True)
         self.now = 0
         self.seen: dict[int, Frame] = {}
+        # The same of each course, when it was in force last.
+        self.seen_on: dict[int, dict[int, Frame]] = {}
         self.simulation.submit(Configure(changes={'bounds': (-4.0, 0.0, 4.0, 9.0)}), topic='')
         for spawn in several:
             self.simulation.submit(spawn, topic='')
@@ -284,10 +286,21 @@ class TimeMachine(RuleBasedStateMachine):
         self.simulation.world.digest()
         timeline = self.simulation.timeline
         undone = timeline.history.last_gesture(timeline.serial)
-        if undone:
+        if undone is not None:
             self.simulation.undo()
             assert self.simulation.step == undone[0].step
             self.drop_after(undone[0].step - 1)
+
+    @rule(choice=st.integers(0, 7))
+    def return_to_a_course(self, choice: int) -> None:
+        courses = self.simulation.status.courses
+        if courses:
+            number, _, ends = courses[choice % len(courses)]
+            self.simulation.return_to_course(number)
+            assert self.simulation.status.course == number
+            assert self.simulation.step <= round(ends * 240)
+            self.seen = dict(self.seen_on[number])
+            self.look(self.simulation.settle())
 
     @rule(frames=st.integers(1, 40))
     def save_and_go_on_elsewhere(self, frames: int) -> None:
@@ -326,6 +339,11 @@ class TimeMachine(RuleBasedStateMachine):
     def drop_after(self, step: int) -> None:
         for number in [number for number in self.seen if number > step]:
             del self.seen[number]
+
+    @invariant()
+    def a_course_is_remembered(self) -> None:
+        if hasattr(self, 'simulation'):
+            self.seen_on[self.simulation.status.course] = dict(self.seen)
 
     @invariant()
     def the_history_is_no_longer_than_asked(self) -> None:

@@ -1,0 +1,61 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Timeline status: the time that is shown, what can be undone, and the courses that were left."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+
+class CourseSpan(NamedTuple):
+    """
+    A course of events that was left, and can be returned to.
+
+    :ivar number: of the course
+    :ivar begins: simulation time from which on it differs from the course in force [s]
+    :ivar ends: the last simulation time that it reached [s]
+    """
+
+    number: int
+    begins: float
+    ends: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TimelineStatus:
+    """
+    The status of the timeline.
+
+    :param state: playing, paused, rewinding, or 'in the past' where something lies ahead
+    :param speed: simulation seconds a second; 0 is paused, negative goes back
+    :param oldest: the oldest simulation time that can be gone back to [s]
+    :param now: simulation time that is shown [s]
+    :param newest: the last simulation time that was reached [s]
+    :param course: number of the course of events that is in force
+    :param undo: what `undo` would do, in words; '' is nothing
+    :param redo: what `redo` would do, in words; '' is nothing
+    :param courses: those that were left, in the order of their numbers
+    """
+
+    state: str
+    speed: float
+    oldest: float
+    now: float
+    newest: float
+    course: int
+    undo: str = ''
+    redo: str = ''
+    courses: tuple[CourseSpan, ...] = ()

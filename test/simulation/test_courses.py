@@ -1,0 +1,260 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""A course that was left is kept, shown as a ghost, and returned to, to the same bits."""
+
+from __future__ import annotations
+
+import numpy as np
+from physsim_ros.model.errors import OutOfHistory
+from physsim_ros.model.requests import Command, Delete
+from physsim_ros.model.shapes import Box
+from physsim_ros.simulation import ghosts
+from physsim_ros.simulation.courses import MOST_COURSES
+from physsim_ros.simulation.simulation import Simulation
+import pytest
+
+from ..building import BOX, spawning
+
+SECOND = 10**9
+FLOOR = spawning('floor/0', Box(width=40.0, height=1.0), (0.0, -0.5, 0.0), anchored=True)
+
+
+def simulation(checkpoints: float = 0.5) -> Simulation:
+    """Return a pile of boxes that falls."""
+    sim = Simulation(checkpoints=checkpoints)
+    sim.perform(FLOOR)
+    for number in range(6):
+        sim.perform(spawning(f'a/{number}', BOX, (number / 4, 0.5 + 1.2 * number, number)))
+    return sim
+
+
+def run(sim: Simulation, seconds: float) -> dict[int, np.ndarray]:
+    """Advance; return the poses of each frame by its step."""
+    shown = {}
+    for _ in range(round(seconds * 60)):
+        frame = sim.advance_frame()
+        assert not [each for each in frame.answers if each.code]
+        shown[frame.snapshot.step] = frame.snapshot.poses
+    return shown
+
+
+def act(sim: Simulation, speed: float) -> None:
+    """Throw a box of the pile, in the past a branch."""
+    sim.perform(Command(names=('a/0',), twists=((speed, 3.0, 0.0),)))
+
+
+def branch(sim: Simulation, seconds: float, speed: float) -> dict[int, np.ndarray]:
+    sim.seek(round(seconds * SECOND))
+    act(sim, speed)
+    return run(sim, 1.5)
+
+
+def follow(sim: Simulation, shown: dict[int, np.ndarray], since: int) -> None:
+    """Play a course again; it is as it was shown."""
+    sim.seek(round(since * SECOND / 240))
+    while (step := sim.step) < max(shown):
+        frame = sim.advance_frame()
+        assert not [each for each in frame.answers if each.code]
+        assert np.array_equal(frame.snapshot.poses, shown[frame.snapshot.step])
+        assert sim.step > step
+
+
+def numbers(sim: Simulation) -> list[int]:
+    return [course.number for course in sim.status.courses]
+
+
+def test_a_course_that_was_left_is_returned_to_and_back_to_the_same_bits() -> None:
+    sim = simulation()
+    first = run(sim, 2.0)
+    second = branch(sim, 1.0, 5.0)
+    last = sim.world.digest()
+    assert [tuple(each) for each in sim.status.courses] == [(1, 1.0, 2.0)]
+
+    assert sim.return_to_course(1) == 'on course 1, at 2.000 s'
+
+    assert (sim.status.course, numbers(sim)) == (1, [2])
+    follow(sim, first, 60)
+    sim.return_to_course(2)
+    follow(sim, second, 244)
+    assert sim.world.digest() == last
+
+
+def test_courses_of_courses_are_reached_by_their_branches() -> None:
+    sim = simulation()
+    shown = {1: run(sim, 2.0)}
+    # 2 parts from 1 at 1 s, 3 from 2 at 1.5 s, 4 from 3 at 0.5 s, 5 from 4 at 1.5 s.
+    for number, seconds in enumerate((1.0, 1.5, 0.5, 1.5), start=2):
+        before = shown[number - 1]
+        fresh = branch(sim, seconds, float(number))
+        shown[number] = {step: before[step] for step in before if step <= seconds * 240} | fresh
+    assert numbers(sim) == [1, 2, 3, 4]
+
+    for number in (1, 5, 2, 4, 3, 1):
+        sim.return_to_course(number)
+        assert sim.status.course == number
+        assert sorted([*numbers(sim), number]) == [1, 2, 3, 4, 5]
+        follow(sim, shown[number], 40)
+
+
+def test_time_stays_where_both_courses_have_it() -> None:
+    sim = simulation()
+    run(sim, 2.0)
+    branch(sim, 1.0, 5.0)
+    sim.seek(round(1.25 * SECOND))
+    assert sim.return_to_course(1) == 'on course 1, at 1.250 s'
+    sim.seek(SECOND // 2)
+    before = sim.world.digest()
+    sim.return_to_course(2)
+    assert sim.world.digest() == before
+
+
+def test_a_branch_at_one_step_is_a_course_too() -> None:
+    sim = simulation()
+    run(sim, 0.5)
+    act(sim, 1.0)
+    run(sim, 0.5)
+    sim.seek(SECOND // 2)
+    act(sim, 2.0)
+    frame = sim.settle()
+    assert frame is not None
+    assert [each.topic for each in frame.answers] == ['branch']
+    assert numbers(sim) == [1]
+
+
+def test_a_ghost_is_what_the_course_has_shown() -> None:
+    sim = simulation()
+    first = run(sim, 2.0)
+    branch(sim, 1.0, 5.0)
+
+    for step in (244, 400, 480):
+        ghost = sim.ghost(1, step / 240)
+        assert ghost is not None
+        assert np.array_equal(ghost.poses, first[step])
+    assert sim.ghost(1, 0.5) is None
+    assert sim.ghost(7, 1.5) is None
+    sim.return_to_course(1)
+    assert sim.ghost(1, 1.5) is None
+    assert sim.ghost(2, 1.5) is not None
+
+
+def test_ghosts_have_a_budget(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(ghosts, 'GREATEST_SIZE', 200_000)
+    sim = simulation()
+    run(sim, 2.0)
+    for number in range(5):
+        branch(sim, 1.0, float(number + 1))
+    kept = [number for number in numbers(sim) if sim.ghost(number, 1.5) is not None]
+    # The last ones are kept.
+    assert 0 < len(kept) < 5
+    assert kept[-1] == numbers(sim)[-1]
+
+
+def test_undo_and_redo_go_along_a_course() -> None:
+    sim = simulation()
+    run(sim, 2.0)
+    first = sim.world.digest()
+    branch(sim, 1.0, 5.0)
+    second = sim.world.digest()
+
+    sim.undo()
+    # The branch has nothing of its own now; the course before is still there.
+    assert numbers(sim) == [1]
+    sim.redo()
+    assert sim.world.digest() == second
+    sim.undo()
+    sim.return_to_course(1)
+    assert sim.status.redo == ''
+    sim.seek(2 * SECOND)
+    assert sim.world.digest() == first
+
+
+def test_courses_that_part_in_what_was_undone_are_there_when_it_is_redone() -> None:
+    sim = simulation()
+    run(sim, 0.5)
+    act(sim, 1.0)
+    run(sim, 1.5)
+    branch(sim, 1.0, 5.0)
+    sim.undo()
+    sim.undo()
+    assert (sim.step, numbers(sim)) == (120, [])
+    sim.redo()
+    assert numbers(sim) == [1]
+    sim.undo()
+    act(sim, 3.0)
+    assert numbers(sim) == []
+
+
+def test_as_many_courses_are_kept_as_are_said() -> None:
+    sim = simulation()
+    run(sim, 0.5)
+    for number in range(MOST_COURSES + 3):
+        sim.seek(SECOND // 4)
+        act(sim, number + 1.0)
+        run(sim, 0.05)
+    assert len(numbers(sim)) == MOST_COURSES
+    with pytest.raises(OutOfHistory):
+        sim.return_to_course(1)
+
+
+def test_what_parts_before_the_oldest_checkpoint_is_dropped() -> None:
+    sim = simulation()
+    run(sim, 1.0)
+    branch(sim, 0.75, 5.0)
+    assert numbers(sim) == [1]
+    sim.history = 0.5
+    run(sim, 3.0)
+
+    assert numbers(sim) == []
+    before = sim.world.digest()
+    with pytest.raises(OutOfHistory):
+        sim.return_to_course(1)
+    assert sim.world.digest() == before
+
+
+def test_the_status_tells_time_state_and_words() -> None:
+    sim = Simulation(speed=0.0)
+    status = sim.status
+    assert (status.state, status.now, status.newest, status.course) == ('paused', 0.0, 0.0, 1)
+    assert (status.undo, status.redo) == ('', '')
+    sim.perform(spawning('a/0', BOX))
+    sim.speed = 1.0
+    run(sim, 1.0)
+    assert sim.status.state == 'playing'
+    sim.perform(Delete(name='a/0'))
+    assert sim.status.undo == 'undo delete a/0'
+    sim.undo()
+    assert (sim.status.undo, sim.status.redo) == ('undo spawn a/0', 'redo delete a/0')
+    sim.seek(SECOND // 2)
+    status = sim.status
+    assert (status.state, status.oldest, status.now, status.newest) == ('in the past', 0, 0.5, 1)
+    sim.speed = -1.0
+    sim.advance(0)
+    sim.advance(SECOND // 60)
+    assert sim.status.state == 'rewinding'
+    assert sim.status.now == pytest.approx(0.5 - 1 / 60)
+    sim.speed = 0.0
+    sim.reset()
+    assert sim.status.undo == 'undo reset'
+    assert sim.status.course == 2
+    sim.undo()
+    assert (sim.status.course, sim.status.redo) == (1, 'redo reset')
+
+
+def test_an_array_of_requests_is_one_gesture_in_words() -> None:
+    sim = Simulation(speed=0.0)
+    for number in range(3):
+        sim.submit(spawning(f'a/{number}', BOX, (2.0 * number, 0, 0)), topic='', joined=number > 0)
+    sim.settle()
+    assert sim.status.undo == 'undo spawn a/0 and 2 more'
