@@ -49,6 +49,8 @@ lint: $(STAMP)
 	$(BIN)/mypy physsim_ros
 	$(BIN)/lint-imports
 	$(BIN)/python -m pytest -q test/style
+	@if command -v npx >/dev/null; then npx --yes --package=typescript -- tsc -p physsim_ros/sketchpad/page; \
+	else echo 'No node: the types of the page are not checked.'; fi
 
 bench: $(STAMP)
 	$(BIN)/python -m test.bench $(ARGS)

@@ -47,7 +47,10 @@ setup(
         'Topic :: Scientific/Engineering :: Physics',
     ],
     packages=find_packages(include=[PACKAGE, f'{PACKAGE}.*']),
-    package_data={f'{PACKAGE}.sketchpad': ['page/*', 'page/*/*']},
+    package_data={
+        f'{PACKAGE}.ros': ['*.xml'],
+        f'{PACKAGE}.sketchpad': ['page/*', 'page/*/*'],
+    },
     # Relative names, as setuptools wants them: every caller of setup.py stands beside it.
     data_files=[
         ('share/ament_index/resource_index/packages', [f'resource/{PACKAGE}']),
@@ -82,6 +85,8 @@ setup(
             'ros-jazzy-rclpy[fastrtps]',
         ],
         'test': [
+            # A second middleware, for readers that are not Fast DDS.
+            'cyclonedds>=0.10',
             'hypothesis',
             'psutil',
             'pytest>=8',

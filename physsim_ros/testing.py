@@ -17,19 +17,18 @@ A pytest plugin: a world in the process of a test, which advances its time.
 
 Laws: ROS is not imported before a test requests the fixture `physsim`; simulation time does not
 depend on the wall clock, which only bounds the wait for an answer; messages that other nodes send
-in reaction to a frame have arrived before the next frame, so that every run gives the same bits.
+in reaction to a frame have arrived before the next frame, so that every run gives the same bits;
+no node of another process hears the world or is heard by it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-import fcntl
 import itertools
 import math
 import os
 from pathlib import Path
-import tempfile
 import time
 from typing import Any, NamedTuple, Self, TYPE_CHECKING
 
@@ -47,7 +46,11 @@ if TYPE_CHECKING:
 # Domains whose ports lie below the ephemeral range of Linux:
 # https://docs.ros.org/en/jazzy/Concepts/Intermediate/About-Domain-ID.html
 _DOMAINS = range(1, 102)
+# Each process begins at another domain: every participant takes ports of its domain, of which
+# discovery on one machine tries the first 32 only.
 _BEGINNINGS = itertools.count(os.getpid())
+# Environment variables that name peers in spite of the discovery range.
+_PEERS = ('ROS_DISCOVERY_SERVER', 'ROS_STATIC_PEERS')
 # Timeout for events that take milliseconds in this process, in wall time [s].
 _TIMEOUT = 10.0
 # Additional timeout for each marker of an array, which takes half a millisecond [s].
@@ -110,7 +113,7 @@ class PhysSim:
     """
     A world whose time a test advances, and a client that publishes requests to it.
 
-    :param context: of ROS, on a domain of its own
+    :param context: of ROS
     :param parameters: of the node, as name -> value
     """
 
@@ -498,38 +501,22 @@ def physsim(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[PhysSim
 
 @contextmanager
 def own_context(monkeypatch: pytest.MonkeyPatch) -> Iterator[Context]:
-    """Give a context on a domain that no other test on this machine uses at the same time."""
+    """Give a context whose nodes find each other and no others, whatever their domain is."""
     import rclpy
 
-    monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
+    # Endpoints of one participant are matched without discovery.
+    monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'OFF')
+    for name in _PEERS:
+        monkeypatch.delenv(name, raising=False)
     # Shared memory remains after a killed process, with the locks that it owned.
     monkeypatch.setenv('FASTDDS_BUILTIN_TRANSPORTS', 'UDPv4')
-    with own_domain() as domain:
-        context = rclpy.Context()
-        rclpy.init(context=context, domain_id=domain, args=[])
-        try:
-            yield context
-        finally:
-            context.try_shutdown()
-
-
-@contextmanager
-def own_domain() -> Iterator[int]:
-    """Give a ROS domain id that no other process on this machine is given at the same time."""
-    directory = Path(tempfile.gettempdir()) / f'physsim_ros_domains_{os.getuid()}'
-    directory.mkdir(exist_ok=True)
-    # Each process begins at another domain, so that it seldom has to try a second; and each test,
-    # so that remains of one do not reach the next.
-    begin = next(_BEGINNINGS) % len(_DOMAINS)
-    for domain in (*_DOMAINS[begin:], *_DOMAINS[:begin]):
-        with (directory / str(domain)).open('w') as file:
-            try:
-                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            except BlockingIOError:
-                continue
-            yield domain
-            return
-    raise RuntimeError('all ROS domains of this machine are taken by tests')
+    context = rclpy.Context()
+    domain = _DOMAINS[next(_BEGINNINGS) % len(_DOMAINS)]
+    rclpy.init(context=context, domain_id=domain, args=[])
+    try:
+        yield context
+    finally:
+        context.try_shutdown()
 
 
 def _stamped(point: PointStamped | tuple[float, float]) -> PointStamped:

@@ -16,7 +16,10 @@
 
 from __future__ import annotations
 
-from contextlib import ExitStack
+from collections.abc import Iterator
+from contextlib import contextmanager, ExitStack
+import fcntl
+import itertools
 import json
 import os
 from pathlib import Path
@@ -25,15 +28,54 @@ import shutil
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 from typing import Any, Self
+import uuid
 
 import pytest
 
 # Ten times what a start and discovery take, where that loses its first message [s].
 PATIENCE = 40.0
 ROOT = Path(__file__).resolve().parents[1]
+# Domains whose ports lie below the ephemeral range of Linux.
+DOMAINS = range(1, 102)
+# Each process begins at another domain, so that it seldom has to try a second; and each test, so
+# that remains of one do not reach the next.
+BEGINNINGS = itertools.count(os.getpid())
+
+
+@contextmanager
+def own_domain() -> Iterator[int]:
+    """Give a ROS domain id that no other test on this machine is given at the same time."""
+    directory = Path(tempfile.gettempdir()) / f'physsim_ros_domains_{os.getuid()}'
+    directory.mkdir(exist_ok=True)
+    begin = next(BEGINNINGS) % len(DOMAINS)
+    for domain in (*DOMAINS[begin:], *DOMAINS[:begin]):
+        with (directory / str(domain)).open('w') as file:
+            try:
+                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                continue
+            yield domain
+            return
+    pytest.fail('all ROS domains of this machine are taken by tests')
+
+
+def write_profiles(path: Path, partition: str) -> None:
+    """
+    Write the profiles of Fast DDS that the program uses, with a partition.
+
+    Nodes of another partition are on the same domain and neither hear nor are heard.
+    """
+    shipped = ROOT / 'physsim_ros' / 'ros' / 'fastdds_profiles.xml'
+    qos = f'<qos><partition><names><name>{partition}</name></names></partition></qos>'
+    subscriber = f'<subscriber profile_name="s" is_default_profile="true">{qos}</subscriber>'
+    text = shipped.read_text()
+    assert '<times>' in text
+    text = text.replace('<times>', f'{qos}<times>')
+    path.write_text(text.replace('</profiles>', f'{subscriber}</profiles>'))
 
 
 class Program:
@@ -103,17 +145,21 @@ class Program:
 
 class Outside:
     """
-    Processes beside this one that share a ROS domain of their own.
+    Processes beside this one that share a ROS domain and a DDS partition of their own.
 
     :param directory: where they work and log
     """
 
     def __init__(self, directory: Path, domain: int, closing: ExitStack) -> None:
         self.directory = directory
+        self.partition = uuid.uuid4().hex
         self._closing = closing
+        profiles = directory / 'profiles.xml'
+        write_profiles(profiles, self.partition)
         self._environment = os.environ | {
             'ROS_DOMAIN_ID': str(domain),
             'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
+            'FASTRTPS_DEFAULT_PROFILES_FILE': str(profiles),
             'ROS_LOG_DIR': str(directory),
             'PYTHONUNBUFFERED': '1',
         }

@@ -17,6 +17,7 @@
 from __future__ import annotations
 
 from importlib.metadata import entry_points
+import json
 import math
 import os
 from pathlib import Path
@@ -25,7 +26,7 @@ import subprocess
 import sys
 from typing import Any
 
-from physsim_ros.testing import own_context, own_domain, PhysSim, Refused
+from physsim_ros.testing import own_context, PhysSim, Refused
 import pytest
 from rclpy.node import Node
 from rclpy.time import Time
@@ -34,6 +35,7 @@ from sensor_msgs.msg import MultiDOFJointState
 from std_msgs.msg import Float64
 from visualization_msgs.msg import MarkerArray
 
+from .client import Client
 from .messages import box, command, delete, disc, point
 
 G = 9.81
@@ -503,9 +505,8 @@ def test_a_recording_holds_every_frame_since_it_began(
     steps: set[int] = set()
     for each in chunk.RrdReader(path).stream():
         table = each.to_record_batch()
-        if 'sim_time' in table.schema.names:
-            stamps = table.column('sim_time').cast('int64').to_pylist()
-            steps |= {round(stamp * 240e-9) for stamp in stamps}
+        if 'step' in table.schema.names:
+            steps |= set(table.column('step').cast('int64').to_pylist())
     assert ended == 4 * 130
     assert steps == set(range(4 * 11, ended + 1, 4))
 
@@ -513,23 +514,23 @@ def test_a_recording_holds_every_frame_since_it_began(
 # Alone
 
 
-def test_domains_are_given_to_one_at_a_time() -> None:
-    with own_domain() as one, own_domain() as other:
-        assert one != other
-        assert {one, other} <= set(range(1, 102))
-    # In another process too.
-    with own_domain() as mine:
-        program = 'from physsim_ros.testing import own_domain\nwith own_domain() as it: print(it)'
-        other = int(subprocess.check_output([sys.executable, '-c', program], text=True))
-        assert other != mine
-
-
-def test_a_domain_comes_back() -> None:
-    given = []
-    for _ in range(150):
-        with own_domain() as domain:
-            given.append(domain)
-    assert len(set(given)) < len(given)
+def test_no_other_process_hears_a_world_or_is_heard_by_it(
+    physsim: PhysSim, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    client = Client(physsim)
+    path = Path(__file__).parent / 'elsewhere' / 'intruder.py'
+    monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'SUBNET')
+    monkeypatch.setenv('ROS_DOMAIN_ID', str(physsim.context.get_domain_id()))
+    with subprocess.Popen([sys.executable, path], stdout=subprocess.PIPE, text=True) as intruder:
+        while intruder.poll() is None:
+            physsim.step()
+        assert intruder.returncode == 0
+        assert intruder.stdout is not None
+        # Its own second node and nobody else: discovery works on this domain.
+        assert json.loads(intruder.stdout.read()) == {'heard': 1, 'nodes': ['first', 'second']}
+    assert client.events == []
+    assert physsim.names == ()
+    assert 'first' not in physsim.node.get_node_names()
 
 
 def test_two_worlds_of_one_process_do_not_see_each_other(

@@ -28,8 +28,9 @@ import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import BadProperty, UnknownFrame
+from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import split_name
-from physsim_ros.model.scene import Body
+from physsim_ros.model.scene import Body, Joint
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Capsule, Circle, Convex, Piece
 from physsim_ros.model.snapshot import Snapshot
@@ -63,6 +64,16 @@ class SceneQuery:
     def names(self) -> tuple[str, ...]:
         """Return the names of all bodies, in spawn order."""
         return self.snapshot.scene.names
+
+    @property
+    def joints(self) -> tuple[Joint, ...]:
+        """Return the descriptions of all joints."""
+        return self.snapshot.scene.joints
+
+    def motor_between(self, a: str, b: str) -> str | None:
+        """Return the name of the motor between two bodies, if there is one."""
+        motors = (each for each in self.joints if each.kind is JointKind.MOTOR)
+        return next((each.name for each in motors if {each.a, each.b} == {a, b}), None)
 
     def body(self, name: str) -> Body:
         """Return the description of a body."""
@@ -153,7 +164,7 @@ class SceneQuery:
 
     def next_joint(self) -> str:
         """Return the name of the next drawn joint, numbered above all drawn before."""
-        names = (joint.name for joint in self.snapshot.scene.joints)
+        names = (joint.name for joint in self.joints)
         return f'{DRAWN}/{max(_next_number(names), self._first_joint)}'
 
     @cached_property

@@ -83,9 +83,7 @@ def axle_pivot(
     :param center: of the circle, on a body [m]
     :param drawn: (k, 2) float64: the circle [m]
     """
-    under = scene.bodies_at(center)[:2]
-    if len(under) == 1:
-        under = _with_crossed_body(under[0], center, drawn, scene)
+    under = crossed_pair(center, drawn, scene)
     if len(under) == 1 or scene.body(under[1]).anchored:
         carrier = _carrier_of(under[0], center, settings.snap, scene)
         if carrier is not None:
@@ -103,10 +101,18 @@ def axle_pivot(
     return center, under
 
 
-def _with_crossed_body(
-    name: str, center: Point, drawn: Floats, scene: SceneQuery
-) -> tuple[str, ...]:
-    """Return a body, and a second one that a circle on it overlaps, the topmost first."""
+def crossed_pair(center: Point, drawn: Floats, scene: SceneQuery) -> tuple[str, ...]:
+    """
+    Return the two topmost bodies at a point, or one and a second one that the stroke overlaps.
+
+    :param center: of a small closed stroke [m]
+    :param drawn: (k, 2) float64: the stroke [m]
+    :return: at most two names, the topmost first
+    """
+    under = scene.bodies_at(center)[:2]
+    if len(under) != 1:
+        return under
+    (name,) = under
     radius = float(np.hypot(*(drawn - center).T).max())
     near = scene.bodies_at(center, radius)
     shares = {each: float(scene.covers(each, drawn).mean()) for each in near if each != name}

@@ -27,6 +27,7 @@ from physsim_ros.files.world_file import (
     load_world,
     save_world,
     shipped_worlds,
+    user_worlds,
 )
 from physsim_ros.files.world_reader import state_from
 from physsim_ros.files.world_schema import PARAMETERS, SETTINGS
@@ -50,4 +51,5 @@ __all__ = [
     'shipped_worlds',
     'state_from',
     'text_of',
+    'user_worlds',
 ]

@@ -16,11 +16,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
+from physsim_ros.files.yaml12 import Located
 from physsim_ros.model.checks import shown
 from physsim_ros.model.errors import BadProperty, BadWorldFile, Refusal
 from physsim_ros.model.transform import Point
@@ -45,18 +46,25 @@ def entries_of(value: object, name: str) -> list[dict[Any, Any]]:
 
 
 @contextmanager
-def naming(name: object, noun: str = 'body', count: int = 0) -> Iterator[None]:
+def naming(entry: Mapping[Any, Any], noun: str = 'body', count: int = 0) -> Iterator[None]:
     """
-    Add the name of a body or joint to a refusal.
+    Add the name and the line of a body or joint to a refusal.
 
+    :param entry: of it in the file
     :param count: of it in the file, from 1, for entries without a name
     :raises BadWorldFile: a refusal was raised within
     """
     try:
         yield
     except Refusal as refusal:
+        name = entry.get('name')
         which = f'number {count}' if name is None else shown(name)
-        raise BadWorldFile(f'{noun} {which}: {refusal}', field=refusal.field) from refusal
+        raise BadWorldFile(
+            f'{noun} {which}: {refusal}',
+            field=refusal.field,
+            line=entry.line if isinstance(entry, Located) else None,
+            cause=refusal.code,
+        ) from refusal
 
 
 def is_same(

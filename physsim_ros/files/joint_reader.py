@@ -68,7 +68,7 @@ def joints_from(
     # By name; None where the seat is that of the newly made joint.
     joints: dict[str, Joint | None] = {}
     for count, entry in enumerate(entries, 1):
-        with naming(entry.get('name'), 'joint', count):
+        with naming(entry, 'joint', count):
             name = entry.get('name')
             if not isinstance(name, str):
                 raise BadProperty('a joint needs a name', field='name')

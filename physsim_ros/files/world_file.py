@@ -16,26 +16,41 @@
 World files: finding, loading and saving them.
 
 Laws: a saved world loads to the same state, to the bit; a file is written whole or not at all, and
-only below the world directory.
+only below the world directory: a name that ends in .yaml, nothing hidden, nothing that is no world
+file.
 """
 
 from __future__ import annotations
 
 import os
 from pathlib import Path
-import tempfile
+import re
 import textwrap
 
+from physsim_ros.files.regular_file import read_file, write_file
 from physsim_ros.files.resources import is_plain, shipped
 from physsim_ros.files.world_reader import state_from
+from physsim_ros.files.world_schema import FORMAT
 from physsim_ros.files.world_writer import text_of
-from physsim_ros.files.yaml12 import load_mapping
+from physsim_ros.files.yaml12 import first_value, load_mapping
 from physsim_ros.model.checkpoint import WorldState
-from physsim_ros.model.errors import BadWorldFile, Malformed, Refusal
+from physsim_ros.model.errors import BadWorldFile, Malformed, Refusal, UnknownProperty
 from physsim_ros.model.settings import WorldSettings
 
 # Length of a list of names in a message [characters].
 _LONGEST_LIST = 500
+# Suffix of world files.
+_SUFFIX = '.yaml'
+# Greatest size of a world file [bytes]: 100,000 bodies have 30 MB.
+MOST_BYTES = 64 * 2**20
+
+
+def user_worlds() -> Path:
+    """Return the directory of the user's worlds, after the XDG Base Directory Specification."""
+    base = os.environ.get('XDG_DATA_HOME', '')
+    # A relative path there is invalid, and to be ignored.
+    home = Path(base) if Path(base).is_absolute() else Path.home() / '.local' / 'share'
+    return home / 'physsim_ros' / 'worlds'
 
 
 def shipped_worlds() -> Path:
@@ -54,23 +69,29 @@ def find_world(name: str, *, world_dir: Path, confined: bool) -> Path:
     """
     if not name:
         raise BadWorldFile('parameter world_file names no file', field='world_file')
-    file = f'{name}.yaml' if is_plain(name) else name
+    file = f'{name}{_SUFFIX}' if is_plain(name) else name
     paths = [world_dir / file]
     if Path(file).name == file:
         paths.append(shipped_worlds() / file)
+    if not confined and not is_plain(name):
+        # Of the working directory, as on any command line.
+        paths.insert(0, Path(file))
     for path in paths:
         try:
             found = path.is_file()
+            other = path.exists() and not (found or path.is_dir())
         except OSError as error:
             # The name is too long, or a directory of the path may not be searched.
-            raise BadWorldFile(f'cannot read {name[:99]}: {error}', field='world_file') from error
+            raise _unreadable(name[:99], error) from error
+        if other:
+            raise BadWorldFile(f'{name[:99]} is no regular file', field='world_file')
         if found:
-            if confined and not _below(path, world_dir) and not _below(path, shipped_worlds()):
-                raise BadWorldFile(f'{name} lies outside world_dir', field='world_file')
+            if confined:
+                _check_place(path.resolve(), name, (world_dir, shipped_worlds()))
             return path
     known = sorted({each.stem for each in _worlds(world_dir) + _worlds(shipped_worlds())})
     there = textwrap.shorten(', '.join(known), _LONGEST_LIST, placeholder=' …')
-    raise BadWorldFile(f'there is no world {name!r}; there are {there}', field='world_file')
+    raise BadWorldFile(f'there is no world {name[:99]!r}; there are {there}', field='world_file')
 
 
 def _worlds(directory: Path) -> list[Path]:
@@ -88,15 +109,43 @@ def load_world(path: Path, *, settings: WorldSettings, physics_rate: float) -> W
         or joint and the reason
     """
     try:
-        content = load_mapping(path.read_text(encoding='utf-8'), field=path.name)
+        text = read_file(path, MOST_BYTES)
     except (OSError, UnicodeDecodeError) as error:
-        raise BadWorldFile(f'cannot read {path.name}: {error}', field='world_file') from error
-    except Malformed as error:
-        raise BadWorldFile(str(error), field='world_file') from error
+        raise _unreadable(path.name, error) from error
     try:
-        return state_from(content, settings, physics_rate)
+        return state_from(load_mapping(text, field=path.name), settings, physics_rate)
+    except Malformed as error:
+        # Only `load_mapping` names the file itself.
+        message = str(error) if error.field == path.name else f'{path.name}: {error}'
+        raise _refused(path.name, text, error, message) from error
     except Refusal as refusal:
-        raise BadWorldFile(f'{path.name}: {refusal}', field=refusal.field) from refusal
+        raise _refused(path.name, text, refusal, f'{path.name}: {refusal}') from refusal
+
+
+def _refused(name: str, text: str, refusal: Refusal, message: str) -> BadWorldFile:
+    """
+    Return the refusal of a file's content, and in brief: file, line, field and code.
+
+    :param name: of the file
+    :param text: of the file
+    :param message: about it
+    """
+    code, field = getattr(refusal, 'cause', refusal.code), refusal.field
+    line: int | None = getattr(refusal, 'line', None)
+    if line is None and field:
+        # A setting stands at the beginning of a line.
+        found = re.search(f'^ *{re.escape(field)} *:', text, re.MULTILINE)
+        line = None if found is None else text.count('\n', 0, found.start()) + 1
+    # The field of an unknown property is what the file says.
+    known = code not in (UnknownProperty.code, '') and field not in ('', name)
+    parts = [name, *([] if line is None else [f'line {line}']), *([field] if known else [])]
+    return BadWorldFile(
+        message,
+        field='world_file' if field == name else field,
+        brief=f'{", ".join(parts)}: {code}',
+        line=line,
+        cause=code,
+    )
 
 
 def save_world(state: WorldState, name: str, *, world_dir: Path, physics_rate: float) -> Path:
@@ -108,34 +157,27 @@ def save_world(state: WorldState, name: str, *, world_dir: Path, physics_rate: f
     :param world_dir: directory below which files may be written
     :param physics_rate: of the world [Hz]
     :return: path of the file
-    :raises BadWorldFile: it cannot be written, or lies elsewhere
+    :raises BadWorldFile: it cannot be written, lies elsewhere, is hidden, or is no world file
     """
     if not name:
         raise BadWorldFile('parameter world_file names no file', field='world_file')
     try:
-        path = (world_dir / (f'{name}.yaml' if is_plain(name) else name)).resolve()
-    except (OSError, RuntimeError, ValueError) as error:
-        # A loop of symbolic links, or a NUL character.
-        raise BadWorldFile(f'{name!r} is no path: {error}', field='world_file') from error
-    # The directory itself is not below itself.
-    if not _below(path.parent, world_dir):
-        raise BadWorldFile(f'{name} lies outside world_dir', field='world_file')
-    text = text_of(state, physics_rate)
-    temporary = None
-    try:
-        with tempfile.NamedTemporaryFile(
-            'w', encoding='utf-8', dir=path.parent, prefix=f'.{path.name}.', delete=False
-        ) as file:
-            temporary = Path(file.name)
-            file.write(text)
-            file.flush()
-            os.fsync(file.fileno())
-        temporary.chmod(0o644)
-        temporary.replace(path)
+        path = (world_dir / (f'{name}{_SUFFIX}' if is_plain(name) else name)).resolve()
+        _check_place(path, name, (world_dir,))
+        if path.exists() and not _is_world_file(path):
+            raise BadWorldFile(
+                f'{name} is there and is no world file; it is not written over',
+                field='world_file',
+            )
+        text = text_of(state, physics_rate)
+        world_dir.mkdir(parents=True, exist_ok=True)
+        write_file(path, text)
     except OSError as error:
-        if temporary is not None:
-            temporary.unlink(missing_ok=True)
-        raise BadWorldFile(f'cannot write {name}: {error}', field='world_file') from error
+        reason = error.strerror or error
+        raise BadWorldFile(f'cannot write {name[:99]}: {reason}', field='world_file') from error
+    except (RuntimeError, ValueError) as error:
+        # A loop of symbolic links, or a NUL character.
+        raise BadWorldFile(f'{name[:99]!r} is no path: {error}', field='world_file') from error
     return path
 
 
@@ -151,5 +193,34 @@ def hides_shipped(path: Path, *, world_dir: Path) -> bool:
     return path.parent == world_dir.resolve() != worlds and (worlds / path.name).is_file()
 
 
-def _below(path: Path, directory: Path) -> bool:
-    return path.resolve().is_relative_to(directory.resolve())
+def _check_place(path: Path, name: str, directories: tuple[Path, ...]) -> None:
+    """
+    Refuse a file that peers on the graph may neither read nor write.
+
+    :param path: of the file, without symbolic links
+    :param name: by which it was asked for
+    :param directories: below one of which it may lie
+    """
+    roots = [each.resolve() for each in directories]
+    below = [path.relative_to(root) for root in roots if path.is_relative_to(root)]
+    # A directory is not below itself.
+    if not any(each.parts for each in below):
+        raise BadWorldFile(f'{name[:99]} lies outside world_dir', field='world_file')
+    if all(any(part.startswith('.') for part in each.parts) for each in below):
+        raise BadWorldFile(f'{name[:99]} is hidden', field='world_file')
+    if path.suffix != _SUFFIX:
+        raise BadWorldFile(f'the name of a world file ends in {_SUFFIX}', field='world_file')
+
+
+def _is_world_file(path: Path) -> bool:
+    """Tell whether a file is there whose format is that of world files."""
+    try:
+        return first_value(read_file(path, MOST_BYTES), 'format') == str(FORMAT)
+    except (OSError, UnicodeDecodeError):
+        return False
+
+
+def _unreadable(name: str, error: OSError | UnicodeDecodeError) -> BadWorldFile:
+    # The text of an OSError ends with the path, that of a UnicodeDecodeError has a byte.
+    reason = error.strerror if isinstance(error, OSError) else 'it is no text in UTF-8'
+    return BadWorldFile(f'cannot read {name}: {reason}', field='world_file')

@@ -76,7 +76,7 @@ def state_from(
     for state in world.save().bodies:
         entry = entries[state.body.name]
         if 'motion' in entry:
-            with naming(state.body.name):
+            with naming(entry):
                 saved = _saved_state(state, entry)
                 if saved is not None:
                     resumed[state.body.name] = saved
@@ -109,7 +109,7 @@ def _spawned(world: World, entries: list[dict[Any, Any]]) -> dict[str, dict[Any,
     """
     named: dict[str, dict[Any, Any]] = {}
     for count, entry in enumerate(entries, 1):
-        with naming(entry.get('name'), 'body', count):
+        with naming(entry, 'body', count):
             # Saved poses and velocities may exceed the ranges of requests.
             at_rest = {key: entry[key] for key in entry if key not in _MOTION_KEYS}
             spawn = _spawn(at_rest if 'motion' in entry else entry)
@@ -173,7 +173,7 @@ def _with_wrench_time(
     """Return a body whose wrench ends when the file says."""
     if 'wrench' not in entry:
         return state
-    with naming(state.body.name):
+    with naming(entry):
         return replace(state, wrench_steps=_wrench_steps(entry['wrench'], physics_rate))
 
 

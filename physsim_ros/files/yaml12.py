@@ -16,7 +16,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 import re
 from typing import Any, ClassVar
 
@@ -27,7 +27,38 @@ from yaml.composer import Composer
 _TAG = 'tag:yaml.org,2002:'
 
 
-class _Loader(Composer, yaml.CSafeLoader):
+class NotYaml(Malformed):
+    """
+    A text that is not YAML.
+
+    :param line: of the text, from 1; None if it is unknown
+    """
+
+    def __init__(self, message: str, *, field: str, line: int | None) -> None:
+        super().__init__(message, field=field)
+        self.line = line
+
+
+class Located(dict[Any, Any]):
+    """
+    A mapping of a text.
+
+    :param line: of the text where it begins, from 1
+    """
+
+    def __init__(self, line: int) -> None:
+        super().__init__()
+        self.line = line
+
+
+def _construct_located(loader: yaml.SafeLoader, node: yaml.MappingNode) -> Iterator[Located]:
+    """Construct a mapping in two steps, as PyYAML does, since it may hold itself."""
+    mapping = Located(node.start_mark.line + 1)
+    yield mapping
+    mapping.update(loader.construct_mapping(node))
+
+
+class Loader(Composer, yaml.CSafeLoader):
     """
     PyYAML's safe loader with the types of the YAML 1.2 core schema; duplicate keys are refused.
 
@@ -41,7 +72,7 @@ class _Loader(Composer, yaml.CSafeLoader):
     yaml_implicit_resolvers: dict[str, list[tuple[str, re.Pattern[str]]]] = {}  # noqa: RUF012
     yaml_constructors: ClassVar[dict[Any, Callable[..., Any]]] = {
         None: yaml.SafeLoader.construct_undefined,
-        _TAG + 'map': yaml.SafeLoader.construct_yaml_map,
+        _TAG + 'map': _construct_located,
         _TAG + 'seq': yaml.SafeLoader.construct_yaml_seq,
     }
 
@@ -79,8 +110,8 @@ def _float(text: str) -> float:
     return float(text.replace('.', '') if text.lower().endswith(('.inf', '.nan')) else text)
 
 
-def _scalar(make: Callable[[str], object]) -> Callable[[_Loader, yaml.ScalarNode], object]:
-    def construct(loader: _Loader, node: yaml.ScalarNode) -> object:
+def _scalar(make: Callable[[str], object]) -> Callable[[Loader, yaml.ScalarNode], object]:
+    def construct(loader: Loader, node: yaml.ScalarNode) -> object:
         try:
             return make(str(loader.construct_scalar(node)))
         except ValueError as error:
@@ -98,7 +129,7 @@ for _name, _make in (
     ('float', _float),
     ('str', str),
 ):
-    _Loader.add_constructor(_TAG + _name, _scalar(_make))
+    Loader.add_constructor(_TAG + _name, _scalar(_make))
 
 _NUMBER = list('-+0123456789.')
 for _tag, _pattern, _first in (
@@ -108,24 +139,28 @@ for _tag, _pattern, _first in (
     ('float', r'[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?', _NUMBER),
     ('float', r'[-+]?\.(inf|Inf|INF)|\.(nan|NaN|NAN)', _NUMBER),
 ):
-    _Loader.add_implicit_resolver(_TAG + _tag, re.compile(f'^(?:{_pattern})$'), _first)
+    Loader.add_implicit_resolver(_TAG + _tag, re.compile(f'^(?:{_pattern})$'), _first)
 
 
-def load_mapping(text: str, *, field: str) -> dict[Any, Any]:
+def load_mapping(text: str, *, field: str, loader: type[Loader] = Loader) -> dict[Any, Any]:
     """
     Return the mapping of a YAML text; of an empty text an empty one.
 
     :param text: YAML
     :param field: name of the text, for the refusal
-    :raises Malformed: the text is not YAML, or no mapping
+    :param loader: of the text
+    :raises NotYaml: the text is not YAML
+    :raises Malformed: it is no mapping
     """
     try:
-        value = yaml.load(text, Loader=_Loader)  # noqa: S506 - a subclass of SafeLoader
+        value = yaml.load(text, Loader=loader)  # noqa: S506 - a subclass of SafeLoader
     except (yaml.YAMLError, ValueError, RecursionError) as error:
         # The text of PyYAML's errors spans lines and quotes the input; their `problem` does not.
         said = getattr(error, 'problem', None) or str(error) or type(error).__name__
-        reason = said.partition('\n')[0][:200] + _place(error, text)
-        raise Malformed(f'{field} is not YAML: {reason}', field=field) from error
+        line = _line(error, text)
+        place = '' if line is None else f', line {line}'
+        reason = said.partition('\n')[0][:200] + place
+        raise NotYaml(f'{field} is not YAML: {reason}', field=field, line=line) from error
     if value is None:
         return {}
     if not isinstance(value, dict):
@@ -133,16 +168,45 @@ def load_mapping(text: str, *, field: str) -> dict[Any, Any]:
     return value
 
 
-def _place(error: Exception, text: str) -> str:
-    """Return the line of an error in a text; '' if it is unknown, or there is one line only."""
+def first_value(text: str, key: str) -> str | None:
+    """
+    Return the scalar of a key of the mapping in a YAML text; None where there is none.
+
+    The text is read up to it and no further.
+    """
+    depth = nodes = 0
+    named = False
+    try:
+        for event in yaml.parse(text, Loader=yaml.CSafeLoader):
+            if isinstance(event, yaml.CollectionStartEvent):
+                if depth == 0 and not isinstance(event, yaml.MappingStartEvent):
+                    return None
+                depth += 1
+                continue
+            ended = isinstance(event, yaml.CollectionEndEvent)
+            depth -= ended
+            if depth == 1 and (ended or isinstance(event, yaml.NodeEvent)):
+                scalar: str | None = getattr(event, 'value', None)
+                if nodes % 2 == 0:
+                    named = scalar == key
+                elif named:
+                    return scalar
+                nodes += 1
+    except (yaml.YAMLError, ValueError):
+        pass
+    return None
+
+
+def _line(error: Exception, text: str) -> int | None:
+    """Return the line of an error; None if it is unknown, or the text has one line only."""
     lines = text.rstrip('\n').count('\n') + 1
     mark = getattr(error, 'problem_mark', None)
+    if lines == 1:
+        return None
     if mark is not None:
         # At the end of the text libyaml counts one line more.
-        line = min(mark.line + 1, lines)
-    elif isinstance(error, yaml.reader.ReaderError):
+        return min(int(mark.line) + 1, lines)
+    if isinstance(error, yaml.reader.ReaderError):
         # ReaderError.position counts bytes.
-        line = text.encode()[: error.position].count(b'\n') + 1
-    else:
-        return ''
-    return f', line {line}' if lines > 1 else ''
+        return text.encode()[: error.position].count(b'\n') + 1
+    return None

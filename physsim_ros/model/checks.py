@@ -43,7 +43,17 @@ Checks = Mapping[str, Callable[[object, str], Any]]
 # Length of a value in a message [characters]. A few YAML aliases make a value whose full text
 # exceeds the memory.
 _LONGEST_SHOWN = 60
-_SHORT = reprlib.Repr()
+
+
+class _Short(reprlib.Repr):
+    """Abbreviated texts of values; reprlib's own writes subclasses of dict out in full."""
+
+    def repr1(self, x: Any, level: int) -> str:
+        """Return the text of a value within others."""
+        return self.repr_dict(x, level) if isinstance(x, dict) else super().repr1(x, level)
+
+
+_SHORT = _Short()
 _SHORT.maxlevel = 2
 _SHORT.maxstring = _SHORT.maxother = _SHORT.maxlong = _LONGEST_SHOWN
 

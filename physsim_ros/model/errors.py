@@ -134,9 +134,29 @@ class NotRecognised(Refusal):
 
 
 class BadWorldFile(Refusal):
-    """A world file that cannot be read or written, or whose content is refused."""
+    """
+    A world file that cannot be read or written, or whose content is refused.
+
+    :param brief: the message without anything that the file holds; '' where the message is that
+    :param line: of the file, from 1; None if it is unknown
+    :param cause: code of the refusal of the content
+    """
 
     code = 'bad_world_file'
+
+    def __init__(
+        self,
+        message: str,
+        *,
+        field: str = '',
+        brief: str = '',
+        line: int | None = None,
+        cause: str = '',
+    ) -> None:
+        super().__init__(message, field=field)
+        self.brief = brief or str(self)
+        self.line = line
+        self.cause = cause
 
 
 class OutOfHistory(Refusal):

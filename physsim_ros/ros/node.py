@@ -524,8 +524,9 @@ def reduce_latency() -> None:
     # With the default switch interval of 5 ms, a busy thread of the viewer delays a step of 0.6 ms
     # by 6 ms.
     sys.setswitchinterval(0.0005)
-    # Fast DDS sends messages in a thread of its own, during the next step.
-    os.environ.setdefault('RMW_FASTRTPS_PUBLICATION_MODE', 'ASYNCHRONOUS')
+    # See docs/decisions/publication_mode.md.
+    profiles = Path(__file__).with_name('fastdds_profiles.xml')
+    os.environ.setdefault('FASTRTPS_DEFAULT_PROFILES_FILE', str(profiles))
 
 
 def main() -> None:

@@ -104,8 +104,9 @@ _OF_NODE = {
         'the name of one in config/worlds',
     ),
     'world_dir': Spec(
-        default='.',
-        meaning='after start, worlds are read and written only below this directory',
+        default='',
+        meaning='after start, worlds are read and written only below this directory; empty is '
+        'physsim_ros/worlds in $XDG_DATA_HOME (~/.local/share), made when first needed',
         read_only=True,
     ),
     'physics_rate': Spec(

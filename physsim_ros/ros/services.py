@@ -24,9 +24,9 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
-from physsim_ros.files import find_world, hides_shipped, load_world, save_world
+from physsim_ros.files import find_world, hides_shipped, load_world, save_world, user_worlds
 from physsim_ros.model.checkpoint import WorldState
-from physsim_ros.model.errors import PhysSimError, Refusal
+from physsim_ros.model.errors import BadWorldFile, PhysSimError, Refusal
 from physsim_ros.model.requests import DeleteAll
 from physsim_ros.model.snapshot import run_state
 from physsim_ros.simulation.simulation import Simulation
@@ -47,7 +47,8 @@ class WorldFiles:
     def __init__(self, simulation: Simulation, values: Mapping[str, Any]) -> None:
         self._simulation = simulation
         self._values = values
-        self._directory = Path(values['world_dir'])
+        # Absolute, whatever the working directory will be.
+        self._directory = Path(values['world_dir'] or user_worlds()).absolute()
 
     @property
     def directory(self) -> Path:
@@ -69,7 +70,13 @@ class WorldFiles:
         :param confined: whether only files below `world_dir` and the shipped worlds may be read
         :raises BadWorldFile: there is no such file, or it is refused
         """
-        state, path = self._read(confined=confined)
+        try:
+            state, path = self._read(confined=confined)
+        except BadWorldFile as refusal:
+            if not confined:
+                raise
+            # Peers on the graph, who may name any file here, are not told what it holds.
+            raise BadWorldFile(refusal.brief, field='world_file') from refusal
         return f'{self._simulation.load(state)} from {path.name}'
 
     def save(self) -> str:

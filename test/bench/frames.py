@@ -34,12 +34,12 @@ from typing import NamedTuple
 from geometry_msgs.msg import Pose, PoseArray
 from physsim_ros.ros.node import PhysSimNode, reduce_latency
 from physsim_ros.simulation.world import World
-from physsim_ros.testing import own_domain
 import rclpy
 from rclpy.logging import LoggingSeverity
 from rclpy.parameter import Parameter
 
 from .bodies import Bare, fill, SETTLE, timed
+from ..outside import own_domain
 
 FRAMES = 200
 # Before them: a checkpoint is among these, the first of so many bodies.

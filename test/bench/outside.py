@@ -31,7 +31,6 @@ import time
 from physsim_ros.files import save_world
 from physsim_ros.model.requests import Restore
 from physsim_ros.simulation.world import World
-from physsim_ros.testing import own_domain
 import psutil
 import rclpy
 from rclpy.executors import SingleThreadedExecutor
@@ -41,6 +40,7 @@ from std_srvs.srv import Trigger
 from .bodies import Bare, falling, sparse
 from .frames import LISTENER, TOPICS
 from .startup import executable
+from ..outside import own_domain
 
 COUNT = 1000
 # Simulated time that is measured [s].

@@ -27,11 +27,12 @@ import sys
 import time
 
 from geometry_msgs.msg import PoseArray
-from physsim_ros.testing import own_domain
 import rclpy
 from rclpy.experimental import EventsExecutor
 from rclpy.node import Node
 from visualization_msgs.msg import Marker, MarkerArray
+
+from ..outside import own_domain
 
 RUNS = 3
 BODIES = 1000

@@ -257,9 +257,10 @@ def question_mark(rng: Random) -> Figure:
 
 def scribble(rng: Random) -> Figure:
     """Return a scribble: to and fro, or round and round."""
-    swings = int(rng.integers(6, 16))
+    # People make six swings and more.
+    swings = int(rng.integers(7, 17))
     if rng.random() < 0.25:
-        angle = np.linspace(0.0, 2.0 * math.pi * rng.uniform(2.6, 6.0), 300)
+        angle = np.linspace(0.0, 2.0 * math.pi * rng.uniform(3.1, 6.5), 300)
         radius = 0.3 + 0.15 * np.sin(angle * rng.uniform(0.2, 0.7) + rng.uniform(0, 7))
         drift = np.outer(angle / angle[-1] - 0.5, rng.uniform(-0.4, 0.4, 2))
         way = np.column_stack((radius * np.cos(angle), radius * np.sin(angle))) + drift

@@ -15,6 +15,7 @@
 """World files: what is saved loads again to the bit; what cannot or must not be is refused."""
 
 import base64
+import json
 import math
 import os
 from pathlib import Path
@@ -33,6 +34,7 @@ from physsim_ros.files import (
     save_world,
     SETTINGS,
     shipped_worlds,
+    user_worlds,
 )
 from physsim_ros.files.base64_array import pack
 from physsim_ros.model.checkpoint import WorldState
@@ -214,7 +216,7 @@ def test_a_wrench_acts_for_as_many_seconds_at_any_rate(rate: float, folder: Path
     assert state.wrench_steps == round(0.4 * rate)
 
     # As files of before have it.
-    path.write_text(path.read_text().replace('seconds: 0.4', 'steps: 96'))
+    path.write_text(path.read_text().replace('"seconds": 0.4', '"steps": 96'))
     (state,) = load(path, rate=rate).bodies
     assert state.wrench_steps == 96
 
@@ -620,6 +622,7 @@ def test_a_body_that_was_cut_into_pieces_leaves_no_memory(resting: Path) -> None
     restored(state).step(10)
 
 
+@settings(deadline=None)
 @given(
     ids=st.lists(st.integers(0, 20), min_size=5, max_size=5, unique=True),
     pairs=st.lists(
@@ -995,9 +998,9 @@ def test_saving_over_a_shipped_world_hides_none() -> None:
 
 def test_a_path_is_below_the_world_directory(folder: Path) -> None:
     (folder / 'sub').mkdir()
-    path = write(folder / 'sub', 'format: 1', 'x.world')
+    path = write(folder / 'sub', 'format: 1', 'x.yaml')
 
-    for name in ('sub/x.world', 'sub/../sub/x.world', './sub/x.world', str(path)):
+    for name in ('sub/x.yaml', 'sub/../sub/x.yaml', './sub/x.yaml', str(path)):
         found = find_world(name, world_dir=folder, confined=True)
         assert found.resolve() == path.resolve()
 
@@ -1071,12 +1074,131 @@ def test_a_world_is_saved_under_a_name_or_a_path(folder: Path) -> None:
     (folder / 'sub').mkdir()
 
     assert save(World(), folder, 'mine') == (folder / 'mine.yaml').resolve()
-    assert save(World(), folder, 'sub/x.world') == (folder / 'sub' / 'x.world').resolve()
+    assert save(World(), folder, 'sub/x.yaml') == (folder / 'sub' / 'x.yaml').resolve()
     assert save(World(), folder, str(folder / 'abs.yaml')) == (folder / 'abs.yaml').resolve()
     assert sorted(path.name for path in folder.rglob('*')) == [
-        'abs.yaml', 'mine.yaml', 'sub', 'x.world'
+        'abs.yaml', 'mine.yaml', 'sub', 'x.yaml'
     ]  # fmt: skip
-    assert (folder / 'mine.yaml').stat().st_mode & 0o777 == 0o644
+
+
+def test_the_directory_of_worlds_is_made_when_a_world_is_saved(tmp_path: Path) -> None:
+    folder = tmp_path / 'data' / 'worlds'
+
+    with pytest.raises(BadWorldFile):
+        save(World(), folder, '../outside')
+    assert list(tmp_path.iterdir()) == []
+
+    assert save(World(), folder, 'mine').is_file()
+
+
+def test_the_worlds_of_a_user_are_in_the_data_directory(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv('HOME', str(tmp_path))
+    for data, base in (
+        (str(tmp_path / 'data'), tmp_path / 'data'),
+        ('', tmp_path / '.local/share'),
+        ('relative', tmp_path / '.local/share'),
+    ):
+        monkeypatch.setenv('XDG_DATA_HOME', data)
+        assert user_worlds() == base / 'physsim_ros' / 'worlds'
+
+
+@pytest.mark.parametrize(
+    'name',
+    ['.bashrc', '.w.yaml', '.ssh/w.yaml', 'sub/.w.yaml', 'w.yml', 'w.world', 'w.YAML', 'w.yaml.sh',
+     'hidden.yaml', 'hiding/w.yaml'],
+)  # fmt: skip
+def test_only_visible_yaml_files_are_read_and_written(name: str, folder: Path) -> None:
+    for directory in ('sub', '.ssh'):
+        (folder / directory).mkdir()
+    (folder / 'hidden.yaml').symlink_to('.secret.yaml')
+    (folder / 'hiding').symlink_to('.ssh')
+    for place in ('.bashrc', '.w.yaml', '.ssh/w.yaml', 'sub/.w.yaml', 'w.yml', '.secret.yaml'):
+        write(folder, 'format: 1', place)
+    before = {path: path.is_file() and path.read_text() for path in folder.rglob('*')}
+
+    with pytest.raises(BadWorldFile):
+        save(World(), folder, name)
+    with pytest.raises(BadWorldFile):
+        find_world(name, world_dir=folder, confined=True)
+
+    assert {path: path.is_file() and path.read_text() for path in folder.rglob('*')} == before
+
+
+@pytest.mark.parametrize(
+    'text',
+    ['', 'format: 2', 'services: {}', '[format, 1]', 'name: format\nbodies: 1', '{format: [1]}',
+     '- format: 1', 'inner: {format: 1}', 'alias ll=ls', '\x00', '{' * 10_000],
+)  # fmt: skip
+def test_what_is_no_world_file_is_not_written_over(text: str, folder: Path) -> None:
+    path = write(folder, text, 'compose.yaml')
+
+    with pytest.raises(BadWorldFile) as refused:
+        save(World(), folder, 'compose')
+
+    assert 'no world file' in str(refused.value)
+    assert path.read_text() == text
+
+
+@pytest.mark.parametrize('text', ['format: 1', '# My world\n{bodies: [], format: 1}'])
+def test_a_world_file_that_is_written_over_keeps_its_mode(text: str, folder: Path) -> None:
+    path = write(folder, text)
+    for mode in (0o600, 0o664):
+        path.chmod(mode)
+        save(World(), folder)
+        assert path.stat().st_mode & 0o777 == mode
+
+
+@pytest.mark.parametrize('kind', ['FIFO', 'device', 'directory', 'of the kernel', 'huge'])
+def test_what_is_no_plain_file_is_refused_at_once(kind: str, folder: Path) -> None:
+    path = folder / 'w.yaml'
+    if kind == 'FIFO':
+        os.mkfifo(path)
+    elif kind == 'directory':
+        path.mkdir()
+    elif kind == 'huge':
+        with path.open('w') as file:
+            file.truncate(2**40)
+    else:
+        path.symlink_to('/dev/zero' if kind == 'device' else '/proc/self/environ')
+
+    for read in (load, lambda path: find_world(str(path), world_dir=folder, confined=False)):
+        if kind in ('of the kernel', 'huge') and read is not load:
+            continue
+        with pytest.raises(BadWorldFile) as refused:
+            read(path)
+        assert len(str(refused.value)) < 300
+    with pytest.raises(BadWorldFile):
+        save(World(), folder)
+
+
+def test_a_world_file_of_the_working_directory_is_read_at_start(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = write(folder.parent, 'format: 1', 'mine.yaml')
+    monkeypatch.chdir(folder.parent)
+
+    for name in ('mine.yaml', './mine.yaml'):
+        found = find_world(name, world_dir=folder, confined=False)
+        assert found.resolve() == path.resolve()
+        with pytest.raises(BadWorldFile):
+            find_world(name, world_dir=folder, confined=True)
+
+
+@pytest.mark.parametrize(
+    'name', ['$(touch x)/0', 'a: b/0', '`id`/0', '\uffff/0', '😀/0', 'a\\"b/0']
+)
+def test_names_are_quoted(name: str, folder: Path) -> None:
+    world = World()
+    spawn(world, name, DISC)
+    assert_round_trip(world, folder)
+
+    text = save(world, folder).read_text()
+
+    # YAML cannot have a noncharacter as it is.
+    quoted = json.dumps(name, ensure_ascii=name == '\uffff/0')
+    assert f'"name": {quoted}' in text
 
 
 @pytest.mark.parametrize(
@@ -1101,7 +1223,7 @@ def test_nothing_is_written_into_a_directory_that_is_not_there(folder: Path) -> 
 
 
 @pytest.mark.parametrize(
-    ('module', 'function'), [(os, 'fsync'), (Path, 'replace'), (Path, 'chmod')]
+    ('module', 'function'), [(os, 'fsync'), (Path, 'replace'), (os, 'fchmod')]
 )
 def test_a_failing_write_leaves_the_old_file_and_nothing_else(
     module: Any, function: str, folder: Path, monkeypatch: pytest.MonkeyPatch
@@ -1268,7 +1390,7 @@ def test_a_joint_whose_points_somebody_edited_sits_at_the_new_ones(tmp_path: Pat
     world.apply(Restore(state=read_in(path)))
     saved = save_world(world.save(), 'saved', world_dir=tmp_path, physics_rate=RATE)
     text = saved.read_text(encoding='utf-8')
-    edited = text.replace('points: [[0.0, 2.0]]', 'points: [[0.25, 2.0]]')
+    edited = text.replace('"points": [[0.0, 2.0]]', '"points": [[0.25, 2.0]]')
     assert edited != text
     saved.write_text(edited, encoding='utf-8')
     joints = read_in(saved).joints
@@ -1355,8 +1477,8 @@ def geared(folder: Path, phase: float, ratio: float = 2.0) -> Path:
 def test_a_phase_that_was_changed_in_the_file_holds(folder: Path) -> None:
     path = geared(folder, 0.0)
     text = path.read_text()
-    assert 'phase: 0.0' in text
-    path.write_text(text.replace('phase: 0.0', 'phase: 1.0'))
+    assert '"phase": 0.0' in text
+    path.write_text(text.replace('"phase": 0.0', '"phase": 1.0'))
 
     world = restored(load(path))
 

@@ -20,7 +20,14 @@ from typing import Any
 
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.ros import publishers
-from physsim_ros.ros.publishers import ACK_TIMEOUT, EVENTS_DEPTH, Publishers
+from physsim_ros.ros.publishers import (
+    ACK_TIMEOUT,
+    EVENTS_DEPTH,
+    MOST_WAITING,
+    PACE,
+    PACED,
+    Publishers,
+)
 from physsim_ros.testing import PhysSim
 import pytest
 
@@ -51,7 +58,7 @@ class Bench:
         self.streams = streams
         self.slow = Slow()
         self.now = 1000.0
-        streams._events._publisher = self.slow  # noqa: SLF001 - a listener is not slow on command
+        streams.events._publisher = self.slow  # noqa: SLF001 - a listener is not slow on command
 
     def report(self, count: int) -> None:
         for number in range(count):
@@ -85,18 +92,47 @@ def test_a_burst_waits_for_a_listener_that_has_not_taken_the_last(bench: Bench) 
     assert all(name in message for name, message in zip(names, bench.slow.sent, strict=True))
 
 
-def test_a_listener_that_has_stopped_holds_nobody_up_for_long(bench: Bench) -> None:
+def test_a_listener_that_has_stopped_holds_nobody_up(bench: Bench) -> None:
     bench.slow.taken = False
     bench.report(3 * EVENTS_DEPTH)
     bench.now += ACK_TIMEOUT - 0.1
     bench.streams.flush_answers()
     assert len(bench.slow.sent) == EVENTS_DEPTH
+    assert not bench.streams.events.stopped
     bench.now += 0.2
     bench.streams.flush_answers()
-    assert len(bench.slow.sent) == 2 * EVENTS_DEPTH
+    assert len(bench.slow.sent) == EVENTS_DEPTH + PACED
+    assert bench.streams.events.stopped
+    # Some ten thousand answers a second, which a listener that reads can ask for again.
+    for _ in range(2):
+        bench.now += PACE + 0.001
+        bench.streams.flush_answers()
+    assert len(bench.slow.sent) == EVENTS_DEPTH + 3 * PACED
+
+
+def test_a_listener_has_stopped_until_it_takes_all(bench: Bench) -> None:
+    bench.slow.taken = False
+    bench.report(EVENTS_DEPTH + 1)
     bench.now += ACK_TIMEOUT + 0.1
     bench.streams.flush_answers()
-    assert len(bench.slow.sent) == 3 * EVENTS_DEPTH
+    assert bench.streams.events.stopped
+    bench.slow.taken = True
+    bench.streams.flush_answers()
+    assert not bench.streams.events.stopped
+    bench.slow.taken = False
+    bench.report(2 * EVENTS_DEPTH)
+    assert bench.streams.events.waiting == EVENTS_DEPTH
+
+
+def test_a_listener_that_too_many_answers_wait_for_has_stopped(bench: Bench) -> None:
+    bench.slow.taken = False
+    bench.report(EVENTS_DEPTH + MOST_WAITING)
+    bench.streams.flush_answers()
+    assert not bench.streams.events.stopped
+    bench.report(1)
+    bench.streams.flush_answers()
+    assert bench.streams.events.stopped
+    assert len(bench.slow.sent) == EVENTS_DEPTH + PACED
 
 
 def test_an_answer_goes_out_before_the_frame_that_shows_it(bench: Bench, physsim: PhysSim) -> None:

@@ -40,7 +40,7 @@ from ..messages import box, disc
 CONTRACT: dict[str, tuple[Any, str]] = {
     'frame_id': ('world', 'read-only'),
     'world_file': ('', 'live'),
-    'world_dir': ('.', 'read-only'),
+    'world_dir': ('', 'read-only'),
     'physics_rate': (240.0, 'read-only'),
     'publish_rate': (60.0, 'read-only'),
     'iterations': (10, 'live'),

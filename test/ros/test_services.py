@@ -410,6 +410,26 @@ def test_worlds_are_read_and_written_only_below_the_world_directory(
     assert [path.name for path in outside.iterdir()] == ['one.yaml']
 
 
+def test_a_peer_is_not_told_what_a_refused_file_holds(
+    physsim: PhysSim, client: Client, tmp_path: Path
+) -> None:
+    for text, place in (
+        ('format: 1\npassword: hunter2', 'line 2'),
+        ('format: 1\ndamping: hunter2', 'line 2'),
+        ('format: 1\nbodies:\n  - {name: hunter2/0, circle: {radius: hunter2}}', 'line 3'),
+        ('format: 1\nbodies:\n  - {name: a/0, hunter2: 1}', 'line 3'),
+        ('hunter2: 1\nhunter2: 1', 'line 2'),
+        ('format: 1\n\nhunter2: !hunter2 1', 'line 3'),
+        ('hunter2', ''),
+    ):
+        (tmp_path / 'w.yaml').write_text(text)
+        set_parameter(physsim, 'world_file', 'w')
+        message = failed(client.call('~/load_world'))
+        assert message.startswith('bad_world_file: w.yaml')
+        assert place in message
+        assert 'hunter2' not in message
+
+
 def test_a_world_that_cannot_be_written_is_refused(
     physsim: PhysSim, client: Client, tmp_path: Path
 ) -> None:

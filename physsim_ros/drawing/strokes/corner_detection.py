@@ -33,15 +33,18 @@ from physsim_ros.model.arrays import Floats
 from physsim_ros.model.transform import cross, Point
 
 # Standard deviation of the Gaussian before detection, and arms of the turning angle [points].
-SMOOTHING, ARM = 1.2, 5
+SMOOTHING, ARM = 1.5, 5
 # The least turn of a candidate, and the least turn of a corner [rad].
-CANDIDATE_TURN, CORNER_TURN = 0.3, 0.42
+CANDIDATE_TURN, CORNER_TURN = 0.25, 0.42
 # The greatest turn at which the lines of two sides are intersected [rad].
 SHARPEST = 2.6
 # The greatest number of candidates: the cost of the search grows with its square.
 CANDIDATES = 28
-# Cost of a corner: mean square distance, in shares of the size squared.
-CORNER_COST = 0.0075**2
+# Cost of a corner, in powers of e by which it must lessen the residual (mean square distance), and
+# the wobble of a careful hand, which no corner explains, in shares of the size.
+CORNER_COST, WOBBLE = 0.4, 0.008
+# The greatest number of sides of an outline with corners.
+MOST_SIDES = 20
 # The least distance between the ends of a side, in shares of the length along the stroke.
 ASTRAY = 0.75
 # The greatest length of an end that bends off by mistake, in shares of the length.
@@ -163,19 +166,29 @@ def _corners_among(path: Floats, places: NDArray[np.intp]) -> list[int]:
 
 
 def _least_cost(errors: NDArray[np.float64], path: Floats) -> list[int]:
-    """Return the candidates of least residual and cost."""
-    cost = CORNER_COST * float((np.ptp(path, axis=0) ** 2).sum()) * len(path)
-    # Dynamic programming: the least total to each candidate, over the candidate before it.
-    total, before = [0.0], [0]
-    for end, row in enumerate(errors.T.tolist()[1:], 1):
-        totals = [known + error for known, error in zip(total, row[:end], strict=True)]
-        least = min(totals)
-        total.append(least + cost)
-        before.append(totals.index(least))
-    chosen = [len(before) - 1]
-    while chosen[-1] > 0:
-        chosen.append(before[chosen[-1]])
-    return chosen[::-1]
+    """
+    Return the candidates of least description length, the ends included.
+
+    With k sides, of the least residual among all choices of k + 1 candidates (dynamic programming,
+    Bellman, 1961), it is log(residual + WOBBLE²) + k · CORNER_COST.
+    """
+    # Mean square distances, in shares of the size squared.
+    shares = errors / (float((np.ptp(path, axis=0) ** 2).sum()) * len(path))
+    shares[np.tril_indices(len(shares))] = np.inf
+    total, before = shares[0], []
+    best, sides = math.inf, 0
+    for count in range(1, min(len(shares), MOST_SIDES + 1)):
+        if count > 1:
+            sums = total[:, None] + shares
+            before.append(sums.argmin(axis=0))
+            total = sums.min(axis=0)
+        length = math.log(float(total[-1]) + WOBBLE**2) + count * CORNER_COST
+        if length < best:
+            best, sides = length, count
+    chosen = [len(shares) - 1]
+    for row in before[: sides - 1][::-1]:
+        chosen.append(int(row[chosen[-1]]))
+    return [0, *chosen[::-1]]
 
 
 def _turn(a: Point, b: Point, c: Point) -> float:

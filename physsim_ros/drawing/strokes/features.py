@@ -72,7 +72,7 @@ class Swings:
     @property
     def absence(self) -> float:
         """Return the weight of the stroke having no oscillation, 0 .. 1."""
-        return falls(self.count, 4.5, 0.25)
+        return falls(self.count, 5.5, 0.25)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

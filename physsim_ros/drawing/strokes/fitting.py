@@ -60,6 +60,23 @@ def rectangle(corners: Floats) -> Floats:
     return nearest
 
 
+def ellipse(outline: Floats, sides: int) -> Floats:
+    """Return corners of the ellipse of least squares, its axes those of inertia of an outline."""
+    following = np.roll(outline, -1, axis=0)
+    weights = np.hypot(*(following - outline).T)[:, None]
+    middles = (outline + following) / 2
+    center = (weights * middles).sum(axis=0) / weights.sum()
+    away = outline - center
+    _, axes = np.linalg.eigh(away.T @ away)
+    local = away @ axes
+    angles = np.arange(sides) * 2.0 * math.pi / sides
+    # The half axes that fit best: those by which the outline is a unit circle, least squares.
+    inverse = np.linalg.lstsq(local**2, np.ones(len(local)), rcond=None)[0]
+    half = 1.0 / np.sqrt(np.maximum(inverse, 1.0 / (local**2).max(axis=0)))
+    corners: Floats = center + (np.column_stack((np.cos(angles), np.sin(angles))) * half) @ axes.T
+    return corners
+
+
 def simplified(points: Floats, bends: Floats) -> Floats | None:
     """
     Return a curve of few points, or None where straight sides fit the stroke.

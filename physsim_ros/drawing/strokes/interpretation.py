@@ -48,6 +48,7 @@ _INTERPRET: dict[str, Interpret] = {
     **{sign.PRIMITIVE: sign.interpretations for sign in SIGNS},
     open_lines.LINE: open_lines.interpretations,
     closed_shapes.DISC: closed_shapes.disc_interpretations,
+    closed_shapes.OVAL: closed_shapes.oval_interpretations,
     closed_shapes.RECTANGLE: closed_shapes.rectangle_interpretations,
     closed_shapes.POLYGON: closed_shapes.polygon_interpretations,
 }

@@ -29,8 +29,10 @@ from physsim_ros.drawing.strokes import request_builder
 from physsim_ros.drawing.strokes.context import BETWEEN, Context, Interpretation
 from physsim_ros.drawing.strokes.corner_detection import bends_of
 from physsim_ros.drawing.strokes.features import Features
+from physsim_ros.drawing.strokes.fitting import simplified
+from physsim_ros.drawing.strokes.glyphs import hatching
 from physsim_ros.drawing.strokes.hypothesis import falls, Hypothesis, LEAST, rises
-from physsim_ros.drawing.strokes.polyline import point_of
+from physsim_ros.drawing.strokes.polyline import path_length, point_of
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
@@ -41,6 +43,8 @@ LINE = 'line'
 _LOOP = 0.15
 # The least straightness of a rod: the distance of its ends by its length.
 _STRAIGHT = 0.95
+# The greatest straightness of a rope; an arc as high as a fifth of its chord has 0.9.
+_SAGGING = 0.92
 # The least number of bends, to alternate sides, of a spring.
 _FEWEST_TEETH = 3
 
@@ -67,13 +71,18 @@ def hypotheses(features: Features, plain: float) -> Iterator[Hypothesis]:
 
 
 def interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[Interpretation]:
-    """Yield a rod or a spring, and a wall."""
+    """Yield hatching, or a rod, spring or rope, and a wall."""
     points = hypothesis.points
     kind, share = _joint_along(points, context)
+    body = hatching.hatched_body(context)
+    if body is not None and share == 0.0:
+        lines = len(points) - 1
+        yield hatching.interpretation(body, lines, context, weight=hypothesis.weight)
+        return
     yield Interpretation(
         meaning=str(kind),
         weight=hypothesis.weight * share,
-        build=partial(request_builder.join, kind, points, context),
+        build=partial(request_builder.join, kind, context.drawn.points, context),
     )
     yield Interpretation(
         meaning='wall',
@@ -84,10 +93,14 @@ def interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[Interp
 
 def _joint_along(points: Floats, context: Context) -> tuple[JointKind, float]:
     """Return the kind of joint that a line would be, and its share of the weight, 0 .. 1."""
-    start, end = point_of(points[0]), point_of(points[-1])
-    ends = request_builder.joint_ends(points, context)
+    drawn = context.drawn.points
+    start, end = point_of(drawn[0]), point_of(drawn[-1])
+    ends = request_builder.joint_ends(drawn, context)
     sides = np.diff(points, axis=0)
     between = ends is not None and ends[1].body != WORLD
+    curve = simplified(drawn, points)
+    if between and curve is not None and math.dist(start, end) < _SAGGING * path_length(curve):
+        return JointKind.ROPE, BETWEEN
     if math.dist(start, end) > _STRAIGHT * float(np.hypot(*sides.T).sum()):
         # A line beside a body that ends on no other is a wall.
         at_ends = context.scene.bodies_at(start) + context.scene.bodies_at(end)

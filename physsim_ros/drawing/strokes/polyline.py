@@ -43,6 +43,11 @@ def spaced(path: Floats, count: int) -> Floats:
     return points
 
 
+def path_length(path: Floats) -> float:
+    """Return the length of a polyline [m]."""
+    return float(np.hypot(*np.diff(path, axis=0).T).sum())
+
+
 def smoothed(points: Floats, width: float, *, closed: bool) -> Floats:
     """Return points smoothed by a Gaussian whose standard deviation is `width` [points]."""
     reach = math.ceil(3 * width)

@@ -31,8 +31,9 @@ from physsim_ros.drawing.strokes.fitting import simplified
 from physsim_ros.drawing.strokes.polyline import point_of
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NothingThere
-from physsim_ros.model.joints import JointKind
-from physsim_ros.model.requests import Join
+from physsim_ros.model.joints import JointKind, JointProperties
+from physsim_ros.model.names import WORLD
+from physsim_ros.model.requests import Axle, Join, Pin, Request
 from physsim_ros.model.transform import Point
 
 # Number of sides that a circle of the preview is drawn with.
@@ -72,8 +73,14 @@ def rectangle(points: Floats, context: Context) -> Outcome:
 
 def polygon(points: Floats, context: Context) -> Outcome:
     """Return a polygon, of its corners."""
+    return smooth_polygon(
+        regularisation.polygon_outline(points, context.settings.beautify), context
+    )
+
+
+def smooth_polygon(corners: Floats, context: Context) -> Outcome:
+    """Return a polygon that is not regularised: its corners are points of a curve."""
     name = context.scene.next_body()
-    corners = regularisation.polygon_outline(points, context.settings.beautify)
     return Outcome(
         requests=(body_requests.polygon(name, list(map(point_of, corners)), context.settings),),
         subject=name,
@@ -112,12 +119,32 @@ def join(kind: JointKind, points: Floats, context: Context) -> Outcome:
     first, last = ends
     name = context.scene.next_joint()
     line = first.point, last.point
+    properties = JointProperties()
+    if kind is JointKind.ROPE:
+        # A rope is as long as it was drawn.
+        properties = JointProperties(length=max(context.drawn.length, math.dist(*line)))
+    request = Join(
+        name=name, kind=kind, points=line, a=first.body, b=last.body, properties=properties
+    )
     return Outcome(
-        requests=(Join(name=name, kind=kind, points=line, a=first.body, b=last.body),),
+        requests=(request,),
         subject=name,
         message=f'a {kind} from {first.body} to {last.body}',
         outline=np.array(line) if kind is JointKind.ROD else context.drawn.points,
     )
+
+
+def join_at(kind: JointKind, point: Point, under: tuple[str, ...], context: Context) -> Request:
+    """
+    Return the request for an axle or a pin of one or two bodies.
+
+    :param under: names of the bodies, the topmost first
+    """
+    scene = context.scene
+    if under == scene.bodies_at(point)[:2]:
+        return Axle(point=point) if kind is JointKind.AXLE else Pin(point=point)
+    a, b = under if len(under) == 2 else (under[0], WORLD)
+    return Join(name=scene.next_joint(), kind=kind, points=(point,), a=a, b=b)
 
 
 def joint_ends(points: Floats, context: Context) -> tuple[End, End] | None:

@@ -37,6 +37,9 @@ FINER = 4
 FINELY = FINER * (COUNT - 1) + 1
 # The greatest length of a hook, in shares of the stroke's size, and its least turn [rad].
 HOOK, HOOK_TURN = 0.1, 1.2
+# The least number of rounds of an outline that was drawn more than once, and the greatest mean
+# distance of the other rounds from one, in shares of the size: that of a five-pointed star is 0.1.
+ROUNDS, AGAIN = 1.25, 0.05
 # The longest overlap that is cut off at either end of a closed stroke, and the greatest gap
 # between its ends, in shares of its length.
 OVERLAP, GAP = 0.14, 0.18
@@ -134,6 +137,17 @@ def _outline(points: Floats, path: Floats) -> tuple[Floats | None, float]:
     :param points: evenly spaced
     :param path: the same, with FINER times the points
     """
+    first, last = _repeated_round(points) or _seam(points)
+    once = path[slice(FINER * first, FINER * last + 1)]
+    step = float(np.hypot(*np.diff(points, axis=0).T).mean())
+    gap = float(np.hypot(*(points[last] - points[first]))) / (step * (last - first))
+    if gap > GAP:
+        return None, gap
+    return spaced(np.vstack((once, once[:1])), FINELY)[:-1], gap
+
+
+def _seam(points: Floats) -> tuple[int, int]:
+    """Return the first and the last point of an outline whose ends overlap by `OVERLAP`."""
     count = len(points)
     step = float(np.hypot(*np.diff(points, axis=0).T).mean())
     ends = int(OVERLAP * count)
@@ -143,8 +157,26 @@ def _outline(points: Floats, path: Floats) -> tuple[Floats | None, float]:
     cut = np.arange(ends)[:, None] + np.arange(ends)[None, ::-1]
     best = int((gaps + CUT_COST * step * cut).argmin())
     first, last = divmod(best, ends)
-    gap = float(gaps[first, last]) / (step * (count - 1))
-    if gap > GAP:
-        return None, gap
-    once = path[slice(FINER * first, FINER * (count - ends + last) + 1)]
-    return spaced(np.vstack((once, once[:1])), FINELY)[:-1], gap
+    return first, count - ends + last
+
+
+def _repeated_round(points: Floats) -> tuple[int, int] | None:
+    """Return the first and the last point of one round of an outline drawn more than once."""
+    count = len(points)
+    away = points - points.mean(axis=0)
+    rounds = abs(float(angles(away[:-1], away[1:]).sum())) / (2 * math.pi)
+    if rounds < ROUNDS:
+        return None
+    usual = (count - 1) / rounds
+    lengths = np.arange(int(0.75 * usual), min(int(1.25 * usual), count - 1))
+    firsts = np.arange(count)[:, None]
+    lasts = np.minimum(firsts + lengths, count - 1)
+    gaps = np.hypot(*(points[lasts] - points[firsts]).transpose(2, 0, 1))
+    gaps[firsts + lengths > count - 1] = np.inf
+    first, length = divmod(int(gaps.argmin()), len(lengths))
+    last = first + int(lengths[length])
+    # An outline is drawn again if the rest of the stroke lies along it; a star is not.
+    kept, rest = points[first:last], np.vstack((points[:first], points[last:]))
+    off = np.hypot(*(rest[:, None] - kept[None]).transpose(2, 0, 1)).min(axis=1)
+    again = float(off.mean()) < AGAIN * float(np.hypot(*np.ptp(points, axis=0)))
+    return (first, last) if again else None

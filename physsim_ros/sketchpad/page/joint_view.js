@@ -55,7 +55,7 @@ export class JointView {
         this.#arc(p, 1.9 * size, joint.rate ?? 1);
       // falls through: a motor is an axle that drives
       case 'axle':
-        if (ground) this.#ground(p);
+        if (ground) this.#support(p);
         this.#circle(p, size);
         this.#dot(p);
         break;
@@ -121,17 +121,22 @@ export class JointView {
    */
   #ends(p, q, ground) {
     this.#circle(p, this.size / 2);
-    if (ground) this.#ground(q);
+    if (ground) this.#support(q, p);
     this.#circle(q, this.size / 2);
   }
 
-  /** @param {Point} point the support of a joint to the background */
-  #ground([x, y]) {
-    const s = this.size, base = y + 2.2 * s;
-    this.#line([[x, y], [x - 1.3 * s, base], [x + 1.3 * s, base], [x, y]]);
-    for (const dx of [-1.2, -0.3, 0.6, 1.5]) {
-      this.#line([[x + dx * s, base], [x + (dx - 0.6) * s, base + 0.7 * s]]);
-    }
+  /**
+   * The support of a joint to the background: a triangle on hatched ground.
+   * @param {Point} point
+   * @param {Point} from where the joint comes from; the support lies beyond the point
+   */
+  #support([x, y], [fromX, fromY] = [x, y - 1]) {
+    const s = this.size, length = Math.hypot(x - fromX, y - fromY) || 1;
+    const dx = (x - fromX) / length * s, dy = (y - fromY) / length * s;
+    /** @type {(along: number, across: number) => Point} */
+    const at = (along, across) => [x + along * dx - across * dy, y + along * dy + across * dx];
+    this.#line([[x, y], at(2.2, 1.3), at(2.2, -1.3), [x, y]]);
+    for (const across of [-1.2, -0.3, 0.6, 1.5]) this.#line([at(2.2, across), at(2.9, across - 0.6)]);
   }
 
   /**

@@ -241,8 +241,11 @@ export class SceneView {
       const from = world.place(row, scene.bodies[row].centroid);
       this.arrow(from, [from[0] + velocities.x[row], from[1] + velocities.y[row]], palette.accent);
     }
+    const [gx, gy] = scene.gravity;
     for (let i = 0; contacts && i < contacts.x.length; i++) {
-      const length = contacts.impulse[i] * world.rate / NEWTONS;
+      // Of action and reaction, the one that bears.
+      const bears = contacts.nx[i] * gx + contacts.ny[i] * gy > 0 ? -1 : 1;
+      const length = bears * contacts.impulse[i] * world.rate / NEWTONS;
       this.arrow([contacts.x[i], contacts.y[i]], [contacts.x[i] + contacts.nx[i] * length,
         contacts.y[i] + contacts.ny[i] * length], palette.force);
     }

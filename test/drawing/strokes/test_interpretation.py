@@ -32,7 +32,7 @@ from physsim_ros.model.shapes import Box, Chain, Disc, Polygon
 from physsim_ros.simulation.world import World
 import pytest
 
-from ...building import NOWHERE, spawn
+from ...building import DISC, NOWHERE, spawn
 
 SETTINGS = DrawingSettings()
 ANGLE = np.linspace(0.0, 2.0 * math.pi, 60)
@@ -442,8 +442,8 @@ def test_an_arrow_in_the_open_turns_gravity(world: World, angle: float) -> None:
     assert (0.0 in (x, y)) == (angle in {-1.5, 3.1})
 
 
-def test_an_arrow_upon_a_body_is_refused(world: World) -> None:
-    spawn(world, 'a/0', Box(width=2.0, height=2.0))
+def test_an_arrow_upon_an_anchored_body_is_refused(world: World) -> None:
+    spawn(world, 'a/0', Box(width=2.0, height=2.0), anchored=True)
 
     with pytest.raises(NotRecognised, match='begins on a/0'):
         draw(world, [(0, 0), (3, 0), (2.5, 0.4), (3, 0), (2.5, -0.4)])
@@ -495,6 +495,23 @@ def test_a_scribble_from_body_to_body_deletes_both(world: World) -> None:
     reading = draw(world, scribble(0.0, 0.0, 1.6, 0.7))
 
     assert reading.requests == (Delete(name='a/0'), Delete(name='a/1'))
+
+
+@pytest.mark.parametrize('size', [0.7, 1.4, 3.0])
+def test_a_pentagram_and_a_zigzag_of_five_lines_over_a_body_delete_nothing(
+    world: World, size: float
+) -> None:
+    spawn(world, 'a/0', Box(width=1.0, height=1.0))
+    angle = math.pi / 2 + 0.8 * math.pi * np.arange(6)
+    star = size * np.column_stack((np.cos(angle), np.sin(angle)))
+
+    reading = draw(world, star)
+    zigzag = draw(world, [(size * (n / 5 - 0.5), 0.4 * size * (-1) ** n) for n in range(6)])
+
+    assert reading.meaning == 'polygon'
+    (request,) = reading.requests
+    assert isinstance(request, Spawn)
+    assert not any(isinstance(each, Delete) for each in zigzag.requests)
 
 
 def test_a_scribble_in_the_open_is_refused(world: World) -> None:
@@ -573,3 +590,112 @@ def test_a_wheel_beside_another_one_turns_about_the_background(world: World) -> 
 
     (joint,) = world.snapshot().scene.joints
     assert joint.b == 'world'
+
+
+def square(x: float, y: float, half: float) -> Way:
+    return [
+        (x - half, y - half), (x + half, y - half), (x + half, y + half), (x - half, y + half),
+        (x - half, y - half),
+    ]  # fmt: skip
+
+
+def round_arrow(x: float, y: float, radius: float, sweep: float, start: float = -1.0) -> Floats:
+    """Return an arc about a point, from an angle by an angle, with a head of two barbs."""
+    turn = start + np.linspace(0.0, sweep, 60)
+    arc = np.column_stack((x + radius * np.cos(turn), y + radius * np.sin(turn)))
+    tip, ahead = arc[-1], arc[-1] - arc[-3]
+    ahead /= np.hypot(*ahead)
+    aside = np.array((-ahead[1], ahead[0]))
+    barbs = [tip + radius * 0.35 * (-ahead + side * aside) for side in (0.8, -0.8)]
+    head = np.vstack(
+        [np.linspace(a, b, 8) for a, b in ((tip, barbs[0]), (barbs[0], tip), (tip, barbs[1]))]
+    )
+    return np.vstack((arc, head))
+
+
+def test_a_small_square_over_two_bodies_welds_them(world: World) -> None:
+    spawn(world, 'a/0', Box(width=2.0, height=1.0), (0.0, 0.0, 0.0))
+    spawn(world, 'b/0', Box(width=2.0, height=1.0), (1.6, 0.0, 0.0))
+
+    reading = draw(world, square(0.8, 0.0, 0.15))
+    carry_out(world, reading)
+
+    assert reading.meaning == 'pin'
+    (joint,) = world.snapshot().scene.joints
+    assert joint.kind is JointKind.PIN
+    assert {joint.a, joint.b} == {'a/0', 'b/0'}
+
+
+def test_a_small_square_over_one_body_is_a_body(world: World) -> None:
+    spawn(world, 'a/0', Box(width=2.0, height=1.0), (0.0, 0.0, 0.0))
+    assert draw(world, square(0.2, 0.0, 0.15)).meaning == 'rectangle'
+
+
+def test_a_curved_line_from_body_to_body_is_a_rope_as_long_as_it_was_drawn(world: World) -> None:
+    spawn(world, 'a/0', DISC, (0.0, 0.0, 0.0))
+    spawn(world, 'b/0', DISC, (4.0, 0.0, 0.0))
+    turn = np.linspace(math.pi, 2.0 * math.pi, 50)
+
+    reading = draw(world, np.column_stack((2.0 + 2.0 * np.cos(turn), 1.5 * np.sin(turn))))
+    carry_out(world, reading)
+
+    (joint,) = world.snapshot().scene.joints
+    assert joint.kind is JointKind.ROPE
+    # m: half of an ellipse of 2 m and 1.5 m, by Ramanujan
+    assert joint.rest_length == pytest.approx(5.52, rel=0.03)
+
+
+def test_an_arrow_from_a_body_is_its_velocity(world: World) -> None:
+    spawn(world, 'a/0', DISC, (0.0, 0.0, 0.0))
+
+    reading = draw(world, [(0.0, 0.0), (3.0, 1.0), (2.5, 1.1), (3.0, 1.0), (2.7, 0.6)])
+    carry_out(world, reading)
+
+    assert reading.meaning == 'velocity'
+    assert world.snapshot().twists[0] == pytest.approx((3.0, 1.0, 0.0), abs=0.05)
+
+
+@pytest.mark.parametrize('sweep', [4.5, -3.0, 2.4, 5.4])
+def test_a_round_arrow_about_an_axle_is_a_motor_of_its_turn_a_second(
+    world: World, sweep: float
+) -> None:
+    spawn(world, 'chassis/0', Box(width=3.0, height=0.5), (0.0, 0.5, 0.0))
+    spawn(world, 'wheel/0', Disc(radius=0.4), (1.0, 0.4, 0.0))
+    carry_out(world, draw(world, circle(1.0, 0.4, 0.08)))
+
+    reading = draw(world, round_arrow(1.0, 0.4, 0.6, sweep))
+    carry_out(world, reading)
+
+    assert reading.meaning == 'motor'
+    motor = world.snapshot().scene.joints[-1]
+    assert (motor.kind, motor.a, motor.b) == (JointKind.MOTOR, 'wheel/0', 'chassis/0')
+    assert motor.properties.rate == pytest.approx(sweep, abs=0.3)
+
+
+def test_a_second_round_arrow_changes_the_motor(world: World) -> None:
+    spawn(world, 'wheel/0', Disc(radius=0.4), (1.0, 0.4, 0.0))
+    carry_out(world, draw(world, circle(1.0, 0.4, 0.08)))
+    carry_out(world, draw(world, round_arrow(1.0, 0.4, 0.6, 4.5)))
+
+    carry_out(world, draw(world, round_arrow(1.0, 0.4, 0.6, -3.0)))
+
+    _, motor = world.snapshot().scene.joints
+    assert motor.properties.rate == pytest.approx(-3.0, abs=0.3)
+
+
+def test_a_round_arrow_about_nothing_is_refused(world: World) -> None:
+    with pytest.raises((NothingThere, NotRecognised)):
+        draw(world, round_arrow(1.0, 0.4, 0.6, 4.5))
+
+
+def test_hatching_makes_a_body_heavier(world: World) -> None:
+    spawn(world, 'a/0', Box(width=2.0, height=1.0), (0.0, 0.0, 0.0))
+    before = world.snapshot().scene.bodies[0].total_mass
+    lines = [(-0.6, -0.3), (-0.4, 0.3), (-0.2, -0.3), (0.0, 0.3)]
+
+    reading = draw(world, lines)
+    carry_out(world, reading)
+
+    assert reading.meaning == 'hatching'
+    (body,) = world.snapshot().scene.bodies
+    assert body.total_mass == pytest.approx(before * 1.25**3)

@@ -29,12 +29,21 @@ from ...evaluation.hands import stroke as drawn_by_anybody
 
 ANGLE = np.linspace(0.0, 2.0 * math.pi, 80)
 CIRCLE = np.column_stack((np.cos(ANGLE), np.sin(ANGLE)))
+STAR = np.array([(math.cos(a), math.sin(a)) for a in np.arange(6) * 0.8 * math.pi])
 RULED: dict[str, tuple[str, Floats]] = {
     'circle': ('disc', CIRCLE),
     'flat circle': ('disc', CIRCLE * (1.0, 0.75)),
     'circle of 12 samples': ('disc', CIRCLE[::7]),
     'circle with a gap': ('disc', CIRCLE[:74]),
     'circle, drawn on': ('disc', np.vstack((CIRCLE, CIRCLE[1:9]))),
+    'circle, twice round': ('disc', np.vstack((CIRCLE, 1.04 * CIRCLE[1:70]))),
+    'oval': ('oval', CIRCLE * (1.0, 0.5)),
+    'square, twice round': ('rectangle', np.array([(0, 0), (0, 1), (1, 1), (1, 0)] * 2)),
+    'square, ends crossing': (
+        'rectangle',
+        np.array([(0.02, -0.1), (0, 1), (1, 1), (1, 0), (-0.08, 0.02)]),
+    ),
+    'pentagram': ('polygon', STAR),
     'square': ('rectangle', np.array([(0, 0), (1, 0), (1, 1), (0, 1), (0, 0)])),
     'plank': ('rectangle', np.array([(0, 0), (9, 0), (9, 0.4), (0, 0.4), (0, 0)])),
     'tilted': ('rectangle', np.array([(0, 0), (3, 1), (2.5, 2.5), (-0.5, 1.5), (0, 0)])),
@@ -134,6 +143,20 @@ def test_geometry_comes_with_it() -> None:
     for corner in RULED['plank'][1]:
         # m, of a plank of 9 m
         assert np.hypot(*(corners - corner).T).min() < 0.1
+
+
+def test_a_pentagram_is_a_solid_of_ten_corners_and_an_oval_is_fine_enough_to_roll() -> None:
+    star = recognise_form(resample_stroke(STAR))[0].points
+    radii = np.hypot(*star.T)
+
+    assert len(star) == 10
+    # m: the inner corners of a pentagram lie on a circle of 0.382 of its radius
+    assert np.sort(radii) == pytest.approx([0.382] * 5 + [1.0] * 5, abs=0.04)
+
+    oval = recognise_form(resample_stroke(CIRCLE * (1.0, 0.5)))[0].points
+    assert len(oval) >= 32
+    # m: half axes
+    assert np.abs(oval).max(axis=0) == pytest.approx((1.0, 0.5), abs=0.01)
 
 
 @pytest.mark.parametrize(

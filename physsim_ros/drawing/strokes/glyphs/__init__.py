@@ -27,7 +27,7 @@ from typing import Protocol
 
 from physsim_ros.drawing.strokes.context import Context, Interpretation
 from physsim_ros.drawing.strokes.features import Features
-from physsim_ros.drawing.strokes.glyphs import arrow, cross, scribble, zigzag
+from physsim_ros.drawing.strokes.glyphs import arrow, cross, round_arrow, scribble, zigzag
 from physsim_ros.drawing.strokes.hypothesis import Hypothesis
 
 
@@ -47,4 +47,4 @@ class Sign(Protocol):
         """Yield the meanings of the form; their weights add up to that of the hypothesis."""
 
 
-SIGNS: tuple[Sign, ...] = (zigzag, scribble, cross, arrow)
+SIGNS: tuple[Sign, ...] = (zigzag, scribble, cross, arrow, round_arrow)

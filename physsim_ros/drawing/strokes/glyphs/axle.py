@@ -21,11 +21,10 @@ import math
 
 import numpy as np
 from physsim_ros.drawing import snapping
+from physsim_ros.drawing.strokes import request_builder
 from physsim_ros.drawing.strokes.context import Context, Interpretation, Outcome
 from physsim_ros.drawing.strokes.hypothesis import falls
-from physsim_ros.drawing.strokes.request_builder import circle_outline
 from physsim_ros.model.joints import JointKind
-from physsim_ros.model.requests import Axle, Join, Request
 from physsim_ros.model.transform import Point
 
 # The greatest diameter of an axle, in side lengths of a square of the body's area: on one body;
@@ -76,14 +75,11 @@ def interpretation(
 def _build_axle(center: Point, radius: float, context: Context) -> Outcome:
     scene = context.scene
     point, under = snapping.axle_pivot(center, context.drawn.points, scene, context.settings)
-    request: Request = Axle(point=point)
-    if under != scene.bodies_at(point)[:2]:
-        name, (a, b) = scene.next_joint(), under
-        request = Join(name=name, kind=JointKind.AXLE, points=(point,), a=a, b=b)
+    request = request_builder.join_at(JointKind.AXLE, point, under, context)
     between = ' and '.join(under) if len(under) == 2 else f'{under[0]} and the background'
     return Outcome(
         requests=(request,),
         subject=under[0],
         message=f'an axle between {between}',
-        outline=circle_outline(point, radius),
+        outline=request_builder.circle_outline(point, radius),
     )

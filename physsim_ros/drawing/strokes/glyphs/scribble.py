@@ -35,7 +35,7 @@ def hypothesis(features: Features) -> Hypothesis:
     """Return the hypothesis of swings, or loops, that hardly advance; the points are all of it."""
     stroke, swings = features.stroke, features.swings
     weight = (
-        rises(swings.count, 4.3, 0.25)
+        rises(swings.count, 5.5, 0.1)
         * falls(swings.advance, 1.75, 0.1)
         * rises(stroke.length / stroke.size, 2.5, 0.1)
     )

@@ -23,7 +23,7 @@ from physsim_ros.drawing.strokes import overlap, request_builder
 from physsim_ros.drawing.strokes.context import BETWEEN, Context, Interpretation
 from physsim_ros.drawing.strokes.corner_detection import bends_of
 from physsim_ros.drawing.strokes.features import Features
-from physsim_ros.drawing.strokes.glyphs import scribble
+from physsim_ros.drawing.strokes.glyphs import hatching, scribble
 from physsim_ros.drawing.strokes.hypothesis import falls, Hypothesis, rises
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
@@ -46,7 +46,7 @@ def hypothesis(features: Features) -> Hypothesis:
 
 
 def interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[Interpretation]:
-    """Yield spring, wall and deletion."""
+    """Yield hatching, spring, wall and deletion."""
     drawn, weight = context.drawn, hypothesis.weight
     ends = request_builder.joint_ends(hypothesis.points, context)
     crossed = overlap.crossed_bodies(drawn.points, context.scene)
@@ -56,6 +56,11 @@ def interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[Interp
         # A spring leaves the bodies that it joins; a scribble stays on them.
         share = overlap.share_on(crossed, ends)
         spring = falls(share, _ON_ENDS, 0.03) if ends[1].body != WORLD else 1.0 - share
+    body = hatching.hatched_body(context)
+    if body is not None and (ends is None or ends[1].body == WORLD):
+        lines = len(bends_of(drawn.points)) - 1
+        yield hatching.interpretation(body, lines, context, weight=weight)
+        return
     wall = BETWEEN if not spring and not covered else 0.0
     yield Interpretation(
         meaning='spring',

@@ -1,0 +1,67 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Hatching: lines inside a body make it heavier."""
+
+from __future__ import annotations
+
+from functools import partial
+
+from physsim_ros.drawing.strokes.context import Context, Interpretation, Outcome
+from physsim_ros.drawing.strokes.polyline import point_of
+from physsim_ros.model.body_properties import Properties
+from physsim_ros.model.requests import Spawn
+
+# Factor on the density of a body by each line of its hatching.
+HEAVIER = 1.25
+# The least share of the stroke on the body: ends may cross its edge.
+_INSIDE = 0.95
+
+
+def hatched_body(context: Context) -> str | None:
+    """Return the name of the topmost movable body that all of the stroke lies on, if any."""
+    points, scene = context.drawn.points, context.scene
+    for name in scene.bodies_at(point_of(points[len(points) // 2])):
+        if not scene.body(name).fixed and scene.covers(name, points).mean() >= _INSIDE:
+            return name
+    return None
+
+
+def interpretation(body: str, lines: int, context: Context, *, weight: float) -> Interpretation:
+    """
+    Return the interpretation of a line as hatching.
+
+    :param body: that the stroke lies on
+    :param lines: count of them
+    """
+    return Interpretation(
+        meaning='hatching', weight=weight, build=partial(_make_heavier, body, lines, context)
+    )
+
+
+def _make_heavier(name: str, lines: int, context: Context) -> Outcome:
+    body = context.scene.body(name)
+    density = body.total_mass / body.shape.form.area * HEAVIER**lines
+    heavier = Spawn(
+        name=name,
+        shape=body.shape,
+        pose=context.scene.pose(name),
+        properties=Properties(density=density),
+    )
+    return Outcome(
+        requests=(heavier,),
+        subject=name,
+        message=f'{name} is heavier by {HEAVIER**lines - 1.0:.0%}: {density:.3g} kg/m²',
+        outline=context.drawn.points,
+    )

@@ -1,0 +1,151 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The round arrow about an axle: a motor that turns by the arrow's angle in a second."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+import math
+
+import numpy as np
+from physsim_ros.drawing.scene_query import SceneQuery
+from physsim_ros.drawing.strokes.context import Context, Interpretation, MISPLACED, Outcome
+from physsim_ros.drawing.strokes.features import Features
+from physsim_ros.drawing.strokes.hypothesis import falls, Hypothesis, rises
+from physsim_ros.drawing.strokes.polyline import angles, point_of, smoothed
+from physsim_ros.model.arrays import Floats
+from physsim_ros.model.errors import NothingThere
+from physsim_ros.model.joints import JointKind, JointProperties
+from physsim_ros.model.names import WORLD
+from physsim_ros.model.requests import Join
+from physsim_ros.model.scene import Joint
+from physsim_ros.model.shapes import Disc
+from physsim_ros.model.transform import Point
+
+PRIMITIVE = 'round arrow'
+# Distance of the points between which the pen turns at the tip [points].
+_STRIDE = 3
+# The least turn of the pen at the tip [rad]: barbs point back.
+_TURN = 1.5
+
+
+def hypothesis(features: Features) -> Hypothesis:
+    """Return the hypothesis of an arc and a head; points: the arc's centre, then the arc."""
+    best = Hypothesis(primitive=PRIMITIVE, weight=0.0, points=features.stroke.points[:1])
+    path = smoothed(features.stroke.points, 1.0, closed=False)
+    for points in (path, path[::-1]):
+        each = _round_arrow_from_tail(points)
+        if each is not None and each.weight > best.weight:
+            best = each
+    return best
+
+
+def _round_arrow_from_tail(points: Floats) -> Hypothesis | None:
+    """Return the hypothesis of a round arrow whose tail is the first point, if it has a tip."""
+    sides = points[_STRIDE:] - points[:-_STRIDE]
+    bends = np.abs(angles(sides[:-_STRIDE], sides[_STRIDE:]))
+    sharp = np.flatnonzero(bends > _TURN)
+    if len(sharp) == 0 or sharp[0] < len(points) // 3:
+        return None
+    # The sharpest point of the first bend is the tip.
+    tip = int(sharp[0] + bends[slice(sharp[0], sharp[0] + 2 * _STRIDE)].argmax()) + _STRIDE
+    arc, head = points[: tip + 1], points[tip:]
+    center, radius, error = _circle(arc)
+    sweep = abs(_sweep(arc, center))
+    # The head, outwards of the arc by the radius.
+    out = np.hypot(*(head - center).T) / radius - 1.0
+    inner, outer = float(-out.min()), float(out.max())
+    weight = (
+        falls(error / radius, 0.1, 0.012)
+        * rises(sweep, 1.7, 0.12)
+        * falls(sweep, 7.0, 0.2)
+        * rises(min(inner, outer) / max(inner, outer, 1e-12), 0.2, 0.03)
+        * rises(inner + outer, 0.2, 0.03)
+        * falls(inner + outer, 1.6, 0.1)
+    )
+    return Hypothesis(primitive=PRIMITIVE, weight=weight, points=np.vstack((center, arc)))
+
+
+def interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[Interpretation]:
+    """Yield a motor."""
+    center, arc = hypothesis.points[0], hypothesis.points[1:]
+    axle = _nearest_axle(center, arc, context.scene)
+    yield Interpretation(
+        meaning='motor',
+        weight=hypothesis.weight * (1.0 if axle is not None else MISPLACED),
+        build=partial(_drive_axle, axle, _sweep(arc, center), context),
+    )
+
+
+def _drive_axle(axle: Joint | None, sweep: float, context: Context) -> Outcome:
+    scene = context.scene
+    if axle is None:
+        raise NothingThere('a round arrow drives the axle inside; there is none', field='poses')
+    a, b = axle.a, axle.b
+    if b != WORLD and isinstance(scene.body(b).shape, Disc) > isinstance(
+        scene.body(a).shape, Disc
+    ):
+        # The wheel turns as it was drawn.
+        a, b = b, a
+    request = Join(
+        name=scene.motor_between(a, b) or scene.next_joint(),
+        kind=JointKind.MOTOR,
+        points=(_pivot(axle, scene),),
+        a=a,
+        b=b,
+        properties=JointProperties(rate=sweep),
+    )
+    return Outcome(
+        requests=(request,),
+        subject=request.name,
+        message=f'a motor turns {a} by {sweep:.3g} rad/s',
+        outline=context.drawn.points,
+    )
+
+
+def _nearest_axle(center: Floats, arc: Floats, scene: SceneQuery) -> Joint | None:
+    """Return the axle inside an arc that is nearest to its centre."""
+    radius = float(np.hypot(*(arc - center).T).mean())
+    axles = [each for each in scene.joints if each.kind is JointKind.AXLE]
+    distances = [math.dist(point_of(center), _pivot(each, scene)) for each in axles]
+    near = [pair for pair in zip(distances, range(len(axles)), strict=True) if pair[0] <= radius]
+    return axles[min(near)[1]] if near else None
+
+
+def _pivot(axle: Joint, scene: SceneQuery) -> Point:
+    return scene.in_world(axle.a, (axle.seat.ax, axle.seat.ay))
+
+
+def _circle(points: Floats) -> tuple[Floats, float, float]:
+    """
+    Return centre, radius and residual (rms) of the algebraic circle fit, all [m].
+
+    Kasa, "A circle fitting procedure and its error analysis", 1976.
+    """
+    middle = points.mean(axis=0)
+    away = points - middle
+    system = np.column_stack((2.0 * away, np.ones(len(away))))
+    (x, y, rest), *_ = np.linalg.lstsq(system, (away**2).sum(axis=1), rcond=None)
+    radius = math.sqrt(max(rest + x * x + y * y, 1e-300))
+    center = middle + np.array((x, y))
+    residual = np.hypot(*(points - center).T) - radius
+    return center, radius, float(np.sqrt((residual**2).mean()))
+
+
+def _sweep(arc: Floats, center: Floats) -> float:
+    """Return the angle by which an arc goes about its centre, counter-clockwise [rad]."""
+    away = arc - center
+    return float(angles(away[:-1], away[1:]).sum())

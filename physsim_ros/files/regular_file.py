@@ -1,0 +1,82 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Reading and writing regular files: bounded, whole, and without waiting.
+
+Law: what is no regular file (a FIFO, a device, a directory), what is larger than its limit and
+what has no data yet is an error at once.
+"""
+
+from __future__ import annotations
+
+import errno
+import os
+from pathlib import Path
+import secrets
+import stat
+
+
+def read_file(path: Path, most: int) -> str:
+    """
+    Return the text of a file in UTF-8.
+
+    :param path: of the file
+    :param most: greatest size [bytes]
+    :raises OSError: it cannot be read, is no regular file, or is larger
+    :raises UnicodeDecodeError: it is no text
+    """
+    # Looked at before it is opened too: opening a device may do something.
+    _check_kind(path.stat())
+    descriptor = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_NOCTTY | os.O_CLOEXEC)
+    with os.fdopen(descriptor, 'rb', buffering=0) as file:
+        _check_kind(os.fstat(file.fileno()))
+        # Files of /proc have a size of 0, whatever they hold.
+        parts, left = [], most + 1
+        while left > 0 and (part := os.read(file.fileno(), min(left, 2**20))):
+            parts.append(part)
+            left -= len(part)
+    if left <= 0:
+        raise OSError(errno.EFBIG, f'it is larger than {most / 2**20:g} MiB')
+    return b''.join(parts).decode()
+
+
+def write_file(path: Path, text: str) -> None:
+    """
+    Write a file whole or not at all; one that is there keeps its mode.
+
+    :param path: of the file, without symbolic links
+    :param text: that it has then, in UTF-8
+    :raises OSError: it cannot be written, and is as it was
+    """
+    # Short, since the name of a file has 255 bytes at most.
+    temporary = path.parent / f'.{secrets.token_hex(8)}.tmp'
+    mode = stat.S_IMODE(path.stat().st_mode) if path.exists() else None
+    descriptor = os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, 0o666)
+    try:
+        with os.fdopen(descriptor, 'w', encoding='utf-8', newline='\n') as file:
+            if mode is not None:
+                os.fchmod(file.fileno(), mode)
+            file.write(text)
+            file.flush()
+            os.fsync(file.fileno())
+        temporary.replace(path)
+    except BaseException:
+        temporary.unlink(missing_ok=True)
+        raise
+
+
+def _check_kind(status: os.stat_result) -> None:
+    if not stat.S_ISREG(status.st_mode):
+        raise OSError(errno.EINVAL, 'it is no regular file')

@@ -1,0 +1,64 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Nobody misses an answer for the sake of another: slow listeners, and another middleware."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+import sys
+
+import psutil
+import pytest
+
+from ..outside import Outside
+
+ELSEWHERE = Path(__file__).resolve().parents[1] / 'elsewhere'
+# In two bursts: more than the 5,000 messages that Fast DDS keeps for a listener that takes none.
+COUNT = 4000
+
+
+def test_a_listener_that_takes_nothing_costs_the_others_no_answer(outside: Outside) -> None:
+    with outside.start_world(gravity='[0.0, 0.0]') as world:
+        world.wait_for('ready')
+        process = psutil.Process(world.process.pid)
+        with outside.start(sys.executable, ELSEWHERE / 'deaf.py') as deaf:
+            deaf.wait_for('DEAF')
+            before = process.memory_info().rss
+            seen = outside.run_program('flood', COUNT)
+            grown = process.memory_info().rss - before
+        assert world.interrupt() == 0
+    for topic in ('spawn', 'spawn_array'):
+        assert seen[topic]['answers'] == seen[topic]['ok'] == COUNT
+        assert seen[topic]['in_order']
+    # 4,000 bodies and their past take 40 MB.
+    assert grown < 120e6
+
+
+def test_every_answer_reaches_a_reader_of_cyclone_dds_that_reads_all_streams(
+    outside: Outside,
+) -> None:
+    pytest.importorskip('cyclonedds', reason='cyclonedds is not installed: make test')
+    with outside.start_world(gravity='[0.0, 0.0]') as world:
+        world.wait_for('ready')
+        program = outside.start(
+            sys.executable, ELSEWHERE / 'cyclone.py', outside.partition, 2, 150
+        )
+        seen = json.loads(program.wait_for('RESULT').partition(' ')[2])
+        assert program.finish() == 0
+        assert world.interrupt() == 0
+    assert seen['missing'] == []
+    assert seen['in_order']
+    assert all(seen['messages'].values())

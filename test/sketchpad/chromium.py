@@ -1,0 +1,172 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Pages in Chromium, worked as people work them, by the names of the contract."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+import re
+import shutil
+import time
+from typing import Any
+
+import pytest
+
+from ..outside import Outside, PATIENCE, Program
+
+WORLD = """
+format: 1
+bounds: [-8, 0, 8, 9]
+bodies:
+  - {name: ball/0, circle: {radius: 0.5}, at: [0, 0.5], color: '#d02020'}
+  - {name: box/0, box: {width: 1, height: 1}, at: [4, 0.5], color: '#20a040'}
+  - {name: shelf/0, box: {width: 2, height: 0.4}, at: [-4, 3], anchored: true, color: '#2040d0'}
+"""
+ARGUMENTS = ['--no-sandbox', '--disable-gpu', '--disable-background-networking']
+MILLISECONDS = 1000.0 * PATIENCE
+
+
+def launched_chromium(playwright: Any) -> Any:
+    """Return a browser; where there is none, the test is skipped with that reason."""
+    path = shutil.which('chromium') or shutil.which('chromium-browser')
+    if path is None:
+        pytest.skip('chromium is not installed')
+    return playwright.chromium.launch(executable_path=path, args=ARGUMENTS)
+
+
+def started_world(outside: Outside, **parameters: object) -> tuple[Program, str]:
+    """Start a world with a page, and return it with the address that it prints."""
+    path = outside.directory / 'page.yaml'
+    path.write_text(WORLD)
+    given = {'world_file': path, 'world_dir': outside.directory, 'sketchpad': 'serve'}
+    world = outside.start_world(**given | parameters)
+    line = world.wait_for('/login?token=')
+    world.wait_for('ready')
+    found = re.search(r'http\S+', line)
+    assert found
+    return world, found[0]
+
+
+class Sheet:
+    """
+    An open page.
+
+    :param browser: that opens it
+    :param address: with the token
+    :param options: of its browser context
+    """
+
+    def __init__(self, browser: Any, address: str, **options: Any) -> None:
+        self.context = browser.new_context(viewport={'width': 1200, 'height': 800}, **options)
+        self.page = self.context.new_page()
+        self.errors: list[str] = []
+        self.page.on('pageerror', lambda error: self.errors.append(str(error)))
+        self.page.on(
+            'console',
+            lambda message: message.type == 'error' and self.errors.append(message.text),
+        )
+        self.page.goto(address)
+
+    def begin(self) -> None:
+        """Reset the world, pause it, and wait for that to be seen."""
+        self.wait('Object.keys(physsim.bodies).length > 0')
+        self.press('Pause')
+        self.press('Reset')
+        self.wait('physsim.time === 0 && physsim.speed === 0')
+        self.wait('Object.keys(physsim.bodies).length === 3')
+
+    def wait(self, predicate: str, argument: Any = None) -> None:
+        """
+        Wait for an expression on the page, or a function of an argument, to become true.
+
+        The browser's own waiting evaluates text in the page, which the page's policy forbids.
+        """
+        deadline = time.monotonic() + PATIENCE
+        while not self.page.evaluate(predicate, argument):
+            assert time.monotonic() < deadline, f'{predicate} did not come about in time'
+            self.page.evaluate('new Promise(requestAnimationFrame)')
+
+    def press(self, name: str) -> None:
+        """Press a button."""
+        self.page.get_by_role('button', name=name, exact=True).click(timeout=MILLISECONDS)
+
+    def names(self) -> set[str]:
+        """Return the names of the bodies."""
+        return set(self.page.evaluate('Object.keys(physsim.bodies)'))
+
+    def pose(self, name: str) -> list[float]:
+        """Return x, y [m], yaw [rad] of a body."""
+        pose: list[float] = self.page.evaluate('name => physsim.bodies[name]', name)
+        return pose
+
+    def place(self, x: float, y: float) -> tuple[float, float]:
+        """Return the pixels of a point of the world [m]."""
+        px, py = self.page.evaluate('([x, y]) => physsim.toPage(x, y)', [x, y])
+        return px, py
+
+    def drag(self, *points: tuple[float, float]) -> None:
+        """Draw with the mouse from point to point of the world [m]."""
+        with self.dragging(*points):
+            pass
+
+    @contextmanager
+    def dragging(self, *points: tuple[float, float]) -> Iterator[None]:
+        """Draw with the mouse, and let go at the end of the block."""
+        mouse = self.page.mouse
+        mouse.move(*self.place(*points[0]))
+        mouse.down()
+        for point in points[1:]:
+            mouse.move(*self.place(*point), steps=4)
+        yield
+        mouse.up()
+
+    def wait_for_new(self, before: set[str]) -> str:
+        """Wait for one body more, and return its name."""
+        self.wait('count => Object.keys(physsim.bodies).length === count', len(before) + 1)
+        (name,) = self.names() - before
+        return name
+
+    def close(self) -> None:
+        """Close the page; it has had no errors."""
+        self.context.close()
+        assert self.errors == []
+
+
+class Fingers:
+    """
+    Fingers on a page, by the protocol of the browser's own tools.
+
+    :param sheet: opened with `has_touch`
+    """
+
+    def __init__(self, sheet: Sheet) -> None:
+        self._session = sheet.context.new_cdp_session(sheet.page)
+
+    def put(self, *places: Sequence[float]) -> None:
+        """Put fingers down [px]."""
+        self._send('touchStart', places)
+
+    def move(self, *places: Sequence[float]) -> None:
+        """Move them."""
+        self._send('touchMove', places)
+
+    def lift(self) -> None:
+        """Lift all of them."""
+        self._send('touchEnd', ())
+
+    def _send(self, kind: str, places: Sequence[Sequence[float]]) -> None:
+        points = [{'x': x, 'y': y, 'id': number} for number, (x, y) in enumerate(places)]
+        self._session.send('Input.dispatchTouchEvent', {'type': kind, 'touchPoints': points})

@@ -1,0 +1,252 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The page in a real browser: drawn on, thrown, rewound, by mouse, fingers and keys."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+import math
+import re
+from typing import Any
+
+import pytest
+
+from .chromium import Fingers, launched_chromium, Sheet, started_world
+from ..outside import Outside
+
+sync_api = pytest.importorskip('playwright.sync_api', reason='playwright is not installed')
+
+TIME = ['Fast rewind', 'Rewind', 'Pause', 'Play', 'Fast forward', 'Step', 'Undo', 'Redo', 'Reset']
+SHAPES = ['Pen', 'Hand', 'Circle', 'Circle by diameter', 'Rectangle', 'Polygon', 'Wall']
+JOINTS = ['Anchor', 'Release', 'Pin', 'Axle', 'Spring', 'Rod', 'Rope']
+OTHERS = ['Velocity', 'Gravity', 'Delete', 'Worlds', 'Save']
+
+
+@pytest.fixture(scope='module')
+def chromium() -> Iterator[Any]:
+    """Give a module one browser."""
+    with sync_api.sync_playwright() as playwright:
+        browser = launched_chromium(playwright)
+        yield browser
+        browser.close()
+
+
+@pytest.fixture(scope='module')
+def address(outside: Outside) -> str:
+    """Give a module the address of one world."""
+    return started_world(outside)[1]
+
+
+@pytest.fixture
+def sheet(chromium: Any, address: str) -> Iterator[Sheet]:
+    """Give a test a page, and the world from its beginning, paused."""
+    sheet = Sheet(chromium, address)
+    sheet.begin()
+    yield sheet
+    sheet.close()
+
+
+def circle(x: float, y: float, radius: float) -> list[tuple[float, float]]:
+    angles = [math.tau * each / 24 for each in range(25)]
+    return [(x + radius * math.cos(angle), y + radius * math.sin(angle)) for angle in angles]
+
+
+def test_every_control_has_its_name_and_is_large_enough_for_a_finger(sheet: Sheet) -> None:
+    for name in TIME + SHAPES + JOINTS + OTHERS:
+        box = sheet.page.get_by_role('button', name=name, exact=True).bounding_box()
+        assert min(box['width'], box['height']) >= 44, name
+    assert sheet.page.get_by_role('slider', name='Time').count() == 1
+    assert sheet.page.get_by_role('img', name='World').count() == 1
+    assert sheet.page.get_by_role('status').count() == 1
+
+
+def test_a_drawn_circle_becomes_a_body_with_its_reading_beside_it(sheet: Sheet) -> None:
+    before = sheet.names()
+    sheet.drag(*circle(1.0, 5.0, 0.8))
+    x, y, _ = sheet.pose(sheet.wait_for_new(before))
+    assert math.dist((x, y), (1.0, 5.0)) < 0.1
+    assert re.search(r'\d+ %', sheet.page.locator('.note').first.inner_text())
+
+
+def test_a_circle_is_dragged_from_its_centre_to_its_rim(sheet: Sheet) -> None:
+    before = sheet.names()
+    sheet.press('Circle')
+    sheet.drag((2.0, 5.0), (2.7, 5.0))
+    x, y, _ = sheet.pose(sheet.wait_for_new(before))
+    assert math.dist((x, y), (2.0, 5.0)) < 0.02
+
+
+def test_a_rectangle_is_a_dragged_side_and_a_click_across(sheet: Sheet) -> None:
+    before = sheet.names()
+    sheet.press('Rectangle')
+    sheet.drag((1.0, 4.0), (3.0, 4.0))
+    sheet.page.mouse.click(*sheet.place(2.5, 5.0))
+    x, y, _ = sheet.pose(sheet.wait_for_new(before))
+    assert math.dist((x, y), (2.0, 4.5)) < 0.03
+
+
+def test_a_body_is_where_its_colour_says(sheet: Sheet) -> None:
+    read = """([x, y]) => [...document.querySelector('canvas').getContext('2d').getImageData(
+        x * devicePixelRatio, y * devicePixelRatio, 1, 1).data]"""
+
+    def color_at(x: float, y: float) -> list[int]:
+        color: list[int] = sheet.page.evaluate(read, sheet.place(x, y))
+        return color[:3]
+
+    assert color_at(0.0, 0.5) == [0xD0, 0x20, 0x20]
+    assert color_at(4.0, 0.5) == [0x20, 0xA0, 0x40]
+    assert color_at(-4.0, 3.0) == [0x20, 0x40, 0xD0]
+    assert color_at(0.0, 1.2) not in ([0xD0, 0x20, 0x20], color_at(0.0, 0.5))
+
+
+def test_undo_takes_back_what_was_drawn_and_redo_draws_it_again(sheet: Sheet) -> None:
+    before = sheet.names()
+    sheet.press('Circle')
+    sheet.drag((0.0, 6.0), (0.4, 6.0))
+    name = sheet.wait_for_new(before)
+    sheet.press('Undo')
+    sheet.wait('name => !(name in physsim.bodies)', name)
+    sheet.press('Redo')
+    sheet.wait('name => name in physsim.bodies', name)
+
+
+def test_time_runs_back_by_the_button(sheet: Sheet) -> None:
+    sheet.press('Play')
+    sheet.wait('physsim.time > 0.3')
+    sheet.press('Rewind')
+    sheet.wait('physsim.speed === -1 && physsim.time < 0.1')
+
+
+def test_two_pages_see_one_world_and_each_has_its_own_tool(
+    sheet: Sheet, chromium: Any, address: str
+) -> None:
+    other = Sheet(chromium, address)
+    other.wait('Object.keys(physsim.bodies).length === 3')
+    before = sheet.names()
+    sheet.press('Circle')
+    sheet.drag((1.0, 6.0), (1.5, 6.0))
+    name = sheet.wait_for_new(before)
+    other.wait('name => name in physsim.bodies', name)
+    pen = other.page.get_by_role('button', name='Pen', exact=True)
+    assert pen.get_attribute('aria-pressed') == 'true'
+    other.close()
+
+
+def test_a_refusal_stands_at_its_place(sheet: Sheet) -> None:
+    sheet.press('Anchor')
+    x, y = sheet.place(-2.0, 6.0)
+    sheet.page.mouse.click(x, y)
+    note = sheet.page.locator('.note.refusal')
+    box = note.bounding_box()
+    assert abs(box['x'] + box['width'] / 2 - x) < 5
+    assert 0 < y - box['y'] - box['height'] < 40
+    assert sheet.page.get_by_role('status').inner_text() == note.inner_text()
+
+
+def test_all_of_it_goes_by_keys_alone(sheet: Sheet) -> None:
+    keyboard = sheet.page.keyboard
+    before = sheet.names()
+    keyboard.press('c')
+    sheet.page.get_by_role('img', name='World').focus()
+    for key in ('ArrowUp', 'ArrowUp', 'Enter', 'ArrowRight', 'ArrowRight', 'Enter'):
+        keyboard.press(key)
+    name = sheet.wait_for_new(before)
+    # The space bar plays and pauses.
+    keyboard.press(' ')
+    sheet.wait('physsim.speed === 1')
+    keyboard.press('k')
+    sheet.wait('physsim.speed === 0')
+    keyboard.press('Control+z')
+    sheet.wait('name => !(name in physsim.bodies)', name)
+    keyboard.press('n')
+    assert 'ball/0' in sheet.page.get_by_role('complementary', name='Body').inner_text()
+    keyboard.press('?')
+    assert sheet.page.get_by_role('dialog').is_visible()
+
+
+def test_a_finger_draws_and_two_fingers_zoom(chromium: Any, address: str) -> None:
+    sheet = Sheet(chromium, address, has_touch=True)
+    sheet.begin()
+    before = sheet.names()
+    fingers = Fingers(sheet)
+    places = [sheet.place(*point) for point in circle(1.0, 5.0, 0.8)]
+    fingers.put(places[0])
+    for place in places[1:]:
+        fingers.move(place)
+    fingers.lift()
+    sheet.wait_for_new(before)
+
+    def width() -> float:
+        return sheet.place(1.0, 0.0)[0] - sheet.place(0.0, 0.0)[0]
+
+    narrow = width()
+    fingers.put((500, 400), (600, 400))
+    fingers.move((450, 400), (650, 400))
+    fingers.lift()
+    assert 1.7 * narrow < width() < 2.3 * narrow
+    sheet.close()
+
+
+def test_the_page_comes_back_when_its_socket_was_cut(chromium: Any, address: str) -> None:
+    sheet = Sheet(chromium, 'about:blank')
+    sockets: list[Any] = []
+
+    def pass_on(socket: Any) -> None:
+        sockets.append(socket)
+        socket.connect_to_server()
+
+    sheet.page.route_web_socket('**/ws*', pass_on)
+    sheet.page.goto(address)
+    sheet.begin()
+    sockets[0].close()
+    sheet.page.get_by_role('alert').wait_for(state='visible')
+    sheet.page.get_by_role('alert').wait_for(state='hidden')
+    before = sheet.names()
+    sheet.press('Circle')
+    sheet.drag((1.0, 6.0), (1.5, 6.0))
+    sheet.wait_for_new(before)
+    sheet.close()
+
+
+def test_the_page_says_that_the_server_is_gone_and_that_another_has_another_token(
+    chromium: Any, outside: Outside
+) -> None:
+    world, first = started_world(outside, sketchpad_port=8790)
+    sheet = Sheet(chromium, first)
+    sheet.begin()
+    world.interrupt()
+    alert = sheet.page.get_by_role('alert')
+    alert.get_by_text('gone').wait_for()
+    port = re.search(r':(\d+)/', first)[1]
+    started_world(outside, sketchpad_port=port)
+    alert.get_by_text('Wrong token').wait_for()
+    sheet.context.close()
+
+
+def test_a_wrong_token_opens_nothing_and_says_so(chromium: Any, address: str) -> None:
+    context = chromium.new_context()
+    page = context.new_page()
+    response = page.goto(re.sub('token=.*', 'token=wrong', address))
+    assert response.status == 403
+    assert 'token' in page.inner_text('body')
+    assert page.goto(address.partition('/login')[0]).status == 403
+    context.close()
+
+
+def test_a_page_that_only_shows_has_no_tools(chromium: Any, address: str) -> None:
+    sheet = Sheet(chromium, f'{address}&view')
+    sheet.wait('Object.keys(physsim.bodies).length > 0')
+    assert sheet.page.get_by_role('button').count() == 0
+    sheet.close()

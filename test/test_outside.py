@@ -1,0 +1,56 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Tests that need other processes find these, and nobody else."""
+
+from __future__ import annotations
+
+from contextlib import ExitStack
+from pathlib import Path
+import subprocess
+import sys
+
+from .outside import DOMAINS, Outside, own_domain, ROOT
+
+
+def test_domains_are_given_to_one_at_a_time() -> None:
+    with own_domain() as one, own_domain() as other:
+        assert one != other
+        assert {one, other} <= set(DOMAINS)
+    # In another process too.
+    with own_domain() as mine:
+        program = 'from test.outside import own_domain\nwith own_domain() as it: print(it)'
+        command = [sys.executable, '-c', program]
+        other = int(subprocess.check_output(command, text=True, cwd=ROOT))
+        assert other != mine
+
+
+def test_a_domain_comes_back() -> None:
+    given = []
+    for _ in range(150):
+        with own_domain() as domain:
+            given.append(domain)
+    assert len(set(given)) < len(given)
+
+
+def test_programs_of_two_tests_on_one_domain_do_not_meet(tmp_path: Path) -> None:
+    with own_domain() as domain, ExitStack() as closing:
+        tests = []
+        for name in ('one', 'other'):
+            directory = tmp_path / name
+            directory.mkdir()
+            tests.append(Outside(directory, domain, closing))
+            tests[-1].start_world().wait_for('ready')
+        for test, name in zip(tests, ('mine', 'theirs'), strict=True):
+            assert test.run_program('spawner', name)['names'] == [f'{name}/0']
