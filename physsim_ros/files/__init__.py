@@ -29,7 +29,7 @@ from physsim_ros.files.world_file import (
     shipped_worlds,
     user_worlds,
 )
-from physsim_ros.files.world_reader import state_from
+from physsim_ros.files.world_reader import spawn_from, state_from
 from physsim_ros.files.world_schema import PARAMETERS, SETTINGS
 from physsim_ros.files.world_writer import text_of
 from physsim_ros.files.yaml12 import load_mapping
@@ -49,6 +49,7 @@ __all__ = [
     'shipped',
     'shipped_pictures',
     'shipped_worlds',
+    'spawn_from',
     'state_from',
     'text_of',
     'user_worlds',

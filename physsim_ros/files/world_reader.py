@@ -81,7 +81,7 @@ def state_from(
                 if saved is not None:
                     resumed[state.body.name] = saved
                 else:
-                    world.apply(_spawn(entry))
+                    world.apply(spawn_from(entry))
                 if saved is not None or _is_unmoved(state, entry):
                     unmoved.add(state.body.name)
     spawned = world.save()
@@ -112,7 +112,7 @@ def _spawned(world: World, entries: list[dict[Any, Any]]) -> dict[str, dict[Any,
         with naming(entry, 'body', count):
             # Saved poses and velocities may exceed the ranges of requests.
             at_rest = {key: entry[key] for key in entry if key not in _MOTION_KEYS}
-            spawn = _spawn(at_rest if 'motion' in entry else entry)
+            spawn = spawn_from(at_rest if 'motion' in entry else entry)
             if spawn.name in named:
                 raise BadProperty('the name comes twice', field='name')
             world.apply(spawn)
@@ -122,7 +122,12 @@ def _spawned(world: World, entries: list[dict[Any, Any]]) -> dict[str, dict[Any,
     return named
 
 
-def _spawn(entry: dict[Any, Any]) -> Spawn:
+def spawn_from(entry: dict[Any, Any]) -> Spawn:
+    """
+    Return the request for the body of an entry.
+
+    :raises Refusal: a key is unknown, or a value is out of range
+    """
     for key in entry:
         check_key(key, _BODY_KEYS)
     name = entry.get('name')

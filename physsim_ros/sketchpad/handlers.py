@@ -132,6 +132,16 @@ class Session(Guarded):
         self.finish({'ok': True, 'view_only': self.role is not Role.DRAW})
 
 
+class Missing(Guarded):
+    """Every other path."""
+
+    async def get(self) -> None:
+        """Answer that there is nothing."""
+        self.refuse(404, 'there is nothing here')
+
+    post = head = delete = patch = put = options = get
+
+
 class Files(Guarded, StaticFileHandler):
     """The files of a directory."""
 

@@ -28,24 +28,27 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from physsim_ros.drawing import Tool
+from physsim_ros.files import spawn_from
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.body_properties import Properties, properties_from
 from physsim_ros.model.checks import check_key, flag, number, pair, shown, Within
 from physsim_ros.model.colors import Color, color_from
 from physsim_ros.model.errors import BadProperty, Malformed
 from physsim_ros.model.requests import (
+    ChangeBody,
     check_point,
     Configure,
-    Delete,
+    DeleteBodies,
     Dragging,
     Grab,
     LetGo,
     LONGEST,
+    MoveBodies,
     MoveHand,
     Request,
 )
 from physsim_ros.model.settings import MOST_SAMPLES
-from physsim_ros.model.transform import Point
+from physsim_ros.model.transform import Point, Pose
 from physsim_ros.sketchpad.frame_codec import Show
 
 # Depth of nested lists and mappings; a stroke has three levels, a body five.
@@ -412,7 +415,42 @@ def _watch(fields: Mapping[str, Any]) -> Watch:
 
 def _delete(fields: Mapping[str, Any]) -> Submit:
     names = _names(fields.get('names'), 'names')
-    return Submit(requests=tuple(Delete(name=name) for name in names), topic='~/spawn')
+    return Submit(requests=(DeleteBodies(names=names),), topic='~/spawn')
+
+
+def _change(fields: Mapping[str, Any]) -> Submit:
+    name = _text(fields.get('name'), 'name')
+    given = fields.get('properties')
+    if not isinstance(given, dict):
+        raise BadProperty('properties must be a mapping', field='properties')
+    properties = {key: value for key, value in given.items() if key not in ('color', 'at')}
+    request = ChangeBody(
+        name=name,
+        properties=properties_from(properties),
+        color=_color(given['color']) if 'color' in given else None,
+        pose=_pose(given['at']) if 'at' in given else None,
+    )
+    return Submit(requests=(request,), topic='~/spawn')
+
+
+def _pose(value: object) -> Pose:
+    if not isinstance(value, list) or len(value) != 3:
+        raise Malformed('at must be [x, y, yaw]', field='at')
+    x, y, yaw = (number(each, 'at') for each in value)
+    return x, y, yaw
+
+
+def _move_bodies(fields: Mapping[str, Any]) -> Submit:
+    names = _names(fields.get('names'), 'names')
+    request = MoveBodies(names=names, by=_point(fields.get('by'), 'by'))
+    return Submit(requests=(request,), topic='~/command')
+
+
+def _spawn(fields: Mapping[str, Any]) -> Submit:
+    body = fields.get('body')
+    if not isinstance(body, dict):
+        raise BadProperty('body must be a mapping', field='body')
+    return Submit(requests=(spawn_from(body),), topic='~/spawn')
 
 
 def _gravity(fields: Mapping[str, Any]) -> Submit:
@@ -448,6 +486,9 @@ _READERS: dict[str, tuple[list[str], Callable[[Mapping[str, Any]], Message]]] = 
     'service': (['name', 'world'], _perform),
     'speed': (['speed'], lambda fields: SetSpeed(speed=number(fields.get('speed'), 'speed'))),
     'seek': (['time'], _seek),
+    'spawn': (['body'], _spawn),
+    'change': (['name', 'properties'], _change),
+    'move_bodies': (['names', 'by'], _move_bodies),
     'delete': (['names'], _delete),
     'gravity': (['gravity'], _gravity),
     'show': (list(_PARTS), _show),

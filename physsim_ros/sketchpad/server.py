@@ -39,7 +39,7 @@ from physsim_ros.sketchpad.access import Access, Role
 from physsim_ros.sketchpad.answers import answer_content, asker_of
 from physsim_ros.sketchpad.frame_codec import encode_frame, Show
 from physsim_ros.sketchpad.gallery import gallery_content
-from physsim_ros.sketchpad.handlers import Files, Login, Page, Session
+from physsim_ros.sketchpad.handlers import Files, Login, Missing, Page, Session
 from physsim_ros.sketchpad.inbox import Inbox, Incoming, SERVER
 from physsim_ros.sketchpad.messages import Message
 from physsim_ros.sketchpad.page_socket import PageSocket
@@ -263,6 +263,9 @@ class Server:
                 (r'/world/([^/]+)\.yaml', Download, own),
             ],
             server=self,
+            compress_response=True,
+            default_handler_class=Missing,
+            default_handler_args=own,
             websocket_max_message_size=MOST_BYTES,
             websocket_ping_interval=PING_PERIOD,
             websocket_ping_timeout=PING_PERIOD,

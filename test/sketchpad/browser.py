@@ -144,13 +144,14 @@ class Browser:
         self.until(task.done)
         return task.result()
 
-    def until(self, predicate: Callable[[], object]) -> None:
-        """Run until something holds."""
+    def until(self, predicate: Callable[[], object], *, settling: bool = True) -> None:
+        """Run until something holds; without settling the world handles no message."""
         deadline = time.monotonic() + PATIENCE
         while not predicate():
             assert time.monotonic() < deadline, 'it did not come about in time'
             self.loop.run_until_complete(self._pass())
-            self.physsim.settle()
+            if settling:
+                self.physsim.settle()
 
     async def _pass(self) -> None:
         """Let the sockets work for as long as a message takes on its way."""

@@ -59,12 +59,6 @@ def test_each_answer_goes_to_the_page_that_asked_and_is_told_to_the_others(
     assert not other.answers(id_)
 
 
-def test_a_wrong_token_opens_nothing(browser: Browser) -> None:
-    assert browser.fetch('/login?token=guess', cookie='').code == 403
-    for path in ('/', '/session', '/page/app.js', '/ws'):
-        assert browser.fetch(path, cookie='').code == 403
-
-
 def test_the_hand_of_a_page_throws_a_body(browser: Browser) -> None:
     physsim, page = browser.physsim, browser.open_page()
     page.send('stroke', points=circle(0.0, 5.0, 0.5))
@@ -141,3 +135,29 @@ def test_the_past_of_a_body_is_told(browser: Browser) -> None:
     assert len(times) == 31
     assert np.array(body['y']) == pytest.approx(5.0 - 9.81 / 2 * times**2, abs=1e-6)
     assert np.array(body['vy']) == pytest.approx(-9.81 * times, abs=1e-6)
+
+
+def test_a_body_is_spawned_changed_moved_and_deleted_by_name(browser: Browser) -> None:
+    physsim, page = browser.physsim, browser.open_page()
+    for number in range(3):
+        body = {'name': f'box/{number}', 'box': {'width': 1, 'height': 1}, 'at': [2 * number, 5]}
+        assert page.ask('spawn', body=body)['ok']
+    changed = {'friction': 0.9, 'color': '#00ff00', 'velocity': [1, 0], 'at': [0, 7, 0.5]}
+    assert page.ask('change', name='box/0', properties=changed)['ok']
+    assert page.ask('move_bodies', names=['box/1', 'box/2'], by=[0, 3])['ok']
+    assert physsim.pose('box/0') == pytest.approx((0, 7, 0.5))
+    assert [physsim.pose(name).y for name in ('box/1', 'box/2')] == [8, 8]
+    assert page.ask('delete', names=['box/1', 'box/2'])['ok']
+    assert physsim.names == ('box/0',)
+    assert page.ask('service', name='undo')['ok']
+    assert len(physsim.names) == 3
+    page.until(lambda: len(page.of_type('scene')[-1]['bodies']) == 3)
+    (box, *_) = page.of_type('scene')[-1]['bodies']
+    assert (box['friction'], box['color']) == (0.9, [0.0, 1.0, 0.0, 1.0])
+    before = physsim.digest()
+    for wrong in (
+        {'name': 'box/0', 'properties': {'mood': 1}},
+        {'name': 'no/1', 'properties': {}},
+    ):
+        assert page.ask('change', **wrong)['code'] in ('unknown_property', 'unknown_body')
+    assert physsim.digest() == before

@@ -1,0 +1,294 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Strangers get nothing; hostile pages change nothing, and delay neither the world nor others."""
+
+import json
+import socket
+
+from physsim_ros.sketchpad.access import Access, Role
+from physsim_ros.sketchpad.inbox import CAPACITY
+from physsim_ros.sketchpad.page_socket import BURST
+from physsim_ros.sketchpad.server import MOST_BYTES, MOST_PAGES
+import pytest
+from tornado.httpclient import HTTPClientError
+from tornado.httputil import HTTPHeaders
+
+from .browser import Browser
+
+
+def status_of_socket(browser: Browser, **options: object) -> int:
+    with pytest.raises(HTTPClientError) as refused:
+        browser.open_page(**options)
+    return refused.value.code
+
+
+def test_a_wrong_token_opens_nothing(browser: Browser) -> None:
+    assert browser.fetch('/login?token=guess', cookie='').code == 403
+    for cookie in ('', browser.cookie.partition('=')[0] + '=guess'):
+        for path in ('/', '/session', '/page/app.js', '/gallery/car.png', '/world/car.yaml'):
+            assert browser.fetch(path, cookie=cookie).code == 403
+        assert status_of_socket(browser, cookie=cookie) == 403
+
+
+def test_the_cookie_is_kept_from_scripts_and_other_sites(browser: Browser) -> None:
+    response = browser.fetch(browser.login.removeprefix(browser.base), cookie='')
+    assert response.code == 302
+    assert response.headers['Location'] == '/'
+    assert {'HttpOnly', 'SameSite=Strict'} <= set(response.headers['Set-Cookie'].split('; '))
+
+
+def test_every_answer_forbids_foreign_and_inline_scripts(browser: Browser) -> None:
+    for path, code in (('/', 200), ('/page/style.css', 200), ('/nothing', 404)):
+        response = browser.fetch(path)
+        assert response.code == code
+        policy = response.headers['Content-Security-Policy']
+        assert "default-src 'none'" in policy
+        assert 'unsafe' not in policy
+        assert response.headers['X-Content-Type-Options'] == 'nosniff'
+
+
+@pytest.mark.parametrize(
+    'path', ['/page/../server.py', '/page/%2e%2e/server.py', '/gallery//etc/passwd']
+)
+def test_no_path_leads_out_of_the_page(browser: Browser, path: str) -> None:
+    assert browser.fetch(path).code in (403, 404)
+
+
+def test_a_foreign_name_of_this_machine_is_refused(browser: Browser) -> None:
+    # As after DNS rebinding: the cookie would not be sent, but nothing depends on that.
+    headers = {'Host': 'evil.example'}
+    assert browser.fetch('/', headers=headers).code == 403
+    assert browser.fetch('/login?token=x', headers=headers).code == 403
+
+
+@pytest.mark.parametrize(
+    ('host', 'allowed'),
+    [
+        ('127.0.0.1:8765', True),
+        ('localhost:8765', True),
+        ('[::1]:8765', True),
+        ('192.168.0.7', True),
+        (socket.gethostname(), True),
+        ('evil.example', False),
+        ('127.0.0.1.evil.example', False),
+        ('localhost.evil.example', False),
+        ('', False),
+        ('[', False),
+    ],
+)
+def test_only_addresses_and_names_of_this_machine_are_hosts(host: str, *, allowed: bool) -> None:
+    assert Access('127.0.0.1').allows_host(host) is allowed
+
+
+def test_a_foreign_origin_opens_no_socket_and_uploads_nothing(browser: Browser) -> None:
+    before = browser.physsim.digest()
+    for origin in ('http://evil.example', 'null', 'http://127.0.0.1:1'):
+        assert status_of_socket(browser, origin=origin) == 403
+        upload = browser.fetch(
+            '/world', method='POST', body='format: 1\n', headers={'Origin': origin}
+        )
+        assert upload.code == 403
+    assert status_of_socket(browser, origin='') == 403
+    assert browser.physsim.digest() == before
+
+
+def test_a_page_that_only_shows_changes_nothing(browser: Browser) -> None:
+    cookie = browser.login_cookie(browser.view_login)
+    pages = [browser.open_page('/ws?view'), browser.open_page('/ws', cookie=cookie)]
+    before = browser.physsim.digest()
+    for page in pages:
+        page.until(lambda page=page: page.of_type('welcome') and page.frames)
+        assert page.of_type('welcome')[0]['view_only']
+        body = {'name': 'box/0', 'box': {'width': 1, 'height': 1}}
+        for kind, fields in (
+            ('spawn', {'body': body}),
+            ('service', {'name': 'pause'}),
+            ('speed', {'speed': 2}),
+            ('grab', {'point': [0, 0]}),
+            ('share', {}),
+        ):
+            assert page.ask(kind, **fields)['code'] == 'view_only'
+    upload = browser.fetch(
+        '/world',
+        method='POST',
+        body='format: 1\n',
+        cookie=cookie,
+        headers={'Origin': browser.base},
+    )
+    assert upload.code == 403
+    assert browser.physsim.digest() == before
+
+
+@pytest.mark.parametrize(
+    'text',
+    [
+        '',
+        'no json',
+        '[]',
+        '"text"',
+        '{}',
+        '{"type": 3}',
+        '{"type": "nonsense"}',
+        '{"type": "constructor"}',
+        '{"type": "speed", "speed": NaN}',
+        '{"type": "speed", "speed": 1e999}',
+        '{"type": "speed", "speed": "1"}',
+        '{"type": "speed", "speed": true}',
+        '{"type": "speed", "speed": 1e4}',
+        '{"type": "seek", "time": -1}',
+        '{"type": "seek", "time": 1e300}',
+        '{"type": "grab", "point": [1]}',
+        '{"type": "grab", "point": [1, null]}',
+        '{"type": "click", "tool": "hammer", "point": [0, 0]}',
+        '{"type": "click", "tool": ["wall"], "point": [0, 0]}',
+        '{"type": "stroke", "points": [[0, 0, 0], [1, 1]]}',
+        '{"type": "stroke", "points": [[0, 0, 0], ["1", 1, 1]]}',
+        '{"type": "stroke", "points": [[0, 0, 1e400], [1, 1, 1]]}',
+        '{"type": "stroke", "points": []}',
+        '{"type": "delete", "names": []}',
+        '{"type": "delete", "names": ["a/1", "a/1"]}',
+        '{"type": "delete", "names": "a/1"}',
+        '{"type": "spawn", "body": {"name": "\\ud800/1", "circle": {"radius": 1}}}',
+        '{"type": "spawn", "body": {"name": "a/1", "circle": {"radius": -1}}}',
+        '{"type": "change", "name": "a/1", "properties": []}',
+        '{"type": "gravity", "gravity": [0, 1e9]}',
+        '{"type": "service", "name": "quit"}',
+        '{"type": "service", "name": "undo", "world": "x"}',
+        '{"type": "open", "name": "/etc/passwd"}',
+        '{"type": "save", "name": "../x"}',
+        '{"type": "draw_with", "color": "red; }"}',
+        '{"type": "show", "velocities": 1}',
+        '{"type": "undo"}',
+        '[' * 100_000,
+        '{"a":' * 50_000,
+        '{"type": "spawn", "body": ' + '[' * 20 + ']' * 20 + '}',
+        '{"type": "speed", "speed": ' + '9' * 5000 + '}',
+        '{"id": "' + 'i' * 100 + '", "type": "share"}',
+        '{"id": {}, "type": "share"}',
+    ],
+    ids=lambda text: text[:48],
+)
+def test_a_wrong_message_is_refused_and_changes_nothing(browser: Browser, text: str) -> None:
+    page = browser.open_page()
+    before = browser.physsim.digest()
+    page.send_raw(text)
+    page.until(lambda: [each for each in page.of_type('answer') if not each['request']])
+    answer = page.answers('')[0]
+    assert not answer['ok']
+    assert answer['code']
+    assert len(answer['message']) < 1000
+    assert browser.physsim.digest() == before
+    assert page.ask('drop')['ok']
+
+
+def test_binary_messages_are_refused(browser: Browser) -> None:
+    page = browser.open_page()
+    page.send_raw(bytes(range(256)))
+    page.until(lambda: page.answers(''))
+    assert page.answers('')[0]['code'] == 'malformed'
+
+
+def test_a_message_beyond_a_mebibyte_closes_the_page_alone(browser: Browser) -> None:
+    page, other = browser.open_page(), browser.open_page()
+    page.send_raw('x' * (MOST_BYTES + 1))
+    page.until(lambda: page.closed)
+    assert other.ask('drop')['ok']
+
+
+def test_a_flood_closes_the_page_and_delays_no_other(browser: Browser) -> None:
+    page, other = browser.open_page(), browser.open_page()
+    message = json.dumps({'id': 'x', 'type': 'click', 'tool': 'anchor', 'point': [0, 0]})
+
+    async def flood() -> None:
+        for _ in range(int(2 * BURST)):
+            if page.closed:
+                return
+            await page.socket.write_message(message)
+
+    task = browser.loop.create_task(flood())
+    assert other.ask('drop')['ok']
+    page.until(lambda: page.closed and task.done())
+    assert page.socket.close_code == 1008
+    assert other.ask('speed', speed=1.0)['ok']
+
+
+def test_messages_that_wait_are_bounded_and_the_rest_is_told(browser: Browser) -> None:
+    page = browser.open_page()
+    message = json.dumps({'id': 'x', 'type': 'click', 'tool': 'anchor', 'point': [0, 0]})
+
+    async def burst() -> None:
+        for _ in range(2 * CAPACITY):
+            await page.socket.write_message(message)
+
+    browser.loop.run_until_complete(burst())
+    browser.until(lambda: page.answers('x'), settling=False)
+    assert page.answers('x')[0]['code'] == 'busy'
+    page.until(lambda: len(page.answers('x')) == 2 * CAPACITY)
+    codes = [each['code'] for each in page.answers('x')]
+    assert set(codes) == {'busy', 'nothing_there'}
+    assert codes.count('nothing_there') >= CAPACITY - 1
+
+
+def test_a_page_that_does_not_read_is_skipped(browser: Browser) -> None:
+    """Its frames are dropped, and the world goes on for all others."""
+    page = browser.open_page()
+    host, port = browser.base.removeprefix('http://').split(':')
+    with socket.create_connection((host, int(port))) as sleeper:
+        request = HTTPHeaders(
+            {
+                'Host': f'{host}:{port}',
+                'Upgrade': 'websocket',
+                'Connection': 'Upgrade',
+                'Sec-WebSocket-Key': 'AAAAAAAAAAAAAAAAAAAAAA==',
+                'Sec-WebSocket-Version': '13',
+                'Cookie': browser.cookie,
+                'Origin': browser.base,
+            }
+        )
+        lines = ''.join(f'{name}: {value}\r\n' for name, value in request.get_all())
+        sleeper.sendall(f'GET /ws HTTP/1.1\r\n{lines}\r\n'.encode())
+        sleeper.settimeout(20.0)
+        assert b'101' in sleeper.recv(12)
+        # So many bodies that the frames to come are more than any buffer of a socket holds.
+        boxes = '\n'.join(
+            f'  - {{name: box/{each}, box: {{width: 1, height: 1}}, at: [{2 * each}, 0]}}'
+            for each in range(500)
+        )
+        upload = browser.fetch(
+            '/world',
+            method='POST',
+            body=f'format: 1\nbodies:\n{boxes}\n',
+            headers={'Origin': browser.base},
+        )
+        assert json.loads(upload.body)['ok']
+        for frame in range(1, 121):
+            browser.physsim.step()
+            page.until(lambda frame=frame: page.frames[-1].time * 60 > frame - 0.5)
+    assert page.frames[-1].count == 500
+
+
+def test_one_page_too_many_is_refused(browser: Browser) -> None:
+    pages = [browser.open_page('/ws?view') for _ in range(MOST_PAGES)]
+    assert status_of_socket(browser) == 503
+    pages[0].close()
+    pages[0] = browser.open_page()
+    assert pages[0].ask('drop')['ok']
+
+
+def test_roles_have_tokens_of_their_own() -> None:
+    access = Access('127.0.0.1')
+    assert [access.role_of(access.tokens[role]) for role in Role] == list(Role)
+    assert access.role_of('') is None
+    assert access.role_of('ü\ud800') is None
