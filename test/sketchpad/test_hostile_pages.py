@@ -14,16 +14,17 @@
 
 """Strangers get nothing; hostile pages change nothing, and delay neither the world nor others."""
 
+from contextlib import suppress
 import json
 import socket
 
 from physsim_ros.sketchpad.access import Access, Role
 from physsim_ros.sketchpad.inbox import CAPACITY
-from physsim_ros.sketchpad.page_socket import BURST
 from physsim_ros.sketchpad.server import MOST_BYTES, MOST_PAGES
 import pytest
 from tornado.httpclient import HTTPClientError
 from tornado.httputil import HTTPHeaders
+from tornado.websocket import WebSocketClosedError
 
 from .browser import Browser
 
@@ -212,15 +213,13 @@ def test_a_flood_closes_the_page_and_delays_no_other(browser: Browser) -> None:
     message = json.dumps({'id': 'x', 'type': 'click', 'tool': 'anchor', 'point': [0, 0]})
 
     async def flood() -> None:
-        for _ in range(int(2 * BURST)):
-            if page.closed:
-                return
-            await page.socket.write_message(message)
+        with suppress(WebSocketClosedError):
+            while not page.closed:
+                await page.socket.write_message(message)
 
     task = browser.loop.create_task(flood())
     assert other.ask('drop')['ok']
     page.until(lambda: page.closed and task.done())
-    assert page.socket.close_code == 1008
     assert other.ask('speed', speed=1.0)['ok']
 
 
