@@ -120,7 +120,7 @@ setup(
     },
     entry_points={
         'console_scripts': [
-            'physsim = physsim_ros.ros.node:main',
+            'physsim = physsim_ros.ros.program:main',
             'physsim_draw = physsim_ros.ros.draw_cli:main',
         ],
         'pytest11': ['physsim = physsim_ros.testing'],

@@ -13,7 +13,7 @@
 # limitations under the License.
 
 """
-The node: subscriptions, parameters and timers around a Simulation, and the program `physsim`.
+The node: subscriptions, parameters and timers around a Simulation.
 
 Law: a callback converts a message, submits the request and reports a refusal; all decisions are
 taken by the simulation.
@@ -21,15 +21,11 @@ taken by the simulation.
 
 from __future__ import annotations
 
-from argparse import ArgumentParser
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from functools import partial
-import gc
-import os
 from pathlib import Path
-import signal
 import sys
 import time
 from typing import Any
@@ -38,7 +34,7 @@ from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PointStamped
 from nav_msgs.msg import Path as PathMessage
 from physsim_ros.drawing import DrawingSession, reading_answer, Tool
-from physsim_ros.model.errors import PhysSimError, Refusal
+from physsim_ros.model.errors import Refusal
 from physsim_ros.model.requests import (
     Anchor,
     Axle,
@@ -59,14 +55,10 @@ from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.sketchpad import Role, Sketchpad
 from physsim_ros.view import Viewer, ViewerMode
 from rcl_interfaces.msg import SetParametersResult
-import rclpy
 from rclpy.clock import Clock as RosClock
 from rclpy.clock import ClockType
 from rclpy.context import Context
-from rclpy.experimental import EventsExecutor
 from rclpy.parameter import Parameter
-from rclpy.signals import SignalHandlerOptions
-from rclpy.utilities import remove_ros_args
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import MultiDOFJointState
 from std_msgs.msg import Float64
@@ -495,7 +487,7 @@ class PhysSimNode(NodeWithoutQosEvents):
 
         :param path: of the `.rrd` file, which is complete when the node is destroyed
         """
-        self._viewer.record(str(path))
+        self._viewer.record(path)
 
     def _publish_diagnostics(self) -> None:
         for answer in self._viewer.poll():
@@ -517,58 +509,3 @@ def _print_addresses(sketchpad: Sketchpad) -> None:
     """Print where the page is, for the person at the terminal."""
     sys.stdout.write(f'Draw on it: {sketchpad.url()}\nOnly watch: {sketchpad.url(Role.VIEW)}\n')
     sys.stdout.flush()
-
-
-def reduce_latency() -> None:
-    """Reduce the time that other threads of the process delay a step; before `rclpy.init`."""
-    # With the default switch interval of 5 ms, a busy thread of the viewer delays a step of 0.6 ms
-    # by 6 ms.
-    sys.setswitchinterval(0.0005)
-    # See docs/decisions/publication_mode.md.
-    profiles = Path(__file__).with_name('fastdds_profiles.xml')
-    os.environ.setdefault('FASTRTPS_DEFAULT_PROFILES_FILE', str(profiles))
-
-
-def main() -> None:
-    """Run the node until it is interrupted."""
-    # All settings are parameters; the parser refuses other arguments, which would be ignored.
-    usage = ArgumentParser(
-        prog='physsim',
-        description='Run a physics world as a ROS 2 node.',
-        epilog='Parameters, as config/physsim.yaml lists them, come after --ros-args: '
-        'physsim --ros-args -p world_file:=demo -p gravity:="[0.0, -1.62]"',
-    )
-    reduce_latency()
-    stopped: list[int] = []
-    # The signal handlers of rclpy (Jazzy) raise at any point of the program, which can abort its
-    # end.
-    try:
-        usage.parse_args(remove_ros_args(sys.argv)[1:])
-        rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
-    except RuntimeError as error:
-        # rcl raises it for invalid arguments.
-        sys.exit(f'physsim: {error}')
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, lambda received, _: stopped.append(received))
-    try:
-        node = PhysSimNode()
-    except PhysSimError as error:
-        rclpy.shutdown()
-        sys.exit(f'physsim: {error}')
-    executor = EventsExecutor()
-    try:
-        executor.add_node(node)
-        node.start()
-        # Objects that exist now live until the end: the garbage collector skips them.
-        gc.collect()
-        gc.freeze()
-        # EventsExecutor.spin (rclpy 7, Jazzy) never returns; spin_once does, and raises the
-        # exceptions of callbacks.
-        while not stopped:
-            executor.spin_once(timeout_sec=0.1)
-    finally:
-        # Also after an exception, so that no viewer process remains.
-        executor.remove_node(node)
-        executor.shutdown()
-        node.destroy_node()
-        rclpy.shutdown()

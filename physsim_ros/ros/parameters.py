@@ -147,7 +147,8 @@ _OF_NODE = {
     'viewer': Spec(
         default='auto',
         meaning='none, spawn (native Rerun), web (served on localhost), connect (to viewer_url), '
-        'auto (spawn where there is a display, else web)',
+        'auto (spawn where there is a display, else web); set again, it begins a recording '
+        'that has failed anew, in a file beside it',
         choices=VIEWERS,
     ),
     'viewer_url': Spec(default='', meaning='Rerun server to connect to', read_only=True),

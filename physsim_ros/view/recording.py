@@ -29,6 +29,7 @@ from physsim_ros.model.settings import Bounds
 from physsim_ros.model.snapshot import Frame
 from physsim_ros.view import contact_arrows, grid, plots, velocities
 from physsim_ros.view.blueprint import blueprint
+from physsim_ros.view.blueprint_stream import send_blueprint
 from physsim_ros.view.body_geometry import BodyGeometry, DEPTH
 from physsim_ros.view.camera import Camera, pinhole, PIXELS
 from physsim_ros.view.contact_arrows import ContactArrows
@@ -73,7 +74,7 @@ class FrameRecorder:
         self._camera = Camera()
         # Poses of the bodies that were sent last.
         self._poses: Floats = np.empty((0, 3))
-        recording.send_blueprint(blueprint())
+        send_blueprint(recording, blueprint())
         self._send_styles()
         self._bodies = MeshTrack(recording)
         self._joints = JointTrack(recording)

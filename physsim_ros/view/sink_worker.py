@@ -39,6 +39,9 @@ ANSWERS = 50_000
 CHECK_PERIOD, FLUSH_TIMEOUT = 1.0, 0.5
 # Time after the first flush that timed out at which an event reports it [s].
 STALLED_AFTER = 3.0
+# Time without progress of a worker at which an event reports it [s]: ten times what an import of
+# Rerun takes. A file on a share that does not answer blocks it without limit.
+SILENT_AFTER = 10.0
 
 Report = Callable[[Answer], None]
 
@@ -59,7 +62,7 @@ class Sink(Protocol):
         """
 
     def close(self) -> None:
-        """Close the stream; called after a flush."""
+        """Close the stream; called once, whatever happened to it."""
 
 
 class Endpoint(ABC):
@@ -91,8 +94,12 @@ class Endpoint(ABC):
         :raises ConnectionError: it cannot be opened at all
         """
 
-    def check_program(self) -> None:  # noqa: B027  most have no program
-        """Restart or report a program that has ended; called every `CHECK_PERIOD`."""
+    def check(self) -> None:  # noqa: B027  most have nothing to check
+        """
+        Restart or report a program that has ended; called every `CHECK_PERIOD`.
+
+        :raises ConnectionError: the receiver is lost
+        """
 
     def close(self) -> None:  # noqa: B027  the same
         """
@@ -136,7 +143,11 @@ class SinkWorker:
         # Steady time of the first flush that timed out; None while flushes succeed [s].
         self._stalled_since: float | None = None
         self._stall_reported = self._drops_reported = False
+        # Steady time of the last progress [s], and whether its age was reported.
+        self._progress, self._silence_reported = time.monotonic(), False
         self._closing = threading.Event()
+        # Steady time until which the last frames are waited for [s].
+        self._end_by = 0.0
         # Set to end the wait for the period.
         self._wake = threading.Event()
         self._thread = threading.Thread(
@@ -154,6 +165,11 @@ class SinkWorker:
     def is_open(self) -> bool:
         """Whether the worker runs."""
         return self._thread.is_alive()
+
+    @property
+    def is_closing(self) -> bool:
+        """Whether the worker was told to end, and has time left for it."""
+        return self._closing.is_set() and self.is_open and time.monotonic() < self._end_by
 
     def put_frame(self, frame: Frame, *, real_time_factor: float) -> None:
         """Queue a frame; a full queue drops its oldest frame, but not the answers of that."""
@@ -176,14 +192,28 @@ class SinkWorker:
 
     def end(self) -> None:
         """Log the frames of the queue, then end the thread."""
+        if not self._closing.is_set():
+            self._end_by = time.monotonic() + self._endpoint.closing
         self._closing.set()
         self._wake.set()
 
     def join(self) -> bool:
-        """Wait for the thread, at most the endpoint's `closing`; return whether it has ended."""
-        self._thread.join(self._endpoint.closing)
+        """
+        Wait for the thread; return whether it has ended.
+
+        :return: False where the endpoint's time for `closing` was too short
+        """
+        self.end()
+        self._thread.join(max(0.0, self._end_by - time.monotonic()))
         self._endpoint.close()
-        return not self._thread.is_alive()
+        return not self.is_open
+
+    def report_silence(self) -> None:
+        """Report a worker that makes no progress any more: opening or writing blocks."""
+        silent = self.is_open and time.monotonic() - self._progress > SILENT_AFTER
+        if silent and not self._silence_reported:
+            self._silence_reported, self._status = True, 'blocked'
+            self._report(self._endpoint.lost_answer(f'no answer for {SILENT_AFTER:g} s'))
 
     def _run(self) -> None:
         try:
@@ -191,17 +221,22 @@ class SinkWorker:
                 self._before.join()
                 self._before = None
             while not self._closing.is_set():
+                self._note_progress()
                 sink = self._endpoint.open_sink()
                 if sink is None:
                     self._status = 'nobody there'
                     self._closing.wait(CHECK_PERIOD)
                 else:
+                    self._silence_reported = False
                     self._report(self._endpoint.opened_answer())
-                    self._log_to(sink)
+                    try:
+                        self._log_to(sink)
+                    finally:
+                        sink.close()
             self._status = 'ended'
         except (ConnectionError, ImportError) as error:
             # Rerun may be missing, or be of another version.
-            self._status = 'failed'
+            self._status = f'failed ({error})'
             self._report(self._endpoint.lost_answer(str(error)))
         except BaseException as error:
             self._status = 'broken'
@@ -220,6 +255,7 @@ class SinkWorker:
         self._stalled_since, self._stall_reported, self._drops_reported = None, False, False
         self._status, dropped, due = 'open', self._dropped, time.monotonic() + CHECK_PERIOD
         while True:
+            self._note_progress()
             self._wake.wait(self._endpoint.period)
             self._wake.clear()
             closing = self._closing.is_set()
@@ -227,13 +263,13 @@ class SinkWorker:
                 self._drain(sink, everything=closing)
             if closing or self._stalled_since is not None or time.monotonic() >= due:
                 due = time.monotonic() + CHECK_PERIOD
-                self._endpoint.check_program()
                 if self._dropped > dropped and not self._drops_reported:
                     self._drops_reported = True
                     endpoint = self._endpoint
                     message = f'{endpoint.kind}: {endpoint.where}: too slow, frames are missing'
                     self._report(Answer(topic='viewer', message=message, code='frames_dropped'))
                 try:
+                    self._endpoint.check()
                     self._flush(sink, self._endpoint.closing / 2 if closing else FLUSH_TIMEOUT)
                 except ConnectionError as error:
                     if not self._endpoint.reopens:
@@ -242,8 +278,6 @@ class SinkWorker:
                     self._report(self._endpoint.lost_answer(str(error)))
                     return
             if closing:
-                if self._stalled_since is None:
-                    sink.close()
                 return
 
     def _drain(self, sink: Sink, *, everything: bool) -> None:
@@ -265,6 +299,13 @@ class SinkWorker:
             if not everything:
                 self._wake.set()
                 return
+
+    def _note_progress(self) -> None:
+        """Note that the endpoint has answered, and report it where its silence was reported."""
+        self._progress = time.monotonic()
+        if self._silence_reported:
+            self._silence_reported, self._status = False, 'open'
+            self._report(self._endpoint.opened_answer())
 
     def _drop_queue(self) -> None:
         """Drop the frames of the queue."""

@@ -17,6 +17,7 @@
 from __future__ import annotations
 
 import json
+import os
 from pathlib import Path
 import re
 import signal
@@ -25,7 +26,7 @@ from typing import Any
 
 import pytest
 
-from ..outside import Outside, ROOT
+from ..outside import Outside, PATIENCE, ROOT
 
 SHAPES = ('circle: {radius: 0.3}', 'box: {width: 0.5, height: 0.5}')
 # A grid of discs and boxes, which fall apart over each other.
@@ -37,7 +38,8 @@ THOUSAND = 'format: 1\nbodies:\n' + ''.join(
 # The program with a bug, which shows when there is a viewer.
 BUG = """
 import psutil
-from physsim_ros.ros.node import main, PhysSimNode
+from physsim_ros.ros.node import PhysSimNode
+from physsim_ros.ros.program import main
 
 
 def fail(*_):
@@ -46,6 +48,26 @@ def fail(*_):
 
 
 PhysSimNode._report_answer = fail
+main()
+"""
+
+
+# The program in a state without end, in which Python runs no signal handler.
+STUCK = """
+import ctypes
+from physsim_ros.ros.node import PhysSimNode
+from physsim_ros.ros.program import main
+
+
+def wait_forever(*_):
+    print('STUCK', flush=True)
+    libc = ctypes.CDLL(None)
+    while True:
+        # A C function, as a step of the engine; the loop is for the signal that interrupts it.
+        libc.sleep(1000)
+
+
+PhysSimNode.{method} = wait_forever
 main()
 """
 
@@ -76,6 +98,49 @@ def test_it_ends_with_0_when_told_to_again_and_again(outside: Outside) -> None:
             world.process.send_signal(signal.SIGTERM)
         assert world.finish() == 0
         assert 'Traceback' not in ''.join(world.lines)
+
+
+@pytest.mark.parametrize('method', ['tick', '_set_up', 'destroy_node'])
+def test_it_ends_with_0_when_told_to_whatever_it_does(outside: Outside, method: str) -> None:
+    program = STUCK.format(method=method)
+    words = ('--ros-args', '-p', 'viewer:=none')
+    with outside.start(sys.executable, '-c', program, *words) as world:
+        if method == 'destroy_node':
+            world.wait_for('ready')
+        else:
+            world.wait_for('STUCK')
+        assert world.interrupt() == 0
+
+
+def test_nothing_outlives_it_when_it_is_killed(outside: Outside) -> None:
+    psutil = pytest.importorskip('psutil')
+    with outside.start_world(viewer='web') as world:
+        world.wait_for('http://127.0.0.1')
+        children = psutil.Process(world.process.pid).children(recursive=True)
+        assert children
+        world.interrupt(signal.SIGKILL)
+        _, alive = psutil.wait_procs(children, PATIENCE)
+        assert not alive
+
+
+def test_a_frozen_viewer_does_not_keep_it(outside: Outside) -> None:
+    psutil = pytest.importorskip('psutil')
+    with outside.start_world(viewer='web') as world:
+        world.wait_for('http://127.0.0.1')
+        (child,) = psutil.Process(world.process.pid).children()
+        child.suspend()
+        assert world.interrupt() == 0
+        _, alive = psutil.wait_procs([child], PATIENCE)
+        assert not alive
+
+
+def test_a_record_file_that_blocks_does_not_keep_it_from_starting(outside: Outside) -> None:
+    path = outside.directory / 'fifo.rrd'
+    os.mkfifo(path)
+    with outside.start_world(record_file=path) as world:
+        world.wait_for('ready')
+        assert str(path) in world.wait_for('record_failed')
+        assert world.interrupt() == 0
 
 
 def test_a_bug_ends_it_loudly_and_leaves_no_viewer_running(outside: Outside) -> None:

@@ -35,7 +35,7 @@ from physsim_ros.model.scene import Body, Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box
 from physsim_ros.model.snapshot import Answer, Frame, Snapshot
-from physsim_ros.view import Viewer, ViewerMode
+from physsim_ros.view import endpoints, Viewer, ViewerMode
 from physsim_ros.view.sink_worker import Endpoint, SinkWorker
 import pytest
 
@@ -117,6 +117,19 @@ def rows_when(path, entity, count):
     return until(enough)
 
 
+def run_alone(program, *arguments):
+    """Run a program in a process of its own, and return what it prints."""
+    done = subprocess.run(
+        [sys.executable, '-c', textwrap.dedent(program), *map(str, arguments)],
+        cwd=Path(__file__).parents[2],
+        stdout=subprocess.PIPE,
+        text=True,
+        timeout=3 * PATIENCE,
+        check=True,
+    )
+    return done.stdout
+
+
 class Server:
     """A Rerun server that writes what it is sent, of somebody else's."""
 
@@ -156,7 +169,7 @@ def viewers():
         viewer = Viewer()
         made.append(viewer)
         if record_file:
-            viewer.record(record_file)
+            viewer.record(Path(record_file))
         viewer.open_viewer(mode, url)
         return viewer
 
@@ -214,10 +227,95 @@ def test_a_file_that_cannot_be_written_is_told_and_the_rest_goes_on(viewers, ser
     server.wait_for('/world/bodies/box/0', 50)
 
 
-def test_a_disk_that_fills_up_is_told(viewers):
-    viewer = viewers(mode=ViewerMode.NONE, record_file='/dev/full')
+def test_a_file_that_is_no_regular_one_is_refused_and_blocks_nothing(viewers, tmp_path):
+    path = tmp_path / 'fifo.rrd'
+    os.mkfifo(path)
+    viewer = viewers(record_file=path)
 
-    assert 'No space left' in Events(viewer).wait_for('record_failed').message
+    assert 'no regular file' in Events(viewer).wait_for('record_failed').message
+    until(lambda: not viewer.is_open)
+
+
+def test_a_share_that_does_not_answer_is_told_and_delays_nothing(viewers, tmp_path, monkeypatch):
+    monkeypatch.setattr('physsim_ros.view.sink_worker.SILENT_AFTER', 0.1)
+    go_on = threading.Event()
+    create = endpoints._create_regular_file  # noqa: SLF001  it stands for the share
+
+    def late(path):
+        assert go_on.wait(PATIENCE)
+        return create(path)
+
+    monkeypatch.setattr(endpoints, '_create_regular_file', late)
+    viewer = viewers(record_file=tmp_path / 'it.rrd')
+    events = Events(viewer)
+
+    assert 'no answer' in events.wait_for('record_failed').message
+    show(viewer, 10)
+    go_on.set()
+    events.wait_for('')
+    until(lambda: ', open, 10 frames' in viewer.state)
+
+
+def test_a_recording_that_was_deleted_is_told_once_and_begun_again(viewers, tmp_path):
+    path = tmp_path / 'it.rrd'
+    viewer = viewers(record_file=path)
+    events = Events(viewer)
+    events.wait_for('')
+    show(viewer, 10)
+
+    path.unlink()
+    assert 'gone' in events.wait_for('record_failed').message
+    until(lambda: not viewer.is_open)
+    viewer.show(frame(10, 'before'), real_time_factor=1.0)
+    assert 'failed (the file is gone' in viewer.state
+    viewer.open_viewer(ViewerMode.NONE)
+    events.wait_for('')
+    viewer.show(frame(20, 'after'), real_time_factor=1.0)
+    viewer.close()
+
+    assert not [each for each in [*events.all, *viewer.poll()] if each.code]
+    # With the last frame of before.
+    assert rows(path)['/events'] == 2
+
+
+# A process whose files cannot grow past a limit: a disk that is full, and has space again later.
+FULL_DISK = """
+    import sys
+    from pathlib import Path
+    from resource import getrlimit, RLIM_INFINITY, RLIMIT_FSIZE, setrlimit
+    from test.view.test_viewer import bulk, Events, frame, until
+    from physsim_ros.view import Viewer, ViewerMode
+
+    setrlimit(RLIMIT_FSIZE, (300_000, RLIM_INFINITY))
+    viewer = Viewer()
+    viewer.record(Path(sys.argv[1]))
+    events = Events(viewer)
+    events.wait_for('')
+    for step in range(10):
+        viewer.show(frame(step, bulk()), real_time_factor=1.0)
+    print(events.wait_for('record_failed').message)
+    until(lambda: not viewer.is_open)
+    setrlimit(RLIMIT_FSIZE, (RLIM_INFINITY, RLIM_INFINITY))
+    viewer.open_viewer(ViewerMode.NONE)
+    print(events.wait_for('').message)
+    for step in range(10, 20):
+        viewer.show(frame(step, bulk()), real_time_factor=1.0)
+    viewer.close()
+    print([each.code for each in (*events.all, *viewer.poll())])
+"""
+
+
+def test_a_disk_that_is_full_is_told_once_and_recording_begins_again_beside(tmp_path):
+    path = tmp_path / 'it.rrd'
+
+    failed, begun, others = run_alone(FULL_DISK, path).splitlines()
+
+    assert str(path) in failed
+    assert begun == f'record: {tmp_path / "it-2.rrd"}'
+    assert others == '[]'
+    assert path.stat().st_size <= 300_000
+    # The last frame of before, and all since.
+    assert rows(tmp_path / 'it-2.rrd')['/events'] == 11
 
 
 def test_where_there_is_no_rerun_that_is_told_and_nothing_is_open(viewers, tmp_path, monkeypatch):
@@ -306,7 +404,7 @@ def test_nothing_is_left_running_after_closing(viewers):
 @pytest.fixture
 def impatient(monkeypatch):
     """Make closing give up at once on a viewer that has not ended."""
-    monkeypatch.setattr('physsim_ros.view.viewer._ServerEndpoint.closing', 0.0)
+    monkeypatch.setattr('physsim_ros.view.endpoints.ServerEndpoint.closing', 0.0)
 
 
 def test_nothing_is_started_after_closing(viewers, monkeypatch, impatient):
@@ -318,7 +416,7 @@ def test_nothing_is_started_after_closing(viewers, monkeypatch, impatient):
         assert go_on.wait(PATIENCE)
         return 'rerun'
 
-    monkeypatch.setattr('physsim_ros.view.viewer._program', program)
+    monkeypatch.setattr('physsim_ros.view.endpoints._program', program)
     monkeypatch.setattr('subprocess.Popen', lambda *_, **__: started.append('a program'))
     viewer = viewers(mode=ViewerMode.WEB)
     assert began.wait(PATIENCE)
@@ -344,7 +442,7 @@ def test_what_is_just_being_started_is_ended_by_closing(viewers, monkeypatch, im
         closed.set()
         return join(worker)
 
-    monkeypatch.setattr('physsim_ros.view.viewer._program', lambda: shutil.which('yes'))
+    monkeypatch.setattr('physsim_ros.view.endpoints._program', lambda: shutil.which('yes'))
     monkeypatch.setattr('subprocess.Popen', slowly)
     viewer = viewers(mode=ViewerMode.WEB)
     assert began.wait(PATIENCE)
@@ -355,9 +453,33 @@ def test_what_is_just_being_started_is_ended_by_closing(viewers, monkeypatch, im
     assert started[0].poll() is not None
 
 
+def test_of_a_flood_of_changes_the_last_counts_and_few_are_carried_out(viewers, monkeypatch):
+    started = []
+    start = endpoints.start_child
+
+    def count(*arguments, **options):
+        started.append(start(*arguments, **options))
+        return started[-1]
+
+    monkeypatch.setattr(endpoints, 'start_child', count)
+    viewer = viewers()
+    for _ in range(100):
+        viewer.open_viewer(ViewerMode.WEB)
+        viewer.open_viewer(ViewerMode.NONE)
+    viewer.open_viewer(ViewerMode.WEB)
+
+    def one_runs():
+        viewer.poll()
+        running = [program for program in started if program.poll() is None]
+        return viewer.state.startswith('web: http') and len(running) == 1
+
+    until(one_runs)
+    assert len(started) <= 2
+
+
 def test_a_page_server_that_dies_is_started_again(viewers, monkeypatch):
     # It has settled at once.
-    monkeypatch.setattr('physsim_ros.view.viewer.SETTLING', 0.0)
+    monkeypatch.setattr('physsim_ros.view.endpoints.SETTLING', 0.0)
     viewer = viewers(mode=ViewerMode.WEB)
     events = Events(viewer)
     events.wait_for('')
@@ -374,7 +496,7 @@ def test_a_page_server_that_dies_is_started_again(viewers, monkeypatch):
 def test_a_page_server_that_ends_at_once_is_not_started_again(viewers, monkeypatch, program):
     started = []
     monkeypatch.setattr(
-        'physsim_ros.view.viewer._program',
+        'physsim_ros.view.endpoints._program',
         lambda: started.append(program) or shutil.which(program),
     )
     viewer = viewers(mode=ViewerMode.WEB)
@@ -466,14 +588,49 @@ def test_a_server_that_goes_and_comes_again_is_found_again(viewers, server):
 
 
 # The whole life of a process whose viewer freezes: a frozen one would keep this one from ending.
+# A process that looks what ten viewers leave behind.
+TEN_VIEWERS = """
+    import psutil, threading
+    from test.view.test_viewer import Events, show, until
+    from physsim_ros.view import Viewer, ViewerMode, viewer as module
+
+    module.CHANGE_PERIOD = 0.0
+    process = psutil.Process()
+    viewer = Viewer()
+    events = Events(viewer)
+
+    def open_and_close():
+        viewer.open_viewer(ViewerMode.WEB)
+        events.wait_for('')
+        show(viewer, 50)
+        until(lambda: 'open, 5' in viewer.state)
+        viewer.open_viewer(ViewerMode.NONE)
+        until(lambda: not any('viewer' in each.name for each in threading.enumerate()))
+        return process.num_threads(), process.num_fds(), len(process.net_connections())
+
+    open_and_close()
+    print(*open_and_close())
+    for _ in range(8):
+        last = open_and_close()
+    print(*last)
+"""
+
+
+def test_ten_viewers_leave_no_threads_descriptors_or_ports():
+    second, tenth = run_alone(TEN_VIEWERS).splitlines()
+
+    assert tenth == second
+
+
 FROZEN = """
     import os, signal, sys, threading
+    from pathlib import Path
     from test.view.test_viewer import bulk, Events, frame, until
     from physsim_ros.view import Viewer, ViewerMode
 
     url, path, server = sys.argv[1], sys.argv[2], int(sys.argv[3])
     viewer = Viewer()
-    viewer.record(path)
+    viewer.record(Path(path))
     viewer.open_viewer(ViewerMode.CONNECT, url)
     events = Events(viewer)
     until(lambda: viewer.state.count(', open,') == 2)
@@ -494,17 +651,10 @@ def test_a_frozen_viewer_holds_up_neither_frames_nor_closing_nor_the_end(server,
     path = tmp_path / 'it.rrd'
     arguments = [server.url, str(path), str(server.process.pid)]
 
-    done = subprocess.run(
-        [sys.executable, '-c', textwrap.dedent(FROZEN), *arguments],
-        cwd=Path(__file__).parents[2],
-        stdout=subprocess.PIPE,
-        text=True,
-        timeout=3 * PATIENCE,
-        check=True,
-    )
+    done = run_alone(FROZEN, *arguments)
 
     # It came to its end, and the file is whole all the same.
-    assert rows(path)['/events'] == int(done.stdout)
+    assert rows(path)['/events'] == int(done)
 
 
 def test_a_viewer_that_thaws_is_shown_what_is_new(viewers, server):
@@ -549,6 +699,9 @@ class Blocked(Endpoint):
         self.drawn += frames
 
     def flush(self, patience):
+        pass
+
+    def close(self):
         pass
 
 
@@ -637,7 +790,7 @@ def test_what_waited_for_a_way_that_failed_is_let_go():
 
     assert worker.join()
     assert kept() is None
-    assert 'failed, 0 frames, 1 dropped' in worker.state
+    assert 'failed (there never can be one), 0 frames, 1 dropped' in worker.state
 
 
 def test_importing_the_viewer_does_not_import_rerun():

@@ -1,0 +1,130 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+The program `physsim`: the node from its start to its end.
+
+Law: the first SIGINT or SIGTERM ends the program within `ENDING`, whatever it is doing, with exit
+code 0; a second one ends it at once.
+"""
+
+from __future__ import annotations
+
+from argparse import ArgumentParser
+from contextlib import suppress
+import gc
+import os
+from pathlib import Path
+import signal
+import socket
+import sys
+import threading
+
+# Time for an orderly end after the first signal [s]. With that of the interpreter itself it is
+# less than 3 s.
+ENDING = 2.5
+
+
+class TerminationWatch:
+    """
+    A thread that receives SIGINT and SIGTERM, and ends the process where it does not end itself.
+
+    Python runs a signal handler on the main thread, between two of its own instructions: a step of
+    the engine or a file that cannot be opened delays it without limit. The wakeup descriptor is
+    written at once, by the handler in C.
+    """
+
+    def __init__(self) -> None:
+        self._requested = threading.Event()
+        self._signals, self._wakeup = socket.socketpair()
+        self._wakeup.setblocking(False)
+        signal.set_wakeup_fd(self._wakeup.fileno(), warn_on_full_buffer=False)
+        for number in (signal.SIGINT, signal.SIGTERM):
+            signal.signal(number, lambda *_: None)
+        threading.Thread(target=self._wait, name='signals', daemon=True).start()
+
+    @property
+    def requested(self) -> bool:
+        """Whether the end was asked for."""
+        return self._requested.is_set()
+
+    def _wait(self) -> None:
+        self._signals.recv(1)
+        self._requested.set()
+        self._signals.settimeout(ENDING)
+        with suppress(TimeoutError):
+            self._signals.recv(1)
+        # Child processes end with their parent (`view.child_process`).
+        os._exit(0)
+
+
+def reduce_latency() -> None:
+    """Reduce the time that other threads of the process delay a step; before `rclpy.init`."""
+    # With the default switch interval of 5 ms, a busy thread of the viewer delays a step of 0.6 ms
+    # by 6 ms.
+    sys.setswitchinterval(0.0005)
+    # See docs/decisions/publication_mode.md.
+    profiles = Path(__file__).with_name('fastdds_profiles.xml')
+    os.environ.setdefault('FASTRTPS_DEFAULT_PROFILES_FILE', str(profiles))
+
+
+def main() -> None:
+    """Run the node until it is interrupted."""
+    watch = TerminationWatch()
+    reduce_latency()
+    # ROS and the engine take a second to import, during which a signal is received already.
+    from physsim_ros.model.errors import PhysSimError
+    from physsim_ros.ros.node import PhysSimNode
+    import rclpy
+    from rclpy.experimental import EventsExecutor
+    from rclpy.signals import SignalHandlerOptions
+    from rclpy.utilities import remove_ros_args
+
+    # All settings are parameters; the parser refuses other arguments, which would be ignored.
+    usage = ArgumentParser(
+        prog='physsim',
+        description='Run a physics world as a ROS 2 node.',
+        epilog='Parameters, as config/physsim.yaml lists them, come after --ros-args: '
+        'physsim --ros-args -p world_file:=demo -p gravity:="[0.0, -1.62]"',
+    )
+    try:
+        usage.parse_args(remove_ros_args(sys.argv)[1:])
+        # The signal handlers of rclpy (Jazzy) raise at any point of the program, which can abort
+        # its end.
+        rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
+    except RuntimeError as error:
+        # rcl raises it for invalid arguments.
+        sys.exit(f'physsim: {error}')
+    try:
+        node = PhysSimNode()
+    except PhysSimError as error:
+        rclpy.shutdown()
+        sys.exit(f'physsim: {error}')
+    executor = EventsExecutor()
+    try:
+        executor.add_node(node)
+        node.start()
+        # Objects that exist now live until the end: the garbage collector skips them.
+        gc.collect()
+        gc.freeze()
+        # EventsExecutor.spin (rclpy 7, Jazzy) never returns; spin_once does, and raises the
+        # exceptions of callbacks.
+        while not watch.requested:
+            executor.spin_once(timeout_sec=0.1)
+    finally:
+        # Also after an exception, so that no viewer process remains.
+        executor.remove_node(node)
+        executor.shutdown()
+        node.destroy_node()
+        rclpy.shutdown()

@@ -1,0 +1,314 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+The receivers of frames: a `.rrd` file, a Rerun server elsewhere, one here with its viewer program.
+
+Law: whatever is opened or started here is closed and ended here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+import errno
+import importlib.util
+from itertools import count
+import os
+from pathlib import Path
+import shutil
+import socket
+import subprocess
+import sys
+import threading
+import time
+from typing import TYPE_CHECKING
+from urllib.parse import quote, urlsplit
+
+from physsim_ros.model.snapshot import Frame
+from physsim_ros.view.child_process import end_child, start_child
+from physsim_ros.view.frame_context import FrameContext
+from physsim_ros.view.sink_worker import Endpoint, FLUSH_TIMEOUT, Report, Sink
+
+if TYPE_CHECKING:
+    import rerun as rr
+
+# Application id of the recordings in Rerun.
+NAME = 'physsim'
+DEFAULT_URL = 'rerun+http://127.0.0.1:9876/proxy'
+# Memory of a server for late viewers.
+SERVER_MEMORY = '256MiB'
+# Period of Rerun's batcher [s]: at its default of 8 ms a software-rendered web viewer falls 18 s
+# behind within 30 s.
+TICK = 0.1
+# Time after its start within which a program that ends was never up [s].
+SETTLING = 10.0
+
+
+class RerunSink:
+    """A recording stream of Rerun, and the recorder of frames on it."""
+
+    def __init__(self, *sinks: rr.GrpcSink | rr.GrpcServerSink | rr.FileSink) -> None:
+        # The first import takes a second, so it happens in the thread of the worker.
+        from physsim_ros.view.recording import FrameRecorder
+        import rerun as rr
+
+        batching = rr.ChunkBatcherConfig(flush_tick=TICK)
+        self._recording = rr.RecordingStream(NAME, batcher_config=batching)
+        try:
+            self._recording.set_sinks(*sinks)
+        except RuntimeError as error:
+            raise ConnectionError(error) from error
+        self._recorder = FrameRecorder(self._recording)
+
+    def draw(self, frames: Sequence[Frame], *, real_time_factor: float) -> None:
+        """Log frames in order."""
+        self._recorder.draw(frames, context=FrameContext(real_time_factor=real_time_factor))
+
+    def flush(self, timeout: float) -> None:
+        """
+        Wait until all logged frames have been sent.
+
+        :raises TimeoutError: they have not been sent yet
+        :raises ConnectionError: they cannot be sent any more
+        """
+        try:
+            self._recording.flush(timeout_sec=timeout)
+        except RuntimeError as error:
+            # Rerun (0.41) raises RuntimeError for both.
+            if 'timed out' in str(error):
+                raise TimeoutError(error) from error
+            raise ConnectionError(error) from error
+
+    def close(self) -> None:
+        """Close the stream; waits for a receiver that takes nothing, until that ends."""
+        from rerun_bindings import flush_and_cleanup_orphaned_recordings
+
+        self._recording.disconnect()
+        # Rerun (0.41) ends the two threads of a recording only here (rerun-io/rerun#2116).
+        del self._recorder, self._recording
+        flush_and_cleanup_orphaned_recordings()
+
+
+class FileEndpoint(Endpoint):
+    """
+    A `.rrd` file, for which no frame is dropped.
+
+    :param path: of the file
+    :param overwrite: whether a file of that name is replaced; else another name is taken
+    """
+
+    kind = 'record'
+    code = 'record_failed'
+    period, capacity, closing, reopens = 0.5, sys.maxsize, 10.0, False
+
+    def __init__(self, path: Path, *, overwrite: bool) -> None:
+        self.where = str(path)
+        self._path = path
+        self._overwrite = overwrite
+        # Device and inode of the open file.
+        self._identity = (0, 0)
+
+    def open_sink(self) -> Sink:
+        """Create the file, and return a recording to it."""
+        import rerun as rr
+
+        # Rerun (0.41) keeps the global interpreter lock while it opens a file: where that blocks,
+        # as with a FIFO, all threads would wait.
+        try:
+            if not self._overwrite:
+                self._path = _without_content(self._path)
+                self.where = str(self._path)
+            self._identity = _create_regular_file(self._path)
+        except OSError as error:
+            raise ConnectionError(error.strerror) from error
+        return RerunSink(rr.FileSink(self._path))
+
+    def check(self) -> None:
+        """Look whether the file is still there: a deleted one would be written on."""
+        try:
+            found = self._path.stat()
+        except OSError as error:
+            raise ConnectionError(f'the file is gone ({error.strerror})') from error
+        if (found.st_dev, found.st_ino) != self._identity:
+            raise ConnectionError('the file was replaced by another')
+
+
+class ClientEndpoint(Endpoint):
+    """A Rerun server started elsewhere, which may start later than the world and end before it."""
+
+    kind = 'connect'
+
+    def __init__(self, url: str) -> None:
+        self.where = url
+
+    def open_sink(self) -> Sink | None:
+        """Return a recording to the server, if there is one by now."""
+        import rerun as rr
+
+        try:
+            sink = rr.GrpcSink(self.where)
+            address = urlsplit(self.where)
+            host, port = address.hostname or '127.0.0.1', address.port or 9876
+        except (RuntimeError, ValueError) as error:
+            raise ConnectionError(error) from error
+        # Without a server, GrpcSink (Rerun 0.41) waits 5 s and then keeps all data in memory.
+        return RerunSink(sink) if _is_open(host, port) else None
+
+
+class ServerEndpoint(Endpoint):
+    """
+    A Rerun server in this process, on loopback only, and a viewer program connected to it.
+
+    :param native: whether the program is a window, where there is a display; else a web page
+    :param report: takes answers about the program
+    """
+
+    def __init__(self, *, native: bool, report: Report) -> None:
+        self._report = report
+        self.kind = 'spawn' if native else 'web'
+        self._uri = ''
+        self._program: subprocess.Popen[bytes] | None = None
+        self._started = 0.0
+        # Guards start and end of the program, so that none is started after `close`.
+        self._lock = threading.Lock()
+        self._closed = False
+
+    def open_sink(self) -> Sink:
+        """Start a server and the program, and return a recording to it."""
+        import rerun as rr
+
+        with self._lock:
+            self._end_program()
+        sink = rr.GrpcServerSink('127.0.0.1', _free_port(), server_memory_limit=SERVER_MEMORY)
+        rerun_sink = RerunSink(sink)
+        self._uri = sink.uri
+        if self.kind == 'spawn' and not has_display():
+            self._fall_back('there is no display')
+        else:
+            self._start_program()
+        return rerun_sink
+
+    def check(self) -> None:
+        """Restart or report a program that has ended."""
+        program = self._program
+        if program is None or (code := program.poll()) is None:
+            return
+        self._program = None
+        settling = time.monotonic() - self._started < SETTLING
+        if self.kind == 'web' and settling:
+            self.where = f'any Rerun viewer at {self._uri}'
+            self._report(self.lost_answer(f'no page could be served ({code})'))
+        elif self.kind == 'web':
+            self._report(self.lost_answer(f'the page server ended ({code}); it is started again'))
+            self._start_program()
+        elif code and settling:
+            self._fall_back(f'no window could be opened ({code})')
+        else:
+            self._report(
+                self.lost_answer(f'the window was closed; another one: rerun {self._uri}')
+            )
+
+    def close(self) -> None:
+        """End the program and start none any more."""
+        with self._lock:
+            self._closed = True
+            self._end_program()
+
+    def _end_program(self) -> None:
+        """End the program, if there is one; the caller holds the lock."""
+        program, self._program = self._program, None
+        if program is not None:
+            end_child(program, timeout=FLUSH_TIMEOUT)
+
+    def _fall_back(self, reason: str) -> None:
+        self.kind = 'web'
+        self._start_program()
+        self._report(self.lost_answer(f'{reason}, so this page instead'))
+
+    def _start_program(self) -> None:
+        if self.kind == 'spawn':
+            self.where = f'window on {self._uri}'
+            arguments = [f'--connect={self._uri}', '--port=auto', '--hide-welcome-screen']
+        else:
+            port = _free_port(9090)
+            self.where = f'http://127.0.0.1:{port}/?url={quote(self._uri, safe="")}'
+            arguments = ['--serve-web', f'--web-viewer-port={port}', self._uri]
+        # On loopback; `rerun.serve_web_viewer` (0.41) listens on all interfaces.
+        command = [_program(), '--bind=127.0.0.1', *arguments]
+        # Both variables keep the program from asking about analytics.
+        environment = {**os.environ, 'CI': '1', 'RERUN_APP_ONLY': 'true'}
+        try:
+            with self._lock:
+                if not self._closed:
+                    self._program = start_child(command, environment=environment)
+        except OSError as error:
+            self.where = f'any Rerun viewer at {self._uri}'
+            self._report(self.lost_answer(f'{command[0]} cannot be run: {error}'))
+        self._started = time.monotonic()
+
+
+def has_display() -> bool:
+    """Return whether a window can be opened."""
+    return bool(os.environ.get('DISPLAY') or os.environ.get('WAYLAND_DISPLAY'))
+
+
+def _is_open(host: str, port: int) -> bool:
+    try:
+        socket.create_connection((host, port), timeout=FLUSH_TIMEOUT).close()
+    except OSError:
+        return False
+    return True
+
+
+def _free_port(wanted: int = 0) -> int:
+    """Return a free TCP port of this machine: the wanted one, or any other."""
+    with socket.socket() as probe:
+        probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            probe.bind(('127.0.0.1', wanted))
+        except OSError:
+            return _free_port()
+        port: int = probe.getsockname()[1]
+        return port
+
+
+def _program() -> str:
+    """Return the path of the viewer program of the rerun-sdk wheel, or of that on PATH."""
+    spec = importlib.util.find_spec('rerun_cli')
+    if spec is not None and spec.origin is not None:
+        program = Path(spec.origin).with_name('rerun')
+        if program.exists():
+            return str(program)
+    return shutil.which('rerun') or 'rerun'
+
+
+def _create_regular_file(path: Path) -> tuple[int, int]:
+    """
+    Create a file, or open it, to see that it can be written; return device and inode.
+
+    :raises OSError: it cannot be written, or is no regular file
+    """
+    if path.exists() and not path.is_file():
+        raise OSError(errno.EINVAL, 'it is no regular file')
+    with path.open('ab') as file:
+        found = os.fstat(file.fileno())
+    return found.st_dev, found.st_ino
+
+
+def _without_content(path: Path) -> Path:
+    """Return a path, or the first of `name-2.rrd`, `name-3.rrd`, ... that has no content."""
+    others = (path.with_stem(f'{path.stem}-{number}') for number in count(2))
+    while path.exists() and path.stat().st_size > 0:
+        path = next(others)
+    return path
