@@ -1,4 +1,4 @@
-# make run | test | lint | bench | ablate | evaluate | clean; ARGS='...' is handed on to the program that a target runs.
+# make run | test | lint | bench | ablate | evaluate | gallery | clean; ARGS='...' is handed on to the program that a target runs.
 #
 # What it needs: Linux, make, and a Python of 3.11 or later with venv. It builds .venv beside this file and changes
 # nothing else. Where ROS 2 Jazzy is sourced, that is used; everywhere else Jazzy comes as wheels.
@@ -29,7 +29,7 @@ else
   unexport _ROS_WHEELS_BOOTSTRAP_COMPLETE
 endif
 
-.PHONY: run test lint bench ablate evaluate clean
+.PHONY: run test lint bench ablate evaluate gallery clean
 
 run: $(STAMP)
 	@echo 'Where to look:'
@@ -60,6 +60,10 @@ ablate: $(STAMP)
 
 evaluate: $(STAMP)
 	$(BIN)/python -m test.evaluation $(ARGS)
+
+# Draws the pictures of README and docs anew; needs a Vulkan driver (Debian: mesa-vulkan-drivers libvulkan1).
+gallery: $(STAMP)
+	$(BIN)/python -m test.gallery $(ARGS)
 
 clean:
 	rm -rf $(VENV) build install log dist *.egg-info .hypothesis .import_linter_cache .mypy_cache .pytest_cache .ruff_cache

@@ -25,7 +25,7 @@ from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
-from physsim_ros.model.arrays import Floats, Ints
+from physsim_ros.model.arrays import Flags, Floats, Ints
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.grips import Grip
 from physsim_ros.model.preview import NO_PREVIEW, Preview
@@ -78,6 +78,8 @@ class Snapshot:
     :param twists: (n, 3) float64: vx, vy [m/s] of each centre of mass, spin [rad/s]; world axes
     :param forces: (j,) float64: force of each joint in the last step [N]; of a torque, at an arm
         of 1 m; empty if unknown
+    :param compressed: (j,) bool: whether that force pushes the bodies of a rod or spring apart;
+        empty if unknown
     :param springs: those of the joints that are springs
     :param grips: of hands on bodies
     """
@@ -88,6 +90,7 @@ class Snapshot:
     poses: Floats
     twists: Floats
     forces: Floats = field(default_factory=lambda: np.empty(0))
+    compressed: Flags = field(default_factory=lambda: np.empty(0, dtype=bool))
     springs: Springs = NO_SPRINGS
     grips: tuple[Grip, ...] = ()
 

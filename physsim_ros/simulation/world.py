@@ -124,6 +124,7 @@ class World:
             poses=poses,
             twists=twists,
             forces=self._space.joints.forces(),
+            compressed=self._space.joints.compressed(),
             springs=self._space.joints.springs(),
             grips=self.grips,
         )

@@ -33,14 +33,6 @@ def sampling_period(count: int) -> int:
     return max(1, math.ceil(count / _BUDGET))
 
 
-def nice_number(value: float) -> float:
-    """Return the least number of 1, 2, 5 times a power of ten that is at least a value > 0."""
-    power = 10.0 ** math.floor(math.log10(value))
-    return next(
-        step * power for step in (1.0, 2.0, 5.0, 10.0) if step * power >= value * (1 - 1e-9)
-    )
-
-
 def arrow_columns(
     origins: Floats, vectors: Floats, height: float, lengths: Sequence[int]
 ) -> list[rr.ComponentColumn]:

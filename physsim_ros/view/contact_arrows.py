@@ -20,29 +20,55 @@ Of two movable bodies the arrow is that of the later spawned one.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Contacts
-from physsim_ros.view.arrows import arrow_columns, nice_number, sampling_period
+from physsim_ros.view.arrows import arrow_columns, sampling_period
 from physsim_ros.view.frame_batch import FrameBatch
+from physsim_ros.view.round_numbers import nice_number
 import rerun as rr
 
 PATH = 'world/contacts'
 COLOR = (214, 39, 40)
-# Greatest length of an arrow [units].
+# Greatest length of an arrow, in lengths of that of one weight.
 _LONGEST = 3.0
+# Bounds of the length of the arrow of one weight [units].
+_SHORT, _LONG = 0.3, 1.0
 # Standard gravity [m/s²], for the scale in worlds without one.
 _GRAVITY = 9.81
 _NONE: Floats = np.empty((0, 2))
 
 
-def force_scale(scene: Scene) -> float:
-    """Return the force whose arrow has a length of one unit: some weight of a body or two [N]."""
-    masses = scene.inertia[:, 0]
-    masses = masses[masses > 0]
-    gravity = float(np.hypot(*scene.settings.gravity)) or _GRAVITY
-    return nice_number(float(np.median(masses)) * gravity) if len(masses) else 1.0
+class ForceScale(NamedTuple):
+    """
+    The scale of the arrows of a scene: that of one weight is about as long as a body.
+
+    :ivar force: a round number [N]
+    :ivar length: of the arrow of that force [m]
+    """
+
+    force: float
+    length: float
+
+
+def force_scale(scene: Scene, unit: float) -> ForceScale:
+    """
+    Return the scale of the arrows of a scene.
+
+    :param unit: length of a unit of the view [m]
+    """
+    movable = np.flatnonzero(scene.inertia[:, 0] > 0)
+    if not len(movable):
+        return ForceScale(1.0, unit)
+    weight = float(np.median(scene.inertia[movable, 0]))
+    weight *= float(np.hypot(*scene.settings.gravity)) or _GRAVITY
+    size = float(np.median([scene.bodies[row].shape.form.outer for row in movable]))
+    length = min(max(2.0 * size, _SHORT * unit), _LONG * unit)
+    force = nice_number(weight)
+    return ForceScale(force, length * force / weight)
 
 
 class ContactArrows:
@@ -54,15 +80,19 @@ class ContactArrows:
 
     def __init__(self, recording: rr.RecordingStream) -> None:
         self._recording = recording
+        self._scale = ForceScale(1.0, 1.0)
         # Whether the last row that was sent has arrows, and the time of the frame before [ns].
         self._shown = False
         self._stamp: int | None = None
 
-    def send(self, batch: FrameBatch, *, unit: float, height: float) -> None:
+    def change_scale(self, scale: ForceScale) -> None:
+        """Draw arrows by another scale from now on."""
+        self._scale = scale
+
+    def send(self, batch: FrameBatch, *, height: float) -> None:
         """
         Send the contacts of a batch.
 
-        :param unit: length of a unit of the view [m]
         :param height: z of the arrows [m]
         """
         most = max(
@@ -73,7 +103,7 @@ class ContactArrows:
             self._stamp = batch.frames[-1].snapshot.stamp
             return
         chosen = batch.sampled(sampling_period(most))
-        arrows = [self._arrows(batch, index, unit) for index in chosen]
+        arrows = [self._arrows(batch, index) for index in chosen]
         origins, vectors = zip(*arrows, strict=True)
         lengths = [len(each) for each in origins]
         self._shown, self._stamp = lengths[-1] > 0, batch.frames[-1].snapshot.stamp
@@ -83,7 +113,7 @@ class ContactArrows:
             arrow_columns(np.concatenate(origins), np.concatenate(vectors), height, lengths),
         )
 
-    def _arrows(self, batch: FrameBatch, index: int, unit: float) -> tuple[Floats, Floats]:
+    def _arrows(self, batch: FrameBatch, index: int) -> tuple[Floats, Floats]:
         """Return points and vectors of the contacts of a frame, (m, 2) float64 each [m]."""
         frame = batch.frames[index]
         if frame.contacts is None or not len(frame.contacts.pairs):
@@ -91,9 +121,10 @@ class ContactArrows:
         before = batch.frames[index - 1].snapshot.stamp if index else self._stamp
         period = 0 if before is None else abs(frame.snapshot.stamp - before)
         forces = contact_forces(frame.contacts, batch.scene) / ((period or 16_666_667) * 1e-9)
-        vectors = forces * (unit / force_scale(batch.scene))
+        scale = self._scale
+        vectors = forces * (scale.length / scale.force)
         lengths = np.hypot(vectors[:, 0], vectors[:, 1])[:, None]
-        vectors *= np.minimum(1.0, _LONGEST * unit / np.maximum(lengths, 1e-12))
+        vectors *= np.minimum(1.0, _LONGEST * scale.length / np.maximum(lengths, 1e-12))
         return frame.contacts.points, vectors
 
 

@@ -19,7 +19,7 @@ from __future__ import annotations
 import math
 
 from physsim_ros.model.settings import Bounds
-from physsim_ros.view.arrows import nice_number
+from physsim_ros.view.round_numbers import nice_number
 import rerun as rr
 
 LINES, LABELS = 'world/grid', 'world/grid/metres'
@@ -27,8 +27,8 @@ LINES, LABELS = 'world/grid', 'world/grid/metres'
 _LEAST = 0.8
 # Lines from one labelled line to the next.
 _LABELLED = 5
-# How far the grid goes beyond the area that the camera shows, in shares of its longer side.
-_BEYOND = 0.6
+# Half the width and height of the grid [units]: twice what the camera shows, in narrow views too.
+_ACROSS, _UP = 32.0, 26.0
 _FAINT, _CLEAR, _INK = (228, 229, 224), (203, 205, 200), (250, 250, 247)
 # Distance of the labels from the lower edge of the area: they hang below their points [units].
 _ABOVE = 0.7
@@ -45,9 +45,9 @@ def grid_columns(
     """
     left, bottom, right, top = area
     spacing = nice_number(_LEAST * unit)
-    beyond = _BEYOND * max(right - left, top - bottom)
-    columns = _multiples(left - beyond, right + beyond, spacing)
-    rows = _multiples(bottom - beyond, top + beyond, spacing)
+    x, y = (left + right) / 2, (bottom + top) / 2
+    columns = _multiples(x - _ACROSS * unit, x + _ACROSS * unit, spacing)
+    rows = _multiples(y - _UP * unit, y + _UP * unit, spacing)
     (x1, x2), (y1, y2) = ((each[0] * spacing, each[-1] * spacing) for each in (columns, rows))
     z = -0.1 * unit
     lines = [((n * spacing, y1, z), (n * spacing, y2, z)) for n in columns]
@@ -59,10 +59,17 @@ def grid_columns(
         # Negative radii are ui points.
         radii=[-0.5 if number else -1.0 for number in numbers],
     )
+    edge = _ABOVE * unit
     labelled = [
-        ((n * spacing, bottom + _ABOVE * unit, z), n) for n in columns if n % _LABELLED == 0
+        ((n * spacing, bottom + edge, z), n)
+        for n in columns
+        if n % _LABELLED == 0 and n * spacing > left + 2 * edge
     ]
-    labelled += [((left, n * spacing, z), n) for n in rows if n % _LABELLED == 0]
+    labelled += [
+        ((left + 1.4 * edge, n * spacing, z), n)
+        for n in rows
+        if n % _LABELLED == 0 and bottom + edge < n * spacing < top - 2 * edge
+    ]
     points = rr.Points3D.columns(
         positions=[point for point, _ in labelled],
         labels=[f'{number * spacing:g} m' for _, number in labelled],

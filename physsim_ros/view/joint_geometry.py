@@ -25,6 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.scene import Scene
+from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.view import columns
 from physsim_ros.view.body_mesh import JOINT_INK, JOINT_LINE
 from physsim_ros.view.joint_glyphs import is_rigid, JointLines
@@ -104,12 +105,12 @@ class JointGeometry:
         result[..., 2] = np.concatenate((poses[..., 2], background), axis=1)[:, self._sides]
         return result
 
-    def line_columns(self, poses: Floats, forces: list[Floats]) -> list[rr.ComponentColumn]:
+    def line_columns(self, poses: Floats, snapshots: list[Snapshot]) -> list[rr.ComponentColumn]:
         """
         Return the lines of each frame; none where no joint has a line.
 
         :param poses: (f, n, 3) float64: of the bodies, x, y [m], yaw [rad]
-        :param forces: (j,) float64 each: of the joints [N], empty where they are unknown
+        :param snapshots: of the frames, with the forces of joints
         """
         lines, frames = self._lines, len(poses)
         if not len(lines.owner):
@@ -121,18 +122,18 @@ class JointGeometry:
         every = np.tile(lines.lengths, frames)
         return [
             columns.column(columns.STRIPS, (places.reshape(-1, 3), every), lengths),
-            columns.column(columns.STRIP_COLORS, self._levels(forces, lines.owner), lengths),
+            columns.column(columns.STRIP_COLORS, self._levels(snapshots, lines.owner), lengths),
             columns.column(
                 columns.STRIP_RADII, np.full(frames, self._radius, np.float32), [1] * frames
             ),
         ]
 
-    def dot_columns(self, poses: Floats, forces: list[Floats]) -> list[rr.ComponentColumn]:
+    def dot_columns(self, poses: Floats, snapshots: list[Snapshot]) -> list[rr.ComponentColumn]:
         """
         Return the dots of each frame; none where every joint has a line.
 
         :param poses: (f, n, 3) float64: of the bodies, x, y [m], yaw [rad]
-        :param forces: (j,) float64 each: of the joints [N], empty where they are unknown
+        :param snapshots: of the frames, with the forces of joints
         """
         frames, count = len(poses), len(self._dotted)
         if not count:
@@ -142,12 +143,12 @@ class JointGeometry:
         lengths = [count] * frames
         return [
             columns.column(columns.POSITIONS, places.reshape(-1, 3), lengths),
-            columns.column(columns.POINT_COLORS, self._levels(forces, self._dotted), lengths),
+            columns.column(columns.POINT_COLORS, self._levels(snapshots, self._dotted), lengths),
             columns.column(columns.POINT_RADII, np.tile(self._dots, frames), lengths),
         ]
 
-    def _levels(self, forces: list[Floats], joints: NDArray[np.intp]) -> NDArray[np.uint8]:
+    def _levels(self, snapshots: list[Snapshot], joints: NDArray[np.intp]) -> NDArray[np.uint8]:
         """Return the colours of some joints in each frame, (f * k, 4) uint8."""
-        colors = np.stack([self._lines.colors(each) for each in forces])[:, joints]
+        colors = np.stack([self._lines.colors(each) for each in snapshots])[:, joints]
         levels: NDArray[np.uint8] = np.rint(colors * 255).astype(np.uint8)
         return levels.reshape(-1, 4)

@@ -17,7 +17,8 @@ Joints as line strips: coils, rods, ropes, axles, motors, tracks, toothed wheels
 
 Laws: the corners of the strips are computed once a scene, relative to the two points of a joint;
 their positions follow from the poses by array operations. The colour is that of the joint's force:
-slate at 0, then amber, red at `break_force` or at ten times the weight of its bodies.
+slate at 0; red where it pulls, blue where it pushes, amber where it does neither along a line, at
+`break_force` or at twice the weight of the heaviest body.
 """
 
 from __future__ import annotations
@@ -32,7 +33,9 @@ from physsim_ros.model.arrays import Floats
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.scene import Body, Joint, Scene
+from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.transform import turned
+from physsim_ros.view.round_numbers import nice_number
 
 # The smallest and the largest half size of a symbol [m].
 SMALL, _LARGE = 0.03, 0.15
@@ -41,11 +44,14 @@ _COILS, _COIL_STEPS, _CIRCLE, _ROPE = 7, 8, 16, 12
 _TEETH = 8
 # Half the length of the track of a slider without limits [half sizes of its symbol].
 _TRACK = 8.0
-# Colours at no force, at a third of the full-scale force, and at full scale: red, green, blue.
-_SLATE, _AMBER, _RED = (0.25, 0.3, 0.38), (0.93, 0.6, 0.13), (0.84, 0.1, 0.12)
-# Full-scale force of a joint without `break_force`: in weights of its heaviest body; and the least
+# Colours at no force, and at the full-scale force: red, green, blue.
+SLATE, PULL, PUSH = (0.25, 0.3, 0.38), (0.84, 0.1, 0.12), (0.1, 0.35, 0.9)
+_AMBER = (0.93, 0.6, 0.13)
+# Kinds whose force is along their line.
+_ALONG = {JointKind.ROD, JointKind.SPRING, JointKind.ROPE}
+# Full-scale force of a joint without `break_force`: in weights of the heaviest body; and the least
 # one [N].
-_FULL_SCALE, _LEAST = 10.0, 1e-3
+_FULL_SCALE, _LEAST = 2.0, 1e-3
 # Standard gravity [m/s²], for worlds without one.
 _WEIGHT = 9.81
 
@@ -125,8 +131,9 @@ class JointLines:
         self._rows = scene.joint_rows[self._joints, on_b]
         self.seats = _drawn_seats(scene)
         self._full_scale = np.array(
-            [_full_scale_force(joint, scene, bodies) for joint in scene.joints]
+            [joint.properties.break_force or full_scale_force(scene) for joint in scene.joints]
         )
+        self._along_line = np.array([joint.kind in _ALONG for joint in scene.joints], dtype=bool)
         self._rope_lengths = np.array(
             [joint.rest_length if joint.kind is JointKind.ROPE else 0.0 for joint in scene.joints]
         )
@@ -167,19 +174,24 @@ class JointLines:
         corners += self._across * side[..., joints, :] + self._sag * depth[..., joints, :]
         return corners + turned(self._arms, yaw)
 
-    def colors(self, forces: Floats) -> NDArray[np.float32]:
+    def colors(self, snapshot: Snapshot) -> NDArray[np.float32]:
         """
-        Return red, green, blue and alpha of each joint, (..., j, 4) float32.
+        Return red, green, blue and alpha of each joint, (j, 4) float32.
 
-        :param forces: (..., j) float64 [N]; empty where they are unknown
+        :param snapshot: with the forces; where they are unknown, they count as 0
         """
         count = len(self._scene.joints)
-        if forces.shape[-1] != count:
-            forces = np.zeros((*forces.shape[:-1], count))
-        share = np.clip(forces / self._full_scale, 0.0, 1.0)
-        colors = np.ones((*share.shape, 4), dtype=np.float32)
-        for channel, levels in enumerate(zip(_SLATE, _AMBER, _RED, strict=True)):
-            colors[..., channel] = np.interp(share, (0.0, 1 / 3, 1.0), levels)
+        forces, compressed = snapshot.forces, snapshot.compressed
+        if len(forces) != count:
+            forces = np.zeros(count)
+        if len(compressed) != count:
+            compressed = np.zeros(count, dtype=bool)
+        share = np.clip(forces / self._full_scale, 0.0, 1.0)[:, None]
+        full = np.where(
+            self._along_line[:, None], np.where(compressed[:, None], PUSH, PULL), _AMBER
+        )
+        colors = np.ones((count, 4), dtype=np.float32)
+        colors[:, :3] = (1.0 - share) * np.array(SLATE) + share * full
         return colors
 
 
@@ -290,17 +302,15 @@ def _drawn_seats(scene: Scene) -> Floats:
     return seats
 
 
-def _full_scale_force(joint: Joint, scene: Scene, bodies: dict[str, Body]) -> float:
-    """Return the force of a joint at the end of the colour scale [N]."""
-    if joint.properties.break_force:
-        return joint.properties.break_force
-    weights = [
-        bodies[name].total_mass
-        for name in (joint.a, joint.b)
-        if name != WORLD and not bodies[name].fixed
-    ]
+def full_scale_force(scene: Scene) -> float:
+    """
+    Return the force at the end of the colour scale, of joints without `break_force` [N].
+
+    It is a round number, at least twice the weight of the heaviest body.
+    """
     gravity = math.hypot(*scene.settings.gravity) or _WEIGHT
-    return max(_FULL_SCALE * gravity * max(weights, default=0.0), _LEAST)
+    greatest = _FULL_SCALE * gravity * float(scene.inertia[:, 0].max(initial=0.0))
+    return nice_number(max(greatest, _LEAST))
 
 
 def segment_corners(lengths: Sequence[int]) -> NDArray[np.intp]:

@@ -77,10 +77,10 @@ class JointTrack:
             turned = (poses != self._poses).any(axis=(0, 2))
         self._poses = poses[-1]
         self._symbols.send_poses(joints.groups, poses, batch.times, turned)
-        forces = [each.snapshot.forces for each in batch.frames]
+        snapshots = [each.snapshot for each in batch.frames]
         for path, columns in (
-            (LINES, joints.line_columns(batch.poses, forces)),
-            (DOTS, joints.dot_columns(batch.poses, forces)),
+            (LINES, joints.line_columns(batch.poses, snapshots)),
+            (DOTS, joints.dot_columns(batch.poses, snapshots)),
         ):
             if columns:
                 self._filled.add(path)

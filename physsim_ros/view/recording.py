@@ -31,7 +31,7 @@ from physsim_ros.view import contact_arrows, grid, plots, velocities
 from physsim_ros.view.blueprint import blueprint
 from physsim_ros.view.blueprint_stream import send_blueprint
 from physsim_ros.view.body_geometry import BodyGeometry, DEPTH
-from physsim_ros.view.camera import Camera, pinhole, PIXELS
+from physsim_ros.view.camera import Camera, pinhole
 from physsim_ros.view.contact_arrows import ContactArrows
 from physsim_ros.view.event_log import send_events
 from physsim_ros.view.frame_batch import FrameBatch, RecordedClock, Times
@@ -39,6 +39,7 @@ from physsim_ros.view.frame_context import FrameContext
 from physsim_ros.view.hand_lines import HandLines
 from physsim_ros.view.joint_geometry import JointGeometry
 from physsim_ros.view.joint_track import JointTrack
+from physsim_ros.view.legend import Legend
 from physsim_ros.view.mesh_track import MeshTrack
 from physsim_ros.view.plots import send_pace, send_plots
 from physsim_ros.view.preview_lines import PreviewLines
@@ -84,6 +85,7 @@ class FrameRecorder:
         self._previews = PreviewLines(recording)
         self._run_states = RunStateTrack(recording)
         self._status = Status(recording)
+        self._legend = Legend(recording)
 
     @property
     def recorded(self) -> int:
@@ -134,7 +136,7 @@ class FrameRecorder:
         unit = bodies.unit
         self._bodies.send_poses(bodies.groups, batch.poses, batch.times, moved)
         self._joints.send(batch, moved)
-        self._contacts.send(batch, unit=unit, height=_ARROWS * unit)
+        self._contacts.send(batch, height=_ARROWS * unit)
         send_velocities(self._recording, batch, _ARROWS * unit)
         self._traces.send(batch, context.traced, _JOINTS * unit)
         self._hands.send(batch, _PREVIEW * unit)
@@ -187,7 +189,9 @@ class FrameRecorder:
         lines, labels = grid.grid_columns(self._camera.area, bodies.unit)
         self._recording.send_columns(grid.LINES, times, lines)
         self._recording.send_columns(grid.LABELS, times, labels)
-        self._status.send_scale(batch, PIXELS)
+        forces = contact_arrows.force_scale(batch.scene, bodies.unit)
+        self._contacts.change_scale(forces)
+        self._legend.send(batch, forces, bodies.unit)
 
     def _send_walls(self, bounds: Bounds | None, unit: float, times: Times) -> None:
         corners = wall_corners(bounds, unit)

@@ -17,17 +17,16 @@
 from __future__ import annotations
 
 from physsim_ros.model.snapshot import Frame
-from physsim_ros.view.contact_arrows import COLOR, force_scale
 from physsim_ros.view.frame_batch import FrameBatch
 from physsim_ros.view.run_state_track import PastWatch
 import rerun as rr
 
 # In pixels of the image of the camera, so that they stay when the camera moves.
-PATH, SCALE = 'world/camera/status', 'world/camera/force'
+PATH = 'world/camera/status'
 # Period of the words [frames]: ten times a second is legible.
 SAMPLE = 6
-# Top left of the words, and of the legend of forces [pixels].
-_AT, _LEGEND = (70.0, 12.0), (30.0, 44.0)
+# Middle of the upper edge of the words [pixels].
+_AT = (110.0, 6.0)
 _INK = (250, 250, 247)
 
 
@@ -62,20 +61,6 @@ class Status:
         labels = rr.Points2D.columns(labels=[text for _, text in rows])
         times = batch.times_at([index for index, _ in rows])
         self._recording.send_columns(PATH, times, labels)
-
-    def send_scale(self, batch: FrameBatch, pixels: float) -> None:
-        """
-        Send the legend of the arrows of contacts, at the first frame of a batch.
-
-        :param pixels: length of a unit of the view
-        """
-        x, y = _LEGEND
-        times = batch.times_at([0])
-        arrow = rr.Arrows2D.columns(
-            origins=[(x, y)], vectors=[(pixels, 0.0)], colors=[COLOR],
-            labels=[f'{force_scale(batch.scene):g} N'],
-        )  # fmt: skip
-        self._recording.send_columns(SCALE, times, arrow)
 
 
 def status_words(frame: Frame, *, past: bool) -> str:

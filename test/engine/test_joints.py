@@ -574,3 +574,29 @@ def test_an_unknown_joint_cannot_be_deleted() -> None:
         world.apply(Unjoin(name='joint/9'))
     assert caught.value.code == 'unknown_joint'
     assert world.digest() == before
+
+
+# Push and pull
+
+
+@pytest.mark.parametrize('gravity', [-9.81, 9.81], ids=['hanging', 'standing'])
+@pytest.mark.parametrize('kind', ['rod', 'spring'])
+@pytest.mark.parametrize('reverse', [False, True], ids=['from above', 'from below'])
+def test_a_rod_or_spring_under_a_weight_pushes_and_over_one_it_pulls(
+    kind: str, gravity: float, *, reverse: bool
+) -> None:
+    world = World()
+    world.apply(Configure(changes={'gravity': (0.0, gravity)}))
+    spawn(world, 'a/0', DISC, (0.0, 0.0, 0.0))
+    spawn(world, 'a/1', DISC, (0.0, 4.0, 0.0), anchored=True)
+    points = [(0.0, 4.0), (0.0, 0.0)]
+    names = {'a': 'a/1', 'b': 'a/0'}
+    if reverse:
+        points, names = points[::-1], {'a': 'a/0', 'b': 'a/1'}
+    said = {'stiffness': 200.0, 'damping': 5.0} if kind == 'spring' else {}
+    world.apply(joining(kind, points, **names, **said))
+    world.step(240)
+    snapshot = world.snapshot()
+    assert snapshot.forces == pytest.approx([DISC.form.area * abs(gravity)], rel=0.2)
+    # Gravity upward presses the body against what is above it.
+    assert snapshot.compressed.tolist() == [gravity > 0]

@@ -20,10 +20,7 @@ One viewer without a screen serves the module; each test opens a recording of it
 
 from __future__ import annotations
 
-import io
 import itertools
-from pathlib import Path
-import time
 
 import numpy as np
 from physsim_ros.model.body_properties import Properties
@@ -34,19 +31,16 @@ from physsim_ros.view.frame_context import FrameContext
 from physsim_ros.view.recording import FrameRecorder
 import pytest
 
-from ..rerun_program import free_port, is_open, rerun
+from ..pictures import has_vulkan, headless_viewer
 
 rr = pytest.importorskip('rerun')
-image = pytest.importorskip('PIL.Image')
-experimental = pytest.importorskip('rerun.experimental')
+pytest.importorskip('PIL.Image')
 
 pytestmark = pytest.mark.skipif(
-    not any(Path('/usr/share/vulkan/icd.d').glob('*.json')),
+    not has_vulkan(),
     reason='no Vulkan driver: apt-get install mesa-vulkan-drivers libvulkan1',
 )
 
-# Seconds for a viewer to start, and to show a recording, on a machine that is busy.
-PATIENCE = 60.0
 RED, BLUE, GREEN = (0.8, 0.05, 0.1, 1.0), (0.1, 0.2, 0.8, 1.0), (0.1, 0.6, 0.2, 1.0)
 # Of levels 0 .. 255: one from rounding.
 COLOR_TOLERANCE = 2
@@ -55,17 +49,8 @@ COLOR_TOLERANCE = 2
 @pytest.fixture(scope='module')
 def viewer():
     """Start a viewer without a screen."""
-    port = free_port()
-    process = rerun('--headless', f'--port={port}', '--window-size=1000x700')
-    deadline, url = time.monotonic() + PATIENCE, f'rerun+http://127.0.0.1:{port}/proxy'
-    try:
-        while not is_open(port):
-            assert time.monotonic() < deadline, 'the viewer did not start'
-            assert process.poll() is None, 'the viewer ended'
-        yield experimental.ViewerClient.connect(url)
-    finally:
-        process.kill()
-        process.wait()
+    with headless_viewer(1000, 700) as it:
+        yield it
 
 
 class Film:
@@ -89,36 +74,16 @@ class Film:
         """Return the picture of the world at a time, (h, w, 3) uint8, when it is complete."""
         if not self._shown:
             self._stream.disconnect()
-            self._viewer.open(str(self._path))
+            self._viewer.open_recording(self._path)
             self._shown = True
-        self._viewer.set_time('recorded', duration=self.times[mark] * 1e-9, play_state='paused')
-        deadline, before = time.monotonic() + PATIENCE, None
-        while True:
-            state = self._viewer.get_state()
-            views = {view.name: view for view in state.views}
-            if 'World' in views:
-                png = self._viewer.take_screenshot(views['World'].view_id)
-                pixels = np.asarray(image.open(io.BytesIO(png)).convert('RGB'))
-                # A viewer draws what it has read so far; two alike are all of it.
-                if before is not None and np.array_equal(before, pixels):
-                    break
-                before = pixels
-            assert time.monotonic() < deadline, 'the picture did not come to rest'
-        errors = [
-            (view.name, report.summary)
-            for view in views.values()
-            for report in view.reports
-            if report.severity.lower() == 'error'
-        ]
-        assert not errors
-        return pixels
+        picture = self._viewer.picture(self.times[mark])
+        assert self._viewer.errors() == []
+        return np.asarray(picture)
 
 
 @pytest.fixture
 def film(tmp_path, viewer):
-    it = Film(tmp_path / 'film.rrd', viewer)
-    yield it
-    viewer.close('all')
+    return Film(tmp_path / 'film.rrd', viewer)
 
 
 def pixels_of(picture, color):

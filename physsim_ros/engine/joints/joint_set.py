@@ -48,7 +48,7 @@ from physsim_ros.engine.joints import (
 from physsim_ros.engine.joints.kind import Batch, Ends, EngineJoint, Kind, Motion
 from physsim_ros.engine.joints.projection import Projection
 from physsim_ros.engine.step_context import StepContext
-from physsim_ros.model.arrays import Floats
+from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.scene import Body, Joint
@@ -190,6 +190,10 @@ class JointSet:
     def forces(self) -> Floats:
         """Return (j,) float64: what each joint gave in the last step [N]."""
         return np.array([held.impulse for held in self.by_name.values()]) / self._dt
+
+    def compressed(self) -> Flags:
+        """Return (j,) bool: whether each joint pushed its bodies apart in the last step."""
+        return np.array([held.is_compressed for held in self.by_name.values()], dtype=bool)
 
     def impulses(self) -> Floats:
         """Return (c, 2) float64: impulses from which the next step starts, of all constraints."""

@@ -26,7 +26,9 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from physsim_ros.engine.islands import Rows
+from physsim_ros.engine.joints import engine_memory
 from physsim_ros.model.arrays import Flags, Floats
+from physsim_ros.model.joints import JointKind
 from physsim_ros.model.scene import Joint
 from physsim_ros.model.transform import Point
 import pymunk
@@ -68,6 +70,14 @@ class EngineJoint:
         """Return the greatest impulse of a constraint in the last step [N s, N m s]."""
         # That of a spring is negative where it pulls.
         return max((abs(each.impulse) for each in self.constraints), default=0.0)
+
+    @property
+    def is_compressed(self) -> bool:
+        """Return whether a rod or spring pushed its bodies apart in the last step."""
+        if self.joint.kind not in {JointKind.ROD, JointKind.SPRING} or not self.constraints:
+            return False
+        # Pymunk gives the impulse of a rod without its sign.
+        return bool(engine_memory.impulses(self.constraints[:1])[0, 0] > 0.0)
 
 
 class Batch(NamedTuple):

@@ -250,7 +250,7 @@ class _JointColumns:
         points = np.concatenate((ends[self._points], corners))
         template.doubles[self._offsets] = points[:, 0]
         template.doubles[self._offsets + 1] = points[:, 1]
-        colors = np.repeat(self._lines.colors(snapshot.forces), 2, axis=0)
+        colors = np.repeat(self._lines.colors(snapshot), 2, axis=0)
         for channel in range(4):
             template.floats[self._color_offsets + channel] = colors[:, channel]
 

@@ -1,0 +1,94 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The legend of forces in the picture: of contacts by an arrow, of joints by a bar of colours."""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+from physsim_ros.view.camera import PIXELS
+from physsim_ros.view.contact_arrows import COLOR, ForceScale
+from physsim_ros.view.frame_batch import FrameBatch
+from physsim_ros.view.joint_glyphs import full_scale_force, PULL, PUSH, SLATE
+import rerun as rr
+
+# In pixels of the image of the camera, so that they stay when the camera moves.
+_ARROW, _BAR, _LABELS = (f'world/camera/legend/{name}' for name in ('arrow', 'bar', 'labels'))
+# Left end of the arrow, and middle of the bar [pixels].
+_ARROW_AT, _BAR_AT = (300.0, 14.0), (620.0, 14.0)
+# Half the length of the bar [pixels], and its number of colours.
+_HALF, _COLORS = 100.0, 11
+# Distance of labels from the arrow and the bar [pixels].
+_BELOW = 6.0
+_INK = (250, 250, 247)
+
+
+class Legend:
+    """
+    Sends the legend.
+
+    :param recording: stream to log to
+    """
+
+    def __init__(self, recording: rr.RecordingStream) -> None:
+        self._recording = recording
+        style = rr.Points2D.from_fields(
+            colors=[_INK], radii=rr.Radius.ui_points(0.0), show_labels=True
+        )
+        recording.log(_LABELS, style, static=True)
+        arrow = rr.Arrows2D.from_fields(colors=[COLOR], radii=rr.Radius.ui_points(1.2))
+        recording.log(_ARROW, arrow, static=True)
+        edges = np.linspace(-_HALF, _HALF, _COLORS + 1) + _BAR_AT[0]
+        strips = [
+            [(left, _BAR_AT[1]), (right, _BAR_AT[1])]
+            for left, right in itertools.pairwise(edges.tolist())
+        ]
+        self._strips = strips
+        shares = np.linspace(-1.0, 1.0, _COLORS)[:, None]
+        full = np.where(shares < 0.0, PUSH, PULL)
+        levels = (1.0 - np.abs(shares)) * np.array(SLATE) + np.abs(shares) * full
+        bar = rr.LineStrips2D.from_fields(
+            colors=np.rint(levels * 255).astype(np.uint8), radii=rr.Radius.ui_points(3.0)
+        )
+        recording.log(_BAR, bar, static=True)
+
+    def send(self, batch: FrameBatch, forces: ForceScale, unit: float) -> None:
+        """
+        Send the legend of a scene, at the first frame of a batch.
+
+        :param forces: scale of the arrows of contacts
+        :param unit: length of a unit of the view [m]
+        """
+        times, scene = batch.times_at([0]), batch.scene
+        x, y = _ARROW_AT
+        long = PIXELS * forces.length / unit
+        arrow = rr.Arrows2D.columns(origins=[(x, y)], vectors=[(long, 0.0)])
+        self._recording.send_columns(_ARROW, times, arrow)
+        labels = [((x + long / 2, y + _BELOW), f'contact {forces.force:g} N')]
+        strips = self._strips if scene.joints else []
+        if strips:
+            x, y = _BAR_AT
+            full = full_scale_force(scene)
+            labels += [
+                ((x - _HALF, y + _BELOW), f'push {full:g} N'),
+                ((x + _HALF, y + _BELOW), f'pull {full:g} N'),
+            ]
+        bar = rr.LineStrips2D.columns(strips=strips).partition([len(strips)])
+        self._recording.send_columns(_BAR, times, bar)
+        points = rr.Points2D.columns(
+            positions=[at for at, _ in labels], labels=[text for _, text in labels]
+        )
+        self._recording.send_columns(_LABELS, times, points.partition([len(labels)]))

@@ -1,0 +1,162 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""`make gallery`; `make gallery ARGS='car demo'` chooses the pictures by their names."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+import sys
+import tempfile
+
+from physsim_ros.model.snapshot import Frame
+from physsim_ros.simulation.simulation import Simulation
+from physsim_ros.view.frame_context import FrameContext
+from physsim_ros.view.recording import FrameRecorder
+import rerun as rr
+
+from ..pictures import headless_viewer, HeadlessViewer
+from ..worlds.digests import scene, SCENES
+
+DOCS = Path(__file__).parents[2] / 'docs'
+# Window of the pictures [pixels]: the world in it is 16 : 7.
+WIDTH, HEIGHT = 1400, 920
+# Simulation time of the picture of a scene [s], where most is going on.
+TIMES = {
+    'worlds/bridge': 4.0,
+    'worlds/car': 5.5,
+    'worlds/catapult': 1.6,
+    'worlds/demo': 2.2,
+    'worlds/dominoes': 3.5,
+    'worlds/galton': 14.0,
+    'worlds/incline': 1.6,
+    'worlds/newtons_cradle': 1.1,
+    'worlds/pendulums': 6.0,
+}
+USUAL = 3.0
+# Duration [s] and rate [Hz] of the animation, and its width [pixels].
+ANIMATED, RATE, NARROW = 6.0, 15, 800
+# Frames in a batch of the recorder.
+BATCH = 60
+
+
+class Recording:
+    """A recording of a simulation in a file."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self._stream = rr.RecordingStream('physsim')
+        self._stream.set_sinks(rr.FileSink(path))
+        self._recorder = FrameRecorder(self._stream)
+
+    def draw(self, frames: list[Frame]) -> int:
+        """Draw frames; return the time of the last on the timeline of the picture [ns]."""
+        context = FrameContext(real_time_factor=frames[-1].speed, cost=0.002)
+        for first in range(0, len(frames), BATCH):
+            end = first + BATCH
+            self._recorder.draw(frames[first:end], context=context)
+        return self._recorder.recorded
+
+    def close(self) -> None:
+        """Complete the file."""
+        self._stream.disconnect()
+
+
+def frames_until(simulation: Simulation, seconds: float) -> Iterator[Frame]:
+    """Yield the frames of a simulation up to a time [s]."""
+    simulation.watch_contacts(True)
+    simulation.speed = 1.0
+    while simulation.step < seconds * simulation.physics_rate:
+        yield simulation.advance_frame()
+
+
+def draw_scene(viewer: HeadlessViewer, directory: Path, name: str) -> None:
+    """Draw the picture of a world or a drawing."""
+    recording = Recording(directory / f'{Path(name).name}.rrd')
+    now = recording.draw(list(frames_until(scene(name), TIMES.get(name, USUAL))))
+    recording.close()
+    viewer.open_recording(recording.path)
+    path = DOCS / f'{name}.png'
+    path.parent.mkdir(exist_ok=True)
+    viewer.picture(now).save(path, optimize=True)
+
+
+def draw_window(viewer: HeadlessViewer, directory: Path) -> None:
+    """Draw the whole window, and the animation of it."""
+    recording = Recording(directory / 'window.rrd')
+    frames = list(frames_until(scene('worlds/demo'), ANIMATED))
+    times = [recording.draw([frame]) for frame in frames]
+    recording.close()
+    viewer.open_recording(recording.path)
+    viewer.picture(times[132], view='').save(DOCS / 'demo.png', optimize=True)
+    pictures = [viewer.picture(time) for time in times[:: 60 // RATE]]
+    size = (NARROW, round(NARROW * pictures[0].height / pictures[0].width))
+    small = [picture.resize(size) for picture in pictures]
+    small[0].save(
+        DOCS / 'demo.webp',
+        save_all=True,
+        append_images=small[1:],
+        duration=1000 // RATE,
+        loop=0,
+        quality=70,
+        method=6,
+    )
+
+
+def draw_time(viewer: HeadlessViewer, directory: Path) -> None:
+    """Draw the tracks of time: play, pause, rewind, a branch."""
+    simulation = scene('worlds/demo')
+    frames: list[Frame] = []
+    now = 0
+
+    def run(count: int, speed: float) -> None:
+        nonlocal now
+        simulation.speed = speed
+        for _ in range(count):
+            now += 16_666_667
+            frames.extend(simulation.advance(now))
+
+    run(180, 1.0)
+    run(20, 0.0)
+    run(60, -1.0)
+    run(40, -2.0)
+    run(120, 1.0)
+    recording = Recording(directory / 'time.rrd')
+    last = recording.draw(frames)
+    recording.close()
+    viewer.open_recording(recording.path)
+    viewer.picture(last, view='Time').save(DOCS / 'time.png', optimize=True)
+
+
+def main(chosen: list[str]) -> None:
+    """Draw the chosen pictures, or all."""
+    pictures: dict[str, Callable[[HeadlessViewer, Path], None]] = {
+        'window': draw_window,
+        'time': draw_time,
+    }
+    names = [name for name in (*SCENES, *pictures) if not chosen or Path(name).name in chosen]
+    with (
+        tempfile.TemporaryDirectory() as directory,
+        headless_viewer(WIDTH, HEIGHT) as viewer,
+    ):
+        for name in names:
+            if name in pictures:
+                pictures[name](viewer, Path(directory))
+            else:
+                draw_scene(viewer, Path(directory), name)
+            print(name, *(f'{view}: {error}' for view, error in viewer.errors()), flush=True)
+
+
+main(sys.argv[1:])

@@ -1,0 +1,98 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Pictures of recordings, by a viewer of Rerun's without a screen."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+import io
+from pathlib import Path
+import time
+
+import numpy as np
+from PIL import Image
+from rerun.experimental import ViewerClient
+
+from .rerun_program import free_port, is_open, rerun
+
+# Seconds for a viewer to start, and to show a recording, on a machine that is busy.
+PATIENCE = 60.0
+TIMELINE = 'recorded'
+
+
+def has_vulkan() -> bool:
+    """Tell whether there is a driver to draw with."""
+    return any(Path('/usr/share/vulkan/icd.d').glob('*.json'))
+
+
+@contextmanager
+def headless_viewer(width: int, height: int) -> Iterator[HeadlessViewer]:
+    """Start a viewer with a window of so many pixels, and end it."""
+    port = free_port()
+    process = rerun(
+        '--headless', f'--port={port}', f'--window-size={width}x{height}', '--hide-welcome-screen'
+    )
+    deadline = time.monotonic() + PATIENCE
+    try:
+        while not is_open(port):
+            assert time.monotonic() < deadline, 'the viewer did not start'
+            assert process.poll() is None, 'the viewer ended'
+        yield HeadlessViewer(ViewerClient.connect(f'rerun+http://127.0.0.1:{port}/proxy'))
+    finally:
+        process.kill()
+        process.wait()
+
+
+class HeadlessViewer:
+    """A viewer and what it shows."""
+
+    def __init__(self, client: ViewerClient) -> None:
+        self.client = client
+
+    def open_recording(self, path: Path) -> None:
+        """Show a recording, instead of another."""
+        if self.client.get_state().recordings:
+            self.client.close('all')
+        self.client.open(str(path))
+
+    def picture(self, recorded: int, *, view: str = 'World') -> Image.Image:
+        """
+        Return a view at a time, when it is complete.
+
+        :param recorded: on the timeline of the picture [ns]
+        :param view: its name; '' is the whole window
+        """
+        self.client.set_time(TIMELINE, duration=recorded * 1e-9, play_state='paused')
+        deadline, before = time.monotonic() + PATIENCE, None
+        while True:
+            ids = {each.name: each.view_id for each in self.client.get_state().views}
+            if not view or view in ids:
+                png = self.client.take_screenshot(ids[view] if view else None)
+                picture = Image.open(io.BytesIO(png)).convert('RGB')
+                # A viewer draws what it has read so far; two alike are all of it.
+                if before is not None and np.array_equal(before, picture):
+                    return picture
+                before = picture
+            assert time.monotonic() < deadline, 'the picture did not come to rest'
+
+    def errors(self) -> list[tuple[str, str]]:
+        """Return the errors of views: the view and what it says."""
+        return [
+            (view.name, report.summary)
+            for view in self.client.get_state().views
+            for report in view.reports
+            if report.severity.lower() == 'error'
+        ]
