@@ -56,6 +56,8 @@ from physsim_ros.simulation.replay import Timeline
 from physsim_ros.simulation.undo import Undo
 from physsim_ros.simulation.world import World
 
+# Topics of the turns in time that the simulation answers itself.
+TURNS = ('~/reset', '~/undo', '~/redo', '~/timeline')
 # Frames in one call: the one that is due, and one to make up for a late one.
 _FRAMES_A_CALL = 2
 # From one checkpoint to the next [s]: to reach a step, at most so much is simulated again.
@@ -86,6 +88,7 @@ class Simulation:
     :param speed: simulation seconds a second; 0 is paused, negative goes back
     :param history: how far back it can go [s of simulation time]
     :param checkpoints: from one checkpoint to the next [s]
+    :ivar asker: key of the message that a turn in time is carried out for; '' for none
     :ivar past: what was shown of it
     :raises BadProperty: publish_rate does not divide physics_rate
     """
@@ -114,6 +117,7 @@ class Simulation:
         # The last move of each hand that waits; a later one takes its place.
         self._moves: dict[str, _Asked] = {}
         self._hands = Hands()
+        self.asker = ''
         self._gesture = 0
         self._answers: list[Answer] = []
         self._changed = True
@@ -510,7 +514,7 @@ class Simulation:
     def _turn(self, topic: str, message: str) -> str:
         """Tell that things go on differently from before."""
         self._moved()
-        self._answers.append(Answer(topic=topic, message=message))
+        self._answers.append(Answer(topic=topic, message=message, asker=self.asker))
         return message
 
     # Inside

@@ -68,7 +68,7 @@ def encode_frame(frame: Frame, *, epoch: int, show: Show) -> bytes:
     """
     snapshot = frame.snapshot
     parts: list[bytes] = [_columns(snapshot.poses)]
-    flags = Show.POSES
+    flags = show & Show.GHOST
     if Show.VELOCITIES in show:
         flags |= Show.VELOCITIES
         parts.append(_columns(snapshot.twists))

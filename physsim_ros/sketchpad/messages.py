@@ -31,7 +31,7 @@ from physsim_ros.drawing import Tool
 from physsim_ros.files import spawn_from
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.body_properties import Properties, properties_from
-from physsim_ros.model.checks import check_key, flag, number, pair, shown, Within
+from physsim_ros.model.checks import check_key, flag, number, pair, shown, Whole, Within
 from physsim_ros.model.colors import Color, color_from
 from physsim_ros.model.errors import BadProperty, Malformed
 from physsim_ros.model.requests import (
@@ -219,6 +219,13 @@ class Seek:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class ReturnToCourse:
+    """Return to a course of events that was left, by its number."""
+
+    course: int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class ShowParts:
     """Choose the parts of a frame that this page gets."""
 
@@ -239,6 +246,7 @@ Message = (
     | Perform
     | SetSpeed
     | Seek
+    | ReturnToCourse
     | ShowParts
 )
 # Messages that a page may send which only shows the world.
@@ -361,6 +369,10 @@ def _perform(fields: Mapping[str, Any]) -> Perform:
 
 def _seek(fields: Mapping[str, Any]) -> Seek:
     return Seek(stamp=round(Within(0.0, LONGEST, 's')(fields.get('time'), 'time') * 1e9))
+
+
+def _course(fields: Mapping[str, Any]) -> ReturnToCourse:
+    return ReturnToCourse(course=Whole(0, 2**31)(fields.get('course'), 'course'))
 
 
 def _save(fields: Mapping[str, Any]) -> Perform:
@@ -490,6 +502,7 @@ _READERS: dict[str, tuple[list[str], Callable[[Mapping[str, Any]], Message]]] = 
     'change': (['name', 'properties'], _change),
     'move_bodies': (['names', 'by'], _move_bodies),
     'delete': (['names'], _delete),
+    'course': (['course'], _course),
     'gravity': (['gravity'], _gravity),
     'show': (list(_PARTS), _show),
 }

@@ -31,6 +31,7 @@ from physsim_ros.model.errors import NotRecognised, PhysSimError, Refusal, World
 from physsim_ros.model.preview import NO_PREVIEW, Preview
 from physsim_ros.model.requests import KeepHand, LetGo, Request
 from physsim_ros.model.snapshot import Answer
+from physsim_ros.simulation.simulation import TURNS
 from physsim_ros.sketchpad import messages
 from physsim_ros.sketchpad.answers import answer_content, asker_key, request_of
 from physsim_ros.sketchpad.body_past import body_past
@@ -82,6 +83,7 @@ class PageSession:
             messages.Perform: self._perform,
             messages.SetSpeed: self._set_speed,
             messages.Seek: self._seek,
+            messages.ReturnToCourse: self._return_to_course,
         }
 
     def handle(self, message: messages.Message, request_id: str) -> None:
@@ -210,6 +212,10 @@ class PageSession:
     def _seek(self, message: messages.Seek, asker: str) -> None:
         self._report('~/seek', asker, lambda: self._world.seek(message.stamp))
 
+    def _return_to_course(self, message: messages.ReturnToCourse, asker: str) -> None:
+        simulation = self._world.simulation
+        self._report('~/timeline', asker, lambda: simulation.return_to_course(message.course))
+
     def _upload(self, message: messages.Upload, asker: str) -> None:
         self._report('~/load_world', asker, lambda: self._world.replace_world(message.content))
 
@@ -230,6 +236,8 @@ class PageSession:
 
     def _report(self, topic: str, asker: str, action: Callable[[], str]) -> None:
         """Perform an action, and queue the answer of its message or of its refusal."""
+        simulation = self._world.simulation
+        simulation.asker = asker
         try:
             message = action()
         except Refusal as refusal:
@@ -237,7 +245,10 @@ class PageSession:
         except PhysSimError as error:
             self._tell(Answer(topic=topic, message=str(error), code='refused', asker=asker))
         else:
-            self._tell(Answer(topic=topic, message=message, asker=asker))
+            if topic not in TURNS:
+                self._tell(Answer(topic=topic, message=message, asker=asker))
+        finally:
+            simulation.asker = ''
 
     def _refuse(self, refusal: Refusal, topic: str, asker: str) -> None:
         self._world.simulation.refuse(refusal, topic=topic, subject='', asker=asker)

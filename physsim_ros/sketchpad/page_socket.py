@@ -53,6 +53,7 @@ class PageSocket(Guarded, WebSocketHandler):
     :ivar number: of the page, never used again
     :ivar show: the parts of a frame that it gets
     :ivar epoch: of the scene that was sent last; 0 before the first
+    :ivar ghost_epoch: of the ghost's scene that was sent last; 0 where there is none
     :ivar frame: number of the frame that was sent last; 0 before the first
     """
 
@@ -61,7 +62,7 @@ class PageSocket(Guarded, WebSocketHandler):
         super().initialize(server)
         self.number = 0
         self.show = Show.POSES
-        self.epoch = self.frame = 0
+        self.epoch = self.ghost_epoch = self.frame = 0
         self.view_only = True
         self._unsent = 0
         self._tokens, self._refilled = BURST, time.monotonic()

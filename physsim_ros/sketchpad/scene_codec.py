@@ -55,8 +55,12 @@ class SceneCodec:
         # The texts of the last scene, by name, with the bodies that they describe.
         self._texts: dict[str, tuple[Body, str]] = {}
 
-    def encode(self, scene: Scene) -> str:
-        """Return the message of a new scene."""
+    def encode(self, scene: Scene, *, kind: str = 'scene') -> str:
+        """
+        Return the message of a new scene.
+
+        :param kind: `scene`, or `ghost` for that of a course that was left
+        """
         self.epoch += 1
         self.scene = scene
         texts = {}
@@ -73,7 +77,7 @@ class SceneCodec:
         ]
         rest = compact(
             {
-                'type': 'scene',
+                'type': kind,
                 'epoch': self.epoch,
                 'joints': joints,
                 'gravity': settings.gravity,

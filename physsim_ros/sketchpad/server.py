@@ -24,6 +24,7 @@ from __future__ import annotations
 import asyncio
 from collections import deque
 from collections.abc import Callable
+from dataclasses import replace
 import errno
 from ipaddress import ip_address
 from pathlib import Path
@@ -34,7 +35,7 @@ from typing import Any
 
 from physsim_ros.files import shipped_pictures
 from physsim_ros.model.errors import PhysSimError
-from physsim_ros.model.snapshot import Answer, Frame
+from physsim_ros.model.snapshot import Answer, Frame, Snapshot
 from physsim_ros.sketchpad.access import Access, Role
 from physsim_ros.sketchpad.answers import answer_content, asker_of
 from physsim_ros.sketchpad.frame_codec import encode_frame, Show
@@ -66,6 +67,9 @@ _CLOSING = 2.0
 SCENE_RATE = 20e6
 # Answers to others that are passed on, of one frame; the rest is counted.
 MOST_QUIET = 20
+
+# The message of the end of a ghost.
+NO_GHOST = compact({'type': 'ghost', 'epoch': 0, 'bodies': []})
 
 PAGE = Path(__file__).with_name('page')
 
@@ -110,7 +114,7 @@ class Server:
         self._asked = 0
         self._replies: dict[str, asyncio.Future[Answer]] = {}
         # Written by the world's thread.
-        self._newest: Frame | None = None
+        self._newest: tuple[Frame, Snapshot | None] | None = None
         self._outbox: deque[tuple[int | None, str] | tuple[Answer, ...]] = deque()
         self._scheduled = False
         # Of the server's thread.
@@ -119,6 +123,9 @@ class Server:
         self._number = 0
         self._encoded: dict[Show, bytes] = {}
         self._scene_text = ''
+        self._ghost_codec = SceneCodec()
+        self._ghost_text = ''
+        self._ghost_frame = b''
         self._scene_due = 0.0
         self._loop = asyncio.new_event_loop()
         self._ended = asyncio.Event()
@@ -132,9 +139,13 @@ class Server:
         host = _reachable_host(self._address)
         return f'http://{host}:{self.port}/login?token={self.access.tokens[role]}'
 
-    def show(self, frame: Frame) -> None:
-        """Send a frame, and its answers, to all pages."""
-        self._newest = frame
+    def show(self, frame: Frame, ghost: Snapshot | None = None) -> None:
+        """
+        Send a frame, and its answers, to all pages.
+
+        :param ghost: of a course that was left, at the same time; None where there is none
+        """
+        self._newest = frame, ghost
         if frame.answers:
             self._outbox.append(frame.answers)
         self._schedule()
@@ -225,6 +236,14 @@ class Server:
                 self._frame, epoch=self._codec.epoch, show=page.show
             )
         page.send(self._encoded[page.show])
+        if self._ghost_frame:
+            if page.ghost_epoch != self._ghost_codec.epoch:
+                page.ghost_epoch = self._ghost_codec.epoch
+                page.send(self._ghost_text)
+            page.send(self._ghost_frame)
+        elif page.ghost_epoch:
+            page.ghost_epoch = 0
+            page.send(NO_GHOST)
 
     def _run(self) -> None:
         asyncio.set_event_loop(self._loop)
@@ -294,9 +313,9 @@ class Server:
             page.send(text)
 
     def _send_frame(self) -> None:
-        frame = self._newest
-        if frame is None or frame is self._frame:
+        if self._newest is None or self._newest[0] is self._frame:
             return
+        frame, ghost = self._newest
         if frame.snapshot.scene is not self._codec.scene:
             wait = self._scene_due - time.monotonic()
             if wait > 0.0:
@@ -309,8 +328,19 @@ class Server:
         self._frame = frame
         self._number += 1
         self._encoded.clear()
+        self._encode_ghost(frame, ghost)
         for page in list(self._pages.values()):
             self.update_page(page)
+
+    def _encode_ghost(self, frame: Frame, ghost: Snapshot | None) -> None:
+        if ghost is None:
+            self._ghost_frame = b''
+            return
+        codec = self._ghost_codec
+        if ghost.scene is not codec.scene:
+            self._ghost_text = codec.encode(ghost.scene, kind='ghost')
+        shown = replace(frame, snapshot=ghost, contacts=None, answers=())
+        self._ghost_frame = encode_frame(shown, epoch=codec.epoch, show=Show.GHOST)
 
     def _send_answers(self, answers: tuple[Answer, ...]) -> None:
         quiet: list[str] = []

@@ -31,6 +31,11 @@ from physsim_ros.sketchpad.access import Role
 from physsim_ros.sketchpad.inbox import Closed, Inbox, Incoming, Opened, SERVER
 from physsim_ros.sketchpad.page_session import PageSession
 from physsim_ros.sketchpad.server import Server
+from physsim_ros.sketchpad.timeline_report import (
+    course_beside,
+    timeline_content,
+    TimelineReport,
+)
 from physsim_ros.sketchpad.world_control import WorldControl
 
 # Time for messages of pages between two frames [s]: a quarter of a frame at 60 Hz. A stroke takes
@@ -64,6 +69,7 @@ class Sketchpad:
         self._world = world
         self._welcome = welcome
         self._inbox = Inbox()
+        self._timeline = TimelineReport()
         self._server = Server(
             address=address, port=port, world_dir=world_dir, inbox=self._inbox, wake=wake
         )
@@ -91,8 +97,14 @@ class Sketchpad:
                 return
 
     def show(self, frame: Frame) -> None:
-        """Send a frame and its answers to all pages; never blocks."""
-        self._server.show(frame)
+        """Send a frame, its answers and the timeline to all pages; never blocks."""
+        simulation = self._world.simulation
+        status = simulation.status
+        course = course_beside(status)
+        ghost = None if course is None else simulation.ghost(course.number, status.now)
+        self._server.show(frame, ghost)
+        if self._timeline.is_due(status, time.monotonic()):
+            self._server.send(timeline_content(status))
 
     def report(self, answer: Answer) -> None:
         """Send an answer outside of a frame."""
@@ -138,6 +150,7 @@ class Sketchpad:
             },
             page=number,
         )
+        self._server.send(timeline_content(self._world.simulation.status), page=number)
 
     def _session(self, number: int) -> PageSession:
         def send(content: dict[str, Any]) -> None:

@@ -75,6 +75,7 @@ class Page:
         self.browser = browser
         self.socket = socket
         self.frames: list[Picture] = []
+        self.ghosts: list[Picture] = []
         self.messages: list[dict[str, Any]] = []
         self.closed = False
         self._numbers = 0
@@ -83,7 +84,8 @@ class Page:
     async def _read(self) -> None:
         while (message := await self.socket.read_message()) is not None:
             if isinstance(message, bytes):
-                self.frames.append(decoded(message))
+                picture = decoded(message)
+                (self.ghosts if picture.flags & Show.GHOST else self.frames).append(picture)
             else:
                 self.messages.append(json.loads(message))
         self.closed = True

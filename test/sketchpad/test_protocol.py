@@ -21,6 +21,7 @@ import numpy as np
 from physsim_ros.model.grips import Grip
 from physsim_ros.testing import PhysSim
 import pytest
+from rclpy.parameter import Parameter
 
 from .browser import Browser
 
@@ -161,3 +162,33 @@ def test_a_body_is_spawned_changed_moved_and_deleted_by_name(browser: Browser) -
     ):
         assert page.ask('change', **wrong)['code'] in ('unknown_property', 'unknown_body')
     assert physsim.digest() == before
+
+
+def test_a_change_of_the_past_branches_and_the_old_course_stays_as_a_ghost(
+    browser: Browser,
+) -> None:
+    physsim, page = browser.physsim, browser.open_page()
+    physsim.node.set_parameters([Parameter('speed', value=0.0)])
+    page.send('stroke', points=circle(0.0, 5.0, 0.5))
+    page.until(lambda: physsim.names)
+    physsim.run(1.0)
+    fallen, digest = physsim.pose(physsim.names[0]), physsim.digest()
+    assert page.ask('seek', time=0.5)['ok']
+    page.until(lambda: page.of_type('timeline')[-1]['state'] == 'in the past')
+    assert page.of_type('timeline')[-1]['newest'] == pytest.approx(1.0)
+    assert page.ask('change', name=physsim.names[0], properties={'velocity': [3, 0]})['ok']
+    page.until(lambda: page.of_type('timeline')[-1]['courses'])
+    (left,) = page.of_type('timeline')[-1]['courses']
+    assert (left['from'], left['to']) == pytest.approx((0.5, 1.0))
+    physsim.run(0.5)
+    page.until(lambda: any(each.time == pytest.approx(1.0) for each in page.ghosts))
+    (ghost,) = [each for each in page.ghosts if each.time == pytest.approx(1.0)][-1:]
+    assert ghost.epoch == page.of_type('ghost')[-1]['epoch']
+    assert ghost.poses[0] == pytest.approx(np.array(fallen), abs=1e-6)
+    assert physsim.pose(physsim.names[0]).x == pytest.approx(1.5, abs=1e-6)
+    assert page.ask('course', course=left['id'])['ok']
+    assert physsim.digest() == digest
+    undone = page.ask('service', name='undo')
+    assert undone['message'].startswith('undid')
+    told = [each for each in page.of_type('answer') if each['message'] == undone['message']]
+    assert len(told) == 1

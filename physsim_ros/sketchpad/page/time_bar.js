@@ -108,7 +108,7 @@ export class TimeBar {
     this.marks.replaceChildren(...courses.map(({id, from}) => {
       const name = `Go back to the course left at ${from.toFixed(1)} s`;
       const mark = make('button', {type: 'button', 'aria-label': name, title: name,
-        onclick: () => this.app.connection.send('course', {id})});
+        onclick: () => this.app.connection.send('course', {course: id})});
       mark.style.left = `${100 * (from - oldest) / (newest - oldest || 1)}%`;
       return mark;
     }));
