@@ -76,6 +76,33 @@ class BodySet:
                 names.add(self._names[hit.shape.body])
         return sorted(names, key=lambda name: -self.by_name[name].serial)
 
+    def count_near(
+        self,
+        boxes: Sequence[tuple[float, float, float, float]],
+        *,
+        most: int,
+        without: pymunk.Body | None = None,
+        moving_only: bool = False,
+    ) -> int:
+        """
+        Count the pairs of a box and a piece whose box overlaps it.
+
+        :param boxes: left, bottom, right, top of each [m]
+        :param most: the count ends when it is greater
+        :param without: a body whose pieces do not count
+        :param moving_only: whether those of anchored bodies do not count
+        """
+        count = 0
+        for box in boxes:
+            for shape in self._engine.bb_query(pymunk.BB(*box), pymunk.ShapeFilter()):
+                body = shape.body
+                if body is without or body not in self._names:
+                    continue
+                count += not (moving_only and body.body_type == pymunk.Body.STATIC)
+            if count > most:
+                break
+        return count
+
     def touching(self, engine: pymunk.Body) -> list[RigidBody]:
         """Return the bodies that touched one, or the background, in the last step."""
         found: list[pymunk.Body] = []

@@ -75,6 +75,11 @@ class Space:
         self.configure(settings)
 
     @property
+    def age(self) -> int:
+        """Return how many steps were made in it."""
+        return self._age
+
+    @property
     def table(self) -> BodyTable:
         """Return the bodies by column."""
         return self._table or self.lay_out(

@@ -61,6 +61,9 @@ class ShapeIds:
         self._space = space
         self._numbers: dict[Any, int] = {}
 
+    def __len__(self) -> int:
+        return len(self._numbers)
+
     @property
     def following(self) -> int:
         """Return the number that the next shape gets."""

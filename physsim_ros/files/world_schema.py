@@ -22,8 +22,9 @@ from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.settings import WorldSettings
 
 FORMAT = 1
-# Not `max_bodies`: it protects the node, whatever files say.
-SETTINGS = [each.name for each in fields(WorldSettings) if each.name != 'max_bodies']
+# Limits protect the node, whatever files say.
+LIMITS = ('max_bodies', 'max_shapes', 'max_overlaps')
+SETTINGS = [each.name for each in fields(WorldSettings) if each.name not in LIMITS]
 PROPERTIES = [each.name for each in fields(Properties)]
 # Parameters of the node that are no settings of a world.
 PARAMETERS = frozenset(
@@ -34,7 +35,7 @@ PARAMETERS = frozenset(
         'fast_speed',
         'frame_id',
         'history',
-        'max_bodies',
+        *LIMITS,
         'physics_rate',
         'publish_clock',
         'publish_rate',

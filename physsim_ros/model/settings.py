@@ -47,6 +47,8 @@ class WorldSettings:
     :param command_timeout: simulation time for which a wrench acts [s]; 0 is no limit
     :param drag_force: greatest force of a hand, in weights of the body
     :param max_bodies: greatest number of bodies
+    :param max_shapes: greatest number of their convex pieces
+    :param max_overlaps: greatest number of pairs of pieces that overlap at once by a request
     :raises Malformed: a number is not finite or an array has the wrong length
     :raises BadProperty: a value is out of range
     """
@@ -61,6 +63,8 @@ class WorldSettings:
     command_timeout: float = 0.5
     drag_force: float = 10.0
     max_bodies: int = 20000
+    max_shapes: int = 50000
+    max_overlaps: int = 20000
 
     def __post_init__(self) -> None:
         for name, check in _CHECKS.items():
@@ -99,6 +103,9 @@ RANGES: dict[str, Within | Whole] = {
     'command_timeout': Within(0.0, 1e9, 's'),
     'drag_force': Within(0.0, 1000.0),
     'max_bodies': Whole(0, 1_000_000),
+    'max_shapes': Whole(0, 1_000_000),
+    # 10,000,000 contacts take a minute a step.
+    'max_overlaps': Whole(0, 10_000_000),
 }
 _CHECKS: Checks = {'gravity': _gravity, 'bounds': _bounds, **RANGES}
 

@@ -35,6 +35,7 @@ from physsim_ros.model.scene import Body
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.transform import Point, Pose
 from physsim_ros.simulation import joint_requests
+from physsim_ros.simulation.capacity import Capacity
 from physsim_ros.simulation.lookup import body_of_name, pose_in_world
 
 # What a request did: the body concerned, or '', and a sentence that says so.
@@ -42,7 +43,7 @@ Done = tuple[str, str]
 
 
 def spawn_body(
-    space: Space, request: Spawn, settings: WorldSettings, *, serial: int, expires: int | None
+    space: Space, request: Spawn, capacity: Capacity, *, serial: int, expires: int | None
 ) -> Done:
     """
     Add a body, or change the one of that name.
@@ -53,6 +54,7 @@ def spawn_body(
     """
     name = request.name
     old = space.bodies.by_name.get(name)
+    settings = capacity.settings
     count, most = len(space.bodies.by_name), settings.max_bodies
     if old is None and count >= most:
         raise WorldFull(f'the world holds {count} bodies; it may hold {most}')
@@ -63,14 +65,16 @@ def spawn_body(
     if expires is not None:
         changes['expires'] = expires
     if old is not None:
-        _change(space, old, changes, pose, request.properties)
+        _change(space, old, changes, pose, properties=request.properties, capacity=capacity)
         return name, f'changed {name}'
     body = _changed(_default_body(request, settings), changes, request.properties)
-    space.add(body, serial, pose, _changed_twist(body, REST, request.properties))
+    twist = _changed_twist(body, REST, request.properties)
+    capacity.check_body(space, body, pose)
+    space.add(body, serial, pose, twist)
     return name, f'spawned {name}'
 
 
-def change_body(space: Space, request: ChangeBody) -> Done:
+def change_body(space: Space, request: ChangeBody, capacity: Capacity) -> Done:
     """
     Change those properties of a body that a request names, and nothing else.
 
@@ -81,11 +85,11 @@ def change_body(space: Space, request: ChangeBody) -> Done:
     if request.pose is not None:
         pose = pose_in_world(space, request.pose, request.frame)
     changes = {} if request.color is None else {'color': request.color}
-    _change(space, rigid, changes, pose, request.properties)
+    _change(space, rigid, changes, pose, properties=request.properties, capacity=capacity)
     return name, f'changed {name}'
 
 
-def move_bodies(space: Space, request: MoveBodies) -> Done:
+def move_bodies(space: Space, request: MoveBodies, capacity: Capacity) -> Done:
     """
     Move bodies by one vector; their velocities are kept.
 
@@ -96,11 +100,12 @@ def move_bodies(space: Space, request: MoveBodies) -> Done:
     poses = [(rigid.pose[0] + dx, rigid.pose[1] + dy, rigid.pose[2]) for rigid in rigids]
     for pose in poses:
         check_pose(pose, 'by')
+    capacity.check_poses(space, rigids, poses)
     _set_poses(space, rigids, poses)
     return _told('moved', request.names)
 
 
-def command_bodies(space: Space, request: Command, until: int | None) -> Done:
+def command_bodies(space: Space, request: Command, until: int | None, capacity: Capacity) -> Done:
     """
     Set poses, twists or wrenches of bodies.
 
@@ -120,6 +125,7 @@ def command_bodies(space: Space, request: Command, until: int | None) -> Done:
     # Twists and wrenches are of the world, but a frame that there is not is a mistake.
     pose_in_world(space, REST, request.frame)
     poses = [pose_in_world(space, pose, request.frame) for pose in request.poses]
+    capacity.check_poses(space, rigids, poses)
     _set_poses(space, rigids, poses)
     for rigid, twist in zip(rigids, request.twists, strict=False):
         space.set_twist(rigid, twist)
@@ -128,7 +134,7 @@ def command_bodies(space: Space, request: Command, until: int | None) -> Done:
     return _told('commanded', request.names)
 
 
-def set_anchored(space: Space, point: Point, *, anchored: bool) -> Done:
+def set_anchored(space: Space, point: Point, capacity: Capacity, *, anchored: bool) -> Done:
     """
     Anchor or release the topmost body under a point of the world [m].
 
@@ -141,6 +147,8 @@ def set_anchored(space: Space, point: Point, *, anchored: bool) -> Done:
     rigid = space.bodies.by_name[name]
     if rigid.body.anchored != anchored:
         body = replace(rigid.body, anchored=anchored)
+        if not anchored:
+            capacity.check_body(space, body, rigid.pose, old=rigid)
         space.change(rigid, body, rigid.pose, REST)
     if anchored:
         return name, f'anchored {name}'
@@ -204,11 +212,20 @@ def _default_body(request: Spawn, settings: WorldSettings) -> Body:
 
 
 def _change(
-    space: Space, old: RigidBody, changes: dict[str, Any], pose: Pose, properties: Properties
+    space: Space,
+    old: RigidBody,
+    changes: dict[str, Any],
+    pose: Pose,
+    *,
+    properties: Properties,
+    capacity: Capacity,
 ) -> None:
     body = _changed(old.body, changes, properties)
     twist = REST if old.body.anchored else space.twist_of(old)
-    space.change(old, body, pose, _changed_twist(body, twist, properties))
+    twist = _changed_twist(body, twist, properties)
+    if (body.shape, body.anchored, pose) != (old.body.shape, old.body.anchored, old.pose):
+        capacity.check_body(space, body, pose, old=old)
+    space.change(old, body, pose, twist)
 
 
 def _changed(old: Body, changes: dict[str, Any], properties: Properties) -> Body:

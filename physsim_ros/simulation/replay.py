@@ -105,7 +105,7 @@ class Course:
         for entry in self.history.between(self.serial, serial):
             self._go_over()
             try:
-                self.world.apply(entry.request)
+                self.world.replay(entry.request)
             except Refusal as refusal:
                 self._tell('divergence', f'what was done once is refused now: {refusal}')
             self.serial += 1

@@ -63,6 +63,7 @@ from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Contacts, Snapshot
 from physsim_ros.model.transform import Point
 from physsim_ros.simulation import body_requests, hand_requests, joint_requests
+from physsim_ros.simulation.capacity import Capacity
 from physsim_ros.simulation.lookup import points_in_world, pose_in_world
 
 
@@ -94,6 +95,7 @@ class World:
         self._space = Space(self._settings, self.dt)
         self._spawned = 0
         self._pool = BodyPool()
+        self._capacity = Capacity(self._settings)
 
     # Reading
 
@@ -184,6 +186,18 @@ class World:
 
     # Changing
 
+    def replay(self, request: Request) -> None:
+        """
+        Carry out a request again, for which there was a place the first time.
+
+        :raises Refusal: and nothing is changed
+        """
+        self._capacity.checking = False
+        try:
+            self.apply(request)
+        finally:
+            self._capacity.checking = True
+
     def apply(self, request: Request) -> tuple[str, str]:
         """
         Carry out a request.
@@ -266,6 +280,8 @@ class World:
     def _replace_space(self, space: Space, pool: BodyPool) -> None:
         self._space, self._pool = space, pool
         self._spawned = len(space.bodies.by_name)
+        self._capacity.settings = self._settings
+        self._capacity.forget()
 
     # Requests
 
@@ -275,15 +291,16 @@ class World:
             case Spawn():
                 return self._spawn(request)
             case ChangeBody():
-                return body_requests.change_body(space, request)
+                return body_requests.change_body(space, request, self._capacity)
             case MoveBodies():
-                return body_requests.move_bodies(space, request)
+                return body_requests.move_bodies(space, request, self._capacity)
             case Command():
-                return body_requests.command_bodies(space, request, self._wrenches_until())
+                until = self._wrenches_until()
+                return body_requests.command_bodies(space, request, until, self._capacity)
             case Anchor(point=point, frame=frame) | Release(point=point, frame=frame):
                 (point,) = points_in_world(space, (point,), frame)
                 anchored = isinstance(request, Anchor)
-                return body_requests.set_anchored(space, point, anchored=anchored)
+                return body_requests.set_anchored(space, point, self._capacity, anchored=anchored)
             case Delete(name=name):
                 return body_requests.delete_bodies(space, (name,), 'name')
             case DeleteBodies(names=names):
@@ -294,7 +311,7 @@ class World:
     def _spawn(self, request: Spawn) -> tuple[str, str]:
         expires = self._step_after(request.lifetime) if request.lifetime > 0 else None
         done = body_requests.spawn_body(
-            self._space, request, self._settings, serial=self._spawned, expires=expires
+            self._space, request, self._capacity, serial=self._spawned, expires=expires
         )
         self._spawned = max(self._spawned, self._space.bodies.by_name[request.name].serial + 1)
         return done
@@ -334,6 +351,7 @@ class World:
 
     def _configure(self, settings: WorldSettings) -> None:
         old, self._settings = self._settings, settings
+        self._capacity.settings = settings
         self._space.configure(settings)
         if settings.command_timeout != old.command_timeout:
             self._limit_wrenches(self._wrenches_until())
@@ -345,6 +363,7 @@ class World:
                 self._space.set_wrench(rigid, rigid.wrench, until)
 
     def _restore(self, state: WorldState) -> None:
+        self._capacity.check_state(state)
         # A space of its own for every state: what was in the old one leaves no trace.
         space = Space(state.settings, self.dt)
         now = self.step_count

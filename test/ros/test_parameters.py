@@ -70,6 +70,8 @@ CONTRACT: dict[str, tuple[Any, str]] = {
     'sketchpad_address': ('127.0.0.1', 'read-only'),
     'sketchpad_port': (8765, 'read-only'),
     'max_bodies': (20000, 'live'),
+    'max_shapes': (50000, 'live'),
+    'max_overlaps': (20000, 'live'),
 }
 # The contract's ranges: the ends are good, what lies just beyond is not.
 RANGES: dict[str, tuple[Any, Any]] = {
@@ -85,6 +87,8 @@ RANGES: dict[str, tuple[Any, Any]] = {
     'command_timeout': (0.0, None),
     'drag_force': (0.0, None),
     'max_bodies': (0, None),
+    'max_shapes': (0, None),
+    'max_overlaps': (0, None),
 }
 LIVE = [name for name, (_, kind) in CONTRACT.items() if kind == 'live']
 FIXED = [name for name, (_, kind) in CONTRACT.items() if kind == 'read-only']

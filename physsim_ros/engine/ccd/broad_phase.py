@@ -23,6 +23,9 @@ smaller box is looked up in each coarser level. Ericson, Real-Time Collision Det
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+import itertools
+
 import numpy as np
 from physsim_ros.engine.islands import ranges
 from physsim_ros.model.arrays import Flags, Floats, Ints
@@ -50,28 +53,41 @@ def overlapping_pairs(boxes: Floats, first: Flags) -> tuple[Ints, Ints]:
     :param first: (n,) bool: one box of each pair is among these
     :return: (p,) and (p,) rows, the lower one first
     """
+    ones, others = zip(*pairs_in_parts(boxes, first), strict=True)
+    return np.concatenate(ones), np.concatenate(others)
+
+
+def pairs_in_parts(
+    boxes: Floats, first: Flags, *, most: int | None = None
+) -> Iterator[tuple[Ints, Ints]]:
+    """
+    Return the pairs of boxes that overlap, each pair once, part by part.
+
+    :param boxes: (n, 4) float64: left, bottom, right, top [m]
+    :param first: (n,) bool: one box of each pair is among these
+    :param most: pairs that are compared for a part, but for those of one box; None is all
+    :return: (p,) and (p,) rows of a part, the lower one first
+    """
     rows = np.flatnonzero(first)
     if len(rows) * len(boxes) <= _FEW_PAIRS:
         one, other = np.repeat(rows, len(boxes)), np.tile(np.arange(len(boxes)), len(rows))
         once = (one < other) | ~first[other]
-        return _overlapping(boxes, one[once], other[once])
+        yield _overlapping(boxes, one[once], other[once])
+        return
     sizes = (boxes[:, 2:] - boxes[:, :2]).max(axis=1, initial=0.0)
     levels = np.maximum(np.frexp(sizes)[1], _FINEST)
     centers = (boxes[:, :2] + boxes[:, 2:]) / 2
-    ones, others = [], []
     for level in np.unique(levels).tolist():
         here, finer = levels == level, levels < level
         cells = np.floor(np.ldexp(centers, -level)).astype(np.int64)
-        one, other = _neighbours(cells, np.flatnonzero(first & (here | finer)), here)
-        # Two of these in one level find each other.
-        once = (one < other) | ~(first & here)[other] | ~here[one]
-        ones.append(one[once])
-        others.append(other[once])
+        for one, other in _neighbours(cells, np.flatnonzero(first & (here | finer)), here, most):
+            # Two of these in one level find each other.
+            once = (one < other) | ~(first & here)[other] | ~here[one]
+            yield _overlapping(boxes, one[once], other[once])
         if (first & here).any():
-            one, other = _neighbours(cells, np.flatnonzero(~first & finer), first & here)
-            ones.append(other)
-            others.append(one)
-    return _overlapping(boxes, np.concatenate(ones), np.concatenate(others))
+            queries = np.flatnonzero(~first & finer)
+            for one, other in _neighbours(cells, queries, first & here, most):
+                yield _overlapping(boxes, other, one)
 
 
 def _overlapping(boxes: Floats, one: Ints, other: Ints) -> tuple[Ints, Ints]:
@@ -81,17 +97,32 @@ def _overlapping(boxes: Floats, one: Ints, other: Ints) -> tuple[Ints, Ints]:
     return np.minimum(one, other), np.maximum(one, other)
 
 
-def _neighbours(cells: Ints, queries: Ints, members: Flags) -> tuple[Ints, Ints]:
-    """Return the pairs of a query and a member in its own cell or one of the eight around it."""
+def _neighbours(
+    cells: Ints, queries: Ints, members: Flags, most: int | None
+) -> Iterator[tuple[Ints, Ints]]:
+    """
+    Return the pairs of a query and a member in its own cell or one of the eight around it.
+
+    :param most: pairs of a part, but for those of one query; None is all
+    """
     keys = cells[:, 1] * _HASH + cells[:, 0]
     rows = np.flatnonzero(members)
     rows = rows[np.argsort(keys[rows], kind='stable')]
     ranked = keys[rows]
-    ones, others = [], []
+    starts, counts = [], []
     for side in (-1, 0, 1):
         middle = (cells[queries, 1] + side) * _HASH + cells[queries, 0]
-        start = np.searchsorted(ranked, middle - 1, 'left')
-        count = np.searchsorted(ranked, middle + 1, 'right') - start
-        ones.append(np.repeat(queries, count))
-        others.append(rows[ranges(start, count)])
-    return np.concatenate(ones), np.concatenate(others)
+        starts.append(np.searchsorted(ranked, middle - 1, 'left'))
+        counts.append(np.searchsorted(ranked, middle + 1, 'right') - starts[-1])
+    cuts: list[int] = []
+    if most is not None:
+        parts = np.cumsum(np.sum(counts, axis=0)) // most
+        cuts = (np.flatnonzero(np.diff(parts)) + 1).tolist()
+    for begin, end in itertools.pairwise([0, *cuts, len(queries)]):
+        part = slice(begin, end)
+        ones = [np.repeat(queries[part], count[part]) for count in counts]
+        others = [
+            rows[ranges(start[part], count[part])]
+            for start, count in zip(starts, counts, strict=True)
+        ]
+        yield np.concatenate(ones), np.concatenate(others)

@@ -1,0 +1,200 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Capacity: how much a world may hold, checked before the engine has it.
+
+Law: what is spawned, changed, moved, released or loaded is refused as `world_full` if the pieces
+or the pairs of them that overlap at once would be more than the settings allow.
+
+A body that is spawned or moved alone is counted by what its box meets in the engine's own tree,
+which is too many; the sum of these is a bound. Only where the bound exceeds the limit, the
+overlaps of the whole world are counted (`engine.overlaps`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from physsim_ros.engine.body import RigidBody
+from physsim_ros.engine.overlaps import core_boxes, count_inside, count_overlaps, laid_out
+from physsim_ros.engine.space import Space
+from physsim_ros.model.arrays import Floats
+from physsim_ros.model.checkpoint import WorldState
+from physsim_ros.model.errors import WorldFull
+from physsim_ros.model.scene import Body
+from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.shapes import Shape
+from physsim_ros.model.transform import Pose
+
+# The engine lists pairs of pieces of one body too, and rejects each in a tenth of the time of a
+# contact (measured: compounds of 1,000 discs).
+_INSIDE = 10
+# Pieces and overlaps in a world for each piece of requests after which the overlaps are counted
+# anew within a step: a count takes some 3 µs for each, a request a third of a millisecond more.
+_PIECE = 100
+
+
+class Capacity:
+    """
+    The capacity of a world.
+
+    :param settings: of the world
+
+    :ivar settings: with the limits, up to date
+    :ivar checking: whether anything is refused; not while requests are replayed
+    """
+
+    def __init__(self, settings: WorldSettings) -> None:
+        self.settings = settings
+        self.checking = True
+        self.forget()
+
+    def forget(self) -> None:
+        """Forget the count of overlaps: the world is another."""
+        # At most as many overlaps as there are; None is unknown.
+        self._bound: int | None = None
+        # Steps that the engine had made at the last count, and pieces of requests since then.
+        self._age = -1
+        self._since = 0
+
+    def check_body(
+        self, space: Space, body: Body, pose: Pose, *, old: RigidBody | None = None
+    ) -> None:
+        """
+        Refuse a body for which there is no place.
+
+        :param pose: that it is to have
+        :param old: the same body as it is now; None if it is new
+        :raises WorldFull: there is none
+        """
+        self.check_bodies(space, [(body, pose, old)])
+
+    def check_poses(
+        self, space: Space, rigids: Sequence[RigidBody], poses: Sequence[Pose]
+    ) -> None:
+        """
+        Refuse poses of bodies that would overlap too much.
+
+        :raises WorldFull: they would
+        """
+        if poses:
+            moved = zip(rigids, poses, strict=True)
+            self.check_bodies(space, [(rigid.body, pose, rigid) for rigid, pose in moved])
+
+    def check_bodies(
+        self, space: Space, placed: Sequence[tuple[Body, Pose, RigidBody | None]]
+    ) -> None:
+        """
+        Refuse bodies for which there is no place.
+
+        :param placed: each body, the pose that it is to have, and as it is now if it is not new
+        :raises WorldFull: there is none
+        """
+        if not self.checking:
+            return
+        most = self.settings.max_overlaps
+        added, shapes = 0, len(space.shapes)
+        for body, pose, old in placed:
+            pieces = len(body.shape.form.pieces)
+            shapes += pieces - (0 if old is None else len(old.body.shape.form.pieces))
+            pieces_near = space.bodies.count_near(
+                core_boxes(body.shape, pose),
+                without=None if old is None else old.engine,
+                moving_only=body.anchored,
+                most=most,
+            )
+            added += pieces_near + _inside(body)
+            self._since += pieces
+        _check_shapes(shapes, self.settings.max_shapes)
+        new = [(body, pose) for body, pose, _ in placed]
+        if len(new) > 1:
+            added += self._count(new)
+        if self._bound is not None and self._bound + added <= most:
+            self._bound += added
+            return
+        # Too many, as far as is known.
+        before = self._bound
+        if before is None or self._age != space.age or self._since * _PIECE > shapes + before:
+            names = {body.name for body, _ in new}
+            others = _poses(space, names)
+            before = self._count(others)
+            added = self._count([*others, *new], first=names)
+            added += sum(_inside(body) for body, _ in new)
+            self._age, self._since = space.age, 0
+        if before + added > most:
+            raise _too_many(before + added, most)
+        self._bound = before + added
+
+    def check_state(self, state: WorldState) -> None:
+        """
+        Refuse a state that is too large.
+
+        :raises WorldFull: it is
+        """
+        if not self.checking:
+            return
+        _check_shapes(
+            sum(len(each.body.shape.form.pieces) for each in state.bodies),
+            state.settings.max_shapes,
+        )
+        most = state.settings.max_overlaps
+        count = self._count([(each.body, each.pose) for each in state.bodies], most=most)
+        if count > most:
+            raise _too_many(count, most)
+
+    def _count(
+        self,
+        placed: Sequence[tuple[Body, Pose]],
+        *,
+        first: set[str] | None = None,
+        most: int | None = None,
+    ) -> int:
+        """
+        Count the overlaps of bodies; of some of them with all, or of all.
+
+        :param first: names of these; None is all, with those between the pieces of each
+        :param most: the count ends when it is greater; None is the limit of the settings
+        """
+        bodies = [body for body, _ in placed]
+        poses: Floats = np.array([pose for _, pose in placed], np.float64).reshape(-1, 3)
+        shapes: list[Shape] = [body.shape for body in bodies]
+        some = [first is None or body.name in first for body in bodies]
+        fixed = np.array([body.anchored for body in bodies], np.bool_)
+        most = self.settings.max_overlaps if most is None else most
+        count = sum(map(_inside, bodies)) if first is None else 0
+        return count + count_overlaps(
+            laid_out(shapes, poses), np.array(some, np.bool_), fixed, most=most
+        )
+
+
+def _poses(space: Space, without: set[str]) -> list[tuple[Body, Pose]]:
+    """Return the bodies of a space and their poses, but for some."""
+    rigids = space.bodies.by_name.values()
+    return [(rigid.body, rigid.pose) for rigid in rigids if rigid.body.name not in without]
+
+
+def _inside(body: Body) -> int:
+    """Return the overlaps between the pieces of a body, in contacts of the same cost."""
+    return 0 if body.anchored else count_inside(body.shape) // _INSIDE
+
+
+def _check_shapes(count: int, most: int) -> None:
+    if count > most:
+        raise WorldFull(f'the world would hold {count} convex pieces; max_shapes is {most}')
+
+
+def _too_many(count: int, most: int) -> WorldFull:
+    return WorldFull(f'{count} or more pairs of pieces would overlap; max_overlaps is {most}')

@@ -1,0 +1,205 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""A world refuses what it has no place for, before the engine has it, and changes nothing."""
+
+from typing import Any
+
+import numpy as np
+from physsim_ros.engine.overlaps import count_inside, count_overlaps, laid_out
+from physsim_ros.model.body_properties import Properties
+from physsim_ros.model.errors import WorldFull
+from physsim_ros.model.requests import (
+    Anchor,
+    ChangeBody,
+    Command,
+    Configure,
+    MoveBodies,
+    Release,
+    Request,
+    Restore,
+    Spawn,
+)
+from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.shapes import Box, Compound, Disc, Shape
+from physsim_ros.simulation.simulation import Simulation
+from physsim_ros.simulation.world import World
+import pytest
+
+from ..adversary.scenes import crossing_rods, one_pose, sphere_lists
+from ..building import BOX, DISC, ELL, spawn, stack, TRIANGLE
+
+# Of 5 bodies in one place 10 pairs overlap.
+FEW = WorldSettings(max_overlaps=10, gravity=(0.0, 0.0))
+
+
+def flooded(world: World, requests: list[Request]) -> int:
+    """Return how many of the requests were refused, each without a change."""
+    refused = 0
+    for request in requests:
+        before = world.digest()
+        try:
+            world.apply(request)
+        except WorldFull:
+            refused += 1
+            assert world.digest() == before
+    return refused
+
+
+def row(count: int, shape: Shape = DISC, *, distance: float = 3.0, **said: Any) -> World:
+    world = World(settings=FEW)
+    for number in range(count):
+        spawn(world, f'a/{number}', shape, (distance * number, 0.0, 0.0), **said)
+    return world
+
+
+@pytest.mark.parametrize(
+    'scene', [one_pose(12), sphere_lists(4, 8), crossing_rods(12)], ids=['pose', 'lists', 'rods']
+)
+def test_what_overlaps_too_much_is_refused_one_by_one(scene: list[Request]) -> None:
+    world = World(settings=FEW)
+
+    refused = flooded(world, scene)
+
+    assert 0 < refused < len(scene)
+    world.step(10)
+
+
+def test_what_has_moved_apart_leaves_a_place() -> None:
+    world = World(settings=FEW)
+    assert flooded(world, one_pose(12)) == 7
+    world.apply(MoveBodies(names=('spawn/0', 'spawn/1'), by=(9.0, 0.0)))
+    world.step(1)
+
+    spawn(world, 'late/0', DISC)
+
+
+@pytest.mark.parametrize(
+    'request_',
+    [
+        Command(names=tuple(f'a/{number}' for number in range(6)), poses=((0.0, 0.0, 0.0),) * 6),
+        Spawn(name='a/0', shape=Box(width=99.0, height=1.0)),
+        ChangeBody(name='b/0', properties=Properties(anchored=False)),
+        Release(point=(0.0, 99.0)),
+    ],
+    ids=['poses', 'a change in place', 'a change', 'a release'],
+)
+def test_what_comes_to_overlap_too_much_is_refused(request_: Request) -> None:
+    world = row(14)
+    for number in range(12):
+        spawn(world, f'b/{number}', DISC, (0.0, 99.0, 0.0), anchored=True)
+
+    assert flooded(world, [request_]) == 1
+
+
+def test_bodies_that_are_moved_one_by_one_are_refused() -> None:
+    world = row(12)
+    requests = [Command(names=(f'a/{k}',), poses=((0.0, 9.0, 0.0),)) for k in range(12)]
+
+    assert flooded(world, list(requests)) == 7
+
+
+def test_a_state_that_overlaps_too_much_is_refused_whole() -> None:
+    full = World(settings=WorldSettings(max_overlaps=10_000))
+    assert flooded(full, one_pose(12)) == 0
+    state = full.save()
+    world = row(3)
+
+    too_much = Restore(state=type(state)(settings=FEW, bodies=state.bodies))
+    assert flooded(world, [too_much]) == 1
+    world.apply(Restore(state=state))
+    assert len(world) == 12
+
+
+def test_convex_pieces_are_counted() -> None:
+    world = World(settings=WorldSettings(max_shapes=7))
+    discs = Compound(element=DISC, centers=((0.0, 0.0), (2.0, 0.0), (4.0, 0.0)))
+    requests: list[Request] = [
+        Spawn(name=f'a/{number}', shape=discs, pose=(0.0, 3.0 * number, 0.0))
+        for number in range(3)
+    ]
+
+    assert flooded(world, requests) == 1
+    # In its place there is room for one more.
+    world.apply(Spawn(name='a/0', shape=Compound(element=DISC, centers=discs.centers[:2])))
+    assert flooded(world, [Restore(state=world.save())]) == 0
+    spawn(world, 'b/0', DISC, (0.0, 9.0, 0.0))
+    spawn(world, 'b/1', DISC, (0.0, 12.0, 0.0))
+    assert flooded(world, [Spawn(name='b/2', shape=DISC, pose=(0.0, 15.0, 0.0))]) == 1
+
+
+def test_pieces_of_one_body_in_one_place_count_for_a_tenth() -> None:
+    discs = Compound(element=DISC, centers=((0.0, 0.0),) * 20)
+    assert count_inside(discs) == 190
+
+    assert flooded(World(settings=FEW), [Spawn(name='a/0', shape=discs)]) == 1
+    anchored = Properties(anchored=True)
+    assert flooded(World(settings=FEW), [Spawn(name='a/0', shape=discs, properties=anchored)]) == 0
+
+
+def test_what_only_touches_is_no_overlap() -> None:
+    world = World(settings=WorldSettings(max_overlaps=0, bounds=(-50.0, 0.0, 50.0, 30.0)))
+    stack(world, 10)
+    for number, shape in enumerate((DISC, BOX, ELL, TRIANGLE) * 5):
+        spawn(world, f'a/{number}', shape, (5.0 + 4.0 * (number % 4), 1.0 + 4.0 * number, 0.0))
+    world.step(480)
+
+    world.apply(Restore(state=world.save()))
+
+
+def test_planks_side_by_side_at_any_angle_are_no_overlap() -> None:
+    plank = Box(width=5.0, height=1.0)
+    for yaw in np.linspace(0.0, np.pi, 9):
+        side = np.array((-np.sin(yaw), np.cos(yaw)))
+        poses = np.column_stack((np.arange(300)[:, None] * side, np.full(300, yaw)))
+        every, none = np.ones(300, np.bool_), np.zeros(300, np.bool_)
+        assert count_overlaps(laid_out([plank] * 300, poses), every, none, most=10**6) == 0
+
+
+def test_a_lower_limit_holds_for_what_comes_then() -> None:
+    world = World(settings=WorldSettings(gravity=(0.0, 0.0)))
+    assert flooded(world, one_pose(6)) == 0
+    world.apply(Configure(changes={'max_overlaps': 15}))
+
+    assert flooded(world, [Spawn(name='late/0', shape=DISC)]) == 1
+
+
+def test_what_was_accepted_once_is_accepted_in_every_replay() -> None:
+    simulation = Simulation(settings=FEW, speed=1.0)
+    for request in one_pose(5):
+        simulation.submit(request, topic='~/spawn')
+    simulation.advance_frame()
+    simulation.perform(Configure(changes={'max_overlaps': 0}))
+    for _ in range(30):
+        simulation.advance_frame()
+    digest = simulation.world.digest()
+
+    for _ in range(2):
+        simulation.seek(0)
+        simulation.seek(round(31 / 60 * 1e9))
+
+    assert simulation.world.digest() == digest
+    assert not [each for each in simulation.advance_frame().answers if each.code]
+
+
+def test_an_anchored_body_is_anchored_wherever_it_is() -> None:
+    world = World(settings=FEW)
+    assert flooded(world, one_pose(5)) == 0
+
+    world.apply(Anchor(point=(0.0, 0.0)))
+
+
+def test_cores_of_one_piece_and_of_many_are_alike() -> None:
+    world = row(1)
+    assert flooded(world, [Spawn(name='b/0', shape=Disc(radius=0.5))]) == 0
