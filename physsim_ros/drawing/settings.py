@@ -31,8 +31,8 @@ class DrawingSettings:
 
     :param snap: the greatest distance at which an end of a stroke, or a click, snaps to a body, an
         end of a wall or a first corner [m], 0 .. 10
-    :param sketch_confidence: the least confidence in the meaning of a stroke with which it is
-        accepted, 0 .. 1
+    :param sketch_confidence: the least confidence with which a stroke is accepted, 0 .. 1; for a
+        closed outline, the confidence in it being a solid, whichever
     :param beautify: tolerance of regularisation, 0 .. 0.5: an angle [rad] from right, horizontal
         or vertical, a length in shares of its neighbour; 0 keeps the geometry as it was drawn
     :param wall_thickness: of drawn walls [m], 0.001 .. 10

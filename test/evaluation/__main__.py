@@ -32,6 +32,7 @@ from physsim_ros.drawing.strokes.recogniser import recognise_form
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.errors import Refusal
 
+from .reliability import Reliability
 from .scenes import faulty_scenes, MEANINGS, Scene, scenes
 
 CLOSED = ('disc', 'rectangle', 'polygon')
@@ -48,15 +49,20 @@ class Tally:
         self.faulty: dict[str, list[bool]] = defaultdict(list)
         self.corners: dict[str, list[bool]] = defaultdict(list)
         self.milliseconds: list[float] = []
+        self.reliability = Reliability()
 
     def add(self, scene: Scene) -> None:
         """Read the stroke of a scene."""
         begun = time.process_time_ns()
+        confidence = 0.0
         try:
-            what = interpret_stroke(scene.samples, scene.view, SETTINGS).meaning
+            reading = interpret_stroke(scene.samples, scene.view, SETTINGS)
+            what, confidence = reading.meaning, reading.confidence
         except Refusal:
             what = _REFUSED
         self.milliseconds.append((time.process_time_ns() - begun) / 1e6)
+        if what != _REFUSED and scene.meaning is not None:
+            self.reliability.add(confidence, right=what == scene.meaning)
         if scene.fault:
             self.faulty[scene.fault].append(what == scene.meaning)
             return
@@ -89,6 +95,7 @@ class Tally:
             print(f'{name + " read right":<34}{statistics.fmean(hits):7.1%} of {len(hits)}')
         for name, hits in self.corners.items():
             print(f'{f"corners exact, {name}":<34}{statistics.fmean(hits):7.1%} of {len(hits)}')
+        self.reliability.show()
         worst = statistics.quantiles(self.milliseconds, n=100)[-1]
         middle = statistics.median(self.milliseconds)
         print(f'{"CPU time of a stroke":<34}{middle:7.2f} ms median, {worst:.2f} ms 99th of 100')

@@ -200,8 +200,9 @@ def oval(rng: Random) -> Figure:
     angle = np.linspace(0.0, 2.0 * math.pi, 120, endpoint=False)
     radius = 0.5 * (1.0 + rng.normal(0.0, 0.02) * np.cos(3 * angle + rng.uniform(0, 7)))
     flat = rng.uniform(0.25, 0.58)
-    way = np.column_stack((radius * np.cos(angle), flat * radius * np.sin(angle)))
-    return Figure(kind='polygon', way=_turned(way, rng.uniform(0, 7)), closed=True, smooth=True)
+    way = _turned(np.column_stack((np.cos(angle), flat * np.sin(angle))), rng.uniform(0, 7))
+    way *= radius[:, None]
+    return Figure(kind='polygon', way=way, closed=True, thin=flat, smooth=True)
 
 
 def pentagram(rng: Random) -> Figure:

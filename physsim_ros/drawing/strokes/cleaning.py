@@ -48,9 +48,10 @@ def clean_samples(samples: Floats) -> Floats:
     :param samples: (n, 2) float64: in order, finite [m]
     """
     grain = GRAIN * _robust_size(samples)
-    points = _without_jumps(_merged(samples, grain))
+    merged = _merged(samples, grain)
+    kept = _without_jumps(merged)
     # What a spike interrupted is one rest again.
-    return _merged(points, grain) if len(points) > 1 else points
+    return kept if len(kept) == len(merged) else _merged(kept, grain)
 
 
 def _robust_size(samples: Floats) -> float:

@@ -28,7 +28,13 @@ import math
 
 import numpy as np
 from physsim_ros.drawing.strokes import corner_detection, fitting, request_builder
-from physsim_ros.drawing.strokes.context import Context, Interpretation
+from physsim_ros.drawing.strokes.context import (
+    Context,
+    DISC,
+    Interpretation,
+    POLYGON,
+    RECTANGLE,
+)
 from physsim_ros.drawing.strokes.features import Features
 from physsim_ros.drawing.strokes.fitting import rectangle, traced
 from physsim_ros.drawing.strokes.glyphs import axle, weld
@@ -39,10 +45,14 @@ from physsim_ros.model.arrays import Floats
 from physsim_ros.model.shapes import crosses_itself, is_convex, signed_area
 from physsim_ros.model.transform import cross
 
-DISC, OVAL, RECTANGLE, POLYGON = 'disc', 'oval', 'rectangle', 'polygon'
+# Of the forms, only this is no meaning too.
+OVAL = 'oval'
 # The greatest gap of a closed outline, in shares of its length: 99 of 100 people leave less than
 # 11.5 %, and a question mark has 17 %.
 _GAP = 0.145
+# The greatest distance of an outline from a rectangle (rms), in shares of its size: that of an
+# octagon is 0.024 and more; and that in shares of the error of an ellipse, 0.5 for an oval.
+_SQUARE, _SQUARER = 0.022, 0.22
 # The least aspect of a circle as people draw it, and the number of sides of an oval, which rolls.
 _CIRCULAR, _OVAL_SIDES = 0.68, 48
 # The least number of equal corners that are the samples of a circle.
@@ -87,7 +97,8 @@ def _shapes(outline: Floats, gap: float) -> Iterator[Hypothesis]:
     if len(at) >= MANY and is_convex(_counterclockwise(found)):
         # Corners that many and that equal are the samples of a circle that was drawn quickly.
         round_ = max(round_, falls(error, 0.04, 0.004))
-    sided = (1.0 - round_) * falls(residual, 0.022, 0.003)
+    edgeless = round_
+    sided = (1.0 - edgeless) * falls(residual, 0.022, 0.003)
     round_ *= _winds_once(outline - center) * falls(error, 0.085, 0.015)
     circular = rises(aspect, _CIRCULAR, 0.02)
     rim = center + np.array((radius, 0.0))
@@ -96,18 +107,30 @@ def _shapes(outline: Floats, gap: float) -> Iterator[Hypothesis]:
     broad = rises(aspect, 0.02, 0.003)
     ellipse = fitting.ellipse(outline, _OVAL_SIDES)
     yield Hypothesis(primitive=OVAL, weight=broad * round_ * (1.0 - circular), points=ellipse)
-    square = squareness(found) if len(at) == 4 else 0.0
+    # Whatever corners were found: a bent side or a round corner leaves it a rectangle.
+    corners, off = fitting.rectangle_of(wide)
+    off /= size
+    square = falls(off, _SQUARE, 0.0015) * falls(off / max(error, 1e-6), _SQUARER, 0.015)
+    if len(at) == 4 and squareness(found) > square:
+        corners, square = found, squareness(found)
+    else:
+        corners = corners @ narrow
+    yield Hypothesis(primitive=RECTANGLE, weight=broad * (1.0 - edgeless) * square, points=corners)
     if len(at) >= 3 and crosses_itself(found):
         boundary = outer_boundary(found)
         sided = sided if boundary is not None else 0.0
         found = found if boundary is None else boundary
-    yield Hypothesis(primitive=RECTANGLE, weight=broad * sided * square, points=found)
-    yield Hypothesis(primitive=POLYGON, weight=broad * sided * (1.0 - square), points=found)
-    along = traced(outline)
-    if not crosses_itself(along):
+    sided *= 1.0 - square
+    yield Hypothesis(primitive=POLYGON, weight=broad * sided, points=found)
+    free = BLOB * max(1.0 - max(square, round_) - sided, 0.0)
+    if free < LEAST:
+        return
+    along: Floats | None = traced(outline)
+    if along is not None and crosses_itself(along):
+        along = outer_boundary(along)
+    if along is not None:
         # Neither round nor sided: a polygon along the stroke.
-        free = max(1.0 - round_ - sided, 0.0)
-        yield Hypothesis(primitive=POLYGON, weight=broad * BLOB * free, points=along)
+        yield Hypothesis(primitive=POLYGON, weight=broad * free, points=along)
 
 
 def disc_interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[Interpretation]:
@@ -117,7 +140,7 @@ def disc_interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[I
     share = axle.share_of(center, radius, context)
     yield axle.interpretation(center, radius, context, weight=hypothesis.weight * share)
     yield Interpretation(
-        meaning='disc',
+        meaning=DISC,
         weight=hypothesis.weight * (1.0 - share),
         build=partial(request_builder.disc, points, context),
     )
@@ -130,7 +153,7 @@ def oval_interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[I
     share = axle.share_of(center, radius, context)
     yield axle.interpretation(center, radius, context, weight=hypothesis.weight * share)
     yield Interpretation(
-        meaning='polygon',
+        meaning=POLYGON,
         weight=hypothesis.weight * (1.0 - share),
         build=partial(request_builder.smooth_polygon, points, context),
     )
@@ -143,7 +166,7 @@ def rectangle_interpretations(
     pin = weld.interpretation(hypothesis.points, context, weight=hypothesis.weight)
     yield pin
     yield Interpretation(
-        meaning='rectangle',
+        meaning=RECTANGLE,
         weight=hypothesis.weight - pin.weight,
         build=partial(request_builder.rectangle, hypothesis.points, context),
     )
@@ -157,7 +180,7 @@ def polygon_interpretations(hypothesis: Hypothesis, context: Context) -> Iterato
     weight, shown = hypothesis.weight * share, math.dist(center, points[0])
     yield axle.interpretation(point_of(center), shown, context, weight=weight)
     yield Interpretation(
-        meaning='polygon',
+        meaning=POLYGON,
         weight=hypothesis.weight * (1.0 - share),
         build=partial(request_builder.polygon, points, context),
     )

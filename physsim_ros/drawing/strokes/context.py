@@ -37,6 +37,13 @@ MISPLACED = 0.5
 BETWEEN = 0.9
 
 
+# The meanings of closed outlines: whether a stroke is one is clearer than which of them.
+DISC, RECTANGLE, POLYGON = 'disc', 'rectangle', 'polygon'
+SOLIDS = frozenset({DISC, RECTANGLE, POLYGON})
+# The meaning that destroys what was drawn before.
+DELETION = 'deletion'
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Context:
     """

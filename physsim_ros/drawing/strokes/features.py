@@ -39,6 +39,8 @@ _DIRECTIONS = np.column_stack((np.cos(_ANGLES), np.sin(_ANGLES)))
 FRINGE = 4
 # The least count of swings whose height and advance are measured.
 FEWEST = 3
+# The advance of all swings, and of one, between those of scribbles and zigzags, in mean heights.
+FAR_APART, WIDE_TOOTH = 1.75, 0.23
 # Stride of the points between which crossings are searched.
 _STRIDE = 3
 # Pairs of segments between those points that may cross, the earlier first: not a segment and its
@@ -68,6 +70,16 @@ class Swings:
     height: float
     advance: float
     steady: float
+
+    @property
+    def spread(self) -> float:
+        """
+        Return how far apart the swings lie: above 1 those of a zigzag, below those of a scribble.
+
+        A scribble of many swings may go far, if each lies close to the one before it.
+        """
+        tooth = self.advance / max(self.count, 1)
+        return min(self.advance / FAR_APART, tooth / WIDE_TOOTH)
 
     @property
     def absence(self) -> float:

@@ -30,6 +30,8 @@ from physsim_ros.model.arrays import Floats
 # The greatest distance of an open stroke from straight sides, root mean square, at which it is no
 # curve; and the tolerance to which a curve is simplified. Both in shares of its size.
 CURVED, FINE = 0.013, 0.006
+# Rounds of the fit of a rectangle, each point to its nearest side.
+_ROUNDS = 3
 # Smoothing before a curve is simplified: standard deviation of the Gaussian [points].
 SMOOTHING = 1.2
 
@@ -58,6 +60,37 @@ def rectangle(corners: Floats) -> Floats:
     signs = np.where(local >= 0, 1.0, -1.0)
     nearest: Floats = middle + (signs * np.abs(local).mean(axis=0)) @ axes
     return nearest
+
+
+def rectangle_of(outline: Floats) -> tuple[Floats, float]:
+    """
+    Return the corners of the rectangle of least squares of a closed polyline, and the residual.
+
+    Directions are those of steps across a fortieth of the outline; each side then lies at the mean
+    of the points that are nearest to it.
+
+    :param outline: (n, 2) float64: evenly spaced, the first point not repeated [m]
+    :return: (4, 2) float64 [m]; the distance from its sides (rms) [m]
+    """
+    steps = np.roll(outline, -max(len(outline) // 40, 1), axis=0) - outline
+    quadruple = (steps[:, 0] + 1j * steps[:, 1]) ** 4
+    quadruple /= np.maximum(np.abs(quadruple), 1e-300) ** 0.75
+    angle = float(np.angle(quadruple.sum())) / 4
+    cos, sin = math.cos(angle), math.sin(angle)
+    axes = np.array(((cos, sin), (-sin, cos)))
+    local = outline @ axes.T
+    # Left, right, lower and upper side.
+    sides = np.concatenate((local.min(axis=0), local.max(axis=0)))[[0, 2, 1, 3]]
+    across = local[:, [0, 0, 1, 1]]
+    for _ in range(_ROUNDS):
+        nearest = np.abs(across - sides).argmin(axis=1)
+        for side in range(4):
+            if (nearest == side).any():
+                sides[side] = across[nearest == side, side].mean()
+    off = np.abs(across - sides).min(axis=1)
+    left, right, lower, upper = sides.tolist()
+    corners = np.array(((left, lower), (right, lower), (right, upper), (left, upper)))
+    return corners @ axes, math.sqrt(float((off**2).mean()))
 
 
 def ellipse(outline: Floats, sides: int) -> Floats:

@@ -13,13 +13,15 @@
 # limitations under the License.
 
 """
-Interpretation: the most likely meaning of a stroke in the scene that it was drawn over.
+Interpretation: the likeliest meanings of a stroke in the scene that it was drawn over.
 
 Law: interpretation changes nothing; a reading holds ordinary requests, to be submitted.
 
 Each form that the stroke may have has a weight, and the scene divides that weight among the
-meanings of the form. The confidence in a meaning is its share of the sum of all weights and of
-`DOUBT`, the weight of no meaning at all.
+meanings of the form. Meanings that a person would not confuse are groups of one; the solids are a
+group of three, since circles, ovals and rounded polygons run into each other. The group is chosen
+first, and whether there is a reading at all depends on the confidence in the group alone; then the
+likeliest meaning in the group is taken.
 """
 
 from __future__ import annotations
@@ -29,17 +31,29 @@ from dataclasses import dataclass
 
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.strokes import closed_shapes, open_lines
-from physsim_ros.drawing.strokes.context import Context, Interpretation, Outcome
+from physsim_ros.drawing.strokes import calibration, closed_shapes, open_lines
+from physsim_ros.drawing.strokes.context import (
+    Context,
+    DELETION,
+    DISC,
+    Interpretation,
+    Outcome,
+    POLYGON,
+    RECTANGLE,
+    SOLIDS,
+)
 from physsim_ros.drawing.strokes.glyphs import SIGNS
 from physsim_ros.drawing.strokes.hypothesis import Hypothesis, LEAST
 from physsim_ros.drawing.strokes.recogniser import recognise_form
 from physsim_ros.drawing.strokes.stroke import resample_stroke
+from physsim_ros.drawing.strokes.stroke_order import joined_strokes
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NotRecognised
 
-# The weight of no meaning at all.
-DOUBT = 0.12
+# The greatest number of guesses that a reading has.
+MOST_GUESSES = 3
+# The least confidence with which bodies are deleted.
+SURE = 0.9
 
 Interpret = Callable[[Hypothesis, Context], Iterator[Interpretation]]
 
@@ -47,11 +61,28 @@ Interpret = Callable[[Hypothesis, Context], Iterator[Interpretation]]
 _INTERPRET: dict[str, Interpret] = {
     **{sign.PRIMITIVE: sign.interpretations for sign in SIGNS},
     open_lines.LINE: open_lines.interpretations,
-    closed_shapes.DISC: closed_shapes.disc_interpretations,
+    DISC: closed_shapes.disc_interpretations,
     closed_shapes.OVAL: closed_shapes.oval_interpretations,
-    closed_shapes.RECTANGLE: closed_shapes.rectangle_interpretations,
-    closed_shapes.POLYGON: closed_shapes.polygon_interpretations,
+    RECTANGLE: closed_shapes.rectangle_interpretations,
+    POLYGON: closed_shapes.polygon_interpretations,
 }
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Guess:
+    """
+    A meaning that a stroke may have.
+
+    :param meaning: name of it, as `~/events` reports it: `disc`, `anchor` and so on
+    :param confidence: share of such guesses that are right, 0 .. 1
+    :param group_confidence: the same of its group, 0 .. 1
+    :param build: returns the outcome, or raises a Refusal; changes nothing
+    """
+
+    meaning: str
+    confidence: float
+    group_confidence: float
+    build: Callable[[], Outcome]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -59,24 +90,35 @@ class Reading(Outcome):
     """
     The most likely meaning of a stroke, and its outcome.
 
-    :param meaning: the meaning: `disc`, `anchor` and so on
-    :param confidence: in it, 0 .. 1
-    :param runner_up: the second most likely meaning; '' where there is none
-    :param runner_up_confidence: in that, 0 .. 1
+    :param guesses: one to three, the most likely first, which is the meaning of the reading
     """
 
-    meaning: str
-    confidence: float
-    runner_up: str
-    runner_up_confidence: float
+    guesses: tuple[Guess, ...]
+
+    @property
+    def meaning(self) -> str:
+        """Return the meaning: `disc`, `anchor` and so on."""
+        return self.guesses[0].meaning
+
+    @property
+    def confidence(self) -> float:
+        """Return the confidence in the meaning, 0 .. 1."""
+        return self.guesses[0].confidence
+
+    @property
+    def runner_up(self) -> str:
+        """Return the second most likely meaning; '' where there is none."""
+        return self.guesses[1].meaning if len(self.guesses) > 1 else ''
+
+    @property
+    def runner_up_confidence(self) -> float:
+        """Return the confidence in the runner-up, 0 .. 1."""
+        return self.guesses[1].confidence if len(self.guesses) > 1 else 0.0
 
     @property
     def values(self) -> tuple[tuple[str, str], ...]:
-        """Return meaning and runner-up with their confidences, as pairs of key and value."""
-        ranked = [(self.meaning, self.confidence)]
-        if self.runner_up:
-            ranked.append((self.runner_up, self.runner_up_confidence))
-        return _values(ranked)
+        """Return the guesses with their confidences, as pairs of key and value."""
+        return _values(self.guesses)
 
 
 def interpret_stroke(samples: Floats, scene: SceneQuery, settings: DrawingSettings) -> Reading:
@@ -91,7 +133,42 @@ def interpret_stroke(samples: Floats, scene: SceneQuery, settings: DrawingSettin
     :raises BadSize: the stroke is too small to be anything, or too large
     :raises BadOutline: its outline cannot be simulated
     :raises NothingThere: it is a sign for a body, and there is none
-    :raises NotRecognised: no meaning is likely enough; the message names the two likeliest
+    :raises NotRecognised: no meaning is likely enough; the message names the three likeliest
+    """
+    guesses = guess_meanings(samples, scene, settings)
+    if not guesses or not _is_likely(guesses[0], settings):
+        raise NotRecognised(_doubt(guesses), field='poses', values=_values(guesses))
+    outcome = guesses[0].build()
+    return Reading(
+        guesses=guesses,
+        requests=outcome.requests,
+        subject=outcome.subject,
+        message=outcome.message,
+        outline=outcome.outline,
+    )
+
+
+def interpret_strokes(
+    strokes: Sequence[Floats], scene: SceneQuery, settings: DrawingSettings
+) -> Reading:
+    """
+    Return the most likely meaning of several strokes that are one figure: an x, a square.
+
+    :param strokes: as `interpret_stroke` takes them, in any order, each in either direction
+    :raises Refusal: as `interpret_stroke` does
+    """
+    return interpret_stroke(joined_strokes(strokes), scene, settings)
+
+
+def guess_meanings(
+    samples: Floats, scene: SceneQuery, settings: DrawingSettings
+) -> tuple[Guess, ...]:
+    """
+    Return the most likely meanings of a stroke, at most `MOST_GUESSES`, the likeliest first.
+
+    :param samples: as in `interpret_stroke`
+    :raises Malformed: there are no samples, or one is not finite
+    :raises BadSize: the stroke is too small to be anything, or too large
     """
     context = Context(drawn=resample_stroke(samples), scene=scene, settings=settings)
     weights: dict[str, float] = {}
@@ -104,41 +181,49 @@ def interpret_stroke(samples: Floats, scene: SceneQuery, settings: DrawingSettin
             weights[each.meaning] = weights.get(each.meaning, 0.0) + each.weight
             if each.meaning not in best or each.weight > best[each.meaning].weight:
                 best[each.meaning] = each
-    total = sum(weights.values()) + DOUBT
-    ranked = sorted(weights, key=lambda meaning: -weights[meaning])
-    confidences = [(meaning, weights[meaning] / total) for meaning in ranked]
-    if not confidences or confidences[0][1] < settings.sketch_confidence:
-        raise NotRecognised(
-            _doubt(confidences[:2]), field='poses', values=_values(confidences[:2])
+    solid = sum(weight for meaning, weight in weights.items() if meaning in SOLIDS)
+    total = sum(weights.values())
+    guesses: list[Guess] = []
+    for meaning, weight in weights.items():
+        group = solid if meaning in SOLIDS else weight
+        sure = calibration.group_confidence(group, total)
+        within = calibration.share_confidence(weight / group) if meaning in SOLIDS else 1.0
+        guesses.append(
+            Guess(
+                meaning=meaning,
+                confidence=sure * within,
+                group_confidence=sure,
+                build=best[meaning].build,
+            )
         )
-    (meaning, confidence), *others = confidences
-    outcome = best[meaning].build()
-    runner_up, runner_up_confidence = others[0] if others else ('', 0.0)
-    return Reading(
-        meaning=meaning,
-        confidence=confidence,
-        runner_up=runner_up,
-        runner_up_confidence=runner_up_confidence,
-        requests=outcome.requests,
-        subject=outcome.subject,
-        message=outcome.message,
-        outline=outcome.outline,
-    )
+    guesses.sort(key=lambda each: (-each.group_confidence, -each.confidence))
+    return tuple(guesses[:MOST_GUESSES])
 
 
-def _values(ranked: Sequence[tuple[str, float]]) -> tuple[tuple[str, str], ...]:
+def _is_likely(guess: Guess, settings: DrawingSettings) -> bool:
+    """Tell whether a guess is likely enough to be built."""
+    if guess.meaning == DELETION and guess.confidence < SURE:
+        return False
+    return guess.group_confidence >= settings.sketch_confidence
+
+
+def _values(guesses: Sequence[Guess]) -> tuple[tuple[str, str], ...]:
     """Return meanings and confidences in them, the likeliest first, as pairs of key and value."""
-    keys = (('reading', 'confidence'), ('runner_up', 'runner_up_confidence'))
+    keys = (
+        ('reading', 'confidence'),
+        ('runner_up', 'runner_up_confidence'),
+        ('third', 'third_confidence'),
+    )
     return tuple(
         pair
-        for (name, share), (meaning, confidence) in zip(keys, ranked, strict=False)
-        for pair in ((name, meaning), (share, f'{confidence:.3f}'))
+        for (name, share), guess in zip(keys, guesses, strict=False)
+        for pair in ((name, guess.meaning), (share, f'{guess.confidence:.3f}'))
     )
 
 
-def _doubt(confidences: list[tuple[str, float]]) -> str:
+def _doubt(guesses: Sequence[Guess]) -> str:
     """Return the message about a stroke that was not recognised."""
-    if not confidences:
+    if not guesses:
         return 'the stroke looks like nothing that can be drawn'
-    words = ' or '.join(f'{meaning} ({share:.0%})' for meaning, share in confidences)
+    words = ' or '.join(f'{guess.meaning} ({guess.confidence:.0%})' for guess in guesses)
     return f'the stroke is not clear enough; it might be: {words}. Nothing was drawn'

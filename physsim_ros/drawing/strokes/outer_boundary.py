@@ -29,69 +29,84 @@ from physsim_ros.model.arrays import Floats
 from physsim_ros.model.shapes import crosses_itself, signed_area
 from physsim_ros.model.transform import cross
 
-# The number of sides above which an outline is no figure of straight sides.
-_MOST_SIDES = 16
+# The least length of an outer boundary, in shares of that of the polyline: 0.76 for a pentagram,
+# 0.63 for a spiral of two and a half rounds.
+_LEAST_LENGTH = 0.68
+
+# Nodes of a plane graph, (n, 2) [m], and of each the nodes that a side leads to.
+Graph = tuple[Floats, dict[int, list[int]]]
 
 
 def outer_boundary(corners: Floats) -> Floats | None:
     """
-    Return the simple outline around all corners, or None where there is none.
+    Return the simple outline around a closed polyline that crosses itself, or None.
 
-    :param corners: (n, 2) float64: of a closed polyline, in order, the first not repeated [m]
-    :return: (k, 2) float64, counter-clockwise [m]; None where some corner lies within, so that the
-        crossings are not those of a star, or where the parts only touch, as in an eight
+    :param corners: (n, 2) float64: of the polyline, in order, the first not repeated [m]
+    :return: (k, 2) float64, counter-clockwise [m]; None where most of the polyline lies within, or
+        where its parts only touch, as in an eight
     """
-    count = len(corners)
-    if count > _MOST_SIDES:
+    nodes, neighbours = _plane_graph(corners)
+    walk = _outer_walk(nodes, neighbours)
+    outline = nodes[walk]
+    if len(set(walk)) < len(walk) or len(walk) < 3 or crosses_itself(outline):
         return None
-    nodes: list[Floats] = list(corners)
-    # Places along each side: share of its length, node.
-    along: list[list[tuple[float, int]]] = [
-        [(0.0, side), (1.0, (side + 1) % count)] for side in range(count)
-    ]
+    long_enough = _length(outline) >= _LEAST_LENGTH * _length(corners)
+    return outline if long_enough and signed_area(outline) > 0.0 else None
+
+
+def _plane_graph(corners: Floats) -> Graph:
+    """Return the corners and crossings of a closed polyline, joined by the parts of its sides."""
+    count = len(corners)
     steps = np.roll(corners, -1, axis=0) - corners
-    for one, other in itertools.combinations(range(count), 2):
-        if (one + 1) % count == other or (other + 1) % count == one:
+    # Shares of the sides at which every pair of them crosses, rows by the first side.
+    away = corners[None] - corners[:, None]
+    sine = cross(steps[:, None], steps[None])
+    parallel = sine == 0.0
+    sine = np.where(parallel, 1.0, sine)
+    one, other = cross(away, steps[None]) / sine, cross(away, steps[:, None]) / sine
+    inside = (one > 0.0) & (one < 1.0) & (other > 0.0) & (other < 1.0)
+    pairs = np.argwhere(np.triu(inside & ~parallel, 2))
+    # Places along each side: share of its length, node.
+    along = [[(0.0, side), (1.0, (side + 1) % count)] for side in range(count)]
+    crossings: list[Floats] = []
+    for first, second in pairs.tolist():
+        if (second + 1) % count == first:
             continue
-        sine = float(cross(steps[one], steps[other]))
-        if sine == 0.0:
-            continue
-        away = corners[other] - corners[one]
-        a = float(cross(away, steps[other])) / sine
-        b = float(cross(away, steps[one])) / sine
-        if 0.0 < a < 1.0 and 0.0 < b < 1.0:
-            along[one].append((a, len(nodes)))
-            along[other].append((b, len(nodes)))
-            nodes.append(corners[one] + a * steps[one])
+        node = count + len(crossings)
+        along[first].append((float(one[first, second]), node))
+        along[second].append((float(other[first, second]), node))
+        crossings.append(corners[first] + one[first, second] * steps[first])
     neighbours: dict[int, list[int]] = {}
     for places in along:
         ordered = [node for _, node in sorted(places)]
         for node, following in itertools.pairwise(ordered):
             neighbours.setdefault(node, []).append(following)
             neighbours.setdefault(following, []).append(node)
-    walk = _outer_walk(np.array(nodes), neighbours)
-    if not set(range(count)) <= set(walk) or len(set(walk)) < len(walk):
-        return None
-    outline = np.array(nodes)[walk]
-    return None if crosses_itself(outline) or signed_area(outline) <= 0.0 else outline
+    return np.vstack((corners, *crossings)), neighbours
 
 
 def _outer_walk(nodes: Floats, neighbours: dict[int, list[int]]) -> list[int]:
     """Return the nodes around a plane graph, counter-clockwise from the lowest one."""
-    start = min(neighbours, key=lambda node: (nodes[node][1], nodes[node][0]))
+    places = nodes.tolist()
+    start = min(neighbours, key=lambda node: (places[node][1], places[node][0]))
     walk, node, heading = [start], start, 0.0
     for _ in range(2 * sum(map(len, neighbours.values()))):
-
-        def turn_right(to: int, node: int = node, heading: float = heading) -> float:
-            """Return how far to the right a neighbour lies: all other sides are left of it."""
-            x, y = nodes[to] - nodes[node]
-            return (math.atan2(y, x) - heading + math.pi - 1e-9) % (2.0 * math.pi)
-
-        following = min(neighbours[node], key=turn_right)
-        x, y = nodes[following] - nodes[node]
-        heading = math.atan2(y, x)
-        node = following
+        x, y = places[node]
+        headings = {
+            to: math.atan2(places[to][1] - y, places[to][0] - x) for to in neighbours[node]
+        }
+        # The rightmost side: all others are left of it. Back along the last one comes last.
+        turns = {
+            to: (angle - heading + math.pi - 1e-9) % (2.0 * math.pi)
+            for to, angle in headings.items()
+        }
+        node = min(turns, key=turns.__getitem__)
+        heading = headings[node]
         if node == start:
             break
         walk.append(node)
     return walk
+
+
+def _length(outline: Floats) -> float:
+    return float(np.hypot(*(np.roll(outline, -1, axis=0) - outline).T).sum())

@@ -39,7 +39,7 @@ FINELY = FINER * (COUNT - 1) + 1
 HOOK, HOOK_TURN = 0.1, 1.2
 # The least number of rounds of an outline that was drawn more than once, and the greatest mean
 # distance of the other rounds from one, in shares of the size: that of a five-pointed star is 0.1.
-ROUNDS, AGAIN = 1.25, 0.05
+ROUNDS, AGAIN = 1.25, 0.065
 # The longest overlap that is cut off at either end of a closed stroke, and the greatest gap
 # between its ends, in shares of its length.
 OVERLAP, GAP = 0.14, 0.18
@@ -76,7 +76,12 @@ def resample_stroke(samples: Floats) -> Stroke:
     :raises Malformed: there are none, or one is not finite
     :raises BadSize: all are at one point, or one is too far away
     """
-    path = spaced(_without_hooks(spaced(clean_samples(_checked(samples)), FINELY)), FINELY)
+    cleaned = clean_samples(_checked(samples))
+    if np.hypot(*np.ptp(cleaned, axis=0)) < SMALLEST:
+        raise BadSize(
+            f'the stroke is smaller than {SMALLEST:g} m: a point draws nothing', field='poses'
+        )
+    path = spaced(_without_hooks(spaced(cleaned, FINELY)), FINELY)
     points = path[::FINER]
     outline, gap = _outline(points, path)
     return Stroke(
@@ -99,10 +104,6 @@ def _checked(samples: Floats) -> Floats:
         raise Malformed('a sample of the stroke is not finite', field='poses')
     if np.abs(places).max() > FARTHEST:
         raise BadSize(f'the stroke reaches further than {FARTHEST:g} m', field='poses')
-    if np.hypot(*np.ptp(places, axis=0)) < SMALLEST:
-        raise BadSize(
-            f'the stroke is smaller than {SMALLEST:g} m: a point draws nothing', field='poses'
-        )
     return places
 
 

@@ -35,6 +35,8 @@ from physsim_ros.model.requests import Command, Configure
 PRIMITIVE = 'arrow'
 # The least gap between the ends of an arrow, in shares of its length.
 _LEAST_GAP = 0.1
+# The greatest distance of the pen from the tip of an arrow at which it is there, in lengths.
+_AT_TIP = 0.1
 
 
 def hypothesis(features: Features) -> Hypothesis:
@@ -73,6 +75,9 @@ def _arrow_from_tail(points: Floats) -> Hypothesis:
     left, right = int(head[:, 1].argmax()), int(head[:, 1].argmin())
     up, down = float(head[left, 1]), -float(head[right, 1])
     path = float(np.hypot(*np.diff(head, axis=0).T).sum())
+    # The pen leaves the tip again, unlike at the end of a zigzag.
+    at_tip = int((np.hypot(x - 1.0, y) < _AT_TIP).argmax())
+    after = float(np.hypot(*np.diff(frame[at_tip:], axis=0).T).sum())
     factors = (
         falls(float(np.abs(y[:end]).max(initial=0.0)), 0.2, 0.015),
         rises(min(up, down) / max(up, down, 1e-12), 0.2, 0.03),
@@ -82,6 +87,7 @@ def _arrow_from_tail(points: Floats) -> Hypothesis:
         falls(float(max(head[left, 0], head[right, 0])), -0.015, 0.012),
         falls(float(head[[left, right], 0].max() - head[:, 0].min()), 0.4, 0.03),
         rises(path, 0.22, 0.02),
+        rises(after, 1.8 * _AT_TIP, 0.015),
         falls(path, 2.6, 0.12),
     )
     weight = math.prod(factors)

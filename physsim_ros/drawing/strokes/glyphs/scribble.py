@@ -20,7 +20,13 @@ from collections.abc import Iterator
 from functools import partial
 
 from physsim_ros.drawing.strokes import overlap, request_builder
-from physsim_ros.drawing.strokes.context import Context, Interpretation, MISPLACED, Outcome
+from physsim_ros.drawing.strokes.context import (
+    Context,
+    DELETION,
+    Interpretation,
+    MISPLACED,
+    Outcome,
+)
 from physsim_ros.drawing.strokes.features import Features
 from physsim_ros.drawing.strokes.hypothesis import falls, Hypothesis, rises
 from physsim_ros.model.errors import NothingThere
@@ -36,7 +42,7 @@ def hypothesis(features: Features) -> Hypothesis:
     stroke, swings = features.stroke, features.swings
     weight = (
         rises(swings.count, 5.5, 0.1)
-        * falls(swings.advance, 1.75, 0.1)
+        * falls(swings.spread, 1.0, 0.05)
         * rises(stroke.length / stroke.size, 2.5, 0.1)
     )
     return Hypothesis(primitive=PRIMITIVE, weight=weight, points=stroke.points)
@@ -56,19 +62,9 @@ def interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[Interp
         weight=hypothesis.weight * spring,
         build=partial(request_builder.join, JointKind.SPRING, hypothesis.points, context),
     )
-    yield deletion(hypothesis.weight * (1.0 - spring), covered, context)
-
-
-def deletion(weight: float, covered: tuple[str, ...], context: Context) -> Interpretation:
-    """
-    Return the interpretation as a deletion.
-
-    :param weight: of it, were a body covered
-    :param covered: names of the bodies that the stroke covers
-    """
-    return Interpretation(
-        meaning='deletion',
-        weight=weight * (1.0 if covered else MISPLACED),
+    yield Interpretation(
+        meaning=DELETION,
+        weight=hypothesis.weight * (1.0 - spring) * (1.0 if covered else MISPLACED),
         build=partial(_delete_bodies, covered, context),
     )
 

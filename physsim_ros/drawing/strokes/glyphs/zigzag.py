@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""The zigzag: a spring between the bodies at its ends, else a bent wall or a deletion."""
+"""The zigzag: a spring between the bodies at its ends, else a bent wall."""
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ from collections.abc import Iterator
 from functools import partial
 
 from physsim_ros.drawing.strokes import overlap, request_builder
-from physsim_ros.drawing.strokes.context import BETWEEN, Context, Interpretation
+from physsim_ros.drawing.strokes.context import Context, Interpretation
 from physsim_ros.drawing.strokes.corner_detection import bends_of
 from physsim_ros.drawing.strokes.features import Features
-from physsim_ros.drawing.strokes.glyphs import hatching, scribble
+from physsim_ros.drawing.strokes.glyphs import hatching
 from physsim_ros.drawing.strokes.hypothesis import falls, Hypothesis, rises
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
@@ -38,7 +38,7 @@ def hypothesis(features: Features) -> Hypothesis:
     stroke, swings = features.stroke, features.swings
     weight = (
         rises(swings.count, 4.4, 0.2)
-        * rises(swings.advance, 1.75, 0.1)
+        * rises(swings.spread, 1.0, 0.05)
         * rises(swings.height / stroke.size, 0.06, 0.006)
         * rises(swings.steady, 0.75, 0.05)
     )
@@ -46,14 +46,13 @@ def hypothesis(features: Features) -> Hypothesis:
 
 
 def interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[Interpretation]:
-    """Yield hatching, spring, wall and deletion."""
+    """Yield hatching, spring and wall."""
     drawn, weight = context.drawn, hypothesis.weight
     ends = request_builder.joint_ends(hypothesis.points, context)
-    crossed = overlap.crossed_bodies(drawn.points, context.scene)
-    covered = overlap.covered_bodies(drawn.points, crossed, context.scene)
     spring = 0.0
     if ends is not None:
-        # A spring leaves the bodies that it joins; a scribble stays on them.
+        # A spring leaves the bodies that it joins.
+        crossed = overlap.crossed_bodies(drawn.points, context.scene)
         share = overlap.share_on(crossed, ends)
         spring = falls(share, _ON_ENDS, 0.03) if ends[1].body != WORLD else 1.0 - share
     body = hatching.hatched_body(context)
@@ -61,7 +60,6 @@ def interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[Interp
         lines = len(bends_of(drawn.points)) - 1
         yield hatching.interpretation(body, lines, context, weight=weight)
         return
-    wall = BETWEEN if not spring and not covered else 0.0
     yield Interpretation(
         meaning='spring',
         weight=weight * spring,
@@ -69,7 +67,6 @@ def interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[Interp
     )
     yield Interpretation(
         meaning='wall',
-        weight=weight * wall,
+        weight=weight * (1.0 - spring),
         build=lambda: request_builder.wall(bends_of(drawn.points), context),
     )
-    yield scribble.deletion(weight * (1.0 - spring - wall), covered, context)

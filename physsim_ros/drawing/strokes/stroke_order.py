@@ -1,0 +1,88 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+The order of several strokes that are one figure, as if the pen had not been lifted.
+
+Law: the shape of a figure does not depend on the order and the directions of its strokes. Of all
+orders and directions, the one with the least way between the strokes is taken; of many strokes,
+always the nearest next one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+import itertools
+import math
+
+import numpy as np
+from physsim_ros.model.arrays import Floats
+
+# The greatest number of strokes of which all orders are compared: 4! · 2⁴ = 384.
+_COMPARED = 4
+
+
+def joined_strokes(strokes: Sequence[Floats]) -> Floats:
+    """
+    Return several strokes as one.
+
+    :param strokes: each (n, 2) or (n, 3) float64: x, y [m], time [s]
+    :return: (n, 2) float64 [m], without times; a single stroke as it is
+    """
+    paths = [stroke for stroke in strokes if len(stroke)]
+    if len(paths) < 2:
+        return paths[0] if paths else np.empty((0, 2))
+    paths = [path[:, :2] for path in paths]
+    if len(paths) <= _COMPARED:
+        ordered = min(_orders(paths), key=_way_between)
+    else:
+        ordered = min((_nearest_next(paths, first) for first in _ways(paths)), key=_way_between)
+    return np.vstack(ordered)
+
+
+def _orders(paths: Sequence[Floats]) -> list[tuple[Floats, ...]]:
+    """Return the paths in all orders and directions, the first path forward or backward."""
+    both = [(path, path[::-1]) for path in paths]
+    return [
+        directed
+        for order in itertools.permutations(both)
+        for directed in itertools.product(*order)
+    ]
+
+
+def _ways(paths: Sequence[Floats]) -> list[tuple[int, bool]]:
+    """Return each path, by its index, forward and backward."""
+    return [(index, backward) for index in range(len(paths)) for backward in (False, True)]
+
+
+def _nearest_next(paths: Sequence[Floats], first: tuple[int, bool]) -> tuple[Floats, ...]:
+    """Return the paths in the order in which each begins nearest to the end of the last one."""
+    index, backward = first
+    rest = dict(enumerate(paths))
+    path = rest.pop(index)
+    ordered = [path[::-1] if backward else path]
+    while rest:
+        end = ordered[-1][-1]
+        index, at = min(
+            ((each, at) for each in rest for at in (0, -1)),
+            key=lambda start: math.dist(rest[start[0]][start[1]], end),
+        )
+        path = rest.pop(index)
+        ordered.append(path if at == 0 else path[::-1])
+    return tuple(ordered)
+
+
+def _way_between(paths: Sequence[Floats]) -> float:
+    """Return the length of the way between the paths [m]."""
+    return sum(math.dist(a[-1], b[0]) for a, b in itertools.pairwise(paths))
