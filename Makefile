@@ -29,6 +29,9 @@ else
   unexport _ROS_WHEELS_BOOTSTRAP_COMPLETE
 endif
 
+# TypeScript's checker, for the types in the comments of the page.
+TSC := npx --yes --package=typescript -- tsc
+
 .PHONY: run test lint bench ablate evaluate gallery clean
 
 run: $(STAMP)
@@ -49,8 +52,8 @@ lint: $(STAMP)
 	$(BIN)/mypy physsim_ros
 	$(BIN)/lint-imports
 	$(BIN)/python -m pytest -q test/style
-	@if command -v npx >/dev/null; then npx --yes --package=typescript -- tsc -p physsim_ros/sketchpad/page; \
-	else echo 'No node: the types of the page are not checked.'; fi
+	@if $(TSC) --version >/dev/null 2>&1; then $(TSC) -p physsim_ros/sketchpad/page; \
+	else echo 'The types of the page are not checked: there is no node, or no registry.'; fi
 
 bench: $(STAMP)
 	$(BIN)/python -m test.bench $(ARGS)

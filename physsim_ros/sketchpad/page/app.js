@@ -30,6 +30,7 @@ import {WorldState} from './world_state.js';
  */
 
 const GAP = 24; // px between the bars and a world that is framed
+const LABEL = 20; // px more, for the heights at the left
 const LISTED = 200; // bodies in the list for screen readers
 const LIST_EVERY = 1000; // ms
 
@@ -126,6 +127,8 @@ export class App {
   /** Ask for the parts of frames that are shown. */
   askForParts() {
     const {velocities} = this.arrows;
+    this.view.velocities = velocities;
+    this.view.dirty = true;
     this.connection.send('show', {...this.arrows, velocities: velocities || this.panel.name !== ''});
   }
 
@@ -136,7 +139,7 @@ export class App {
       {left: wide ? 108 : 0, top: 64, right: 0, bottom: wide ? 76 : 168};
     const {left, top, right, bottom} = view.insets;
     camera.fit(this.world.extent(),
-      {left: left + GAP, top: top + GAP, right: right + GAP, bottom: bottom + GAP});
+      {left: left + GAP + (wide ? LABEL : 0), top: top + GAP, right: right + GAP, bottom: bottom + GAP});
     this.framed = true;
     view.dirty = true;
   }

@@ -36,7 +36,7 @@ export class Gallery {
     const cards = this.worlds.map(({name, title, picture}) => make('button',
       {type: 'button', className: 'card', onclick: () => this.#open(name)},
       picture ? make('img', {src: picture, alt: '', loading: 'lazy'}) : make('span', {className: 'blank'}),
-      title || name));
+      make('strong', {textContent: name.replaceAll('_', ' ')}), make('small', {textContent: title})));
     const file = make('input', {type: 'file', accept: '.yaml,.yml',
       onchange: async () => file.files?.[0] && this.#upload(await file.files[0].text())});
     this.show('Worlds', make('div', {className: 'cards'}, ...cards), make('div', {className: 'row'},
@@ -103,6 +103,6 @@ export class Gallery {
     if (!packed || this.app.viewOnly) return;
     history.replaceState(null, '', location.pathname + location.search);
     this.show('This link holds a world', make('div', {className: 'row'}, make('button', {type: 'button',
-      textContent: 'Open it', onclick: async () => this.#upload(await unpackText(packed))})));
+      textContent: 'Open it', autofocus: true, onclick: async () => this.#upload(await unpackText(packed))})));
   }
 }

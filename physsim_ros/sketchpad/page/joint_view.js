@@ -121,22 +121,21 @@ export class JointView {
    */
   #ends(p, q, ground) {
     this.#circle(p, this.size / 2);
-    if (ground) this.#support(q, p);
+    if (ground) this.#support(q, p[1]);
     this.#circle(q, this.size / 2);
   }
 
   /**
    * The support of a joint to the background: a triangle on hatched ground.
    * @param {Point} point
-   * @param {Point} from where the joint comes from; the support lies beyond the point
+   * @param {number} fromY where the joint comes from; the support lies on the other side
    */
-  #support([x, y], [fromX, fromY] = [x, y - 1]) {
-    const s = this.size, length = Math.hypot(x - fromX, y - fromY) || 1;
-    const dx = (x - fromX) / length * s, dy = (y - fromY) / length * s;
-    /** @type {(along: number, across: number) => Point} */
-    const at = (along, across) => [x + along * dx - across * dy, y + along * dy + across * dx];
-    this.#line([[x, y], at(2.2, 1.3), at(2.2, -1.3), [x, y]]);
-    for (const across of [-1.2, -0.3, 0.6, 1.5]) this.#line([at(2.2, across), at(2.9, across - 0.6)]);
+  #support([x, y], fromY = y - 1) {
+    const s = this.size, up = fromY > y ? -s : s, base = y + 2.2 * up;
+    this.#line([[x, y], [x - 1.3 * s, base], [x + 1.3 * s, base], [x, y]]);
+    for (const dx of [-1.2, -0.3, 0.6, 1.5]) {
+      this.#line([[x + dx * s, base], [x + (dx - 0.6) * s, base + 0.7 * up]]);
+    }
   }
 
   /**

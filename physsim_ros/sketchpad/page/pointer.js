@@ -48,10 +48,12 @@ export class Pointers {
     this.stylus ||= event.pointerType === 'pen';
     this.down.set(event.pointerId, event);
     app.cursor.hide();
+    app.hover(null);
     const moves = event.button > 0 || this.space || app.viewOnly ||
       (this.stylus && event.pointerType === 'touch');
     if (this.down.size === 1 && !moves) {
       this.working = event.pointerId;
+      app.endHint();
       app.lastAt = this.#touch(event).at;
       app.tool.down(this.#touch(event));
     } else if (this.down.size > 1 && this.working >= 0 && !app.tool.turns) {

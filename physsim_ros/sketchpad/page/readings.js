@@ -31,7 +31,6 @@ export class Readings {
   await(request, stroke) {
     this.dismiss();
     if (request) this.strokes.set(request, stroke);
-    this.app.endHint();
   }
 
   /** @param {import('./wire.js').Reading} reading */

@@ -33,6 +33,7 @@ export class SceneView {
     /** @type {((view: SceneView) => void)[]} */
     this.overlays = [];
     this.insets = {left: 0, top: 0, right: 0, bottom: 0}; // covered by bars [px]
+    this.velocities = false; // whether they are shown; frames have them for plots too
     this.ratio = 1;
     this.dirty = true;
     this.drawn = -1; // version of the world
@@ -236,7 +237,7 @@ export class SceneView {
 
   #drawArrows() {
     const {palette, world} = this, {frame, scene} = world, {velocities, contacts, hands} = frame;
-    for (let row = 0; velocities && row < world.count; row++) {
+    for (let row = 0; this.velocities && velocities && row < world.count; row++) {
       if (scene.bodies[row].anchored) continue;
       const from = world.place(row, scene.bodies[row].centroid);
       this.arrow(from, [from[0] + velocities.x[row], from[1] + velocities.y[row]], palette.accent);
