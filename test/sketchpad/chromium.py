@@ -170,3 +170,26 @@ class Fingers:
     def _send(self, kind: str, places: Sequence[Sequence[float]]) -> None:
         points = [{'x': x, 'y': y, 'id': number} for number, (x, y) in enumerate(places)]
         self._session.send('Input.dispatchTouchEvent', {'type': kind, 'touchPoints': points})
+
+
+class Stylus:
+    """
+    A stylus on a page.
+
+    :param sheet: that it draws on
+    """
+
+    def __init__(self, sheet: Sheet) -> None:
+        self._session = sheet.context.new_cdp_session(sheet.page)
+
+    def draw(self, places: Sequence[Sequence[float]]) -> None:
+        """Draw a stroke from place to place [px]."""
+        self._send('mousePressed', places[0])
+        for place in places[1:]:
+            self._send('mouseMoved', place)
+        self._send('mouseReleased', places[-1])
+
+    def _send(self, kind: str, place: Sequence[float]) -> None:
+        x, y = place
+        event = {'type': kind, 'x': x, 'y': y, 'button': 'left', 'buttons': 1, 'clickCount': 1}
+        self._session.send('Input.dispatchMouseEvent', event | {'pointerType': 'pen'})
