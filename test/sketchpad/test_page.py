@@ -18,12 +18,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 import math
+from pathlib import Path
 import re
 from typing import Any
 
 import pytest
 
-from .chromium import Fingers, launched_chromium, Sheet, started_world
+from .chromium import Fingers, launched_chromium, Sheet, started_world, Stylus
 from ..outside import Outside
 
 sync_api = pytest.importorskip('playwright.sync_api', reason='playwright is not installed')
@@ -111,6 +112,30 @@ def test_a_body_is_where_its_colour_says(sheet: Sheet) -> None:
     assert color_at(0.0, 1.2) not in ([0xD0, 0x20, 0x20], color_at(0.0, 0.5))
 
 
+def test_a_hand_drags_a_body_and_throws_it(sheet: Sheet) -> None:
+    sheet.press('Play')
+    sheet.press('Hand')
+    with sheet.dragging((0.0, 0.5), (0.0, 3.0)):
+        sheet.wait('Math.abs(physsim.bodies["ball/0"][1] - 3) < 0.4')
+        sheet.page.mouse.move(*sheet.place(3.0, 5.0), steps=6)
+    # It flies on beyond the place where the hand let it go.
+    sheet.wait('physsim.bodies["ball/0"][0] > 3.3')
+
+
+def test_in_a_paused_world_the_hand_places_a_body_and_the_wheel_turns_it(sheet: Sheet) -> None:
+    sheet.press('Hand')
+    with sheet.dragging((4.0, 0.5), (2.0, 4.0)):
+        sheet.wait(
+            'Math.hypot(physsim.bodies["box/0"][0] - 2, physsim.bodies["box/0"][1] - 4) < 0.1'
+        )
+        sheet.page.mouse.wheel(0, -200)
+        sheet.wait('Math.abs(physsim.bodies["box/0"][2]) > 0.2')
+    sheet.press('Undo')
+    sheet.wait(
+        'Math.hypot(physsim.bodies["box/0"][0] - 4, physsim.bodies["box/0"][1] - 0.5) < 0.1'
+    )
+
+
 def test_undo_takes_back_what_was_drawn_and_redo_draws_it_again(sheet: Sheet) -> None:
     before = sheet.names()
     sheet.press('Circle')
@@ -144,6 +169,33 @@ def test_two_pages_see_one_world_and_each_has_its_own_tool(
     other.close()
 
 
+def test_a_body_is_tapped_and_changed_in_its_panel(sheet: Sheet) -> None:
+    sheet.press('Hand')
+    sheet.page.mouse.click(*sheet.place(0.0, 0.5))
+    panel = sheet.page.get_by_role('complementary', name='Body')
+    panel.get_by_label('Bounciness').fill('0.9')
+    panel.get_by_label('Anchored').check()
+    sheet.page.get_by_text('changed').first.wait_for(state='attached')
+    sheet.press('Copy')
+    sheet.wait('Object.keys(physsim.bodies).length === 4')
+    sheet.press('Delete body')
+    sheet.wait('!("ball/0" in physsim.bodies)')
+
+
+def test_a_lasso_moves_several_bodies_and_deletes_them(sheet: Sheet) -> None:
+    sheet.press('Lasso')
+    sheet.drag((-1.0, 0.1), (5.5, 0.1), (5.5, 2.0), (-1.0, 2.0), (-1.0, 0.1))
+    sheet.page.get_by_text('2 bodies').wait_for()
+    sheet.drag((0.0, 0.5), (-1.0, 3.5))
+    sheet.wait(
+        'Math.hypot(physsim.bodies["box/0"][0] - 3, physsim.bodies["box/0"][1] - 3.5) < 0.05'
+    )
+    sheet.page.keyboard.press('Delete')
+    sheet.wait('Object.keys(physsim.bodies).join() === "shelf/0"')
+    sheet.press('Undo')
+    sheet.wait('Object.keys(physsim.bodies).length === 3')
+
+
 def test_a_refusal_stands_at_its_place(sheet: Sheet) -> None:
     sheet.press('Anchor')
     x, y = sheet.place(-2.0, 6.0)
@@ -153,6 +205,58 @@ def test_a_refusal_stands_at_its_place(sheet: Sheet) -> None:
     assert abs(box['x'] + box['width'] / 2 - x) < 5
     assert 0 < y - box['y'] - box['height'] < 40
     assert sheet.page.get_by_role('status').inner_text() == note.inner_text()
+
+
+def test_a_world_is_saved_and_opened_from_the_gallery(sheet: Sheet) -> None:
+    sheet.press('Delete')
+    sheet.page.mouse.click(*sheet.place(4.0, 0.5))
+    sheet.wait('Object.keys(physsim.bodies).length === 2')
+    sheet.press('Save')
+    sheet.page.get_by_label('Name of the world').fill('two-bodies')
+    sheet.press('Save world')
+    sheet.wait('document.querySelector("[role=status]").textContent.includes("two-bodies")')
+    sheet.press('Worlds')
+    sheet.page.get_by_role('button', name='pendulums').click()
+    sheet.wait('!("ball/0" in physsim.bodies)')
+    sheet.press('Worlds')
+    sheet.page.get_by_role('button', name='two-bodies').click()
+    sheet.wait('"ball/0" in physsim.bodies && Object.keys(physsim.bodies).length === 2')
+    sheet.press('Worlds')
+    sheet.page.get_by_role('button', name='page').click()
+    sheet.wait('Object.keys(physsim.bodies).length === 3')
+
+
+def test_a_link_holds_the_world_and_offers_it(sheet: Sheet, chromium: Any, address: str) -> None:
+    sheet.press('Save')
+    sheet.press('Copy link')
+    link = sheet.page.get_by_role('textbox', name='Link').input_value()
+    sheet.page.keyboard.press('Escape')
+    sheet.press('Delete')
+    sheet.page.mouse.click(*sheet.place(4.0, 0.5))
+    sheet.wait('!("box/0" in physsim.bodies)')
+    other = Sheet(chromium, address)
+    other.page.goto('about:blank')
+    other.page.goto(link)
+    other.press('Open it')
+    sheet.wait('"box/0" in physsim.bodies')
+    other.close()
+
+
+def test_a_picture_and_a_table_of_what_was_plotted_are_downloaded(sheet: Sheet) -> None:
+    sheet.press('Save')
+    with sheet.page.expect_download() as picture:
+        sheet.press('Picture (PNG)')
+    assert Path(picture.value.path()).read_bytes().startswith(b'\x89PNG')
+    sheet.page.keyboard.press('Escape')
+    sheet.press('Hand')
+    sheet.page.mouse.click(*sheet.place(0.0, 0.5))
+    sheet.press('Play')
+    sheet.wait('physsim.time > 0.3')
+    with sheet.page.expect_download() as table:
+        sheet.press('Table (CSV)')
+    head, *rows = Path(table.value.path()).read_text().splitlines()
+    assert head.split(',')[:3] == ['time [s]', 'x [m]', 'y [m]']
+    assert [float(each) for each in rows[-1].split(',')[1:3]] == pytest.approx([0, 0.5], abs=0.01)
 
 
 def test_all_of_it_goes_by_keys_alone(sheet: Sheet) -> None:
@@ -196,6 +300,23 @@ def test_a_finger_draws_and_two_fingers_zoom(chromium: Any, address: str) -> Non
     fingers.move((450, 400), (650, 400))
     fingers.lift()
     assert 1.7 * narrow < width() < 2.3 * narrow
+    sheet.close()
+
+
+def test_a_stylus_draws_and_from_then_on_a_finger_moves_the_view(
+    chromium: Any, address: str
+) -> None:
+    sheet = Sheet(chromium, address, has_touch=True)
+    sheet.begin()
+    before = sheet.names()
+    Stylus(sheet).draw([sheet.place(*point) for point in circle(1.0, 5.0, 0.8)])
+    sheet.wait_for_new(before)
+    x, y = sheet.place(0.0, 0.0)
+    fingers = Fingers(sheet)
+    fingers.put((500, 300))
+    fingers.move((540, 330))
+    fingers.lift()
+    assert sheet.place(0.0, 0.0) == pytest.approx((x + 40, y + 30), abs=1.0)
     sheet.close()
 
 
