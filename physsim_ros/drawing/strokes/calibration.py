@@ -27,9 +27,9 @@ import math
 # The weight of no meaning at all.
 DOUBT = 0.12
 # Log odds of a group being right at equal weights, and their growth with the log odds of weights.
-GROUP_BIAS, GROUP_SLOPE = -0.85, 3.46
+GROUP_BIAS, GROUP_SLOPE = -0.4, 3.2
 # The same of a meaning within its group.
-SHARE_BIAS, SHARE_SLOPE = 0.72, 0.66
+SHARE_BIAS, SHARE_SLOPE = 0.36, 0.86
 # The least share of a doubt that is left, so that log odds are finite.
 _LEAST = 1e-3
 

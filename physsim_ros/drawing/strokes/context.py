@@ -37,9 +37,12 @@ MISPLACED = 0.5
 BETWEEN = 0.9
 
 
-# The meanings of closed outlines: whether a stroke is one is clearer than which of them.
+# Meanings of closed outlines.
 DISC, RECTANGLE, POLYGON = 'disc', 'rectangle', 'polygon'
-SOLIDS = frozenset({DISC, RECTANGLE, POLYGON})
+# Groups of meanings: whether a stroke is closed, open or a sign is clearer than which of them. A
+# meaning in neither is a group of its own.
+CLOSED = frozenset({DISC, RECTANGLE, POLYGON, 'axle', 'pin'})
+OPEN = frozenset({'wall', 'rod', 'rope', 'spring', 'hatching'})
 # The meaning that destroys what was drawn before.
 DELETION = 'deletion'
 

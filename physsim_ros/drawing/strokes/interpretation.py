@@ -18,9 +18,9 @@ Interpretation: the likeliest meanings of a stroke in the scene that it was draw
 Law: interpretation changes nothing; a reading holds ordinary requests, to be submitted.
 
 Each form that the stroke may have has a weight, and the scene divides that weight among the
-meanings of the form. Meanings that a person would not confuse are groups of one; the solids are a
-group of three, since circles, ovals and rounded polygons run into each other. The group is chosen
-first, and whether there is a reading at all depends on the confidence in the group alone; then the
+meanings of the form. Closed outlines are a group, since circles, ovals and rounded polygons run
+into each other; so are open lines; every sign is a group of its own. The group is chosen first,
+and whether there is a reading at all depends on the confidence in the group alone; then the
 likeliest meaning in the group is taken.
 """
 
@@ -33,14 +33,15 @@ from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes import calibration, closed_shapes, open_lines
 from physsim_ros.drawing.strokes.context import (
+    CLOSED,
     Context,
     DELETION,
     DISC,
     Interpretation,
+    OPEN,
     Outcome,
     POLYGON,
     RECTANGLE,
-    SOLIDS,
 )
 from physsim_ros.drawing.strokes.glyphs import SIGNS
 from physsim_ros.drawing.strokes.hypothesis import Hypothesis, LEAST
@@ -181,13 +182,13 @@ def guess_meanings(
             weights[each.meaning] = weights.get(each.meaning, 0.0) + each.weight
             if each.meaning not in best or each.weight > best[each.meaning].weight:
                 best[each.meaning] = each
-    solid = sum(weight for meaning, weight in weights.items() if meaning in SOLIDS)
     total = sum(weights.values())
     guesses: list[Guess] = []
     for meaning, weight in weights.items():
-        group = solid if meaning in SOLIDS else weight
+        others = _group_of(meaning)
+        group = sum(weights.get(each, 0.0) for each in others)
         sure = calibration.group_confidence(group, total)
-        within = calibration.share_confidence(weight / group) if meaning in SOLIDS else 1.0
+        within = calibration.share_confidence(weight / group) if len(others) > 1 else 1.0
         guesses.append(
             Guess(
                 meaning=meaning,
@@ -198,6 +199,11 @@ def guess_meanings(
         )
     guesses.sort(key=lambda each: (-each.group_confidence, -each.confidence))
     return tuple(guesses[:MOST_GUESSES])
+
+
+def _group_of(meaning: str) -> frozenset[str]:
+    """Return the group of a meaning."""
+    return next((group for group in (CLOSED, OPEN) if meaning in group), frozenset({meaning}))
 
 
 def _is_likely(guess: Guess, settings: DrawingSettings) -> bool:

@@ -69,7 +69,7 @@ def _round_arrow_from_tail(points: Floats) -> Hypothesis | None:
     out = np.hypot(*(head - center).T) / radius - 1.0
     inner, outer = float(-out.min()), float(out.max())
     weight = (
-        falls(error / radius, 0.1, 0.012)
+        falls(error / radius, 0.07, 0.008)
         * rises(sweep, 1.7, 0.12)
         * falls(sweep, 7.0, 0.2)
         * rises(min(inner, outer) / max(inner, outer, 1e-12), 0.2, 0.03)
