@@ -131,6 +131,7 @@ class PhysSimNode(NodeWithoutQosEvents):
         if self._values['world_file']:
             self.world_files.begin_with()
             self._mirror_settings()
+        self._world_publishers.publish_timeline(self.simulation.status, moving=False)
         self._create_subscriptions()
         actions = create_services(
             self,
@@ -203,6 +204,7 @@ class PhysSimNode(NodeWithoutQosEvents):
         for answer in frame.answers:
             self._log_answer(answer)
         self._world_publishers.publish_frame(frame)
+        self._world_publishers.publish_timeline(self.simulation.status, moving=frame.moved)
         self._show_frame(frame)
 
     def _show_frame(self, frame: Frame) -> None:

@@ -32,8 +32,10 @@ from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import PoseArray
 from physsim_ros.model.preview import NO_PREVIEW, Preview
 from physsim_ros.model.snapshot import Answer, Frame
+from physsim_ros.model.timeline import TimelineStatus
 from physsim_ros.ros import encoders
 from physsim_ros.ros.encoders import Encoder
+from physsim_ros.ros.timeline_publisher import TimelinePublisher
 from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.publisher import Publisher
@@ -86,6 +88,7 @@ class Publishers:
             stream(MultiDOFJointState, '~/states', 5, encoders.StatesEncoder(frame_id)),
             _LatchedStream(latched(MarkerArray, '~/markers'), encoders.MarkersEncoder(frame_id)),
         )
+        self._timeline = TimelinePublisher(latched(DiagnosticStatus, '~/timeline'))
         self._preview_publisher = latched(MarkerArray, '~/preview')
         self._frame_id = frame_id
         self._preview: Preview = NO_PREVIEW
@@ -123,6 +126,14 @@ class Publishers:
         if self._frame is not None:
             for stream in self._state_streams:
                 stream.publish_to_late_subscribers(self._frame)
+
+    def publish_timeline(self, status: TimelineStatus, *, moving: bool) -> None:
+        """
+        Publish the status of the timeline if it has changed.
+
+        :param moving: whether time goes on, or back; then a change of times alone may wait
+        """
+        self._timeline.publish(status, moving=moving)
 
     def publish_preview(self, preview: Preview) -> None:
         """Publish a preview if it has changed."""

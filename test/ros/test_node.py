@@ -45,6 +45,7 @@ TYPES = {
     '/physsim/markers': 'visualization_msgs/msg/MarkerArray',
     '/physsim/preview': 'visualization_msgs/msg/MarkerArray',
     '/physsim/events': 'diagnostic_msgs/msg/DiagnosticStatus',
+    '/physsim/timeline': 'diagnostic_msgs/msg/DiagnosticStatus',
     '/clock': 'rosgraph_msgs/msg/Clock',
     '/diagnostics': 'diagnostic_msgs/msg/DiagnosticArray',
 }
@@ -55,10 +56,11 @@ DEPTHS = {
     '/physsim/markers': 1,
     '/physsim/preview': 1,
     '/physsim/events': 1000,
+    '/physsim/timeline': 1,
     '/clock': 10,
     '/diagnostics': 10,
 }
-KEPT = ('/physsim/markers', '/physsim/preview')
+KEPT = ('/physsim/markers', '/physsim/preview', '/physsim/timeline')
 REQUESTS = {
     '/physsim/spawn': 'visualization_msgs/msg/Marker',
     '/physsim/spawn_array': 'visualization_msgs/msg/MarkerArray',
@@ -68,6 +70,7 @@ REQUESTS = {
     '/physsim/anchor': 'geometry_msgs/msg/PointStamped',
     '/physsim/release': 'geometry_msgs/msg/PointStamped',
     '/physsim/command': 'sensor_msgs/msg/MultiDOFJointState',
+    '/physsim/drag/feedback': 'visualization_msgs/msg/InteractiveMarkerFeedback',
     '/clicked_point': 'geometry_msgs/msg/PointStamped',
     '/physsim/stroke': 'nav_msgs/msg/Path',
     '/physsim/speed': 'std_msgs/msg/Float64',

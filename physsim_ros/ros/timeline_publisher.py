@@ -1,0 +1,91 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+`~/timeline`: diagnostic_msgs/DiagnosticStatus, where the world is in its time.
+
+Law: the last message is that of the last frame, but for times of a running world.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
+from physsim_ros.model.timeline import TimelineStatus
+from rclpy.publisher import Publisher
+
+# Frames from one message to the next while nothing but time changes: 4 Hz at 60 frames a second.
+PERIOD = 15
+
+
+class TimelinePublisher:
+    """
+    Publishes the status of the timeline when it changes.
+
+    :param publisher: of `~/timeline`
+    """
+
+    def __init__(self, publisher: Publisher) -> None:
+        self._publisher = publisher
+        self._last: TimelineStatus | None = None
+        # Frames since the last message.
+        self._age = 0
+
+    def publish(self, status: TimelineStatus, *, moving: bool) -> None:
+        """
+        Publish a status if it has changed.
+
+        :param moving: whether time goes on, or back; then a change of times alone may wait
+        """
+        self._age += 1
+        last = self._last
+        if status == last or (moving and self._age < PERIOD and _differs_in_time(status, last)):
+            return
+        self._last, self._age = status, 0
+        self._publisher.publish(_message(status))
+
+
+def _differs_in_time(one: TimelineStatus, other: TimelineStatus | None) -> bool:
+    """Return whether two statuses differ in nothing but times."""
+    if other is None:
+        return False
+    return replace(one, oldest=other.oldest, now=other.now, newest=other.newest) == other
+
+
+def _message(status: TimelineStatus) -> DiagnosticStatus:
+    values = {
+        'oldest': _seconds(status.oldest),
+        'now': _seconds(status.now),
+        'newest': _seconds(status.newest),
+        'speed': f'{status.speed:g}',
+        'course': str(status.course),
+        'undo': status.undo,
+        'redo': status.redo,
+        # Each as number:begins:ends.
+        'courses': ' '.join(
+            f'{each.number}:{_seconds(each.begins)}:{_seconds(each.ends)}'
+            for each in status.courses
+        ),
+    }
+    return DiagnosticStatus(
+        level=DiagnosticStatus.OK,
+        name='timeline',
+        message=status.state,
+        values=[KeyValue(key=key, value=value) for key, value in values.items()],
+    )
+
+
+def _seconds(time: float) -> str:
+    return f'{time:.6f}'

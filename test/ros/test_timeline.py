@@ -1,0 +1,93 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The status of the timeline on `~/timeline`, kept for late subscribers."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from diagnostic_msgs.msg import DiagnosticStatus
+from physsim_ros.testing import PhysSim
+
+from ..client import Client, KEPT
+from ..messages import command, delete, disc
+
+
+def told(message: Any) -> dict[str, str]:
+    return {'state': message.message} | {pair.key: pair.value for pair in message.values}
+
+
+def test_a_late_subscriber_gets_the_last_status(physsim: PhysSim, client: Client) -> None:
+    physsim.spawn(disc('a/0'))
+    messages = client.listen(DiagnosticStatus, '~/timeline', KEPT)
+    client.spin_until(lambda: messages)
+
+    assert told(messages[-1]) == {
+        'state': 'playing',
+        'oldest': '0.000000',
+        'now': '0.000000',
+        'newest': '0.000000',
+        'speed': '1',
+        'course': '1',
+        'undo': 'undo spawn a/0',
+        'redo': '',
+        'courses': '',
+    }
+    assert messages[-1].level == DiagnosticStatus.OK
+
+
+def test_it_tells_the_state_the_course_and_what_can_be_undone(
+    physsim: PhysSim, client: Client
+) -> None:
+    messages = client.listen(DiagnosticStatus, '~/timeline', KEPT)
+    physsim.spawn(disc('a/0'))
+    physsim.run(1.0)
+    client.call('~/pause')
+    physsim.node.apply_requests()
+    physsim.settle()
+    status = told(messages[-1])
+    assert (status['state'], status['now'], status['newest']) == ('paused', '1.000000', '1.000000')
+
+    physsim.seek(0.5)
+    assert told(messages[-1])['state'] == 'in the past'
+    physsim.command(command('a/0', twists=[(1.0, 0.0, 0.0)]))
+    status = told(messages[-1])
+    assert (status['state'], status['course'], status['undo']) == (
+        'paused',
+        '2',
+        'undo command a/0',
+    )
+    assert status['courses'] == '1:0.500000:1.000000'
+    client.call('~/undo')
+    physsim.node.apply_requests()
+    physsim.settle()
+    status = told(messages[-1])
+    assert (status['undo'], status['redo']) == ('undo spawn a/0', 'redo command a/0')
+    physsim.spawn(delete('a/0'))
+    assert told(messages[-1])['redo'] == ''
+
+
+def test_times_of_a_running_world_come_some_times_a_second(
+    physsim: PhysSim, client: Client
+) -> None:
+    messages = client.listen(DiagnosticStatus, '~/timeline', KEPT)
+    client.spin_until(lambda: messages)
+    before = len(messages)
+    physsim.run(1.0)
+
+    times = [told(message)['now'] for message in messages[before:]]
+    # Four a second of 60 frames.
+    assert len(times) == 4
+    assert sorted(times) == times
