@@ -24,7 +24,7 @@ from bisect import bisect_right
 from collections.abc import Collection, Sequence
 
 from physsim_ros.model.snapshot import Snapshot
-from physsim_ros.simulation.frame_cache import Shot
+from physsim_ros.simulation.frame_cache import CachedFrame
 
 # Greatest memory of the ghosts of all courses [bytes]: a minute of 100 bodies in each of three.
 GREATEST_SIZE = 48 * 2**20
@@ -34,21 +34,21 @@ class Ghosts:
     """The snapshots of courses that were left."""
 
     def __init__(self) -> None:
-        self._shots: dict[int, list[Shot]] = {}
+        self._shots: dict[int, list[CachedFrame]] = {}
 
     @property
     def size(self) -> int:
         """Return the memory that they take [bytes]."""
         return sum(shot.size for shots in self._shots.values() for shot in shots)
 
-    def add_course(self, number: int, shots: Sequence[Shot]) -> None:
+    def add_course(self, number: int, shots: Sequence[CachedFrame]) -> None:
         """Keep the snapshots of a course that is left; the oldest courses make room for it."""
         kept = [shot._replace(contacts=None) for shot in shots]
         self._shots[number] = sorted(kept, key=lambda shot: shot.snapshot.step)
         while self._shots and self.size > GREATEST_SIZE:
             del self._shots[next(iter(self._shots))]
 
-    def take_course(self, number: int) -> list[Shot]:
+    def take_course(self, number: int) -> list[CachedFrame]:
         """Return the snapshots of a course that is returned to, and keep them no more."""
         return self._shots.pop(number, [])
 

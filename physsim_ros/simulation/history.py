@@ -13,7 +13,7 @@
 # limitations under the License.
 
 """
-What a world did: the log of its requests, and the checkpoints from which it can do it again.
+History: the log of the requests to a world, and the checkpoints from which it is replayed.
 
 Laws: a moment is a step and the number of requests made until then; the same log from the same
 checkpoint leads to the same bits; what is dropped is dropped from one end.
@@ -39,9 +39,9 @@ class Entry:
     A request that changed the world.
 
     :param step: at which it did
-    :param request: it
+    :param request: that was applied
     :param gesture: requests of one gesture are undone together
-    :param seen: whether that step has been shown with it; what came to a running world shows only
+    :param shown: whether that step has been shown with it; what came to a running world shows only
         in the next frame
     :param subject: name of the body or joint concerned, or ''
     """
@@ -49,17 +49,17 @@ class Entry:
     step: int
     request: Request
     gesture: int
-    seen: bool = False
+    shown: bool = False
     subject: str = ''
 
 
 class Mark(NamedTuple):
     """
-    A checkpoint, and where it stands.
+    A checkpoint and its moment.
 
-    :ivar step: of it
+    :ivar step: of the checkpoint
     :ivar serial: number of requests made until then
-    :ivar key: what the world went on from
+    :ivar key: the checkpoint
     :ivar digest: of the world then
     """
 
@@ -76,11 +76,11 @@ class Mark(NamedTuple):
 
 class Tail(NamedTuple):
     """
-    What has been cut off: how a world went on before something was undone.
+    The part of a history after a moment, cut off by an undo or by a branch.
 
-    :ivar after: moment of the last checkpoint that was left
+    :ivar after: moment of the last checkpoint before it
     :ivar entries: the requests, the undone ones first
-    :ivar marks: checkpoints that know of them
+    :ivar marks: checkpoints after them
     :ivar head: the last step that the world had reached
     :ivar step: at which it was cut off, and
     :ivar serial: number of requests made until then
@@ -107,9 +107,9 @@ class History:
         self._spacing = spacing
         self._length = length
         self._entries: list[Entry] = []
-        # Requests that are in the log no more.
+        # Number of requests that were dropped from the log.
         self._dropped = first.serial
-        # What was loaded last before those that are.
+        # The state that was loaded last among those.
         self._loaded: WorldState | None = None
         # The number of requests up to the last that loaded anything.
         self._restored = 0
@@ -129,7 +129,7 @@ class History:
     @length.setter
     def length(self, length: int) -> None:
         self._length = length
-        self._forget()
+        self._drop_old()
 
     @property
     def oldest(self) -> int:
@@ -146,30 +146,30 @@ class History:
         """Return the checkpoints, oldest first."""
         return self._marks
 
-    def made_at(self, step: int) -> int:
+    def serial_at(self, step: int) -> int:
         """Return the number of requests that were made until a step, and at it."""
         return self._dropped + bisect_right(self._entries, step, key=lambda each: each.step)
 
-    def seen_at(self, step: int) -> int:
+    def serial_shown_at(self, step: int) -> int:
         """Return the number of requests that were made until a step was shown last."""
-        # Of a step those come first that have been seen.
-        unseen = (step, True)
-        place = bisect_left(self._entries, unseen, key=lambda each: (each.step, not each.seen))
+        # Of a step those come first that have been shown.
+        not_shown = (step, True)
+        place = bisect_left(self._entries, not_shown, key=lambda each: (each.step, not each.shown))
         return self._dropped + place
 
-    def between(self, serial: int, end: int) -> list[Entry]:
+    def entries_between(self, serial: int, end: int) -> list[Entry]:
         """Return the requests from one serial to another."""
         first, last = serial - self._dropped, end - self._dropped
         return self._entries[first:last]
 
-    def before(self, step: int, serial: int) -> Mark:
+    def checkpoint_before(self, step: int, serial: int) -> Mark:
         """Return the last checkpoint from which a moment can be reached."""
         place = bisect_right(self._marks, (step, serial), key=lambda each: each.moment)
         return self._marks[place - 1]
 
-    def at(self, step: int, serial: int) -> Mark | None:
-        """Return the checkpoint of exactly that moment."""
-        mark = self.before(step, serial)
+    def checkpoint_at(self, step: int, serial: int) -> Mark | None:
+        """Return the checkpoint of exactly that moment; None is none."""
+        mark = self.checkpoint_before(step, serial)
         return mark if mark.moment == (step, serial) else None
 
     def segment(self, step: int) -> tuple[Mark, int]:
@@ -190,8 +190,8 @@ class History:
             stops.append(self._marks[mark].step)
         return min(stops)
 
-    def is_due(self, step: int) -> bool:
-        """Whether it is time for the next checkpoint; what is loaded begins with one."""
+    def is_checkpoint_due(self, step: int) -> bool:
+        """Return whether a checkpoint is due at a step; a loaded state begins with one."""
         last = self._marks[-1]
         return step - last.step >= self._spacing or self._restored > last.serial
 
@@ -218,18 +218,18 @@ class History:
         return (self._entries[first - self._dropped].step, first) if first < serial else None
 
     @property
-    def loaded(self) -> WorldState | None:
+    def last_loaded(self) -> WorldState | None:
         """Return the state that was loaded last; None where none was."""
         requests = (entry.request for entry in reversed(self._entries))
         return next((each.state for each in requests if isinstance(each, Restore)), self._loaded)
 
     # Changing
 
-    def reach(self, step: int) -> None:
-        """Note that the world has come to a step."""
+    def note_step(self, step: int) -> None:
+        """Note that the world has reached a step."""
         if step > self.head:
             self.head = step
-            self._forget()
+            self._drop_old()
 
     def lies_ahead(self, step: int, serial: int) -> bool:
         """Return whether anything is known of the time after a moment."""
@@ -242,14 +242,14 @@ class History:
         if isinstance(entry.request, Restore):
             self._restored = self._dropped + len(self._entries)
 
-    def see(self, step: int, serial: int) -> None:
+    def note_shown(self, step: int, serial: int) -> None:
         """Note that a step has been shown, with the requests up to a serial."""
         place = serial - self._dropped
         while place > 0 and self._entries[place - 1].step == step:
             place -= 1
-            if self._entries[place].seen:
+            if self._entries[place].shown:
                 break
-            self._entries[place].seen = True
+            self._entries[place].shown = True
 
     def add_checkpoint(self, mark: Mark) -> None:
         """Add a checkpoint, as the last."""
@@ -262,17 +262,17 @@ class History:
         :param now: the moment at which that is asked
         """
         head, entries, marks = self.head, tuple(self._entries), tuple(self._marks)
-        self._cut(step, serial)
+        self._truncate(step, serial)
         after, done, left = self._marks[-1].moment, len(self._entries), len(self._marks)
         return Tail(after, entries[done:], marks[left:], head, *now)
 
     def exchange(self, tail: Tail, begins: Moment, *, now: Moment) -> Tail:
         """
-        Cut off what came after a moment, and let things go on as in another tail.
+        Cut off what came after a moment, and append another tail instead.
 
         :param begins: the moment at which the two part
-        :param now: the moment at which that is asked
-        :return: what is cut off
+        :param now: the moment that is shown
+        :return: the tail that is cut off
         :raises OutOfHistory: the beginning is too long ago; nothing is changed
         """
         self._check_splice(tail)
@@ -286,7 +286,7 @@ class History:
 
     def splice(self, tail: Tail) -> None:
         """
-        Let things go on again as they did before they were cut off.
+        Append a tail that was cut off.
 
         :raises OutOfHistory: that is too long ago
         """
@@ -297,13 +297,13 @@ class History:
             self.add_entry(entry)
         self._marks += tail.marks
         self.head = tail.head
-        self._forget()
+        self._drop_old()
 
     def _check_splice(self, tail: Tail) -> None:
         if self._marks[0].moment > tail.after:
             raise OutOfHistory('what was undone is kept no more', field='history')
 
-    def _cut(self, step: int, serial: int) -> None:
+    def _truncate(self, step: int, serial: int) -> None:
         left = serial - self._dropped
         del self._entries[left:]
         self._index_gestures()
@@ -312,8 +312,8 @@ class History:
             self._marks.pop()
         self.head = step
 
-    def _forget(self) -> None:
-        """Drop what is older than is kept, save the checkpoint that leads to the oldest step."""
+    def _drop_old(self) -> None:
+        """Drop what is older than `length`, but the checkpoint before the oldest step."""
         old = bisect_right(self._marks, self.head - self._length, key=lambda each: each.step) - 1
         if old > 0:
             del self._marks[:old]

@@ -13,10 +13,10 @@
 # limitations under the License.
 
 """
-A world on its course: it goes on, goes back, and goes the same way again.
+Replay: a world makes the steps of its history again; and the timeline, a world with a history.
 
-Law: a world that follows its history makes the same steps, from the same checkpoints, with the
-same requests in between, and so the same bits; where it does not, that is told.
+Law: a replay makes the same steps, from the same checkpoints, with the same requests in between,
+and so the same bits; where it does not, that is reported.
 """
 
 from __future__ import annotations
@@ -36,21 +36,21 @@ from physsim_ros.simulation.world import World
 _AHEAD = 0.75
 
 
-class Course:
+class Replay:
     """
-    A world that follows a history: it makes no checkpoints and takes no new requests.
+    A world that replays a history; it makes no checkpoints and takes no new requests.
 
     :param world: at the moment of one of its checkpoints, or to be sent there by `resume`
-    :param history: that it follows
+    :param history: that is replayed
     """
 
     def __init__(self, world: World, history: History) -> None:
         self.world = world
         self.history = history
-        # Requests of the history that it has carried out.
+        # Number of requests of the history that were applied.
         self.serial = history.checkpoints[0].serial
         self._resumed: tuple[int, int] | None = None
-        self._told: list[Answer] = []
+        self._reports: list[Answer] = []
 
     @property
     def moment(self) -> tuple[int, int]:
@@ -58,8 +58,8 @@ class Course:
         return self.world.step_count, self.serial
 
     def take_answers(self) -> list[Answer]:
-        """Return what has happened without a request since the last call."""
-        told, self._told = self._told, []
+        """Return the reports of events without a request since the last call."""
+        told, self._reports = self._reports, []
         return told
 
     def resume(self, mark: Mark, *, going_over: bool = False) -> None:
@@ -72,66 +72,70 @@ class Course:
         self.serial = mark.serial
         self._resumed = mark.moment
 
-    def follow(self, step: int, serial: int) -> None:
-        """Go on to a moment of the past, no earlier than now."""
+    def replay_to(self, step: int, serial: int) -> None:
+        """Replay up to a moment of the past, no earlier than now."""
         while self.world.step_count < step:
-            self._go_to_stop(step)
-        self._carry_out(serial)
+            self._replay_to_stop(step)
+        self._apply_logged(serial)
 
-    def show(self, step: int) -> None:
-        """Go on to a step of the past, as it was shown."""
-        self.follow(step, self.history.seen_at(step))
+    def replay_shown(self, step: int) -> None:
+        """Replay up to a step of the past, with the requests that it was shown with."""
+        self.replay_to(step, self.history.serial_shown_at(step))
 
-    def _go_to_stop(self, end: int) -> None:
-        """Go on to the next step at which the history knows more, or to the end."""
-        self._carry_out(self.history.made_at(self.world.step_count))
-        self._go_over()
-        self._step(end)
+    def _replay_to_stop(self, end: int) -> None:
+        """Replay up to the next step with a request or a checkpoint, or to the end."""
+        self._apply_logged(self.history.serial_at(self.world.step_count))
+        self._enter_checkpoint()
+        self._make_steps(end)
 
-    def _step(self, end: int) -> None:
+    def _make_steps(self, end: int) -> None:
         step = self.world.step_count
         stop = self.history.next_stop(step, end)
         lost, broken = self.world.step(stop - step), self.world.take_broken()
-        # What happens again has been told the first time.
+        # Events of a replay were reported the first time.
         if stop > self.history.head:
             for name in lost:
-                self._tell('divergence', f'{name} left the range of numbers and was removed', name)
+                self._report(
+                    'divergence', f'{name} left the range of numbers and was removed', name
+                )
             for name, force in broken:
-                self._tell('joint_broken', f'{name} broke at {force:.3g} N and was removed', name)
-        self._carry_out(self.history.seen_at(stop))
+                self._report(
+                    'joint_broken', f'{name} broke at {force:.3g} N and was removed', name
+                )
+        self._apply_logged(self.history.serial_shown_at(stop))
 
-    def _carry_out(self, serial: int) -> None:
-        """Carry out again what was asked at this step, up to a serial."""
-        for entry in self.history.between(self.serial, serial):
-            self._go_over()
+    def _apply_logged(self, serial: int) -> None:
+        """Apply the logged requests of this step again, up to a serial."""
+        for entry in self.history.entries_between(self.serial, serial):
+            self._enter_checkpoint()
             try:
                 self.world.replay(entry.request)
             except Refusal as refusal:
-                self._tell('divergence', f'what was done once is refused now: {refusal}')
+                self._report('divergence', f'a request of the log is refused now: {refusal}')
             self.serial += 1
 
-    def _go_over(self) -> None:
-        """Go on in the space of a checkpoint that was made at this moment, as was done then."""
-        mark = self.history.at(*self.moment)
+    def _enter_checkpoint(self) -> None:
+        """Go over into the space of the checkpoint of this moment, if there is one."""
+        mark = self.history.checkpoint_at(*self.moment)
         if mark is not None and self._resumed != mark.moment:
-            self.resume(mark, going_over=self.verify())
+            self.resume(mark, going_over=self.check_digest())
 
-    def verify(self) -> bool:
-        """Return whether the world is what it was when it was here first; tell where it is not."""
-        mark = self.history.at(*self.moment)
+    def check_digest(self) -> bool:
+        """Return whether the digest is that of the checkpoint of this moment; report if not."""
+        mark = self.history.checkpoint_at(*self.moment)
         same = mark is None or self.world.digest() == mark.digest
         if not same:
             seconds = self.world.step_count * self.world.dt
-            self._tell('divergence', f'{seconds:.3f} s was reached with other bits than before')
+            self._report('divergence', f'{seconds:.3f} s was reached with other bits than before')
         return same
 
-    def _tell(self, code: str, message: str, subject: str = '') -> None:
-        self._told.append(Answer(topic=code, subject=subject, message=message, code=code))
+    def _report(self, code: str, message: str, subject: str = '') -> None:
+        self._reports.append(Answer(topic=code, subject=subject, message=message, code=code))
 
 
-class Timeline(Course):
+class Timeline(Replay):
     """
-    A world that makes history.
+    A world and its history, which new steps and requests are added to.
 
     :param world: at its beginning
     :param length: steps that are kept
@@ -163,7 +167,7 @@ class Timeline(Course):
         :raises Refusal: and nothing is changed
         """
         # As it will be carried out again.
-        self._go_over()
+        self._enter_checkpoint()
         done = self.world.apply(request)
         if not self.world.changed:
             return done
@@ -173,7 +177,7 @@ class Timeline(Course):
             )
             seconds = self.world.step_count * self.world.dt
             message = f'course {self.courses.current} begins at {seconds:.3f} s; {left} is kept'
-            self._told.append(Answer(topic='branch', message=message))
+            self._reports.append(Answer(topic='branch', message=message))
         else:
             self.courses.drop_after(self.moment)
         step = self.world.step_count
@@ -186,25 +190,25 @@ class Timeline(Course):
         """Whether nothing lies ahead of this moment."""
         return self.moment == self.history.end
 
-    def see(self) -> None:
-        """Note that this moment is shown."""
-        self.history.see(*self.moment)
+    def note_shown(self) -> None:
+        """Note that this moment is shown, with all requests until now."""
+        self.history.note_shown(*self.moment)
 
-    def go(self, steps: int) -> None:
-        """Go on: as before where that is known, and further."""
+    def advance(self, steps: int) -> None:
+        """Advance by so many steps: by replay up to the head, and further."""
         end = self.world.step_count + steps
         while self.world.step_count < end:
             if self.world.step_count < self.history.head:
-                self._go_to_stop(min(end, self.history.head))
+                self._replay_to_stop(min(end, self.history.head))
             else:
-                self._carry_out(self.history.made_at(self.world.step_count))
+                self._apply_logged(self.history.serial_at(self.world.step_count))
                 self._make_checkpoint()
-                self._step(end)
-                self.history.reach(self.world.step_count)
+                self._make_steps(end)
+                self.history.note_step(self.world.step_count)
 
     def seek(self, step: int) -> None:
         """
-        Go to a step that has been, as it was shown.
+        Go to a step of the history, as it was shown.
 
         :raises OutOfHistory: it is kept no more, or has not come yet
         """
@@ -215,13 +219,13 @@ class Timeline(Course):
                 f'{history.oldest * dt:.3f} to {history.head * dt:.3f} s',
                 field='clock',
             )
-        self.seek_moment(step, history.seen_at(step))
+        self.seek_moment(step, history.serial_shown_at(step))
 
     def limit(self, length: int) -> bool:
         """
         Keep so many steps from now on; a world that is before them goes to the oldest.
 
-        :return: whether it is where it was
+        :return: whether the world is at the same moment as before
         """
         history = self.history
         history.length = length
@@ -240,18 +244,18 @@ class Timeline(Course):
         begin = max(history.oldest, step - (step % frame or frame))
         first = (step, serial)
         if self.world.watching:
-            first = min(first, (begin, history.seen_at(begin)))
-        mark = history.before(*first)
+            first = min(first, (begin, history.serial_shown_at(begin)))
+        mark = history.checkpoint_before(*first)
         if not mark.moment <= self.moment <= first:
             self.resume(mark)
         if self.world.step_count < begin:
-            self.follow(begin, history.seen_at(begin))
+            self.replay_to(begin, history.serial_shown_at(begin))
         self.world.clear_contacts()
-        self.follow(step, serial)
+        self.replay_to(step, serial)
 
     def renew(self) -> None:
         """
-        Make a checkpoint now, so that whoever goes on from what is saved goes on alike.
+        Make a checkpoint now, so that a world that is loaded from it continues alike.
 
         Not in the past: how it went on from there is settled.
         """
@@ -290,9 +294,9 @@ class Timeline(Course):
             self.courses.exchange(course, tail)
         history = self.history
         step = max(history.oldest, min(now[0], history.head))
-        moment = step, history.seen_at(step)
+        moment = step, history.serial_shown_at(step)
         # Not from here: these steps may be of the course that is left.
-        self.resume(history.before(*moment))
+        self.resume(history.checkpoint_before(*moment))
         self.seek_moment(*moment)
         return min(course.begins for course in path)[0]
 
@@ -314,14 +318,18 @@ class Timeline(Course):
             raise OutOfHistory('what is to be amended is kept no more', field='history')
         step, serial = start
         self.courses.drop_after((step, serial))
-        later = [each for each in self.history.between(serial, now[1]) if each.gesture != gesture]
+        later = [
+            each
+            for each in self.history.entries_between(serial, now[1])
+            if each.gesture != gesture
+        ]
         self.history.cut(step, serial, now=now)
         self.seek_moment(step, serial)
         done = [self._try_apply(request, gesture) for request in requests]
         for entry in later:
-            self.go(entry.step - self.world.step_count)
+            self.advance(entry.step - self.world.step_count)
             self._try_apply(entry.request, entry.gesture)
-        self.go(now[0] - self.world.step_count)
+        self.advance(now[0] - self.world.step_count)
         self.world.clear_contacts()
         return step, done
 
@@ -339,15 +347,17 @@ class Timeline(Course):
         """
         self.history.splice(tail)
         # Steps made since then are discarded: the world goes on from a checkpoint, not from here.
-        self.resume(self.history.before(tail.step, tail.serial))
+        self.resume(self.history.checkpoint_before(tail.step, tail.serial))
         self.seek_moment(tail.step, tail.serial)
 
     def _make_checkpoint(self) -> None:
-        """Make a checkpoint where one is due, or where the world has come from one and changed."""
-        self._go_over()
+        """Make a checkpoint where one is due, or where a request followed the last one."""
+        self._enter_checkpoint()
         step = self.world.step_count
         changed = self._resumed is not None and self._resumed[0] == step
-        if self.history.at(*self.moment) is None and (changed or self.history.is_due(step)):
+        if self.history.checkpoint_at(*self.moment) is None and (
+            changed or self.history.is_checkpoint_due(step)
+        ):
             self._add_checkpoint()
 
     def _add_checkpoint(self) -> None:
@@ -356,6 +366,6 @@ class Timeline(Course):
         self._resumed = mark.moment
 
     def build_ahead(self, steps: int) -> None:
-        """Build ahead for the next checkpoint what a share of its time, so many steps, allows."""
+        """Build the share of bodies for the next checkpoint that falls to so many steps."""
         bodies = len(self.world)
         self.world.build_bodies(-(-bodies * steps // max(1, int(self._spacing * _AHEAD))))

@@ -13,46 +13,38 @@
 # limitations under the License.
 
 """
-The one door to the core: requests and steady time go in, frames come out.
+The simulation, the front of the core: requests and steady time go in, frames come out.
 
-Laws: requests are carried out in the order of their arrival and only between frames; every one is
-answered; a paused world carries them out too, and so does one that is shown in its past, which
-goes on differently from there.
+Laws: requests are applied in the order of their arrival and only between frames; every one is
+answered; they are applied in a paused world too, and in the past, where another course begins.
 """
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Sequence
-from dataclasses import dataclass
 import itertools
 
 from physsim_ros.engine.contact_report import NO_CONTACTS
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import BadProperty, Refusal
 from physsim_ros.model.requests import (
-    ChangeBody,
-    Command,
-    Delete,
     Dragging,
     Grab,
-    Join,
     KeepHand,
     LetGo,
     MoveHand,
     Request,
     Restore,
-    Spawn,
-    Unjoin,
 )
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer, Frame, Snapshot
 from physsim_ros.model.timeline import CourseSpan, TimelineStatus
 from physsim_ros.simulation.clock import Clock
-from physsim_ros.simulation.frame_cache import Past, Shot
+from physsim_ros.simulation.frame_cache import CachedFrame, FrameCache
 from physsim_ros.simulation.ghosts import Ghosts
 from physsim_ros.simulation.hands import Hands, placing
 from physsim_ros.simulation.replay import Timeline
+from physsim_ros.simulation.request_queue import RequestQueue
 from physsim_ros.simulation.undo import Undo
 from physsim_ros.simulation.world import World
 
@@ -60,22 +52,10 @@ from physsim_ros.simulation.world import World
 TURNS = ('~/reset', '~/undo', '~/redo', '~/timeline')
 # Frames in one call: the one that is due, and one to make up for a late one.
 _FRAMES_A_CALL = 2
-# From one checkpoint to the next [s]: to reach a step, at most so much is simulated again.
+# Simulation time from one checkpoint to the next [s]: at most so much is replayed to reach a step.
 CHECKPOINTS = 3.0
-# What is kept of what was shown, at most [bytes]: three minutes of 100 bodies, 23 s of 1,000.
+# Greatest memory of the frame cache [bytes]: three minutes of 100 bodies, 23 s of 1,000.
 MOST_KEPT = 64 * 2**20
-
-
-@dataclass(slots=True)
-class _Asked:
-    """A request that waits, or the refusal of what could not even be one, or an answer."""
-
-    request: Request | Refusal | Answer
-    topic: str
-    subject: str
-    gesture: int
-    field: str = ''
-    asker: str = ''
 
 
 class Simulation:
@@ -113,12 +93,9 @@ class Simulation:
         self.frame_steps = round(steps)
         self.physics_rate = physics_rate
         self._clock = Clock(physics_rate=physics_rate, frame_steps=self.frame_steps, speed=speed)
-        self._requests: deque[_Asked] = deque()
-        # The last move of each hand that waits; a later one takes its place.
-        self._moves: dict[str, _Asked] = {}
+        self._requests = RequestQueue()
         self._hands = Hands()
         self.asker = ''
-        self._gesture = 0
         self._answers: list[Answer] = []
         self._changed = True
         self._watching = False
@@ -128,9 +105,9 @@ class Simulation:
         self._course_numbers = itertools.count(1)
         self._ghosts = Ghosts()
         self._undo = Undo(self._timeline_of, empty)
-        self.past = self._no_past()
-        # The step that is shown where the world itself is at another; None where it is there.
-        self._shown: Shot | None = None
+        self.frame_cache = self._new_frame_cache()
+        # The frame of a rewind that is shown, while the world is at another step; else None.
+        self._shown: CachedFrame | None = None
 
     # Reading
 
@@ -142,7 +119,7 @@ class Simulation:
     @property
     def world(self) -> World:
         """Return the world as it is at the moment that is shown."""
-        self._catch_up()
+        self._seek_shown()
         return self.timeline.world
 
     @property
@@ -177,7 +154,7 @@ class Simulation:
         history, dt = self.timeline.history, 1.0 / self.physics_rate
         moment = self.timeline.moment
         if self._shown is not None:
-            moment = self.step, history.seen_at(self.step)
+            moment = self.step, history.serial_shown_at(self.step)
         if self.speed < 0.0:
             state = 'rewinding'
         elif moment != history.end:
@@ -217,11 +194,11 @@ class Simulation:
 
     @history.setter
     def history(self, history: float) -> None:
-        self._catch_up()
+        self._seek_shown()
         self._history = history
         if not self.timeline.limit(self._steps(history)):
-            self._moved()
-            self._tell_oldest()
+            self._note_jump()
+            self._report_oldest()
 
     @property
     def late_frames(self) -> int:
@@ -229,10 +206,10 @@ class Simulation:
         return self._clock.late_frames
 
     def watch_contacts(self, watching: bool) -> None:  # noqa: FBT001 - a state, not a mode
-        """Have the frames tell what touches, or save the cost of it."""
+        """Record contacts for the frames, or save the cost of it."""
         self._watching = self.timeline.world.watching = watching
 
-    # Asking
+    # Requests
 
     def submit(
         self,
@@ -251,30 +228,11 @@ class Simulation:
         :param field: the one field that it was made of, to be named by a refusal; '' is none
         :param asker: key of the message that asks, which the answer names; '' for none
         """
-        if isinstance(request, MoveHand) and request.hand in self._moves:
-            self._moves[request.hand].request = request
-            return
-        subject = ''
-        match request:
-            case (
-                Spawn(name=subject)
-                | ChangeBody(name=subject)
-                | Delete(name=subject)
-                | Join(name=subject)
-                | Unjoin(name=subject)
-                | Command(names=(subject,))
-            ):
-                pass
-        self._queue(request, topic, subject, joined=joined, field=field, asker=asker)
-        match request:
-            case MoveHand(hand=hand):
-                self._moves[hand] = self._requests[-1]
-            case Grab(hand=hand) | LetGo(hand=hand):
-                self._moves.pop(hand, None)
+        self._requests.add_request(request, topic=topic, joined=joined, field=field, asker=asker)
 
     def tell(self, answer: Answer) -> None:
-        """Queue an answer to what asked nothing of the world, so that answers keep the order."""
-        self._queue(answer, answer.topic, answer.subject, joined=True)
+        """Queue an answer without a request, so that answers keep their order."""
+        self._requests.add_answer(answer)
 
     def refuse(
         self,
@@ -286,18 +244,19 @@ class Simulation:
         field: str = '',
         asker: str = '',
     ) -> None:
-        """Queue the answer to what could not even be a request, so that answers keep the order."""
-        self._queue(refusal, topic, subject, joined=joined, field=field, asker=asker)
+        """Queue the refusal of a message that is no request, so that answers keep their order."""
+        self._requests.add_refusal(
+            refusal, topic=topic, subject=subject, joined=joined, field=field, asker=asker
+        )
 
     def perform(self, request: Request) -> str:
         """
-        Carry out a request now, after those that wait, and say what was done.
+        Apply a request now, after those that wait, and return what was done as a sentence.
 
         :raises Refusal: and nothing is changed
         """
-        self._apply_all()
-        self._gesture += 1
-        message = self._apply(request, self._gesture)[1]
+        self._apply_waiting()
+        message = self._apply(request, self._requests.begin_gesture())[1]
         self._changed = True
         return message
 
@@ -305,8 +264,8 @@ class Simulation:
         """Begin with a state, at time 0, without a past; `reset` will return to it."""
         self._undo.begin(state)
         self._hands.clear()
-        self.past = self._no_past()
-        self._moved()
+        self.frame_cache = self._new_frame_cache()
+        self._note_jump()
 
     def load(self, state: WorldState) -> str:
         """Replace the world by a state, to which `reset` will return; time goes on."""
@@ -320,25 +279,25 @@ class Simulation:
         otherwise from what is saved, and after a collision very much so: the order in which the
         engine has found contacts cannot be read, and how the past goes on is settled.
         """
-        self._apply_all()
-        self._catch_up()
+        self._apply_waiting()
+        self._seek_shown()
         self.timeline.renew()
         return self.timeline.world.save()
 
     def reset(self) -> str:
         """Return to the state that was loaded last, at time 0; `undo` comes back from there."""
-        self._apply_all()
-        self._catch_up()
+        self._apply_waiting()
+        self._seek_shown()
         self._hands.clear()
         if not self._undo.reset():
-            return self._turn('~/reset', 'at the beginning, time 0')
-        self.past = self._no_past()
-        return self._turn('~/reset', 'back at the beginning, time 0')
+            return self._report_jump('~/reset', 'at the beginning, time 0')
+        self.frame_cache = self._new_frame_cache()
+        return self._report_jump('~/reset', 'back at the beginning, time 0')
 
     @property
     def gesture(self) -> int:
         """Return the number of the last gesture that was submitted, for `amend`."""
-        return self._gesture
+        return self._requests.gesture
 
     def amend(
         self, gesture: int, requests: Sequence[Request], *, topic: str, field: str = ''
@@ -353,12 +312,12 @@ class Simulation:
         :param field: of the message that they were made of, to be named by a refusal
         :raises OutOfHistory: the gesture is kept no more; nothing is changed
         """
-        self._apply_all()
-        self._catch_up()
+        self._apply_waiting()
+        self._seek_shown()
         step, done = self.timeline.amend(gesture, requests)
-        self._undo.do()
-        self.past.forget(step)
-        self._moved()
+        self._undo.clear_undone()
+        self.frame_cache.drop_from(step)
+        self._note_jump()
         for each in done:
             if isinstance(each, Refusal):
                 answer = Answer.refused(each, topic=topic, subject='', field=field)
@@ -372,11 +331,11 @@ class Simulation:
 
         :raises OutOfHistory: there is none in the history
         """
-        self._apply_all()
-        self._catch_up()
+        self._apply_waiting()
+        self._seek_shown()
         undone, step = self._undo.undo()
-        self._follow(step)
-        return self._turn('~/undo', f'undid {undone}, back at {self._time()}')
+        self._drop_frames(step)
+        return self._report_jump('~/undo', f'undid {undone}, back at {self._time()}')
 
     def redo(self) -> str:
         """
@@ -384,10 +343,10 @@ class Simulation:
 
         :raises OutOfHistory: nothing was undone, or something else was done since
         """
-        self._apply_all()
-        self._catch_up()
-        self._follow(self._undo.redo())
-        return self._turn('~/redo', f'redid what was undone, at {self._time()}')
+        self._apply_waiting()
+        self._seek_shown()
+        self._drop_frames(self._undo.redo())
+        return self._report_jump('~/redo', f'redid what was undone, at {self._time()}')
 
     def return_to_course(self, number: int) -> str:
         """
@@ -396,18 +355,18 @@ class Simulation:
         :param number: of the course
         :raises OutOfHistory: it is kept no more; nothing is changed
         """
-        self._apply_all()
-        self._catch_up()
-        self.timeline.see()
+        self._apply_waiting()
+        self._seek_shown()
+        self.timeline.note_shown()
         left = self.timeline.courses.current
         step = self.timeline.return_to_course(number)
         if number != left:
             self._keep_ghost(left, step)
-            for shot in self._ghosts.take_course(number):
-                self.past.keep(shot)
-            self._undo.do()
+            for frame in self._ghosts.take_course(number):
+                self.frame_cache.add_frame(frame)
+            self._undo.clear_undone()
             self._hands.clear()
-        return self._turn('~/timeline', f'on course {number}, at {self._time()}')
+        return self._report_jump('~/timeline', f'on course {number}, at {self._time()}')
 
     def seek(self, stamp: int) -> str:
         """
@@ -415,26 +374,26 @@ class Simulation:
 
         :raises OutOfHistory: it is kept no more, or has not come yet
         """
-        self._apply_all()
-        self._catch_up()
+        self._apply_waiting()
+        self._seek_shown()
         # What has just been carried out belongs to this step.
-        self.timeline.see()
+        self.timeline.note_shown()
         self.timeline.seek(round(stamp * 1e-9 * self.physics_rate))
         self._hands.clear()
-        self._moved()
+        self._note_jump()
         return f'at {self._time()}'
 
-    # Going on
+    # Time
 
     def advance(self, now_ns: int) -> tuple[Frame, ...]:
         """
-        Carry out what was asked, and go on, or back, by what is due.
+        Apply the requests that wait, and advance, or rewind, by the steps that are due.
 
         :param now_ns: steady time, never going back [ns]
         :return: the frames, in the order in which they are shown; none where nothing is due and
             nothing has changed
         """
-        self._apply_all()
+        self._apply_waiting()
         self._hands.note_time(now_ns, paused=self.speed == 0)
         if self.speed > 0:
             self._release_grips()
@@ -443,7 +402,7 @@ class Simulation:
             steps = self._clock.due(now_ns, self.step)
             if steps == 0:
                 break
-            frames.append(self._go(steps) if steps > 0 else self._go_back(-steps))
+            frames.append(self._play_frame(steps) if steps > 0 else self._rewind_frame(-steps))
             if self.speed == 0:
                 break
         if not frames and self._changed:
@@ -451,93 +410,78 @@ class Simulation:
         return tuple(frames)
 
     def settle(self) -> Frame | None:
-        """Carry out what was asked without going on; return a frame if there was anything."""
-        self._apply_all()
+        """Apply the requests that wait, without a step; return a frame if there were any."""
+        self._apply_waiting()
         return self._frame(moved=False) if self._changed else None
 
     def advance_frame(self) -> Frame:
-        """Carry out what was asked, and go on by one publish period, whatever the speed."""
-        self._apply_all()
+        """Apply the requests that wait, and advance by one publish period, at any speed."""
+        self._apply_waiting()
         self._release_grips()
         self._clock.restart()
-        return self._go(self.frame_steps - self.step % self.frame_steps)
+        return self._play_frame(self.frame_steps - self.step % self.frame_steps)
 
-    def _go(self, steps: int) -> Frame:
-        self._catch_up()
-        self.timeline.go(steps)
+    def _play_frame(self, steps: int) -> Frame:
+        self._seek_shown()
+        self.timeline.advance(steps)
         self.timeline.build_ahead(steps)
         return self._frame(moved=True)
 
-    def _go_back(self, steps: int) -> Frame:
+    def _rewind_frame(self, steps: int) -> Frame:
         oldest = self.timeline.history.oldest
         step = max(oldest, self.step - steps)
         moved = step < self.step
         if moved:
-            self._shown = self.past.shot(step, watching=self._watching)
+            self._shown = self.frame_cache.frame_at(step, watching=self._watching)
             fine = not self.speed.is_integer()
-            self.past.make_ahead(step, steps, fine=fine, watching=self._watching)
+            self.frame_cache.replay_ahead(step, steps, fine=fine, watching=self._watching)
         if step == oldest:
             self.speed = 0.0
-            self._tell_oldest('; paused')
+            self._report_oldest('; paused')
         return self._frame(moved=moved)
 
-    def _catch_up(self) -> None:
-        """Bring the world itself to the moment that is shown."""
+    def _seek_shown(self) -> None:
+        """Have the world at the moment that is shown."""
         if self._shown is not None:
             step, self._shown = self._shown.snapshot.step, None
             self.timeline.seek(step)
             # They have been shown.
             self.timeline.world.clear_contacts()
 
-    def _follow(self, step: int | None) -> None:
+    def _drop_frames(self, step: int | None) -> None:
         """
-        Follow a course of events from now on.
+        Drop the cached frames that another course makes invalid.
 
-        :param step: from which on it is another than before; None is another altogether
+        :param step: from which on; None is all, with another timeline in force
         """
         if step is not None:
-            self.past.forget(step)
+            self.frame_cache.drop_from(step)
             return
-        self.past = self._no_past()
+        self.frame_cache = self._new_frame_cache()
         self.timeline.world.watching = self._watching
         if self.timeline.limit(self._steps(self._history)):
             # With the contacts of the frame that was shown.
             self.timeline.seek_moment(*self.timeline.moment)
 
-    def _moved(self) -> None:
+    def _note_jump(self) -> None:
         """Note that another moment is shown than before."""
         self._shown = None
         self.timeline.world.watching = self._watching
         self._clock.restart()
         self._changed = True
 
-    def _turn(self, topic: str, message: str) -> str:
-        """Tell that things go on differently from before."""
-        self._moved()
+    def _report_jump(self, topic: str, message: str) -> str:
+        """Report that another moment or course is shown, and return the message."""
+        self._note_jump()
         self._answers.append(Answer(topic=topic, message=message, asker=self.asker))
         return message
 
     # Inside
 
-    def _queue(
-        self,
-        request: Request | Refusal | Answer,
-        topic: str,
-        subject: str,
-        *,
-        joined: bool,
-        field: str = '',
-        asker: str = '',
-    ) -> None:
-        self._gesture += not joined
-        self._requests.append(_Asked(request, topic, subject, self._gesture, field, asker))
-
-    def _apply_all(self) -> None:
-        self._moves.clear()
-        while self._requests:
-            asked = self._requests.popleft()
-            request, topic, subject, field = asked.request, asked.topic, asked.subject, asked.field
-            asker = asked.asker
+    def _apply_waiting(self) -> None:
+        for waiting in self._requests.take_all():
+            request, topic, subject = waiting.request, waiting.topic, waiting.subject
+            field, asker = waiting.field, waiting.asker
             self._changed = True
             if isinstance(request, Answer):
                 self._answers.append(request)
@@ -545,7 +489,7 @@ class Simulation:
             try:
                 if isinstance(request, Refusal):
                     raise request
-                subject, message = self._apply(request, asked.gesture)
+                subject, message = self._apply(request, waiting.gesture)
             except Refusal as refusal:
                 answer = Answer.refused(
                     refusal, topic=topic, subject=subject, field=field, asker=asker
@@ -569,7 +513,7 @@ class Simulation:
 
     def _drag(self, request: Dragging, gesture: int) -> tuple[str, str]:
         if request.hand not in self._hands and not isinstance(request, Grab):
-            # A grip that the history knows of at this moment is none of a person of now.
+            # A grip of the past that is shown belongs to no hand of now.
             return '', f'{request.hand} holds no body'
         if self.speed == 0.0:
             request = placing(request)
@@ -579,14 +523,14 @@ class Simulation:
         return done
 
     def _release_grips(self) -> None:
-        """Have those grips let go that no hand has any more, where no history lies ahead."""
+        """Remove the grips of hands that are gone, unless the history knows how they end."""
         timeline = self.timeline
         if self._shown is not None or not timeline.world.grips or not timeline.is_newest:
             return
         for grip in timeline.world.grips:
             if grip.hand not in self._hands:
                 # Undone together with what came last.
-                gesture = timeline.history.gesture_before(timeline.serial, self._gesture)
+                gesture = timeline.history.gesture_before(timeline.serial, self.gesture)
                 self._apply_to_world(LetGo(hand=grip.hand), gesture)
                 message = f'{grip.hand} is silent and has let go of {grip.body}'
                 self._answers.append(
@@ -594,28 +538,28 @@ class Simulation:
                 )
 
     def _apply_to_world(self, request: Request, gesture: int) -> tuple[str, str]:
-        self._catch_up()
+        self._seek_shown()
         courses = self.timeline.courses
         before = courses.current
         done = self.timeline.apply(request, gesture)
         if self.timeline.world.changed:
-            self._undo.do()
+            self._undo.clear_undone()
         if courses.current != before:
             self._keep_ghost(before, self.step)
         return done
 
     def _keep_ghost(self, left: int, step: int) -> None:
-        """Keep what a course has shown from a step on, from which another one is in force."""
-        self._ghosts.add_course(left, self.past.forget(step))
+        """Keep the frames of a course that was left, from the step on where it ends."""
+        self._ghosts.add_course(left, self.frame_cache.drop_from(step))
         kept = self.timeline.courses.reachable(self.timeline.history)
         self._ghosts.retain({course.number for course in kept})
 
     def _frame(self, *, moved: bool) -> Frame:
-        snapshot, contacts = self._shown or self._look(moved=moved)
+        snapshot, contacts = self._shown or self._observe_world(moved=moved)
         if self._shown is not None and not moved:
             # They have been shown.
             contacts = NO_CONTACTS
-        self._answers += self.timeline.take_answers() + self.past.take_answers()
+        self._answers += self.timeline.take_answers() + self.frame_cache.take_answers()
         frame = Frame(
             snapshot=snapshot,
             contacts=contacts if self._watching else None,
@@ -627,16 +571,16 @@ class Simulation:
         self._changed = False
         return frame
 
-    def _look(self, *, moved: bool) -> Shot:
-        """Return what there is to see, and keep it for going back."""
+    def _observe_world(self, *, moved: bool) -> CachedFrame:
+        """Return the state of the world, and cache it for rewinds."""
         world = self.timeline.world
         snapshot = world.snapshot()
         contacts = world.contacts(snapshot) if world.watching else None
-        shot = Shot(snapshot, contacts)
+        frame = CachedFrame(snapshot, contacts)
         # What touched in this step has been taken by the frame that came with it.
-        self.past.keep(shot if moved else self.past.completed(shot))
-        self.timeline.see()
-        return shot
+        self.frame_cache.add_frame(frame if moved else self.frame_cache.with_first_contacts(frame))
+        self.timeline.note_shown()
+        return frame
 
     def _timeline_of(self, state: WorldState) -> Timeline:
         """Return a timeline that begins with a state."""
@@ -652,16 +596,16 @@ class Simulation:
             courses=self._course_numbers,
         )
 
-    def _no_past(self) -> Past:
-        """Return the past of the timeline, as long as nothing was shown."""
-        return Past(
+    def _new_frame_cache(self) -> FrameCache:
+        """Return an empty frame cache of the timeline."""
+        return FrameCache(
             self.timeline.history,
             physics_rate=self.physics_rate,
             frame_steps=self.frame_steps,
             budget=MOST_KEPT,
         )
 
-    def _tell_oldest(self, more: str = '') -> None:
+    def _report_oldest(self, more: str = '') -> None:
         message = f'{self._time()} is the oldest that is kept{more}'
         self._answers.append(Answer(topic='history', message=message))
 

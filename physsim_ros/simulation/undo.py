@@ -13,9 +13,9 @@
 # limitations under the License.
 
 """
-Undo, redo and reset: the course of events that is followed, and the ways to those that were left.
+Undo, redo and reset: the timeline in force, and those from before each reset.
 
-Law: what was done is undone last first, and redone first first, until something else is done.
+Law: gestures are undone last first, and redone first first, until another request is applied.
 """
 
 from __future__ import annotations
@@ -50,41 +50,41 @@ _WORDS = {
 
 class Undo:
     """
-    The course of events that is followed.
+    The timeline in force, and what undo, redo and reset need to replace it.
 
     :param begin: makes a timeline that begins with a state
-    :param state: what the first one begins with
-    :ivar timeline: the one that is followed
+    :param state: that the first one begins with
+    :ivar timeline: the one in force
     """
 
     def __init__(self, begin: Callable[[WorldState], Timeline], state: WorldState) -> None:
         self._begin = begin
-        # What was before each reset, and what is ahead of each undo.
-        self._left: deque[_Left] = deque(maxlen=MOST_RESETS)
-        self._undone: deque[Tail | _Left] = deque(maxlen=MOST_UNDONE)
-        # What this course began with.
+        # The timeline before each reset; the tail that each undo cut off, or the timeline it left.
+        self._before_resets: deque[_StoredTimeline] = deque(maxlen=MOST_RESETS)
+        self._undone: deque[Tail | _StoredTimeline] = deque(maxlen=MOST_UNDONE)
+        # The state that this timeline began with.
         self._beginning = state
         self.timeline = begin(state)
 
     def begin(self, state: WorldState) -> None:
-        """Begin with a state, and without a way back."""
-        self._left.clear()
+        """Begin a timeline with a state; nothing before it can be undone."""
+        self._before_resets.clear()
         self._undone.clear()
         self._beginning, self.timeline = state, self._begin(state)
 
-    def do(self) -> None:
-        """Note that something else is done: what was undone stays so."""
+    def clear_undone(self) -> None:
+        """Drop what could be redone: another request was applied."""
         self._undone.clear()
 
     def reset(self) -> bool:
-        """Return to what was loaded last, at time 0; tell whether that is another moment."""
+        """Return to the state that was loaded last, at time 0, and whether it was not there."""
         history = self.timeline.history
         if history.head == 0 and self.timeline.serial == 0:
-            # It has just begun: there is nothing to come back to.
+            # Nothing has happened since the beginning.
             return False
-        self._leave(self._left)
+        self._store_timeline(self._before_resets)
         self._undone.clear()
-        self._beginning = history.loaded or self._beginning
+        self._beginning = history.last_loaded or self._beginning
         self.timeline = self._begin(self._beginning)
         return True
 
@@ -92,18 +92,17 @@ class Undo:
         """
         Go back to the moment before the last request that changed the world.
 
-        :return: what is undone, in words, and the step from which on things go differently; None
-            where all of it does
+        :return: the undone gesture in words, and the step from which on frames differ; None is all
         :raises OutOfHistory: there is none in the history
         """
         try:
             tail = self.timeline.undo()
         except OutOfHistory:
             # Before the reset come the requests since then, though they are kept no more.
-            if not (self._left and self._is_begun):
+            if not (self._before_resets and self._is_begun):
                 raise
-            self._leave(self._undone)
-            self.timeline, self._beginning = self._left.pop()
+            self._store_timeline(self._undone)
+            self.timeline, self._beginning = self._before_resets.pop()
             return 'reset', None
         self._undone.append(tail)
         return self._described_tail(tail), tail.entries[0].step
@@ -117,7 +116,7 @@ class Undo:
         undone = self.timeline.history.last_gesture(serial)
         if undone is not None:
             return f'undo {_described(*undone)}'
-        return 'undo reset' if self._left and self._is_begun else ''
+        return 'undo reset' if self._before_resets and self._is_begun else ''
 
     @property
     def redo_words(self) -> str:
@@ -141,7 +140,7 @@ class Undo:
         """
         Return to where the last undo was asked for.
 
-        :return: the step from which on things go differently; None where all of it does
+        :return: the step from which on frames differ; None is all
         :raises OutOfHistory: nothing was undone, or something else was done since
         """
         if not self._undone:
@@ -152,21 +151,21 @@ class Undo:
             self._undone.pop()
             return undone.entries[0].step
         self._undone.pop()
-        self._leave(self._left)
+        self._store_timeline(self._before_resets)
         self.timeline, self._beginning = undone
         return None
 
-    def _leave(self, to: deque[_Left] | deque[Tail | _Left]) -> None:
-        """Keep this course, for another is to be followed."""
-        to.append(_Left(self.timeline, self._beginning))
+    def _store_timeline(self, to: deque[_StoredTimeline] | deque[Tail | _StoredTimeline]) -> None:
+        """Store the timeline in force, before another one replaces it."""
+        to.append(_StoredTimeline(self.timeline, self._beginning))
 
 
-class _Left(NamedTuple):
+class _StoredTimeline(NamedTuple):
     """
-    A course of events that was left, by a reset or by undoing one.
+    A timeline that was left by a reset, or by undoing one.
 
-    :ivar timeline: it, at the moment that was shown then
-    :ivar beginning: what it began with
+    :ivar timeline: at the moment that was shown then
+    :ivar beginning: the state that it began with
     """
 
     timeline: Timeline

@@ -41,7 +41,7 @@ from physsim_ros.model.requests import (
 )
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer, Frame
-from physsim_ros.simulation.frame_cache import Shot
+from physsim_ros.simulation.frame_cache import CachedFrame
 from physsim_ros.simulation.history import Entry
 from physsim_ros.simulation.simulation import CHECKPOINTS, Simulation
 from physsim_ros.simulation.world import World
@@ -140,8 +140,8 @@ def test_slow_motion_goes_back_step_by_step(driven: Driven) -> None:
 def test_the_past_is_the_same_where_it_has_to_be_made_again(
     driven: Driven, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(driven.simulation.past, 'budget', 0)
-    driven.simulation.past.forget(0)
+    monkeypatch.setattr(driven.simulation.frame_cache, 'budget', 0)
+    driven.simulation.frame_cache.drop_from(0)
     for frame in driven.run(-1.0, 4.5):
         driven.assert_same(frame)
 
@@ -184,7 +184,7 @@ def test_no_tick_makes_many_steps_while_time_goes_back(made: list[int], speed: f
 def test_what_a_seek_left_out_is_made_again_in_time(made: list[int], on: float) -> None:
     driven = Driven()
     driven.record(12.0)
-    driven.simulation.past.forget(0)
+    driven.simulation.frame_cache.drop_from(0)
     driven.simulation.seek(round(4.5 * SECOND))
     driven.settle()
     driven.run(1.0, on)
@@ -204,7 +204,7 @@ def test_where_frames_were_far_apart_no_others_are_made(made: list[int]) -> None
 
 
 def test_what_is_half_made_again_ends_no_earlier_than_time_has_come_since(driven: Driven) -> None:
-    driven.simulation.past.forget(0)
+    driven.simulation.frame_cache.drop_from(0)
     driven.simulation.seek(round(4.8 * SECOND))
     driven.settle()
     driven.run(1.0, 0.2)
@@ -604,9 +604,9 @@ def test_shots_take_no_more_memory_than_they_may(monkeypatch: pytest.MonkeyPatch
     driven = Driven()
     for number in range(50):
         driven.ask(spawning(f'a/{number}', BOX, (0.1 * number, 1.0 + number, 0.0)))
-    monkeypatch.setattr(driven.simulation.past, 'budget', 2_000_000)
+    monkeypatch.setattr(driven.simulation.frame_cache, 'budget', 2_000_000)
     driven.record(20.0)
-    assert driven.simulation.past.size <= 2_000_000
+    assert driven.simulation.frame_cache.size <= 2_000_000
 
 
 @pytest.mark.parametrize('bodies', [1, 8])
@@ -615,8 +615,8 @@ def test_few_bodies_take_no_more_memory_than_their_poses_would(bodies: int) -> N
     for number in range(bodies):
         driven.ask(spawning(f'a/{number}', BOX, (1.5 * number - 6.0, 1.0, 0.0)))
     driven.record(20.0)
-    a_reel = 60 * CHECKPOINTS * (1000 + bodies * 2 * 24)
-    assert driven.simulation.past.size <= max(120 * 60 * 24 * bodies, 3 * a_reel)
+    a_segment = 60 * CHECKPOINTS * (1000 + bodies * 2 * 24)
+    assert driven.simulation.frame_cache.size <= max(120 * 60 * 24 * bodies, 3 * a_segment)
     for frame in driven.run(-4.0, 5.0):
         driven.assert_same(frame)
 
@@ -628,7 +628,7 @@ def test_what_is_worked_out_from_the_past_is_not_kept(driven: Driven) -> None:
     # Among them some that are made again, with a sensor's contacts, which take the centres.
     for frame in driven.run(-1.0, 3.5):
         assert frame.snapshot.centers.size
-    kept = [each for each in gc.get_objects() if isinstance(each, Shot)]
+    kept = [each for each in gc.get_objects() if isinstance(each, CachedFrame)]
     shots = [shot for shot in kept if shot.snapshot.scene.names == driven.names]
     assert len(shots) > 100
     # Else it would take memory that nobody counts; but for the one that is shown.
@@ -650,7 +650,7 @@ def test_forces_of_joints_come_again(back: float) -> None:
     driven.record(7.0)
     checkpoint = driven.simulation.timeline.history.checkpoints[2].key.step
     assert driven.shown[checkpoint].snapshot.forces.all()
-    driven.simulation.past.forget(0)
+    driven.simulation.frame_cache.drop_from(0)
     driven.simulation.seek(checkpoint * SECOND // 240)
     driven.assert_same(driven.settle())
     for frame in driven.run(1.0, 1.0) + driven.run(back, 1.5):

@@ -317,7 +317,7 @@ class TimeMachine(RuleBasedStateMachine):
             frame = simulation.advance_frame()
             self.look(frame)
             # Its steps are counted from another beginning.
-            other.timeline.go(simulation.step - first - other.step)
+            other.timeline.advance(simulation.step - first - other.step)
             there = other.world.snapshot()
             np.testing.assert_array_equal(frame.snapshot.poses, there.poses)
             np.testing.assert_array_equal(frame.snapshot.twists, there.twists)

@@ -1,0 +1,136 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+The queue of requests that wait for the next frame.
+
+Laws: what is submitted is taken in the order of its arrival; of the moves of a hand that wait, the
+last counts.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from physsim_ros.model.errors import Refusal
+from physsim_ros.model.requests import (
+    ChangeBody,
+    Command,
+    Delete,
+    Grab,
+    Join,
+    LetGo,
+    MoveHand,
+    Request,
+    Spawn,
+    Unjoin,
+)
+from physsim_ros.model.snapshot import Answer
+
+
+@dataclass(slots=True)
+class Waiting:
+    """
+    A request that waits, the refusal of a message that is no request, or an answer.
+
+    :param request: to be applied, or refused; or an answer without a request
+    :param topic: that it came from
+    :param subject: name of the body or joint that it names, or ''
+    :param gesture: requests of one gesture are undone together
+    :param field: the only field of the message, to be named by a refusal; '' if it has several
+    :param asker: key of the message that asks, which the answer names; '' for none
+    """
+
+    request: Request | Refusal | Answer
+    topic: str
+    subject: str
+    gesture: int
+    field: str = ''
+    asker: str = ''
+
+
+class RequestQueue:
+    """
+    Requests that wait.
+
+    :ivar gesture: number of the last gesture
+    """
+
+    def __init__(self) -> None:
+        self.gesture = 0
+        self._waiting: deque[Waiting] = deque()
+        # The last move of each hand; a later one takes its place.
+        self._moves: dict[str, Waiting] = {}
+
+    def __len__(self) -> int:
+        return len(self._waiting)
+
+    def begin_gesture(self) -> int:
+        """Return the number of a new gesture."""
+        self.gesture += 1
+        return self.gesture
+
+    def add_request(
+        self, request: Request, *, topic: str, joined: bool, field: str, asker: str
+    ) -> None:
+        """
+        Add a request.
+
+        :param joined: whether it belongs to the gesture of the one before
+        """
+        if isinstance(request, MoveHand) and request.hand in self._moves:
+            self._moves[request.hand].request = request
+            return
+        gesture = self.gesture if joined else self.begin_gesture()
+        waiting = Waiting(request, topic, _subject_of(request), gesture, field, asker)
+        self._waiting.append(waiting)
+        match request:
+            case MoveHand(hand=hand):
+                self._moves[hand] = waiting
+            case Grab(hand=hand) | LetGo(hand=hand):
+                self._moves.pop(hand, None)
+
+    def add_refusal(
+        self, refusal: Refusal, *, topic: str, subject: str, joined: bool, field: str, asker: str
+    ) -> None:
+        """Add the refusal of a message that is no request; parameters as of `add_request`."""
+        gesture = self.gesture if joined else self.begin_gesture()
+        self._waiting.append(Waiting(refusal, topic, subject, gesture, field, asker))
+
+    def add_answer(self, answer: Answer) -> None:
+        """Add an answer without a request, so that answers keep their order."""
+        self._waiting.append(Waiting(answer, answer.topic, answer.subject, self.gesture))
+
+    def take_all(self) -> Iterator[Waiting]:
+        """Take what waits, one after the other."""
+        self._moves.clear()
+        while self._waiting:
+            yield self._waiting.popleft()
+
+
+def _subject_of(request: Request) -> str:
+    """Return the one body or joint that a request names, or ''."""
+    match request:
+        case (
+            Spawn(name=name)
+            | ChangeBody(name=name)
+            | Delete(name=name)
+            | Join(name=name)
+            | Unjoin(name=name)
+            | Command(names=(name,))
+        ):
+            return name
+    return ''
