@@ -103,6 +103,7 @@ class PageSocket(Guarded, WebSocketHandler):
             return
         if isinstance(checked, ShowParts):
             self.show = checked.show
+            self.server.note_parts()
             # Sent once more, with other parts.
             self.frame = 0
             self.server.update_page(self)

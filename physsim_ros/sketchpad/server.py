@@ -87,6 +87,7 @@ class Server:
 
     :ivar access: its tokens
     :ivar port: that it listens on
+    :ivar wants_contacts: whether a page asks for contacts
     """
 
     def __init__(
@@ -109,6 +110,7 @@ class Server:
         # Cookies are shared by all ports of a host, so their name tells two worlds apart.
         self.cookie = f'physsim_{self.port}'
         self._pages: dict[int, PageSocket] = {}
+        self.wants_contacts = False
         self._last_number = 0
         # Of the questions of the server itself.
         self._asked = 0
@@ -149,6 +151,15 @@ class Server:
         if frame.answers:
             self._outbox.append(frame.answers)
         self._schedule()
+
+    def keep(self, frame: Frame) -> None:
+        """Keep a frame for the first page to come."""
+        self._newest = frame, None
+
+    @property
+    def has_pages(self) -> bool:
+        """Whether a page is open, or an upload waits for its answer."""
+        return bool(self._pages or self._replies)
 
     def send(self, content: dict[str, Any], *, page: int | None = None) -> None:
         """
@@ -197,12 +208,18 @@ class Server:
         self._last_number += 1
         self._pages[self._last_number] = page
         page.send(compact(gallery_content(self.world_dir)))
+        self._send_frame()
         self.update_page(page)
         return self._last_number
 
     def remove_page(self, page: PageSocket) -> None:
         """Send nothing more to a page."""
         self._pages.pop(page.number, None)
+        self.note_parts()
+
+    def note_parts(self) -> None:
+        """Note which parts of a frame the pages ask for."""
+        self.wants_contacts = any(Show.CONTACTS in page.show for page in self._pages.values())
 
     def inbox_put(self, incoming: Incoming) -> bool:
         """Hand a message to the world's thread; return whether there was room for it."""

@@ -31,11 +31,7 @@ from physsim_ros.sketchpad.access import Role
 from physsim_ros.sketchpad.inbox import Closed, Inbox, Incoming, Opened, SERVER
 from physsim_ros.sketchpad.page_session import PageSession
 from physsim_ros.sketchpad.server import Server
-from physsim_ros.sketchpad.timeline_report import (
-    course_beside,
-    timeline_content,
-    TimelineReport,
-)
+from physsim_ros.sketchpad.timeline_report import timeline_content, TimelineReport
 from physsim_ros.sketchpad.world_control import WorldControl
 
 # Time for messages of pages between two frames [s]: a quarter of a frame at 60 Hz. A stroke takes
@@ -69,7 +65,7 @@ class Sketchpad:
         self._world = world
         self._welcome = welcome
         self._inbox = Inbox()
-        self._timeline = TimelineReport()
+        self._timeline = TimelineReport(world.simulation)
         self._server = Server(
             address=address, port=port, world_dir=world_dir, inbox=self._inbox, wake=wake
         )
@@ -82,8 +78,8 @@ class Sketchpad:
 
     @property
     def wants_contacts(self) -> bool:
-        """Whether a page is open, which may show contacts."""
-        return bool(self._sessions)
+        """Whether a page shows contacts."""
+        return self._server.wants_contacts
 
     def handle_messages(self) -> None:
         """Handle the messages of pages, as many as there is time for."""
@@ -98,12 +94,13 @@ class Sketchpad:
 
     def show(self, frame: Frame) -> None:
         """Send a frame, its answers and the timeline to all pages; never blocks."""
-        simulation = self._world.simulation
-        status = simulation.status
-        course = course_beside(status)
-        ghost = None if course is None else simulation.ghost(course.number, status.now)
-        self._server.show(frame, ghost)
-        if self._timeline.is_due(status, time.monotonic()):
+        if not self._server.has_pages:
+            # The first page to come gets this frame.
+            self._server.keep(frame)
+            return
+        status = self._timeline.take_status(frame, time.monotonic())
+        self._server.show(frame, self._timeline.ghost(frame.snapshot))
+        if status is not None:
             self._server.send(timeline_content(status))
 
     def report(self, answer: Answer) -> None:

@@ -13,41 +13,60 @@
 # limitations under the License.
 
 
-"""The timeline as a page gets it: at once where something else changes than the time."""
+"""The timeline as the pages get it: at once where more than the time changes, else seldom."""
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any
 
+from physsim_ros.model.snapshot import Frame, Snapshot
 from physsim_ros.model.timeline import CourseSpan, TimelineStatus
+from physsim_ros.simulation.simulation import Simulation
 
 # From one message to the next while nothing but the time changes [s].
 PERIOD = 0.1
 
 
 class TimelineReport:
-    """Chooses which statuses of the timeline are sent."""
+    """
+    The status of the timeline, as it was sent last.
 
-    def __init__(self) -> None:
+    :param simulation: of the timeline
+    """
+
+    def __init__(self, simulation: Simulation) -> None:
+        self._simulation = simulation
         self._sent: TimelineStatus | None = None
-        self._sent_at = 0.0
+        self._read_at = 0.0
+        # The course that was left last.
+        self._beside: CourseSpan | None = None
 
-    def is_due(self, status: TimelineStatus, now: float) -> bool:
+    def take_status(self, frame: Frame, now: float) -> TimelineStatus | None:
         """
-        Tell whether a status is to be sent, and take it as sent.
+        Return the status with a frame; None where it need not be sent.
 
         :param now: steady time [s]
         """
         last = self._sent
-        if last == status:
-            return False
-        if last is not None and status.speed != 0.0 and now - self._sent_at < PERIOD:
-            then = replace(status, oldest=last.oldest, now=last.now, newest=last.newest)
-            if then == last:
-                return False
-        self._sent, self._sent_at = status, now
-        return True
+        # A running world without requests changes its time and no more.
+        runs = frame.moved and not frame.answers and frame.speed != 0.0
+        known = last is not None and last.speed == frame.speed
+        if runs and known and now - self._read_at < PERIOD:
+            return None
+        status = self._simulation.status
+        self._read_at = now
+        self._beside = max(status.courses, key=lambda each: each.number, default=None)
+        if status == last:
+            return None
+        self._sent = status
+        return status
+
+    def ghost(self, snapshot: Snapshot) -> Snapshot | None:
+        """Return what the course that was left last has shown at the time of a snapshot."""
+        course, seconds = self._beside, snapshot.stamp * 1e-9
+        if course is None or not course.begins <= seconds <= course.ends:
+            return None
+        return self._simulation.ghost(course.number, seconds)
 
 
 def timeline_content(status: TimelineStatus) -> dict[str, Any]:
@@ -66,9 +85,3 @@ def timeline_content(status: TimelineStatus) -> dict[str, Any]:
             {'id': each.number, 'from': each.begins, 'to': each.ends} for each in status.courses
         ],
     }
-
-
-def course_beside(status: TimelineStatus) -> CourseSpan | None:
-    """Return the course that was left last of those that reach over the time that is shown."""
-    beside = [each for each in status.courses if each.begins <= status.now <= each.ends]
-    return max(beside, key=lambda each: each.number, default=None)

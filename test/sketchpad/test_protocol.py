@@ -122,6 +122,13 @@ def test_worlds_are_listed_saved_opened_shared_and_uploaded(browser: Browser) ->
     assert json.loads(response.body)['ok']
     assert (physsim.names, physsim.pose(physsim.names[0])) == before
     assert page.ask('open', name='../../etc/passwd')['code'] == 'bad_world_file'
+    page.close()
+    response = browser.fetch('/world', method='POST', body='[', headers={'Origin': browser.base})
+    assert json.loads(response.body)['code'] == 'malformed'
+    empty = 'format: 1\n'
+    response = browser.fetch('/world', method='POST', body=empty, headers={'Origin': browser.base})
+    assert json.loads(response.body)['ok']
+    assert physsim.names == ()
 
 
 def test_the_past_of_a_body_is_told(browser: Browser) -> None:
