@@ -13,10 +13,10 @@
 # limitations under the License.
 
 """
-Closed strokes: disc, rectangle and polygon, or, small and on a body, an axle.
+Closed strokes: disc, oval, rectangle and polygon, or, small and on a body, an axle or a weld.
 
-Law: a closed stroke that does not cross itself is a body; one that is neither round nor made of
-straight sides is a polygon along the stroke.
+Law: every closed outline is a solid. One that is neither round nor made of straight sides is a
+polygon along the stroke; one that crosses itself is its outer boundary.
 """
 
 from __future__ import annotations

@@ -16,8 +16,9 @@
 Corner detection: the intended corners of a stroke, and their positions.
 
 Candidates are points at which the stroke turns over a short distance, as in ShortStraw (Wolin,
-Eoff and Hammond, 2008). The corners among them minimise the residual of straight sides plus a
-cost for each corner, by dynamic programming over all candidates.
+Eoff and Hammond, 2008). The corners among them minimise the description length (Rissanen, 1978):
+the logarithm of the residual of straight sides plus a cost for each corner, by dynamic programming
+over all candidates. The more the sides wobble, the more a corner has to explain.
 """
 
 from __future__ import annotations
