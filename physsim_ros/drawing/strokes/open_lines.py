@@ -98,8 +98,8 @@ def _joint_along(points: Floats, context: Context) -> tuple[JointKind, float]:
     ends = request_builder.joint_ends(drawn, context)
     sides = np.diff(points, axis=0)
     between = ends is not None and ends[1].body != WORLD
-    curve = simplified(drawn, points)
-    if between and curve is not None and math.dist(start, end) < _SAGGING * path_length(curve):
+    curve = simplified(drawn, points) if between else None
+    if curve is not None and math.dist(start, end) < _SAGGING * path_length(curve):
         return JointKind.ROPE, BETWEEN
     if math.dist(start, end) > _STRAIGHT * float(np.hypot(*sides.T).sum()):
         # A line beside a body that ends on no other is a wall.

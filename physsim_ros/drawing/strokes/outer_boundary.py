@@ -43,15 +43,27 @@ def outer_boundary(corners: Floats) -> Floats | None:
 
     :param corners: (n, 2) float64: of the polyline, in order, the first not repeated [m]
     :return: (k, 2) float64, counter-clockwise [m]; None where most of the polyline lies within, or
-        where its parts only touch, as in an eight
+        beside, as of an eight
     """
     nodes, neighbours = _plane_graph(corners)
-    walk = _outer_walk(nodes, neighbours)
-    outline = nodes[walk]
-    if len(set(walk)) < len(walk) or len(walk) < 3 or crosses_itself(outline):
+    loops = (nodes[loop] for loop in _loops(_outer_walk(nodes, neighbours)) if len(loop) > 2)
+    outline = max(loops, key=signed_area, default=None)
+    if outline is None or _length(outline) < _LEAST_LENGTH * _length(corners):
         return None
-    long_enough = _length(outline) >= _LEAST_LENGTH * _length(corners)
-    return outline if long_enough and signed_area(outline) > 0.0 else None
+    return None if crosses_itself(outline) else outline
+
+
+def _loops(walk: list[int]) -> list[list[int]]:
+    """Return the parts of a closed walk that visit no node twice: the ends of a stroke cross."""
+    loops: list[list[int]] = []
+    path: list[int] = []
+    for node in walk:
+        if node in path:
+            at = path.index(node)
+            loops.append(path[at:])
+            del path[at:]
+        path.append(node)
+    return [*loops, path]
 
 
 def _plane_graph(corners: Floats) -> Graph:
