@@ -25,6 +25,7 @@ from physsim_ros.model.errors import NothingThere
 from physsim_ros.model.grips import Grip
 from physsim_ros.model.requests import Grab, GrabToPlace, MoveHand, PlaceHand
 from physsim_ros.model.transform import Point, Pose, rotated
+from physsim_ros.simulation.capacity import Capacity
 
 
 def grab_body(space: Space, request: Grab, point: Point) -> tuple[str, str]:
@@ -49,23 +50,27 @@ def grab_body(space: Space, request: Grab, point: Point) -> tuple[str, str]:
     return name, f'grabbed {name}'
 
 
-def move_hand(space: Space, request: MoveHand) -> tuple[str, str]:
+def move_hand(space: Space, request: MoveHand, capacity: Capacity) -> tuple[str, str]:
     """
     Move a hand, and put its body there if the request is that of a paused world.
 
     :param request: with point and yaw in the world
     :return: name of the body, and a sentence that says what was done
+    :raises WorldFull: too much would overlap; nothing is changed
     """
     grip = space.pipeline.mouse_joints.grip_of(request.hand)
     if grip is None:
         return '', f'{request.hand} holds no body'
-    space.set_grip(grip._replace(target=request.point))
+    moved = grip._replace(target=request.point)
     if not isinstance(request, PlaceHand):
+        space.set_grip(moved)
         return grip.body, f'draws {grip.body}'
     rigid = space.bodies.by_name[grip.body]
     pose = _placed_pose(rigid.pose, grip, request)
     if pose != rigid.pose:
+        capacity.check_poses(space, [rigid], [pose])
         space.set_pose(rigid, pose)
+    space.set_grip(moved)
     return grip.body, f'placed {grip.body}'
 
 

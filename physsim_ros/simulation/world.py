@@ -338,7 +338,7 @@ class World:
             case MoveHand(point=point, yaw=yaw, frame=frame):
                 x, y, turned = pose_in_world(self._space, (*point, yaw or 0.0), frame)
                 moved = replace(request, point=(x, y), yaw=None if yaw is None else turned)
-                return hand_requests.move_hand(self._space, moved)
+                return hand_requests.move_hand(self._space, moved, self._capacity)
             case KeepHand(hand=hand):
                 return '', f'{hand} is there'
             case LetGo(hand=hand):

@@ -32,7 +32,7 @@ from physsim_ros.model.requests import (
     Spawn,
 )
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Box, Disc
+from physsim_ros.model.shapes import Box, Compound, Disc
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.model.transform import Point
 from physsim_ros.simulation.simulation import Simulation
@@ -485,3 +485,19 @@ def test_a_body_grabbed_in_a_paused_world_is_dragged_when_time_goes_on() -> None
         sim.advance(round(number * PERIOD))
 
     assert sim.world.snapshot().poses[0, :2] == pytest.approx([1.0, 3.0], abs=0.02)
+
+
+def test_a_body_is_not_placed_where_too_much_would_overlap() -> None:
+    heap = Compound(element=Disc(radius=1.0), centers=((0.0, 0.0),) * 8)
+    sim = Simulation(speed=0.0, settings=WorldSettings(max_overlaps=60))
+    for number in range(2):
+        sim.perform(spawning(f'a/{number}', heap, (9.0 * number, 0.0, 0.0)))
+    sim.submit(Grab(hand='h', point=(9.0, 0.0)), topic=TOPIC)
+    sim.advance(0)
+    before = sim.world.digest()
+
+    sim.submit(MoveHand(hand='h', point=(0.0, 0.0)), topic=TOPIC)
+    (frame,) = sim.advance(1)
+
+    assert [answer.code for answer in frame.answers] == ['world_full']
+    assert sim.world.digest() == before
