@@ -220,7 +220,7 @@ export class SceneView {
    */
   #drawGhost(frame, bodies) {
     const {ctx, camera} = this;
-    ctx.globalAlpha = 0.5;
+    ctx.globalAlpha = 0.8;
     bodies.forEach((body, row) => {
       if (body.anchored || row >= frame.x.length) return;
       const look = this.#look(body);
