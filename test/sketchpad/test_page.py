@@ -136,6 +136,36 @@ def test_in_a_paused_world_the_hand_places_a_body_and_the_wheel_turns_it(sheet: 
     )
 
 
+def test_the_past_is_gone_to_by_the_slider_and_acting_there_starts_another_course(
+    sheet: Sheet,
+) -> None:
+    sheet.press('Circle')
+    before = sheet.names()
+    sheet.drag((0.0, 7.0), (0.4, 7.0))
+    name = sheet.wait_for_new(before)
+    height = sheet.pose(name)[1]
+    sheet.press('Play')
+    sheet.wait('physsim.time > 0.8')
+    sheet.press('Pause')
+    sheet.wait('physsim.speed === 0')
+    fallen = sheet.pose(name)
+    end = sheet.page.evaluate('physsim.time')
+    slider = sheet.page.get_by_role('slider', name='Time')
+    slider.fill('0.25')
+    sheet.wait('Math.abs(physsim.time - 0.25) < 0.02')
+    # Free fall: what the page shows of the past is the past.
+    assert abs(sheet.pose(name)[1] - (height - 9.81 / 2 * 0.25**2)) < 0.05
+
+    before = sheet.names()
+    sheet.drag((0.0, 4.0), (0.4, 4.0))
+    sheet.wait_for_new(before)
+    sheet.page.get_by_role('button', name='Go back to the course').first.click()
+    sheet.wait('count => Object.keys(physsim.bodies).length === count', len(before))
+    slider.fill(str(end))
+    sheet.wait('end => Math.abs(physsim.time - end) < 0.02', end)
+    assert sheet.pose(name) == pytest.approx(fallen, abs=1e-6)
+
+
 def test_undo_takes_back_what_was_drawn_and_redo_draws_it_again(sheet: Sheet) -> None:
     before = sheet.names()
     sheet.press('Circle')
