@@ -21,6 +21,7 @@ Law: every request passes `Guarded.prepare` before it is answered.
 from __future__ import annotations
 
 from http import HTTPStatus
+from ipaddress import ip_address
 from pathlib import Path
 from typing import Any, NoReturn, TYPE_CHECKING
 
@@ -130,6 +131,17 @@ class Session(Guarded):
     async def get(self) -> None:
         """Answer with the rights of the page."""
         self.finish({'ok': True, 'view_only': self.role is not Role.DRAW})
+
+
+class Recording(Guarded):
+    """The web page of the viewer, which is served on loopback only."""
+
+    async def get(self) -> None:
+        """Redirect to it."""
+        address = self.server.recording_address()
+        if not address or not ip_address(self.request.remote_ip or '::').is_loopback:
+            self.refuse(404, 'the recording is shown on the machine of the node, if anywhere')
+        self.redirect(address)
 
 
 class Missing(Guarded):

@@ -40,7 +40,7 @@ from physsim_ros.sketchpad.access import Access, Role
 from physsim_ros.sketchpad.answers import answer_content, asker_of
 from physsim_ros.sketchpad.frame_codec import encode_frame, Show
 from physsim_ros.sketchpad.gallery import gallery_content
-from physsim_ros.sketchpad.handlers import Files, Login, Missing, Page, Session
+from physsim_ros.sketchpad.handlers import Files, Login, Missing, Page, Recording, Session
 from physsim_ros.sketchpad.inbox import Inbox, Incoming, SERVER
 from physsim_ros.sketchpad.messages import Message
 from physsim_ros.sketchpad.page_socket import PageSocket
@@ -81,6 +81,7 @@ class Server:
     :param address: to listen on
     :param port: to listen on; where it is taken, one of the next; 0 is any
     :param world_dir: directory of the user's worlds
+    :param recording_address: returns the address of the viewer's web page; '' where there is none
     :param inbox: takes the messages of the pages
     :param wake: called on the server's thread after a message has come
     :raises PhysSimError: it cannot listen there
@@ -96,12 +97,14 @@ class Server:
         address: str,
         port: int,
         world_dir: Path,
+        recording_address: Callable[[], str],
         inbox: Inbox,
         wake: Callable[[], None],
     ) -> None:
         self.access = Access(address)
         self.page_directory = PAGE
         self.world_dir = world_dir
+        self.recording_address = recording_address
         self._address = address
         self._inbox = inbox
         self._wake = wake
@@ -292,6 +295,7 @@ class Server:
                 ('/', Page, own),
                 ('/login', Login, own),
                 ('/session', Session, own),
+                ('/rerun/', Recording, own),
                 ('/ws', PageSocket, own),
                 ('/page/(.*)', Files, own | {'path': self.page_directory}),
                 ('/gallery/(.*)', Files, own | {'path': shipped_pictures()}),

@@ -48,6 +48,7 @@ class Sketchpad:
     :param address: to listen on
     :param port: to listen on, or the first free one after it
     :param world_dir: directory of the user's worlds
+    :param recording_address: returns the address of the viewer's web page; '' where there is none
     :param wake: called on the server's thread when a message has come
     :raises PhysSimError: it cannot listen there
     """
@@ -60,14 +61,21 @@ class Sketchpad:
         address: str,
         port: int,
         world_dir: Path,
+        recording_address: Callable[[], str],
         wake: Callable[[], None],
     ) -> None:
         self._world = world
         self._welcome = welcome
+        self._recording_address = recording_address
         self._inbox = Inbox()
         self._timeline = TimelineReport(world.simulation)
         self._server = Server(
-            address=address, port=port, world_dir=world_dir, inbox=self._inbox, wake=wake
+            address=address,
+            port=port,
+            world_dir=world_dir,
+            recording_address=recording_address,
+            inbox=self._inbox,
+            wake=wake,
         )
         self._sessions: dict[int, PageSession] = {}
         self._server_session = self._session(SERVER)
@@ -134,6 +142,7 @@ class Sketchpad:
                 'type': 'welcome',
                 'client': str(number),
                 **self._welcome,
+                'rerun': '/rerun/' if self._recording_address() else '',
                 'view_only': role is not Role.DRAW,
                 'settings': {
                     'density': settings.density,

@@ -167,6 +167,13 @@ class SinkWorker:
         return self._thread.is_alive()
 
     @property
+    def page_address(self) -> str:
+        """Return the address of the endpoint where that is a web page; else ''."""
+        endpoint = self._endpoint
+        served = self.is_open and endpoint.kind == 'web' and endpoint.where.startswith('http:')
+        return endpoint.where if served else ''
+
+    @property
     def is_closing(self) -> bool:
         """Whether the worker was told to end, and has time left for it."""
         return self._closing.is_set() and self.is_open and time.monotonic() < self._end_by

@@ -78,6 +78,11 @@ class Viewer:
         return any(worker.is_open for worker in self._workers)
 
     @property
+    def page_address(self) -> str:
+        """Return the address of the viewer's web page, on this machine; '' where there is none."""
+        return '' if self._window is None else self._window.page_address
+
+    @property
     def _workers(self) -> list[SinkWorker]:
         return [worker for worker in (self._file, self._window) if worker is not None]
 
