@@ -37,7 +37,7 @@ import pytest
 if TYPE_CHECKING:
     from diagnostic_msgs.msg import DiagnosticStatus
     from geometry_msgs.msg import PointStamped
-    from physsim_ros.model.snapshot import Answer, Snapshot
+    from physsim_ros.model.snapshot import Snapshot
     from rclpy.context import Context
     from rclpy.node import Node
     from sensor_msgs.msg import MultiDOFJointState
@@ -236,7 +236,8 @@ class PhysSim:
         :raises Refused: with the code; of an array, the first refusal
         """
         if hasattr(marker, 'markers'):
-            return self._request('spawn_array', marker, len(marker.markers))
+            # An empty array has an answer, too.
+            return self._request('spawn_array', marker, max(1, len(marker.markers)))
         return self._request('spawn', marker)
 
     def anchor(self, point: PointStamped | tuple[float, float]) -> str:
@@ -291,7 +292,7 @@ class PhysSim:
         """Publish a request, apply it without advancing time, and return the answer's subject."""
         # Answers to earlier requests of other nodes come first, and are skipped.
         self.settle()
-        earlier = sum(answer.topic == f'~/{topic}' for answer in self._apply_requests())
+        earlier = sum(answer.topic == f'~/{topic}' for answer in self.node.apply_requests())
         received = self._client.listen(topic)
         self._client.publish(topic, message)
 
@@ -309,13 +310,6 @@ class PhysSim:
                 values = {pair.key: pair.value for pair in status.values}
                 raise Refused(values['code'], status.message, values.get('field', ''))
         return received[-1].hardware_id if received else ''
-
-    def _apply_requests(self) -> tuple[Answer, ...]:
-        """Apply the waiting requests, and return the answers, which are being published."""
-        last = self.node.frame
-        self.node.apply_requests()
-        frame = self.node.frame
-        return () if frame is None or frame is last else frame.answers
 
     # State
 

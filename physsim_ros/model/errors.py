@@ -20,9 +20,18 @@ Law: a refused request changes nothing; the message names what is refused and th
 
 from __future__ import annotations
 
+from physsim_ros.model.texts import abbreviated, message_text
+
 
 class PhysSimError(Exception):
-    """Base class of the errors that this package raises."""
+    """
+    Base class of the errors that this package raises.
+
+    :param message: one sentence, in which others' texts are abbreviated and escaped
+    """
+
+    def __init__(self, message: str = '') -> None:
+        super().__init__(message_text(message))
 
 
 class Refusal(PhysSimError):
@@ -39,14 +48,9 @@ class Refusal(PhysSimError):
     def __init__(
         self, message: str, *, field: str = '', values: tuple[tuple[str, str], ...] = ()
     ) -> None:
-        super().__init__(_encodable(message))
-        self.field = _encodable(field)
+        super().__init__(message)
+        self.field = abbreviated(field)
         self.values = values
-
-
-def _encodable(text: str) -> str:
-    """Return a text with surrogates replaced, which UTF-8 cannot encode."""
-    return text.encode(errors='replace').decode()
 
 
 class Malformed(Refusal):
@@ -163,3 +167,9 @@ class OutOfHistory(Refusal):
     """A time before the oldest or after the newest checkpoint, or no request to undo."""
 
     code = 'out_of_history'
+
+
+class Running(Refusal):
+    """Time is running, where it must be paused."""
+
+    code = 'running'

@@ -16,17 +16,17 @@
 
 from __future__ import annotations
 
-import unicodedata
-
 from physsim_ros.model.errors import Malformed
+from physsim_ros.model.texts import abbreviated, is_printable, LONGEST_WORD
 
 # Name of the background in joints, contacts and frames.
 WORLD = 'world'
 # Characters of a name; names are frames and strings of messages too.
 LONGEST_NAME = 1000
-# Unicode categories of control characters, surrogates, line and paragraph separators. Format
-# characters are allowed: Persian, Hindi and emoji are written with them.
-_UNPRINTABLE = {'Cc', 'Cs', 'Zl', 'Zp'}
+# Between the two names of a contact.
+PAIR_SEPARATOR = '|'
+# What a decoder puts in place of bytes that are not UTF-8.
+REPLACEMENT = '\ufffd'
 # Prefixes of the namespaces of markers that are no bodies: joints (`~/join` accepts it), their
 # lines, the x of an anchored body; and the namespaces of the walls and of hands. A body and a
 # joint of one name are two markers.
@@ -47,8 +47,10 @@ def check_name(name: str) -> None:
         )
     if len(name) > LONGEST_NAME:
         raise Malformed(f'a name has at most {LONGEST_NAME} characters', field='name')
-    if any(unicodedata.category(character) in _UNPRINTABLE for character in name):
+    if not is_printable(name):
         raise Malformed(f'{name!r} holds a character that cannot be printed', field='name')
+    if REPLACEMENT in name:
+        raise Malformed(f'{name!r} is not UTF-8', field='name')
     if not -(2**31) <= id_ < 2**31:
         raise Malformed(f'the id of {name!r} does not fit into 32 bits', field='name')
 
@@ -57,11 +59,17 @@ def check_body_name(name: str) -> None:
     """
     Refuse a name that no body can have.
 
-    :raises Malformed: it is not `<namespace>/<id>`, or its prefix is that of other markers
+    :raises Malformed: it is not `<namespace>/<id>`, or its prefix is that of other markers,
+        or it would make the name of a contact ambiguous
     """
     check_name(name)
     if name.startswith((JOINT_PREFIX, LINES_PREFIX, CROSS_PREFIX, WALLS, HANDS)):
         raise Malformed(f'{name!r} is no body in the picture', field='name')
+    if PAIR_SEPARATOR in name:
+        raise Malformed(
+            f'{name!r} holds a {PAIR_SEPARATOR}, which separates the names of a contact',
+            field='name',
+        )
 
 
 def check_hand_name(name: str) -> None:
@@ -74,8 +82,13 @@ def check_hand_name(name: str) -> None:
         raise Malformed(
             f'the name of a hand has 1 to {LONGEST_NAME} characters', field='client_id'
         )
-    if any(unicodedata.category(character) in _UNPRINTABLE for character in name):
+    if not is_printable(name):
         raise Malformed(f'{name!r} holds a character that cannot be printed', field='client_id')
+
+
+def shown_name(name: str) -> str:
+    """Return a name as answers repeat it: unchanged, unless no object can have it."""
+    return abbreviated(name, LONGEST_NAME if len(name) <= LONGEST_NAME else LONGEST_WORD)
 
 
 def split_name(name: str) -> tuple[str, int]:

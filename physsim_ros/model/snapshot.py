@@ -28,6 +28,7 @@ import numpy as np
 from physsim_ros.model.arrays import Flags, Floats, Ints
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.grips import Grip
+from physsim_ros.model.names import shown_name
 from physsim_ros.model.preview import NO_PREVIEW, Preview
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.transform import turned
@@ -213,7 +214,7 @@ class Answer:
         """
         return cls(
             topic=topic,
-            subject=subject,
+            subject=shown_name(subject),
             message=str(refusal),
             code=refusal.code,
             field=refusal.field if refusal.field == _FRAME or not field else field,

@@ -49,8 +49,10 @@ from physsim_ros.ros import conversions, parameters, stroke_reader
 from physsim_ros.ros.diagnostics import FrameStatistics
 from physsim_ros.ros.page_control import PageControl
 from physsim_ros.ros.publishers import Publishers
-from physsim_ros.ros.qos_safe_node import LOSSLESS, NodeWithoutQosEvents
+from physsim_ros.ros.qos_safe_node import NodeWithoutQosEvents
+from physsim_ros.ros.reply_pacer import ReplyPacer
 from physsim_ros.ros.services import create_services, WorldFiles
+from physsim_ros.ros.subscriptions import RequestSubscriptions
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.sketchpad import Role, Sketchpad
 from physsim_ros.view import Viewer, ViewerMode
@@ -75,6 +77,7 @@ class PhysSimNode(NodeWithoutQosEvents):
 
     :ivar simulation: the world and its time
     :ivar world_files: reads and writes the world file of parameter `world_file`
+    :ivar requests: the subscriptions of requests
     :ivar frame: the last frame that was published; None before the first
     """
 
@@ -90,7 +93,6 @@ class PhysSimNode(NodeWithoutQosEvents):
             parameter_overrides=parameter_overrides,
             start_parameter_services=False,
         )
-        self._parameter_service = parameters.ParameterServices(self)
         self._viewer = Viewer()
         self._sketchpad: Sketchpad | None = None
         try:
@@ -114,6 +116,7 @@ class PhysSimNode(NodeWithoutQosEvents):
             speed=self._values['speed'],
             history=self._values['history'],
         )
+        self._parameter_service = parameters.ParameterServices(self, self.simulation.tell)
         self._frame_id: str = self._values['frame_id']
         self.world_files = WorldFiles(self.simulation, self._values)
         self._world_publishers = Publishers(
@@ -132,11 +135,14 @@ class PhysSimNode(NodeWithoutQosEvents):
             self.world_files.begin_with()
             self._mirror_settings()
         self._world_publishers.publish_timeline(self.simulation.status, moving=False)
+        self._reply_pacer = ReplyPacer(self)
+        self.requests = RequestSubscriptions(self, self._refuse_message)
         self._create_subscriptions()
         actions = create_services(
             self,
             self.simulation,
             self.world_files,
+            self._reply_pacer,
             fast_speed=lambda: self._values['fast_speed'],
             set_speed=lambda speed: self.set_parameters([Parameter('speed', value=speed)]),
             advance_frame=self.advance_frame,
@@ -155,7 +161,7 @@ class PhysSimNode(NodeWithoutQosEvents):
 
     def start(self) -> None:
         """Start the timers, on a steady clock, and the viewer."""
-        self._started = True
+        self._started = self._reply_pacer.paced = True
         if self._sketchpad is not None:
             _print_addresses(self._sketchpad)
         if self._values['record_file']:
@@ -175,6 +181,7 @@ class PhysSimNode(NodeWithoutQosEvents):
         :param now_ns: steady time, monotonic [ns]
         """
         began = time.perf_counter_ns()
+        self._reply_pacer.flush()
         self._handle_pages()
         self._update_contact_recording()
         frames = self.simulation.advance(now_ns)
@@ -182,6 +189,7 @@ class PhysSimNode(NodeWithoutQosEvents):
         for frame in frames:
             self.publish_frame(frame)
         if not frames:
+            self._report_answers()
             if self.frame is not None and self.frame.preview != self._session.preview:
                 # Only the preview has changed: an unfinished gesture was dropped.
                 self._show_frame(replace(self.frame, answers=(), moved=False))
@@ -222,14 +230,16 @@ class PhysSimNode(NodeWithoutQosEvents):
         self._update_contact_recording()
         self.publish_frame(self.simulation.advance_frame())
 
-    def apply_requests(self) -> None:
-        """Apply the waiting requests without advancing time, and publish the frame."""
+    def apply_requests(self) -> tuple[Answer, ...]:
+        """Apply the waiting requests without advancing time, publish and return the answers."""
         self._update_contact_recording()
         frame = self.simulation.settle()
         if frame is not None:
             self.publish_frame(frame)
-        else:
-            self._world_publishers.flush_answers()
+            return frame.answers
+        answers = self._report_answers()
+        self._world_publishers.flush_answers()
+        return answers
 
     @property
     def frame_period(self) -> float:
@@ -260,7 +270,7 @@ class PhysSimNode(NodeWithoutQosEvents):
             def callback(message: Any) -> None:
                 self._submit(message, topic, convert, field=field)
 
-            self.create_subscription(kind, topic, callback, LOSSLESS)
+            self.requests.add(kind, topic, callback)
 
         subscribe(Marker, '~/spawn', conversions.body_request)
         subscribe(Marker, '~/join', conversions.joint_request)
@@ -270,11 +280,11 @@ class PhysSimNode(NodeWithoutQosEvents):
         subscribe(PointStamped, '~/release', partial(conversions.point_request, Release))
         subscribe(MultiDOFJointState, '~/command', conversions.command_request)
         subscribe(InteractiveMarkerFeedback, '~/drag/feedback', conversions.hand_request)
-        self.create_subscription(MarkerArray, '~/spawn_array', self._spawn_array, LOSSLESS)
-        self.create_subscription(Float64, '~/speed', self._speed, LOSSLESS)
-        self.create_subscription(PointStamped, 'clicked_point', self._click, LOSSLESS)
-        self.create_subscription(PathMessage, '~/stroke', self._stroke, LOSSLESS, raw=True)
-        self.create_subscription(Clock, '~/seek', self._seek, LOSSLESS)
+        self.requests.add(MarkerArray, '~/spawn_array', self._spawn_array)
+        self.requests.add(Float64, '~/speed', self._speed)
+        self.requests.add(PointStamped, 'clicked_point', self._click)
+        self.requests.add_raw(PathMessage, '~/stroke', self._stroke)
+        self.requests.add(Clock, '~/seek', self._seek)
 
     def _submit(
         self,
@@ -298,7 +308,12 @@ class PhysSimNode(NodeWithoutQosEvents):
         for number, request in enumerate(requests):
             self.simulation.submit(request, topic=topic, joined=number > 0, field=field)
 
+    def _refuse_message(self, refusal: Refusal, topic: str) -> None:
+        self.simulation.refuse(refusal, topic=topic, subject='')
+
     def _spawn_array(self, message: MarkerArray) -> None:
+        if not message.markers:
+            self.simulation.tell(Answer(topic='~/spawn_array', message='the array is empty'))
         for number, marker in enumerate(message.markers):
             self._submit(marker, '~/spawn_array', conversions.body_request, joined=number > 0)
 
@@ -369,6 +384,13 @@ class PhysSimNode(NodeWithoutQosEvents):
         if self._sketchpad is not None:
             self._sketchpad.report(answer)
         self._log_answer(answer)
+
+    def _report_answers(self) -> tuple[Answer, ...]:
+        """Publish and log the answers that no frame carries, and return them."""
+        answers = self.simulation.take_answers()
+        for answer in answers:
+            self._report_answer(answer)
+        return answers
 
     def _log_answer(self, answer: Answer) -> None:
         if answer.code:

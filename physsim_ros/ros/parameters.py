@@ -20,19 +20,26 @@ Law: a value outside its range is refused with a reason and changes nothing.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import asdict, dataclass, fields
 import math
 from typing import Any
 
 from physsim_ros.drawing import DRAWING_RANGES, DrawingSettings, Tool
-from physsim_ros.model.checks import FASTEST
+from physsim_ros.model.checks import FASTEST, shown
 from physsim_ros.model.colors import Color, color_from
-from physsim_ros.model.errors import BadProperty, Malformed
+from physsim_ros.model.errors import BadProperty, Malformed, UnknownProperty
 from physsim_ros.model.settings import RANGES as WORLD_RANGES
 from physsim_ros.model.settings import STRONGEST, WorldSettings
 from physsim_ros.model.shapes import LARGEST
-from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
+from physsim_ros.model.snapshot import Answer
+from physsim_ros.model.texts import abbreviated, message_text
+from rcl_interfaces.msg import (
+    FloatingPointRange,
+    IntegerRange,
+    ParameterDescriptor,
+    SetParametersResult,
+)
 from rcl_interfaces.msg import Parameter as ParameterMessage
 from rcl_interfaces.srv import SetParameters, SetParametersAtomically
 from rclpy.node import Node
@@ -219,17 +226,27 @@ SPECS: dict[str, Spec] = _OF_NODE | _of_settings()
 
 class ParameterServices(ParameterService):
     """
-    The parameter services of a node; a value of unknown type is refused.
+    The parameter services of a node; what they set or refuse is told as answers, too.
 
-    rclpy.parameter_service.ParameterService of ROS 2 Jazzy raises on a type that it does not know,
-    which ends the node. This class can go once rclpy refuses such a value.
+    rclpy.parameter_service.ParameterService of ROS 2 Jazzy raises on a type of value that it does
+    not know, which ends the node; such a value is refused here.
+
+    :param node: whose parameters are set
+    :param tell: called with the answer to each parameter that is set or refused
     """
+
+    def __init__(self, node: Node, tell: Callable[[Answer], None]) -> None:
+        super().__init__(node)
+        self._tell = tell
 
     def _set_parameters_callback(
         self, request: SetParameters.Request, response: SetParameters.Response
     ) -> SetParameters.Response:
         _replace_unknown_types(request.parameters)
-        return super()._set_parameters_callback(request, response)
+        response = super()._set_parameters_callback(request, response)
+        for parameter, result in zip(request.parameters, response.results, strict=True):
+            self._tell_result(parameter.name, result)
+        return response
 
     def _set_parameters_atomically_callback(
         self,
@@ -237,7 +254,26 @@ class ParameterServices(ParameterService):
         response: SetParametersAtomically.Response,
     ) -> SetParametersAtomically.Response:
         _replace_unknown_types(request.parameters)
-        return super()._set_parameters_atomically_callback(request, response)
+        response = super()._set_parameters_atomically_callback(request, response)
+        for parameter in request.parameters:
+            self._tell_result(parameter.name, response.result)
+        return response
+
+    def _tell_result(self, name: str, result: SetParametersResult) -> None:
+        """Tell the result for one parameter, whose reason becomes the sentence of the answer."""
+        topic = '~/set_parameters'
+        if result.successful:
+            result.reason = f'{name} is {shown(self._get_node().get_parameter(name).value)}'
+            self._tell(Answer(topic=topic, message=result.reason))
+            return
+        result.reason = message_text(result.reason)
+        code, separator, reason = result.reason.partition(': ')
+        if not separator or not code.isidentifier():
+            # A refusal by rclpy: there is no such parameter, or it is read-only.
+            code = BadProperty.code if name in SPECS else UnknownProperty.code
+            reason = result.reason
+        answer = Answer(topic=topic, message=reason, code=code, field=abbreviated(name))
+        self._tell(answer)
 
 
 def _replace_unknown_types(messages: Iterable[ParameterMessage]) -> None:

@@ -15,7 +15,8 @@
 """
 The services of the world, all std_srvs/Trigger, and the world files that two of them use.
 
-Law: a service that is refused changes nothing, and its message says why.
+Laws: a service that is refused changes nothing, and its message says why; what it did, or why not,
+is told on `~/events`, too.
 """
 
 from __future__ import annotations
@@ -26,9 +27,10 @@ from typing import Any
 
 from physsim_ros.files import find_world, hides_shipped, load_world, save_world, user_worlds
 from physsim_ros.model.checkpoint import WorldState
-from physsim_ros.model.errors import BadWorldFile, PhysSimError, Refusal
+from physsim_ros.model.errors import BadWorldFile, Refusal, Running
 from physsim_ros.model.requests import DeleteAll
-from physsim_ros.model.snapshot import run_state
+from physsim_ros.model.snapshot import Answer, run_state
+from physsim_ros.ros.reply_pacer import ReplyPacer, SERVICE_QOS
 from physsim_ros.simulation.simulation import Simulation
 from rclpy.node import Node
 from std_srvs.srv import Trigger
@@ -110,6 +112,7 @@ def create_services(
     node: Node,
     simulation: Simulation,
     files: WorldFiles,
+    pacer: ReplyPacer,
     *,
     fast_speed: Callable[[], float],
     set_speed: Callable[[float], object],
@@ -122,6 +125,7 @@ def create_services(
     :param node: that offers them
     :param simulation: of the world
     :param files: for `~/load_world` and `~/save_world`
+    :param pacer: of their replies
     :param fast_speed: returns the speed of `~/fast_forward`, simulation seconds a second
     :param set_speed: sets the speed, simulation seconds a second
     :param advance_frame: advances the world by one frame and publishes it
@@ -134,7 +138,7 @@ def create_services(
 
     def step() -> str:
         if simulation.speed != 0:
-            raise PhysSimError('running; pause first')
+            raise Running('time is running; pause first')
         advance_frame()
         return f'at {simulation.world.stamp * 1e-9:.6f} s'
 
@@ -153,24 +157,26 @@ def create_services(
         'save_world': files.save,
     }
     for name, action in actions.items():
-        node.create_service(Trigger, f'~/{name}', _callback(action, on_success))
+        callback = _callback(action, f'~/{name}', simulation, on_success)
+        pacer.add(node.create_service(Trigger, f'~/{name}', callback, qos_profile=SERVICE_QOS))
     return actions
 
 
-def _callback(action: Action, on_success: Callable[[], None]) -> Callable[..., Trigger.Response]:
-    """Return the callback of a service: the message of its action, or of its refusal."""
+def _callback(
+    action: Action, topic: str, simulation: Simulation, on_success: Callable[[], None]
+) -> Callable[..., Trigger.Response]:
+    """Return the callback of a service, which replies and tells the same sentence as an event."""
 
     def callback(_: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         try:
             response.message = action()
             response.success = True
             on_success()
+            simulation.tell(Answer(topic=topic, message=response.message))
         except Refusal as refusal:
             response.message = f'{refusal.code}: {refusal}'
             response.success = False
-        except PhysSimError as error:
-            response.message = str(error)
-            response.success = False
+            simulation.refuse(refusal, topic=topic, subject='')
         return response
 
     return callback

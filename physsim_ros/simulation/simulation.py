@@ -48,8 +48,6 @@ from physsim_ros.simulation.request_queue import RequestQueue
 from physsim_ros.simulation.undo import Undo
 from physsim_ros.simulation.world import World
 
-# Topics of the turns in time that the simulation answers itself.
-TURNS = ('~/reset', '~/undo', '~/redo', '~/timeline')
 # Frames in one call: the one that is due, and one to make up for a late one.
 _FRAMES_A_CALL = 2
 # Simulation time from one checkpoint to the next [s]: at most so much is replayed to reach a step.
@@ -68,7 +66,6 @@ class Simulation:
     :param speed: simulation seconds a second; 0 is paused, negative goes back
     :param history: how far back it can go [s of simulation time]
     :param checkpoints: from one checkpoint to the next [s]
-    :ivar asker: key of the message that a turn in time is carried out for; '' for none
     :ivar past: what was shown of it
     :raises BadProperty: publish_rate does not divide physics_rate
     """
@@ -95,7 +92,6 @@ class Simulation:
         self._clock = Clock(physics_rate=physics_rate, frame_steps=self.frame_steps, speed=speed)
         self._requests = RequestQueue()
         self._hands = Hands()
-        self.asker = ''
         self._answers: list[Answer] = []
         self._changed = True
         self._watching = False
@@ -290,9 +286,11 @@ class Simulation:
         self._seek_shown()
         self._hands.clear()
         if not self._undo.reset():
-            return self._report_jump('~/reset', 'at the beginning, time 0')
+            self._note_jump()
+            return 'at the beginning, time 0'
         self.frame_cache = self._new_frame_cache()
-        return self._report_jump('~/reset', 'back at the beginning, time 0')
+        self._note_jump()
+        return 'back at the beginning, time 0'
 
     @property
     def gesture(self) -> int:
@@ -335,7 +333,8 @@ class Simulation:
         self._seek_shown()
         undone, step = self._undo.undo()
         self._drop_frames(step)
-        return self._report_jump('~/undo', f'undid {undone}, back at {self._time()}')
+        self._note_jump()
+        return f'undid {undone}, back at {self._time()}'
 
     def redo(self) -> str:
         """
@@ -346,7 +345,8 @@ class Simulation:
         self._apply_waiting()
         self._seek_shown()
         self._drop_frames(self._undo.redo())
-        return self._report_jump('~/redo', f'redid what was undone, at {self._time()}')
+        self._note_jump()
+        return f'redid what was undone, at {self._time()}'
 
     def return_to_course(self, number: int) -> str:
         """
@@ -366,7 +366,8 @@ class Simulation:
                 self.frame_cache.add_frame(frame)
             self._undo.clear_undone()
             self._hands.clear()
-        return self._report_jump('~/timeline', f'on course {number}, at {self._time()}')
+        self._note_jump()
+        return f'on course {number}, at {self._time()}'
 
     def seek(self, stamp: int) -> str:
         """
@@ -413,6 +414,11 @@ class Simulation:
         """Apply the requests that wait, without a step; return a frame if there were any."""
         self._apply_waiting()
         return self._frame(moved=False) if self._changed else None
+
+    def take_answers(self) -> tuple[Answer, ...]:
+        """Return the answers that wait, where no frame shows anything new."""
+        answers, self._answers = tuple(self._answers), []
+        return answers
 
     def advance_frame(self) -> Frame:
         """Apply the requests that wait, and advance by one publish period, at any speed."""
@@ -470,22 +476,16 @@ class Simulation:
         self._clock.restart()
         self._changed = True
 
-    def _report_jump(self, topic: str, message: str) -> str:
-        """Report that another moment or course is shown, and return the message."""
-        self._note_jump()
-        self._answers.append(Answer(topic=topic, message=message, asker=self.asker))
-        return message
-
     # Inside
 
     def _apply_waiting(self) -> None:
         for waiting in self._requests.take_all():
             request, topic, subject = waiting.request, waiting.topic, waiting.subject
             field, asker = waiting.field, waiting.asker
-            self._changed = True
             if isinstance(request, Answer):
                 self._answers.append(request)
                 continue
+            self._changed = True
             try:
                 if isinstance(request, Refusal):
                     raise request

@@ -31,7 +31,6 @@ from physsim_ros.model.errors import NotRecognised, PhysSimError, Refusal, World
 from physsim_ros.model.preview import NO_PREVIEW, Preview
 from physsim_ros.model.requests import KeepHand, LetGo, Request
 from physsim_ros.model.snapshot import Answer
-from physsim_ros.simulation.simulation import TURNS
 from physsim_ros.sketchpad import messages
 from physsim_ros.sketchpad.answers import answer_content, asker_key, request_of
 from physsim_ros.sketchpad.body_past import body_past
@@ -236,8 +235,6 @@ class PageSession:
 
     def _report(self, topic: str, asker: str, action: Callable[[], str]) -> None:
         """Perform an action, and queue the answer of its message or of its refusal."""
-        simulation = self._world.simulation
-        simulation.asker = asker
         try:
             message = action()
         except Refusal as refusal:
@@ -245,10 +242,7 @@ class PageSession:
         except PhysSimError as error:
             self._tell(Answer(topic=topic, message=str(error), code='refused', asker=asker))
         else:
-            if topic not in TURNS:
-                self._tell(Answer(topic=topic, message=message, asker=asker))
-        finally:
-            simulation.asker = ''
+            self._tell(Answer(topic=topic, message=message, asker=asker))
 
     def _refuse(self, refusal: Refusal, topic: str, asker: str) -> None:
         self._world.simulation.refuse(refusal, topic=topic, subject='', asker=asker)

@@ -91,7 +91,7 @@ class Traveller(Visitor):
 
     @property
     def answered(self) -> int:
-        return sum(each.name.startswith('~/') for each in self.events)
+        return sum(each.name[2:] in self.topics for each in self.events)
 
     def parameter(self, name: str) -> Any:
         request = GetParameters.Request(names=[name])

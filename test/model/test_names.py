@@ -15,7 +15,7 @@
 """A body's name is `<namespace>/<id>`, in one spelling."""
 
 from physsim_ros.model.errors import Malformed
-from physsim_ros.model.names import check_name, LONGEST_NAME, split_name
+from physsim_ros.model.names import check_body_name, check_name, LONGEST_NAME, split_name
 import pytest
 
 NAMES = {
@@ -83,3 +83,9 @@ def test_a_name_has_an_end() -> None:
     with pytest.raises(Malformed) as refused:
         check_name('a' * (LONGEST_NAME - 1) + '/1')
     assert len(str(refused.value)) < LONGEST_NAME
+
+
+@pytest.mark.parametrize('name', ['a|b/1', '|/1', 'a\ufffd/1'])
+def test_a_body_has_no_name_that_others_may_mistake(name: str) -> None:
+    with pytest.raises(Malformed):
+        check_body_name(name)

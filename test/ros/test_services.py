@@ -160,7 +160,10 @@ def test_a_paused_world_takes_and_answers_requests(wall: Wall, client: Client) -
     client.publish('~/spawn', box('a/0', at=(1.0, 2.0)))
     wall.physsim.settle()
     wall.pass_(2)
-    assert [event.code for event in client.events] == ['ok']
+    assert [(event.name, event.code) for event in client.events] == [
+        ('~/pause', 'ok'),
+        ('~/spawn', 'ok'),
+    ]
     assert wall.physsim.pose('a/0') == (1.0, 2.0, 0.0)
     wall.pass_(5)
     assert wall.physsim.pose('a/0') == (1.0, 2.0, 0.0)

@@ -499,8 +499,9 @@ def test_markers_of_an_array_are_accepted_or_refused_each_by_itself(
     assert [event.level for event in events] == [0, 2, 2, 0, 0, 2, 2, 0]
 
 
-def test_an_empty_array_asks_nothing(physsim: PhysSim, client: Client) -> None:
-    assert client.ask('~/spawn_array', MarkerArray()) == []
+def test_an_empty_array_changes_nothing(physsim: PhysSim, client: Client) -> None:
+    (event,) = client.ask('~/spawn_array', MarkerArray())
+    assert (event.level, event.message) == (0, 'the array is empty')
     assert physsim.names == ()
 
 

@@ -359,7 +359,7 @@ def test_reset_answers_those_that_wait_first() -> None:
     sim.reset()
 
     (frame,) = sim.advance(1)
-    assert [answer.topic for answer in frame.answers] == ['~/spawn', '~/reset']
+    assert [answer.topic for answer in frame.answers] == ['~/spawn']
     assert frame.snapshot.scene.names == ()
 
 

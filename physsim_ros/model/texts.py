@@ -1,0 +1,51 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Texts that somebody else has written, as far as they are repeated to others."""
+
+from __future__ import annotations
+
+import unicodedata
+
+# Unicode categories of control characters, surrogates, line and paragraph separators. Format
+# characters are allowed: Persian, Hindi and emoji are written with them.
+_UNPRINTABLE = {'Cc', 'Cs', 'Zl', 'Zp'}
+# Greatest lengths of a word and of a whole message [characters]: some six lines of a terminal.
+LONGEST_WORD, LONGEST_MESSAGE = 80, 480
+_OMISSION = '…'
+
+
+def is_printable(text: str) -> bool:
+    """Return whether a text has no control character, surrogate or line separator."""
+    return not any(unicodedata.category(character) in _UNPRINTABLE for character in text)
+
+
+def abbreviated(text: str, longest: int = LONGEST_WORD) -> str:
+    """Return a text with its middle left out where it is longer [characters], escaped."""
+    if len(text) > longest:
+        kept = (longest - len(_OMISSION)) // 2
+        text = text[:kept] + _OMISSION + text[-kept:]
+    if is_printable(text):
+        return text
+    return ''.join(
+        character if is_printable(character) else character.encode('unicode_escape').decode()
+        for character in text
+    )
+
+
+def message_text(text: str) -> str:
+    """Return a message with all long words abbreviated, and itself too, escaped."""
+    if len(text) > LONGEST_WORD:
+        text = ' '.join(map(abbreviated, text.split(' ')))
+    return abbreviated(text, LONGEST_MESSAGE)

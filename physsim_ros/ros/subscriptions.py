@@ -1,0 +1,69 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Subscriptions of requests.
+
+Law: no message is lost in a burst, and one that cannot be decoded is answered, too. rclpy drops
+such a message without a word, so that messages arrive as bytes here and are decoded in the
+callback, at 15 µs more than in rclpy.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from physsim_ros.model.errors import Malformed, Refusal
+from physsim_ros.ros.qos_safe_node import LOSSLESS
+from rclpy.impl.implementation_singleton import rclpy_implementation
+from rclpy.node import Node
+from rclpy.serialization import deserialize_message
+
+
+class RequestSubscriptions:
+    """
+    The subscriptions of a node whose messages are requests.
+
+    :param node: that owns them
+    :param refuse: answers a refused message, by refusal and topic
+    :ivar undecodable: number of messages that could not be decoded
+    """
+
+    def __init__(self, node: Node, refuse: Callable[[Refusal, str], None]) -> None:
+        self.undecodable = 0
+        self._node = node
+        self._refuse = refuse
+
+    def add(self, kind: type, topic: str, callback: Callable[[Any], None]) -> None:
+        """Subscribe to messages of a type."""
+
+        def decode(data: bytes) -> None:
+            try:
+                message = deserialize_message(data, kind)
+            except rclpy_implementation.RMWError:
+                self.refuse_undecodable(kind, topic)
+            else:
+                callback(message)
+
+        self.add_raw(kind, topic, decode)
+
+    def add_raw(self, kind: type, topic: str, callback: Callable[[bytes], None]) -> None:
+        """Subscribe to messages of a type, which the callback decodes itself."""
+        self._node.create_subscription(kind, topic, callback, LOSSLESS, raw=True)
+
+    def refuse_undecodable(self, kind: type, topic: str) -> None:
+        """Count and refuse a message that cannot be decoded."""
+        self.undecodable += 1
+        self._refuse(Malformed(f'the message cannot be decoded as a {kind.__name__}'), topic)

@@ -1,0 +1,54 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""What others wrote is repeated cut and printable."""
+
+from __future__ import annotations
+
+from physsim_ros.model.errors import BadWorldFile, Malformed, PhysSimError
+from physsim_ros.model.names import LONGEST_NAME, shown_name
+from physsim_ros.model.snapshot import Answer
+from physsim_ros.model.texts import abbreviated, is_printable, LONGEST_MESSAGE, LONGEST_WORD
+import pytest
+
+NASTY = ['\x1b[31mred', 'bell\a', 'line\nline', 'half \ud83d', 'sep\u2028sep', 'nul\0', '\x9b31m']
+
+
+@pytest.mark.parametrize('text', NASTY)
+@pytest.mark.parametrize('kind', [PhysSimError, Malformed, BadWorldFile])
+def test_a_message_is_printable_and_encodable(kind: type[PhysSimError], text: str) -> None:
+    message = str(kind(f'there is no {text}'))
+    assert is_printable(message)
+    message.encode()
+    assert message.startswith('there is no ')
+
+
+def test_an_ordinary_text_is_repeated_to_the_letter() -> None:
+    for text in ("there is no body 'x/0'", '👩\u200d🚀', 'क्\u200dष', ''):
+        assert str(PhysSimError(text)) == text
+        assert abbreviated(text) == text
+    # A name that an object has is its key.
+    name = 'a' * (LONGEST_NAME - 2) + '/1'
+    assert shown_name(name) == name
+
+
+def test_a_megabyte_is_cut_and_the_reason_remains() -> None:
+    for name in ('a' * 1_000_000, 'a b ' * 250_000, '\x1b' * 1_000_000):
+        refusal = Malformed(f'{name!r} is not a name', field=name)
+        assert str(refusal).endswith('is not a name')
+        assert len(str(refusal)) <= LONGEST_MESSAGE
+        answer = Answer.refused(refusal, topic='~/spawn', subject=name)
+        # An escape has up to ten characters.
+        assert max(len(answer.subject), len(answer.field)) <= 10 * LONGEST_WORD
+        assert is_printable(answer.subject + answer.field)

@@ -1,0 +1,165 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Every request is answered where all can see it: services, parameters, messages of noise."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from physsim_ros.testing import PhysSim
+import pytest
+from rcl_interfaces.msg import Parameter as ParameterMessage
+from rcl_interfaces.msg import ParameterType, ParameterValue
+from rcl_interfaces.srv import SetParameters, SetParametersAtomically
+from rclpy.serialization import serialize_message
+from std_msgs.msg import Float64
+from visualization_msgs.msg import Marker, MarkerArray
+
+from ..client import Client, Event
+from ..messages import disc
+from ..outside import Outside
+
+
+def told(client: Client) -> list[Event]:
+    """Return the events since the last time."""
+    client.physsim.node.apply_requests()
+    client.physsim.settle()
+    events, client.events[:] = list(client.events), []
+    return events
+
+
+@pytest.mark.parametrize(
+    'service', ['pause', 'play', 'rewind', 'fast_forward', 'fast_rewind', 'clear', 'reset']
+)
+def test_what_a_service_did_is_told_in_the_same_sentence(client: Client, service: str) -> None:
+    response = client.call(f'~/{service}')
+    assert response.success
+    events = [event for event in told(client) if event.name == f'~/{service}']
+    assert [(event.level, event.message, event.code) for event in events] == [
+        (0, response.message, 'ok')
+    ]
+
+
+@pytest.mark.parametrize(
+    ('service', 'code'),
+    [
+        ('step', 'running'),
+        ('undo', 'out_of_history'),
+        ('redo', 'out_of_history'),
+        ('load_world', 'bad_world_file'),
+        ('save_world', 'bad_world_file'),
+    ],
+)
+def test_why_a_service_did_nothing_is_told_in_the_same_sentence(
+    physsim: PhysSim, client: Client, service: str, code: str
+) -> None:
+    before = physsim.digest()
+    response = client.call(f'~/{service}')
+    assert not response.success
+    (event,) = told(client)
+    assert (event.level, event.name, event.code) == (2, f'~/{service}', code)
+    assert response.message == f'{code}: {event.message}'
+    assert physsim.digest() == before
+
+
+def test_undo_and_redo_are_told_once(physsim: PhysSim, client: Client) -> None:
+    physsim.spawn(disc('a/0'))
+    told(client)
+    for service in ('undo', 'redo'):
+        response = client.call(f'~/{service}')
+        assert [event.message for event in told(client)] == [response.message]
+
+
+def double(name: str, value: float) -> ParameterMessage:
+    kind = ParameterType.PARAMETER_DOUBLE
+    return ParameterMessage(name=name, value=ParameterValue(type=kind, double_value=value))
+
+
+def test_what_parameters_changed_or_refused_is_told(physsim: PhysSim, client: Client) -> None:
+    long = 'p' * 100_000
+    asked = [double('speed', 2.0), double('speed', 1e9), double(long, 1.0), double('a\x1b', 1.0)]
+    response = client.request(
+        SetParameters, '~/set_parameters', SetParameters.Request(parameters=asked)
+    )
+    assert [result.successful for result in response.results] == [True, False, False, False]
+    events = told(client)
+    assert [event.code for event in events] == [
+        'ok',
+        'bad_property',
+        'unknown_property',
+        'unknown_property',
+    ]
+    assert events[0].message == response.results[0].reason == 'speed is 2.0'
+    assert response.results[1].reason.endswith(events[1].message)
+    assert events[1].field == 'speed'
+    for event, result in zip(events, response.results, strict=True):
+        assert event.message.isprintable()
+        assert event.field.isprintable()
+        assert max(len(event.message), len(event.field), len(result.reason)) < 1000
+    response = client.request(
+        SetParametersAtomically,
+        '~/set_parameters_atomically',
+        SetParametersAtomically.Request(parameters=[double('speed', 1.0), double('snap', -1.0)]),
+    )
+    assert not response.result.successful
+    assert [event.code for event in told(client)] == ['bad_property', 'bad_property']
+    assert physsim.node.simulation.speed == 2.0
+
+
+def test_an_empty_array_is_answered(physsim: PhysSim, client: Client) -> None:
+    (event,) = client.ask('~/spawn_array', MarkerArray())
+    assert (event.level, event.name, event.hardware_id) == (0, '~/spawn_array', '')
+    assert physsim.spawn(MarkerArray()) == ''
+
+
+NOISE = [b'\0\1\0\0', b'\0\1\0\0' + b'\xff' * 16, b'\0\1\0\0' + bytes(range(256))]
+
+
+@pytest.mark.parametrize('kind', [Marker, MarkerArray])
+@pytest.mark.parametrize('noise', NOISE)
+def test_a_message_that_cannot_be_decoded_is_answered_and_counted(
+    physsim: PhysSim, client: Client, kind: Any, noise: bytes
+) -> None:
+    topic = '~/spawn' if kind is Marker else '~/spawn_array'
+    client.ask(topic, kind())
+    told(client)
+    before = physsim.digest()
+    publisher = client._publishers[topic]  # noqa: SLF001 - what it sends is no message
+    publisher.publish(noise)
+    physsim.settle()
+    (event,) = told(client)
+    assert (event.level, event.name, event.code) == (2, topic, 'malformed')
+    assert physsim.node.requests.undecodable == 1
+    assert physsim.digest() == before
+
+
+def test_half_a_message_is_answered(physsim: PhysSim, client: Client) -> None:
+    client.ask('~/speed', Float64(data=1.0))
+    told(client)
+    half = serialize_message(Float64(data=3.0))[:-3]
+    client._publishers['~/speed'].publish(half)  # noqa: SLF001 - what it sends is no message
+    physsim.settle()
+    (event,) = told(client)
+    assert (event.name, event.code) == ('~/speed', 'malformed')
+    assert physsim.node.simulation.speed == 1.0
+
+
+def test_twenty_clients_that_call_at_once_all_get_their_replies(outside: Outside) -> None:
+    with outside.start_world() as world:
+        world.wait_for('ready')
+        seen = outside.run_program('callers')
+        assert world.interrupt() == 0
+    assert seen['calls'] == 60
+    assert seen['replies'] == 60
