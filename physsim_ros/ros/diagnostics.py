@@ -16,12 +16,34 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 from builtin_interfaces.msg import Time
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from physsim_ros.model.snapshot import run_state, Snapshot
 
 # Time constant of the smoothed real-time factor, in wall time [s]: legible to a person.
 _SMOOTHING = 1.0
+# Wait of messages from which on it is a person's concern [s].
+LONG_DELAY = 1.0
+# Share of the speed that was set, below which the world does not keep up [1].
+FAR_BEHIND = 0.5
+
+
+class Backlog(NamedTuple):
+    """
+    What waits in the node.
+
+    :ivar message_delay: time that messages wait before they are handled [s]
+    :ivar undecodable: number of messages that could not be decoded, since the node started
+    :ivar waiting_answers: number of answers that wait for acknowledgements
+    :ivar stopped_listener: whether a subscriber of `~/events` has stopped
+    """
+
+    message_delay: float = 0.0
+    undecodable: int = 0
+    waiting_answers: int = 0
+    stopped_listener: bool = False
 
 
 class FrameStatistics:
@@ -33,7 +55,11 @@ class FrameStatistics:
         self._frames = 0
         self._step_ns = 0
         self._frame_ns = 0
+        # Time between frames of the present second: steady, and simulated [ns].
+        self._elapsed_ns = 0
+        self._simulated_ns = 0
         self._late_reported = 0
+        self._undecodable_reported = 0
 
     def add(self, *, now_ns: int, stamp: int, step_ns: int, frame_ns: int) -> None:
         """
@@ -49,6 +75,8 @@ class FrameStatistics:
         self._frame_ns += frame_ns
         if self._last is not None and now_ns > self._last[0]:
             elapsed = now_ns - self._last[0]
+            self._elapsed_ns += elapsed
+            self._simulated_ns += stamp - self._last[1]
             # The first factor is not smoothed.
             share = min(1.0, elapsed * 1e-9 / _SMOOTHING) if self.real_time_factor else 1.0
             factor = (stamp - self._last[1]) / elapsed
@@ -61,7 +89,14 @@ class FrameStatistics:
         self.real_time_factor = 0.0
 
     def report(
-        self, snapshot: Snapshot, *, node: str, speed: float, late_frames: int, viewer: str
+        self,
+        snapshot: Snapshot,
+        *,
+        node: str,
+        speed: float,
+        late_frames: int,
+        viewer: str,
+        backlog: Backlog = Backlog(),  # noqa: B008 - immutable
     ) -> DiagnosticArray:
         """
         Return the message of the last second, and begin the next.
@@ -70,8 +105,12 @@ class FrameStatistics:
         :param speed: simulation seconds a second
         :param late_frames: since the node started
         :param viewer: state of the viewer, in one sentence
+        :param backlog: what waits in the node
         """
         late, self._late_reported = late_frames - self._late_reported, late_frames
+        undecodable = backlog.undecodable - self._undecodable_reported
+        self._undecodable_reported = backlog.undecodable
+        factor = self._simulated_ns / self._elapsed_ns if self._elapsed_ns else 0.0
         count = self._frames
         frames = max(1, count)
         px, py = snapshot.momentum
@@ -79,11 +118,15 @@ class FrameStatistics:
             'bodies': len(snapshot.scene.bodies),
             'simulation time [s]': f'{snapshot.stamp * 1e-9:.3f}',
             'speed': f'{speed:g}',
-            'real-time factor': f'{self.real_time_factor:.3f}',
+            'real-time factor': f'{factor:.3f}',
             'frames': count,
             'late frames': late_frames,
+            'late frames in this second': late,
             'step cost [ms]': f'{self._step_ns / frames * 1e-6:.3f}',
             'frame cost [ms]': f'{self._frame_ns / frames * 1e-6:.3f}',
+            'wait of requests [s]': f'{backlog.message_delay:.3f}',
+            'undecodable messages': backlog.undecodable,
+            'answers that wait': backlog.waiting_answers,
             'kinetic energy [J]': f'{snapshot.kinetic_energy:.6g}',
             'potential energy [J]': f'{snapshot.potential_energy:.6g}',
             'elastic energy [J]': f'{snapshot.elastic_energy:.6g}',
@@ -91,13 +134,27 @@ class FrameStatistics:
             'viewer': viewer,
         }
         self._frames = self._step_ns = self._frame_ns = 0
-        message = run_state(speed) if speed <= 0 else f'{count} frames'
+        self._elapsed_ns = self._simulated_ns = 0
+        level, concerns = DiagnosticStatus.OK, []
         if late > 0:
-            message = f'{late} frames late: simulation time runs slow'
+            far = abs(factor) < FAR_BEHIND * abs(speed)
+            level = DiagnosticStatus.ERROR if far else DiagnosticStatus.WARN
+            concerns.append(
+                f'{late} frames late, real-time factor {factor:.2f}: '
+                'fewer bodies, joints or viewers, or a lower speed'
+            )
+        if backlog.message_delay > LONG_DELAY:
+            concerns.append(f'requests wait {backlog.message_delay:.1f} s: send fewer of them')
+        if undecodable > 0:
+            concerns.append(f'{undecodable} messages cannot be decoded: check their publishers')
+        if backlog.stopped_listener:
+            concerns.append('a subscriber of ~/events has stopped and loses answers: end it')
+        if concerns:
+            level = max(level, DiagnosticStatus.WARN)
         status = DiagnosticStatus(
-            level=DiagnosticStatus.WARN if late > 0 else DiagnosticStatus.OK,
+            level=level,
             name='physsim: world',
-            message=message,
+            message='; '.join(concerns) or (run_state(speed) if speed <= 0 else f'{count} frames'),
             hardware_id=node,
             values=[KeyValue(key=key, value=str(value)) for key, value in values.items()],
         )

@@ -46,7 +46,7 @@ from physsim_ros.model.requests import (
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer, Frame, Snapshot
 from physsim_ros.ros import conversions, parameters, stroke_reader
-from physsim_ros.ros.diagnostics import FrameStatistics
+from physsim_ros.ros.diagnostics import Backlog, FrameStatistics
 from physsim_ros.ros.page_control import PageControl
 from physsim_ros.ros.publishers import Publishers
 from physsim_ros.ros.qos_safe_node import NodeWithoutQosEvents
@@ -57,14 +57,15 @@ from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.sketchpad import Role, Sketchpad
 from physsim_ros.view import Viewer, ViewerMode
 from rcl_interfaces.msg import SetParametersResult
-from rclpy.clock import Clock as RosClock
-from rclpy.clock import ClockType
 from rclpy.context import Context
 from rclpy.parameter import Parameter
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import MultiDOFJointState
 from std_msgs.msg import Float64
 from visualization_msgs.msg import InteractiveMarkerFeedback, Marker, MarkerArray
+
+# From one message on `/diagnostics` to the next [ns].
+DIAGNOSTICS_PERIOD = 1_000_000_000
 
 
 class PhysSimNode(NodeWithoutQosEvents):
@@ -77,6 +78,7 @@ class PhysSimNode(NodeWithoutQosEvents):
 
     :ivar simulation: the world and its time
     :ivar world_files: reads and writes the world file of parameter `world_file`
+    :ivar message_delay: time that messages wait before they are handled [s]
     :ivar requests: the subscriptions of requests
     :ivar frame: the last frame that was published; None before the first
     """
@@ -127,6 +129,8 @@ class PhysSimNode(NodeWithoutQosEvents):
         )
         self._statistics = FrameStatistics()
         self._diagnostics = self.create_publisher(DiagnosticArray, '/diagnostics', 10)
+        self._diagnostics_due = 0
+        self.message_delay = 0.0
         self.frame: Frame | None = None
         self._started = False
         # The settings of the world that the parameters have; None where they may differ.
@@ -160,18 +164,13 @@ class PhysSimNode(NodeWithoutQosEvents):
         self.add_post_set_parameters_callback(self._apply_parameters)
 
     def start(self) -> None:
-        """Start the timers, on a steady clock, and the viewer."""
+        """Start the viewer and the diagnostics; `tick` advances time from now on."""
         self._started = self._reply_pacer.paced = True
         if self._sketchpad is not None:
             _print_addresses(self._sketchpad)
         if self._values['record_file']:
             self.record(Path(self._values['record_file']))
         self._open_viewer()
-        # The node that publishes `clock` cannot run its timers on it.
-        steady = RosClock(clock_type=ClockType.STEADY_TIME)
-        period = 1.0 / self._values['publish_rate']
-        self.create_timer(period, lambda: self.tick(time.monotonic_ns()), clock=steady)
-        self.create_timer(1.0, self._publish_diagnostics, clock=steady)
         self.get_logger().info(f'ready: {len(self.simulation.world)} bodies')
 
     def tick(self, now_ns: int) -> None:
@@ -182,6 +181,9 @@ class PhysSimNode(NodeWithoutQosEvents):
         """
         began = time.perf_counter_ns()
         self._reply_pacer.flush()
+        if self._started and now_ns >= self._diagnostics_due:
+            self._diagnostics_due = now_ns + DIAGNOSTICS_PERIOD
+            self._publish_diagnostics()
         self._handle_pages()
         self._update_contact_recording()
         frames = self.simulation.advance(now_ns)
@@ -240,6 +242,11 @@ class PhysSimNode(NodeWithoutQosEvents):
         answers = self._report_answers()
         self._world_publishers.flush_answers()
         return answers
+
+    @property
+    def publish_period(self) -> float:
+        """Return the time from one tick to the next [s]."""
+        return 1.0 / float(self._values['publish_rate'])
 
     @property
     def frame_period(self) -> float:
@@ -525,6 +532,12 @@ class PhysSimNode(NodeWithoutQosEvents):
                 speed=self.simulation.speed,
                 late_frames=self.simulation.late_frames,
                 viewer=self._viewer.state,
+                backlog=Backlog(
+                    message_delay=self.message_delay,
+                    undecodable=self.requests.undecodable,
+                    waiting_answers=self._world_publishers.events.waiting,
+                    stopped_listener=self._world_publishers.events.stopped,
+                ),
             )
         )
 

@@ -86,6 +86,7 @@ def main() -> None:
     # ROS and the engine take a second to import, during which a signal is received already.
     from physsim_ros.model.errors import PhysSimError
     from physsim_ros.ros.node import PhysSimNode
+    from physsim_ros.ros.real_time_loop import RealTimeLoop
     import rclpy
     from rclpy.experimental import EventsExecutor
     from rclpy.signals import SignalHandlerOptions
@@ -120,8 +121,7 @@ def main() -> None:
         gc.freeze()
         # EventsExecutor.spin (rclpy 7, Jazzy) never returns; spin_once does, and raises the
         # exceptions of callbacks.
-        while not watch.requested:
-            executor.spin_once(timeout_sec=0.1)
+        RealTimeLoop(node, executor, lambda: watch.requested).run()
     finally:
         # Also after an exception, so that no viewer process remains.
         executor.remove_node(node)

@@ -23,7 +23,7 @@ import numpy as np
 from physsim_ros.model.requests import Spawn
 from physsim_ros.model.shapes import Disc
 from physsim_ros.model.snapshot import Snapshot
-from physsim_ros.ros.diagnostics import FrameStatistics
+from physsim_ros.ros.diagnostics import Backlog, FrameStatistics
 from physsim_ros.simulation.world import World
 import pytest
 
@@ -132,3 +132,31 @@ def test_a_world_without_bodies_has_its_diagnostics_too() -> None:
     values = values_of(report(FrameStatistics(), snapshot_of()))
     assert values['bodies'] == '0'
     assert float(values['kinetic energy [J]']) == 0.0
+
+
+def test_a_world_far_behind_is_an_error_and_tells_the_factor_of_that_second() -> None:
+    meter = FrameStatistics()
+    run(meter, 60, pace=0.3)
+    array = report(meter, snapshot_of(), late=40)
+    (status,) = array.status
+    assert status.level == DiagnosticStatus.ERROR
+    assert status.message.startswith('40 frames late, real-time factor 0.30')
+    assert float(values_of(array)['real-time factor']) == pytest.approx(0.3, abs=1e-3)
+
+
+@pytest.mark.parametrize(
+    ('backlog', 'word'),
+    [
+        (Backlog(message_delay=3.2), 'requests wait 3.2 s'),
+        (Backlog(undecodable=7), '7 messages cannot be decoded'),
+        (Backlog(stopped_listener=True), 'has stopped'),
+    ],
+)
+def test_what_waits_is_a_warning_that_says_what_to_do(backlog: Backlog, word: str) -> None:
+    meter = FrameStatistics()
+    array = meter.report(
+        snapshot_of(), speed=0.0, late_frames=0, viewer='none', node='/physsim', backlog=backlog
+    )
+    (status,) = array.status
+    assert status.level == DiagnosticStatus.WARN
+    assert word in status.message

@@ -1,0 +1,108 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""A flood does not stop time, and a slow world does not stop the answers."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable
+from itertools import pairwise
+from typing import Any
+
+from physsim_ros.ros import real_time_loop
+from physsim_ros.ros.real_time_loop import RealTimeLoop
+import pytest
+
+MS = 1_000_000
+
+
+class Machine:
+    """A node and its executor, on a clock that passes only where they work."""
+
+    publish_period = 0.02
+
+    def __init__(self, *, tick: int, message: int) -> None:
+        self.now = 0
+        self.message_delay = 0.0
+        self.ticks: list[int] = []
+        self.handled: list[int] = []
+        self.waiting: deque[Callable[[], object]] = deque()
+        self._cost_of_tick, self._cost_of_message = tick, message
+
+    def monotonic_ns(self) -> int:
+        return self.now
+
+    def tick(self, now: int) -> None:
+        self.ticks.append(now)
+        self.now += self._cost_of_tick
+
+    def create_task(self, task: Callable[[], object]) -> None:
+        self.waiting.append(task)
+
+    def send(self, count: int) -> None:
+        self.waiting.extend([lambda: self.handled.append(self.now)] * count)
+
+    def spin_once(self, timeout_sec: float) -> None:
+        if self.waiting:
+            self.now += self._cost_of_message
+            self.waiting.popleft()()
+        else:
+            self.now += max(1, round(timeout_sec * 1e9))
+
+    def run(self, monkeypatch: pytest.MonkeyPatch, until: int) -> None:
+        node: Any = self
+        monkeypatch.setattr(real_time_loop.time, 'monotonic_ns', self.monotonic_ns)
+        RealTimeLoop(node, node, lambda: self.now >= until).run()
+
+
+def gaps(times: list[int]) -> list[int]:
+    return [after - before for before, after in pairwise(times)]
+
+
+def test_ticks_come_at_their_period(monkeypatch: pytest.MonkeyPatch) -> None:
+    machine = Machine(tick=2 * MS, message=MS)
+    machine.run(monkeypatch, 1000 * MS)
+    assert set(gaps(machine.ticks)) == {20 * MS}
+
+
+def test_a_flood_does_not_delay_a_tick_by_more_than_a_message(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    machine = Machine(tick=2 * MS, message=MS)
+    machine.send(100_000)
+    machine.run(monkeypatch, 10_000 * MS)
+    assert max(gaps(machine.ticks)) <= 21 * MS
+    # Of each period, what the tick leaves.
+    assert len(machine.handled) > 0.85 * 10_000
+    # The mark of the first tick lies behind all that had arrived.
+    assert machine.message_delay > 9.0
+
+
+def test_a_world_too_slow_for_real_time_handles_messages_for_a_period(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    machine = Machine(tick=100 * MS, message=MS)
+    machine.send(1000)
+    machine.run(monkeypatch, 1200 * MS)
+    assert max(gaps(machine.ticks)) <= 121 * MS
+    assert len(machine.handled) >= 180
+
+
+def test_a_slow_world_without_messages_ticks_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    machine = Machine(tick=100 * MS, message=MS)
+    machine.run(monkeypatch, 1200 * MS)
+    # Besides a tick, one message: the mark.
+    assert max(gaps(machine.ticks)) <= 101 * MS
+    assert machine.message_delay == pytest.approx(0.001)
