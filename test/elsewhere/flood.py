@@ -28,7 +28,10 @@ from visualization_msgs.msg import Marker, MarkerArray
 def main() -> None:
     count = int(sys.argv[1])
     visitor = Visitor('/physsim/pause', '/physsim/clear', '/physsim/play')
-    events = visitor.listen(DiagnosticStatus, '/physsim/events')
+    # Without the services, whose answers come there too.
+    events = visitor.listen_if(
+        DiagnosticStatus, '/physsim/events', lambda event: event.name.startswith('~/spawn')
+    )
     spawn = visitor.publisher(Marker, '/physsim/spawn')
     array = visitor.publisher(MarkerArray, '/physsim/spawn_array')
     visitor.greet(events, spawn)

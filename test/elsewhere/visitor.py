@@ -75,8 +75,19 @@ class Visitor:
 
     def listen(self, kind: type, topic: str, qos: QoSProfile = ALL) -> list[Any]:
         """Return the list that messages come into, once both ends have met."""
+        return self.listen_if(kind, topic, lambda _: True, qos)
+
+    def listen_if(
+        self, kind: type, topic: str, wanted: Callable[[Any], bool], qos: QoSProfile = ALL
+    ) -> list[Any]:
+        """Return the list that some of the messages come into, once both ends have met."""
         received: list[Any] = []
-        subscription = self.node.create_subscription(kind, topic, received.append, qos)
+
+        def receive(message: Any) -> None:
+            if wanted(message):
+                received.append(message)
+
+        subscription = self.node.create_subscription(kind, topic, receive, qos)
         self.spin_until(subscription.get_publisher_count, f'{topic} published')
         return received
 
