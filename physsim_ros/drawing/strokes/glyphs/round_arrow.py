@@ -40,6 +40,8 @@ PRIMITIVE = 'round arrow'
 _STRIDE = 3
 # The least turn of the pen at the tip [rad]: barbs point back.
 _TURN = 1.5
+# The greatest turn of the pen along the arc [rad]: two sides of a triangle are no arc.
+_CORNER = 0.8
 
 
 def hypothesis(features: Features) -> Hypothesis:
@@ -70,6 +72,7 @@ def _round_arrow_from_tail(points: Floats) -> Hypothesis | None:
     inner, outer = float(-out.min()), float(out.max())
     weight = (
         falls(error / radius, 0.07, 0.008)
+        * falls(float(bends[slice(max(tip - 3 * _STRIDE, 1))].max()), _CORNER, 0.08)
         * rises(sweep, 1.7, 0.12)
         * falls(sweep, 7.0, 0.2)
         * rises(min(inner, outer) / max(inner, outer, 1e-12), 0.2, 0.03)
