@@ -1,4 +1,4 @@
-# make run | test | lint | bench | ablate | evaluate | gallery | clean; ARGS='...' is handed on to the program that a target runs.
+# make run | test | lint | bench | ablate | evaluate | gallery | soak | clean; ARGS='...' is handed on to the program that a target runs.
 #
 # What it needs: Linux, make, and a Python of 3.11 or later with venv. It builds .venv beside this file and changes
 # nothing else. Where ROS 2 Jazzy is sourced, that is used; everywhere else Jazzy comes as wheels.
@@ -32,7 +32,7 @@ endif
 # TypeScript's checker, for the types in the comments of the page.
 TSC := npx --yes --package=typescript -- tsc
 
-.PHONY: run test lint bench ablate evaluate gallery clean
+.PHONY: run test lint bench ablate evaluate gallery soak clean
 
 run: $(STAMP)
 	@echo 'Where to look:'
@@ -67,6 +67,10 @@ evaluate: $(STAMP)
 # Draws the pictures of README and docs anew; needs a Vulkan driver (Debian: mesa-vulkan-drivers libvulkan1).
 gallery: $(STAMP)
 	$(BIN)/python -m test.gallery $(ARGS)
+
+# MINUTES=30 and SEED=0 unless they are given.
+soak: $(STAMP)
+	MINUTES=$(MINUTES) SEED=$(SEED) $(BIN)/python -m test.adversary $(ARGS)
 
 clean:
 	rm -rf $(VENV) build install log dist *.egg-info .hypothesis .import_linter_cache .mypy_cache .pytest_cache .ruff_cache

@@ -148,6 +148,8 @@ class Outside:
     Processes beside this one that share a ROS domain and a DDS partition of their own.
 
     :param directory: where they work and log
+
+    :ivar environment: variables of the processes
     """
 
     def __init__(self, directory: Path, domain: int, closing: ExitStack) -> None:
@@ -156,7 +158,7 @@ class Outside:
         self._closing = closing
         profiles = directory / 'profiles.xml'
         write_profiles(profiles, self.partition)
-        self._environment = os.environ | {
+        self.environment = os.environ | {
             'ROS_DOMAIN_ID': str(domain),
             'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
             'FASTRTPS_DEFAULT_PROFILES_FILE': str(profiles),
@@ -166,7 +168,7 @@ class Outside:
 
     def start(self, *command: object) -> Program:
         """Start a program."""
-        program = Program(*command, env=self._environment, cwd=self.directory)
+        program = Program(*command, env=self.environment, cwd=self.directory)
         self._closing.callback(program.close)
         return program
 
@@ -183,10 +185,13 @@ class Outside:
         assert executable, 'the package is not installed: make test'
         return self.start(executable, *words)
 
+    def start_elsewhere(self, name: str, *arguments: object) -> Program:
+        """Start one of the programs that know the world by its topics alone."""
+        return self.start(sys.executable, ROOT / 'test' / 'elsewhere' / f'{name}.py', *arguments)
+
     def run_program(self, name: str, *arguments: object) -> dict[str, Any]:
         """Run one of the programs that know the world by its topics alone; return what it saw."""
-        path = ROOT / 'test' / 'elsewhere' / f'{name}.py'
-        with self.start(sys.executable, path, *arguments) as program:
+        with self.start_elsewhere(name, *arguments) as program:
             line = program.wait_for('RESULT', 5 * PATIENCE)
             assert program.finish() == 0, ''.join(program.lines)
         result: dict[str, Any] = json.loads(line.partition(' ')[2])

@@ -1,0 +1,147 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+`make soak`; `make soak MINUTES=5 SEED=3` chooses length and seed.
+
+A world runs as people start it. Rounds of random requests, and scenes at full size, are each
+followed by some quiet seconds with the same world, in which memory, threads, descriptors, child
+processes and late frames are measured. What grows, is late, diverges or is not answered is a
+fault, and the exit code is 1.
+"""
+
+from __future__ import annotations
+
+from contextlib import ExitStack
+import os
+from pathlib import Path
+import signal
+import sys
+from tempfile import TemporaryDirectory
+import time
+
+import psutil
+import rclpy
+
+from . import scenes
+from .driver import Driver, start_driver
+from .monitor import Monitor
+from ..outside import Outside, own_domain, Program
+
+# Disturbances in a round, and how long a world is left alone after them [s].
+ROUND = 25
+QUIET = 4.0
+SCENES = (
+    scenes.one_pose,
+    scenes.sphere_lists,
+    scenes.coincident_lists,
+    scenes.crossing_rods,
+)
+
+
+def main(minutes: float, seed: int) -> int:
+    with TemporaryDirectory() as place, own_domain() as domain, ExitStack() as closing:
+        directory = Path(place)
+        os.environ['PYTHONFAULTHANDLER'] = '1'
+        outside = Outside(directory, domain, closing)
+        world = outside.start_world(
+            record_file=directory / 'soak.rrd', world_dir=directory, history=60.0
+        )
+        world.wait_for('ready')
+        os.environ.update(outside.environment)
+        driver = start_driver(seed)
+        closing.callback(rclpy.shutdown)
+        closing.callback(driver.close)
+        monitor = Monitor(world.process.pid)
+        faults = []
+        try:
+            _soak(minutes, driver, monitor, outside)
+        except (TimeoutError, psutil.NoSuchProcess) as error:
+            # It prints where each of its threads is.
+            world.process.send_signal(signal.SIGABRT)
+            world.finish()
+            faults += [f'{driver.doing}: {error}', ''.join(world.lines[-60:])]
+        else:
+            faults += _end(world)
+        faults += monitor.faults() + [f'divergence: {each}' for each in driver.divergences]
+        if any('Traceback' in line for line in world.lines):
+            faults.append(''.join(world.lines[-30:]))
+    print(f'memory slope of the second half: {monitor.slope:+.0f} MB/h')
+    print('events:', ', '.join(f'{code or "done"} {n}' for code, n in driver.codes.most_common()))
+    print('\n'.join(f'FAULT: {fault}' for fault in faults) or 'no faults')
+    return bool(faults)
+
+
+def _soak(minutes: float, driver: Driver, monitor: Monitor, outside: Outside) -> None:
+    """
+    Disturb a world round by round, and print a line for each.
+
+    :raises TimeoutError: the world does not answer
+    """
+    began = time.monotonic()
+    deaf: Program | None = None
+    print('  min      MB  threads  fds  children  late')
+    number = 0
+    while (passed := (time.monotonic() - began) / 60) < minutes:
+        for _ in range(ROUND):
+            driver.disturb()
+            driver.spin(driver.random.uniform(0.0, 0.2))
+        _kill_children(monitor)
+        if deaf is None:
+            deaf = outside.start_elsewhere('deaf')
+            deaf.wait_for('DEAF')
+            deaf.process.send_signal(signal.SIGSTOP)
+        else:
+            deaf.close()
+            deaf = None
+        scene = SCENES[number % len(SCENES)]
+        driver.call('clear')
+        driver.publish_scene(scene())
+        driver.settle()
+        driver.spin(QUIET)
+        late = driver.late_frames()
+        driver.spin(QUIET)
+        sample = monitor.sample(passed, driver.late_frames() - late)
+        print(
+            f'{sample.minutes:5.1f} {sample.megabytes:7.0f} {sample.threads:8d} '
+            f'{sample.descriptors:4d} {sample.children:9d} {sample.late_frames:5d}  '
+            f'{scene.__name__}',
+            flush=True,
+        )
+        number += 1
+
+
+def _kill_children(monitor: Monitor) -> None:
+    """Kill the programs of viewers, as people close windows."""
+    for child in monitor.children():
+        child.kill()
+
+
+def _end(world: Program) -> list[str]:
+    """End a world; return what was wrong about that."""
+    children = psutil.Process(world.process.pid).children(recursive=True)
+    began = time.monotonic()
+    code = world.interrupt()
+    took = time.monotonic() - began
+    _, alive = psutil.wait_procs(children, timeout=3.0)
+    faults = [f'{len(alive)} child processes outlive the node'] if alive else []
+    if code or took > 3.0:
+        faults.append(f'ended with code {code} after {took:.1f} s')
+    return faults
+
+
+if __name__ == '__main__':
+    sys.exit(
+        main(minutes=float(os.environ.get('MINUTES') or 30), seed=int(os.environ.get('SEED') or 0))
+    )
