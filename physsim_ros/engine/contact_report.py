@@ -72,6 +72,8 @@ class ContactReport:
         # The body that the engine has first in each listed pair, and the sign of its impulses.
         self._first_ids: Ids = np.empty(0, np.uint64)
         self._signs: Floats = np.empty((0, 1))
+        # Manifolds of the pairs, (5, m), where another space has made the last step.
+        self._copied_manifolds: Floats | None = None
         # Sleeping pairs: ids, impulses of their last step awake, manifolds.
         self._sleeping = NO_SLEEPERS
         self._slot_changes = 0
@@ -102,6 +104,7 @@ class ContactReport:
         :param table: of the bodies, after that step
         """
         self._steps += 1
+        self._copied_manifolds = None
         if table.slot_changes != self._slot_changes:
             self._slot_changes, self.settled = table.slot_changes, False
         sleeping = len(self._sleeping[0])
@@ -181,6 +184,9 @@ class ContactReport:
         """
         self.settled = False
         stays = (self._ids != body).all(axis=1)
+        self._first_ids = self._first_ids[stays[: len(self._first_ids)]]
+        if self._copied_manifolds is not None:
+            self._copied_manifolds = self._copied_manifolds[:, stays]
         self._ids, self._sums = self._ids[stays], self._sums[stays]
         self._impulses = self._impulses[stays]
         ids, given, manifolds = self._sleeping
@@ -227,6 +233,8 @@ class ContactReport:
         self._steps = old._steps
         self._ids, self._sums = renamed(old._ids, old._sums)
         self._impulses = np.zeros_like(self._sums)
+        if old._steps:
+            self._copied_manifolds = renamed(old._ids, old._read_manifolds().T)[1].T
         self._parted = [renamed(pairs, sums) for pairs, sums in old._parted]
         pairs, manifolds = old._last
         pairs, rows = renamed(pairs, manifolds.T)
@@ -284,9 +292,18 @@ class ContactReport:
         return manifolds
 
     def _read_manifolds(self) -> Floats:
-        """Return (5, m) float64: the manifolds of the last step, sleeping pairs last."""
+        """
+        Return (5, m) float64: the manifolds of the last step, sleeping pairs last.
+
+        A request between that step and the end of the frame may have changed what the engine
+        lists: bodies have been woken, or the space is another. Then the last known ones.
+        """
+        if self._copied_manifolds is not None:
+            return self._copied_manifolds
         ints, floats = self._io.read_contacts(_MANIFOLDS)
         firsts, counts = ints.reshape(-1, 2).T
+        if not np.array_equal(firsts, self._first_ids):
+            return self._last_manifolds(self._ids)
         # Columns, because numpy adds them up five times as fast as pairs.
         columns = np.ascontiguousarray(floats.reshape(-1, 10).T)
         manifolds = np.empty((5, len(counts)))

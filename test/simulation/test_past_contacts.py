@@ -1,0 +1,62 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The past shows the contacts that were shown, where a request came between step and frame."""
+
+from __future__ import annotations
+
+import numpy as np
+from physsim_ros.model.requests import Command, Configure, Spawn
+from physsim_ros.model.shapes import Box, Disc
+from physsim_ros.simulation.simulation import Simulation
+
+PERIOD_NS = round(1e9 / 60)
+
+
+def test_contacts_of_the_past_are_those_shown_where_a_request_woke_bodies():
+    simulation = Simulation(history=60.0)
+    simulation.watch_contacts(True)
+    simulation.submit(Configure(changes={'bounds': (-5.0, 0.0, 5.0, 12.0)}), topic='')
+    for number in range(6):
+        box, pose = Box(width=0.5, height=0.5), (number * 0.5 - 3.0, 0.25, 0.0)
+        simulation.submit(Spawn(name=f'box/{number}', shape=box, pose=pose), topic='')
+    ball = Spawn(name='ball/0', shape=Disc(radius=0.3), pose=(3.0, 2.0, 0.0))
+    simulation.submit(ball, topic='')
+    now, shown = 0, {}
+
+    def run(frames):
+        nonlocal now
+        for _ in range(frames):
+            now += PERIOD_NS
+            for frame in simulation.advance(now):
+                rows = np.column_stack(
+                    (
+                        frame.contacts.pairs,
+                        frame.contacts.points,
+                        frame.contacts.normals,
+                    )
+                )
+                rows = sorted(map(tuple, rows.round(6).tolist()))
+                if frame.moved:
+                    assert shown.setdefault(frame.snapshot.step, rows) == rows
+
+    # The row is asleep, and the request wakes it.
+    run(150)
+    simulation.submit(Command(names=('box/2',), twists=((0.0, 0.5, 0.0),)), topic='')
+    simulation.settle()
+    run(60)
+    # Nothing that was shown is kept: the past is simulated again.
+    simulation.frame_cache.drop_from(0)
+    simulation.speed = -1.0
+    run(200)
