@@ -89,6 +89,8 @@ setup(
             # A second middleware, for readers that are not Fast DDS.
             'cyclonedds>=0.10',
             'hypothesis',
+            # Drives the page in Chromium.
+            'playwright',
             'psutil',
             'pytest>=8',
             'pytest-timeout',
