@@ -64,7 +64,7 @@ class RigidBody:
     @property
     def offset(self) -> Point:
         """Return the engine's origin in the body's frame [m]."""
-        return (0.0, 0.0) if self.body.anchored else self.body.shape.form.centroid
+        return offset_of(self.body)
 
     @property
     def pose(self) -> Pose:
@@ -84,15 +84,7 @@ class RigidBody:
 
     def lead(self, gravity: Point, dt: float) -> Pose:
         """Return how far the engine's velocity is ahead of the true one in free flight."""
-        if self.body.fixed:
-            return REST
-        fx, fy, torque = self.wrench
-        half = dt / 2
-        return (
-            (gravity[0] + fx / self.engine.mass) * half,
-            (gravity[1] + fy / self.engine.mass) * half,
-            torque / self.engine.moment * half,
-        )
+        return lead_of(self.body, self.wrench, gravity, dt)
 
     def twist(self, gravity: Point, dt: float) -> Pose:
         """Return the true velocity of the centre of mass [m/s] and spin [rad/s]."""
@@ -122,6 +114,24 @@ class RigidBody:
         """Let queries and contacts find the body where it is now."""
         if self.engine.space is not None:
             self.engine.space.reindex_shapes_for_body(self.engine)
+
+
+def offset_of(body: Body) -> Point:
+    """Return the engine's origin in a body's frame [m]."""
+    return (0.0, 0.0) if body.anchored else body.shape.form.centroid
+
+
+def lead_of(body: Body, wrench: Pose, gravity: Point, dt: float) -> Pose:
+    """Return how far the engine's velocity of a body is ahead of the true one in free flight."""
+    if body.fixed:
+        return REST
+    fx, fy, torque = wrench
+    half, mass = dt / 2, body.total_mass
+    return (
+        (gravity[0] + fx / mass) * half,
+        (gravity[1] + fy / mass) * half,
+        torque / (mass * body.shape.form.gyration) * half,
+    )
 
 
 def build(body: Body, serial: int) -> RigidBody:

@@ -22,17 +22,19 @@ file.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 import os
 from pathlib import Path
 import re
 import textwrap
 
+from physsim_ros.files.entry_lines import load_entries
 from physsim_ros.files.regular_file import read_file, write_file
 from physsim_ros.files.resources import is_plain, shipped
 from physsim_ros.files.world_reader import state_from
 from physsim_ros.files.world_schema import FORMAT
 from physsim_ros.files.world_writer import text_of
-from physsim_ros.files.yaml12 import first_value, load_mapping
+from physsim_ros.files.yaml12 import first_value
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import BadWorldFile, Malformed, Refusal, UnknownProperty
 from physsim_ros.model.settings import WorldSettings
@@ -98,13 +100,20 @@ def _worlds(directory: Path) -> list[Path]:
     return [path for path in directory.glob('*.yaml') if not path.name.startswith('.')]
 
 
-def load_world(path: Path, *, settings: WorldSettings, physics_rate: float) -> WorldState:
+def load_world(
+    path: Path,
+    *,
+    settings: WorldSettings,
+    physics_rate: float,
+    progress: Callable[[int, int], object] | None = None,
+) -> WorldState:
     """
     Read a world.
 
     :param path: of the file
     :param settings: those that the file does not set
     :param physics_rate: of the world that continues from it [Hz]
+    :param progress: called with the number of bodies that are read, and of all
     :raises BadWorldFile: it cannot be read, or its content is refused; the message names the body
         or joint and the reason
     """
@@ -113,7 +122,9 @@ def load_world(path: Path, *, settings: WorldSettings, physics_rate: float) -> W
     except (OSError, UnicodeDecodeError) as error:
         raise _unreadable(path.name, error) from error
     try:
-        return state_from(load_mapping(text, field=path.name), settings, physics_rate)
+        return state_from(load_entries(text, field=path.name), settings, physics_rate, progress)
+    except OSError as error:
+        raise _unreadable(path.name, error) from error
     except Malformed as error:
         # Only `load_mapping` names the file itself.
         message = str(error) if error.field == path.name else f'{path.name}: {error}'

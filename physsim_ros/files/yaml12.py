@@ -142,7 +142,9 @@ for _tag, _pattern, _first in (
     Loader.add_implicit_resolver(_TAG + _tag, re.compile(f'^(?:{_pattern})$'), _first)
 
 
-def load_mapping(text: str, *, field: str, loader: type[Loader] = Loader) -> dict[Any, Any]:
+def load_mapping(
+    text: str, *, field: str, loader: Callable[[str], Loader] = Loader
+) -> dict[Any, Any]:
     """
     Return the mapping of a YAML text; of an empty text an empty one.
 
@@ -153,7 +155,7 @@ def load_mapping(text: str, *, field: str, loader: type[Loader] = Loader) -> dic
     :raises Malformed: it is no mapping
     """
     try:
-        value = yaml.load(text, Loader=loader)  # noqa: S506 - a subclass of SafeLoader
+        value = yaml.load(text, Loader=loader)  # type: ignore[arg-type]  # noqa: S506 - safe
     except (yaml.YAMLError, ValueError, RecursionError) as error:
         # The text of PyYAML's errors spans lines and quotes the input; their `problem` does not.
         said = getattr(error, 'problem', None) or str(error) or type(error).__name__

@@ -120,7 +120,7 @@ class PhysSimNode(NodeWithoutQosEvents):
         )
         self._parameter_service = parameters.ParameterServices(self, self.simulation.tell)
         self._frame_id: str = self._values['frame_id']
-        self.world_files = WorldFiles(self.simulation, self._values)
+        self.world_files = WorldFiles(self.simulation, self._values, self.get_logger().info)
         self._world_publishers = Publishers(
             self, frame_id=self._frame_id, publish_clock=self._values['publish_clock']
         )

@@ -23,6 +23,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from pathlib import Path
+import time
 from typing import Any
 
 from physsim_ros.files import find_world, hides_shipped, load_world, save_world, user_worlds
@@ -36,6 +37,8 @@ from rclpy.node import Node
 from std_srvs.srv import Trigger
 
 Action = Callable[[], str]
+# Time between two reports of progress [s].
+_REPORTS = 0.5
 
 
 class WorldFiles:
@@ -44,11 +47,15 @@ class WorldFiles:
 
     :param simulation: of the world
     :param values: of the parameters of the node, by name, always up to date
+    :param report: told of the progress of loading
     """
 
-    def __init__(self, simulation: Simulation, values: Mapping[str, Any]) -> None:
+    def __init__(
+        self, simulation: Simulation, values: Mapping[str, Any], report: Callable[[str], object]
+    ) -> None:
         self._simulation = simulation
         self._values = values
+        self._report = report
         # Absolute, whatever the working directory will be.
         self._directory = Path(values['world_dir'] or user_worlds()).absolute()
 
@@ -102,8 +109,19 @@ class WorldFiles:
     def _read(self, *, confined: bool) -> tuple[WorldState, Path]:
         path = find_world(self._values['world_file'], world_dir=self._directory, confined=confined)
         simulation = self._simulation
+        told = time.monotonic()
+
+        def report(count: int, bodies: int) -> None:
+            nonlocal told
+            if time.monotonic() - told >= _REPORTS:
+                told = time.monotonic()
+                self._report(f'loading {path.name}: {count} of {bodies} bodies')
+
         state = load_world(
-            path, settings=simulation.settings, physics_rate=simulation.physics_rate
+            path,
+            settings=simulation.settings,
+            physics_rate=simulation.physics_rate,
+            progress=report,
         )
         return state, path
 

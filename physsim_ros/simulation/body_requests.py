@@ -54,24 +54,49 @@ def spawn_body(
     """
     name = request.name
     old = space.bodies.by_name.get(name)
-    settings = capacity.settings
-    count, most = len(space.bodies.by_name), settings.max_bodies
-    if old is None and count >= most:
-        raise WorldFull(f'the world holds {count} bodies; it may hold {most}')
+    if old is None:
+        check_count(len(space.bodies.by_name), capacity.settings)
     pose = pose_in_world(space, request.pose, request.frame)
+    if old is not None:
+        changes = _spawn_changes(request, expires)
+        _change(space, old, changes, pose, properties=request.properties, capacity=capacity)
+        return name, f'changed {name}'
+    body, twist = new_body(request, capacity.settings, expires)
+    capacity.check_body(space, body, pose)
+    space.add(body, serial, pose, twist)
+    return name, f'spawned {name}'
+
+
+def check_count(count: int, settings: WorldSettings) -> None:
+    """
+    Refuse one more body than so many.
+
+    :raises WorldFull: the world may not hold it
+    """
+    if count >= settings.max_bodies:
+        raise WorldFull(f'the world holds {count} bodies; it may hold {settings.max_bodies}')
+
+
+def new_body(request: Spawn, settings: WorldSettings, expires: int | None) -> tuple[Body, Pose]:
+    """
+    Return the body of a request, and its twist.
+
+    :param settings: of the world, for what the request does not say
+    :param expires: step at whose end it is removed; None is never
+    :raises Refusal: there is no such body
+    """
+    changes = _spawn_changes(request, expires)
+    body = _changed(_default_body(request, settings), changes, request.properties)
+    return body, _changed_twist(body, REST, request.properties)
+
+
+def _spawn_changes(request: Spawn, expires: int | None) -> dict[str, Any]:
     changes: dict[str, Any] = {'shape': request.shape}
     if request.color is not None:
         changes['color'] = request.color
     if expires is not None:
         changes['expires'] = expires
-    if old is not None:
-        _change(space, old, changes, pose, properties=request.properties, capacity=capacity)
-        return name, f'changed {name}'
-    body = _changed(_default_body(request, settings), changes, request.properties)
-    twist = _changed_twist(body, REST, request.properties)
-    capacity.check_body(space, body, pose)
-    space.add(body, serial, pose, twist)
-    return name, f'spawned {name}'
+    return changes
 
 
 def change_body(space: Space, request: ChangeBody, capacity: Capacity) -> Done:
@@ -114,14 +139,7 @@ def command_bodies(space: Space, request: Command, until: int | None, capacity: 
     """
     rigids = [body_of_name(space, name, 'joint_names') for name in request.names]
     for rigid in rigids:
-        if rigid.body.anchored and (request.twists or request.wrenches):
-            raise Anchored(
-                f'{rigid.body.name} is anchored; it takes a pose only', field='joint_names'
-            )
-        if rigid.body.kinematic and request.wrenches:
-            raise BadProperty(
-                f'{rigid.body.name} is kinematic; forces do not move it', field='wrench'
-            )
+        check_command(rigid.body, request)
     # Twists and wrenches are of the world, but a frame that there is not is a mistake.
     pose_in_world(space, REST, request.frame)
     poses = [pose_in_world(space, pose, request.frame) for pose in request.poses]
@@ -132,6 +150,19 @@ def command_bodies(space: Space, request: Command, until: int | None, capacity: 
     for rigid, wrench in zip(rigids, request.wrenches, strict=False):
         space.set_wrench(rigid, wrench, until)
     return _told('commanded', request.names)
+
+
+def check_command(body: Body, request: Command) -> None:
+    """
+    Refuse a command that a body cannot obey.
+
+    :raises Anchored: it is anchored, and takes a pose only
+    :raises BadProperty: it is kinematic, and forces do not move it
+    """
+    if body.anchored and (request.twists or request.wrenches):
+        raise Anchored(f'{body.name} is anchored; it takes a pose only', field='joint_names')
+    if body.kinematic and request.wrenches:
+        raise BadProperty(f'{body.name} is kinematic; forces do not move it', field='wrench')
 
 
 def set_anchored(space: Space, point: Point, capacity: Capacity, *, anchored: bool) -> Done:

@@ -24,6 +24,7 @@ from __future__ import annotations
 from dataclasses import replace
 import hashlib
 import math
+from typing import NamedTuple
 
 from physsim_ros.engine.body import REST
 from physsim_ros.engine.body_pool import BodyPool
@@ -95,6 +96,8 @@ class World:
         self._space = Space(self._settings, self.dt)
         self._spawned = 0
         self._pool = BodyPool()
+        # Of a space that was built from it just now.
+        self._fresh: _Fresh | None = None
         self._capacity = Capacity(self._settings)
 
     # Reading
@@ -253,6 +256,8 @@ class World:
         past that cannot be read, as in the order in which it has found contacts; a new space has
         none.
         """
+        if self._fresh is not None and self._fresh.suits(self._space, self.step_count):
+            return self._fresh.key
         key = take_checkpoint(self._space, self.step_count)
         space = restore_checkpoint(key, self.dt, pool=self._pool.bodies)
         _hand_over(self._space, space)
@@ -278,7 +283,7 @@ class World:
         self._pool.build_bodies(self._space.table.scene, count)
 
     def _replace_space(self, space: Space, pool: BodyPool) -> None:
-        self._space, self._pool = space, pool
+        self._space, self._pool, self._fresh = space, pool, None
         self._spawned = len(space.bodies.by_name)
         self._capacity.settings = self._settings
         self._capacity.forget()
@@ -386,6 +391,8 @@ class World:
             space = restore_checkpoint(key, self.dt)
         self._settings = state.settings
         self._replace_space(space, BodyPool())
+        if state.memory is not None:
+            self._fresh = _Fresh(key, space, space.changes)
 
     def _step_after(self, seconds: float) -> int:
         return self.step_count + steps_in(seconds, self.physics_rate)
@@ -399,6 +406,23 @@ def steps_in(seconds: float, physics_rate: float) -> int:
     """
     # Less a billionth, and a few last bits: 0.1 s at 240 Hz is 24 steps, not 25.
     return max(1, math.ceil(seconds * physics_rate * (1.0 - 1e-15) - 1e-9))
+
+
+class _Fresh(NamedTuple):
+    """
+    A checkpoint, and the space that was built from it.
+
+    :ivar changes: of the space then
+    """
+
+    key: Checkpoint
+    space: Space
+    changes: int
+
+    def suits(self, space: Space, step: int) -> bool:
+        """Tell whether a space is still as it was built, at a step."""
+        as_built = self.space is space and space.age == 0 and space.changes == self.changes
+        return as_built and self.key.step == step
 
 
 def _hand_over(old: Space, new: Space) -> None:
