@@ -70,7 +70,7 @@ def load_entries(text: str, *, field: str) -> dict[Any, Any]:
     last = -1
     # A file that has the tag itself is read as it is.
     for number, line in enumerate(lines if _TAG not in text else (), 1):
-        mapping = _from_json(line[len(_DASH) :]) if line.startswith(f'{_DASH}{{"') else None
+        mapping = _from_json(line.removeprefix(_DASH)) if line.startswith(f'{_DASH}{{"') else None
         if mapping is None:
             continue
         entry = Located(number)
