@@ -21,7 +21,15 @@ folders import the names below.
 """
 
 from physsim_ros.drawing.clicks.tools import Tool
-from physsim_ros.drawing.session import DrawingSession, reading_answer
+from physsim_ros.drawing.session import DrawingSession, submit_reading
 from physsim_ros.drawing.settings import DRAWING_RANGES, DrawingSettings
+from physsim_ros.drawing.strokes.interpretation import Reading
 
-__all__ = ['DRAWING_RANGES', 'DrawingSession', 'DrawingSettings', 'Tool', 'reading_answer']
+__all__ = [
+    'DRAWING_RANGES',
+    'DrawingSession',
+    'DrawingSettings',
+    'Reading',
+    'Tool',
+    'submit_reading',
+]

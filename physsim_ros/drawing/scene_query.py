@@ -179,7 +179,7 @@ class SceneQuery:
     def _covers(self, row: int, point: Point, slack: float) -> bool:
         body = self.snapshot.scene.bodies[row]
         local = self.local(body.name, point)
-        return any(_covers(piece, local, slack) for piece in body.shape.form.pieces)
+        return any(piece_covers(piece, local, slack) for piece in body.shape.form.pieces)
 
 
 def _next_number(names: Iterable[str]) -> int:
@@ -189,7 +189,7 @@ def _next_number(names: Iterable[str]) -> int:
     return 1 + max(drawn, default=-1)
 
 
-def _covers(piece: Piece, point: Point, slack: float) -> bool:
+def piece_covers(piece: Piece, point: Point, slack: float) -> bool:
     """Return whether a convex piece covers a point, or lies within the slack of it."""
     match piece:
         case Circle(center, radius):

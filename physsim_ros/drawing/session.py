@@ -20,7 +20,10 @@ Law: a session changes only itself; it returns ordinary requests, to be submitte
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Iterable
+from dataclasses import replace
+import math
 
 import numpy as np
 from physsim_ros.drawing import body_requests
@@ -28,7 +31,23 @@ from physsim_ros.drawing.clicks.gesture import Gesture
 from physsim_ros.drawing.clicks.tools import ClickResult, Tool
 from physsim_ros.drawing.scene_query import DRAWN, SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.strokes.interpretation import interpret_stroke, Reading
+from physsim_ros.drawing.strokes.context import Outcome
+from physsim_ros.drawing.strokes.figure import (
+    Figure,
+    likeliest_group,
+    marked_solid,
+    marks_inside,
+    MOST_STROKES,
+)
+from physsim_ros.drawing.strokes.interpretation import (
+    Guess,
+    guess_meanings,
+    is_likely,
+    not_recognised,
+    Reading,
+    reading_of,
+)
+from physsim_ros.drawing.waiting_joints import requests_with_waiting_joints
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NotRecognised, UnknownBody
 from physsim_ros.model.names import split_name
@@ -36,6 +55,7 @@ from physsim_ros.model.preview import Line, NO_PREVIEW, Preview
 from physsim_ros.model.requests import Join, Request, Spawn
 from physsim_ros.model.snapshot import Answer, Snapshot
 from physsim_ros.model.transform import Point
+from physsim_ros.simulation.simulation import Simulation
 
 # The least confidence in a runner-up that the label of a preview mentions.
 _MENTIONED = 0.05
@@ -57,6 +77,8 @@ class DrawingSession:
         self.settings = settings
         self.preview: Preview = NO_PREVIEW
         self._gesture = Gesture(tool)
+        # The last things that were drawn by strokes.
+        self._figures: deque[Figure] = deque(maxlen=MOST_STROKES)
         # The lowest numbers that no body and no joint of this session has had.
         self._next_body = self._next_joint = 0
 
@@ -87,23 +109,82 @@ class DrawingSession:
         self._reserve_names(step.requests)
         return step
 
-    def stroke(self, samples: Floats, frame: str, snapshot: Snapshot) -> Reading:
+    def stroke(
+        self, samples: Floats, frame: str, snapshot: Snapshot, *, began: float = -math.inf
+    ) -> Reading:
         """
         Return the reading of a stroke, with its requests.
 
-        :param samples: (n, 3) float64: x, y [m], time [s]
+        Where it is something better together with the strokes just before, that is the reading,
+        and its requests replace those of the earlier ones.
+
+        :param samples: (n, 3) float64: x, y [m], time from any start [s]
         :param frame: of the samples: '' for the world, or the name of a body
         :param snapshot: of the world that it was drawn over
+        :param began: time of the first sample [s]; without it the stroke is read by itself
         :raises Refusal: it is not recognised, or cannot be drawn
         """
         scene = self._query(snapshot)
         self.preview = NO_PREVIEW
         placed = _in_world(samples, frame, scene)
-        try:
-            reading = interpret_stroke(placed, scene, self.settings)
-        except NotRecognised:
+        figure = Figure(
+            strokes=(placed,),
+            began=began,
+            ended=began + (float(np.ptp(samples[:, 2])) if len(samples) else 0.0),
+            scene=scene,
+            guesses=guess_meanings(placed, scene, self.settings),
+        )
+        if is_likely(figure.guesses, self.settings):
+            figure.chosen = 0
+        if marked_solid(self._figures, figure, self.settings):
+            # The solid stays the last figure: another reading of it may follow.
+            return self._shown(_mark_reading(figure))
+        group = likeliest_group(self._figures, figure, self.settings)
+        if group is not None:
+            figure = group
+        elif figure.is_solid:
+            figure.gestures = marks_inside(self._figures, figure, self.settings)
+        self._figures.append(figure)
+        if figure.chosen is None:
             self.preview = _unrecognised_preview(placed)
-            raise
+            raise not_recognised(figure.guesses)
+        return self._shown(self._build(figure, figure.chosen))
+
+    def instead(self, meaning: str = '') -> Reading:
+        """
+        Return the reading of the last figure by another guess, which replaces the last one.
+
+        :param meaning: of the guess; '' is the next one
+        :raises NotRecognised: there is no such guess
+        :raises Refusal: the world cannot have its outcome
+        """
+        figure = self._figures[-1] if self._figures else None
+        guesses = () if figure is None else figure.guesses
+        meanings = [guess.meaning for guess in guesses]
+        following = 0 if figure is None or figure.chosen is None else figure.chosen + 1
+        others = [*meanings[following:], *meanings[: max(following - 1, 0)]]
+        if figure is None or (meaning or ''.join(others[:1])) not in others or not others:
+            raise NotRecognised('there is no other reading of what was drawn last', field='poses')
+        return self._shown(self._build(figure, meanings.index(meaning or others[0])))
+
+    def note_gesture(self, gesture: int) -> None:
+        """Note the number of the gesture with which the last reading was submitted."""
+        self._figures[-1].gestures = (gesture,)
+
+    def _build(self, figure: Figure, number: int) -> Reading:
+        """
+        Return the reading of a figure by one of its guesses.
+
+        :raises Refusal: the world cannot have its outcome
+        """
+        figure.chosen = number
+        reading = reading_of(figure.guesses, number, amends=figure.gestures)
+        requests = requests_with_waiting_joints(reading.requests, figure.scene)
+        figure.requests = requests
+        return replace(reading, requests=requests)
+
+    def _shown(self, reading: Reading) -> Reading:
+        """Return a reading after its preview is made and its names are reserved."""
         self.preview = _reading_preview(reading)
         self._reserve_names(reading.requests)
         return reading
@@ -139,6 +220,34 @@ class DrawingSession:
                     self._next_joint = max(self._next_joint, 1 + split_name(name)[1])
 
 
+def submit_reading(
+    simulation: Simulation,
+    session: DrawingSession,
+    reading: Reading,
+    *,
+    topic: str,
+    field: str = '',
+    asker: str = '',
+) -> None:
+    """
+    Answer a stroke by its reading, and submit its requests as one gesture, or amend earlier ones.
+
+    :param session: whose last reading it is
+    :param topic: of the stroke
+    :param field: of its message, to be named by a refusal
+    :param asker: key of the message that asked
+    """
+    simulation.tell(replace(reading_answer(reading, topic=topic), asker=asker))
+    if reading.amends:
+        simulation.amend(reading.amends, reading.requests, topic=topic, field=field, asker=asker)
+        session.note_gesture(reading.amends[0])
+        return
+    for number, request in enumerate(reading.requests):
+        simulation.submit(request, topic=topic, joined=number > 0, field=field, asker=asker)
+    if reading.requests:
+        session.note_gesture(simulation.gesture)
+
+
 def reading_answer(reading: Reading, *, topic: str) -> Answer:
     """Return the answer that reports a reading; the answers to its requests follow."""
     values = (*reading.values, ('requests', str(len(reading.requests))))
@@ -163,6 +272,22 @@ def _unrecognised_preview(samples: Floats) -> Preview:
 
 def _line(points: Floats) -> Line:
     return tuple((x, y) for x, y in points[:, :2].tolist())
+
+
+def _mark_reading(figure: Figure) -> Reading:
+    """Return the reading of a line through a solid: a mark on it, which asks for nothing."""
+    mark = Guess(
+        meaning='mark',
+        confidence=figure.guesses[0].confidence if figure.guesses else 1.0,
+        group_confidence=1.0,
+        build=lambda: Outcome(
+            requests=(),
+            subject='',
+            message='a mark on what was drawn before',
+            outline=figure.strokes[0][:, :2],
+        ),
+    )
+    return reading_of((mark, *figure.guesses), 0)
 
 
 def _reading_preview(reading: Reading) -> Preview:

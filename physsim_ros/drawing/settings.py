@@ -33,6 +33,8 @@ class DrawingSettings:
         end of a wall or a first corner [m], 0 .. 10
     :param sketch_confidence: the least confidence with which a stroke is accepted, 0 .. 1; for a
         closed outline, the confidence in it being a solid, whichever
+    :param regroup: the longest time between strokes that are read together [s], 0 .. 10; 0 reads
+        each by itself
     :param beautify: tolerance of regularisation, 0 .. 0.5: an angle [rad] from right, horizontal
         or vertical, a length in shares of its neighbour; 0 keeps the geometry as it was drawn
     :param wall_thickness: of drawn walls [m], 0.001 .. 10
@@ -45,6 +47,7 @@ class DrawingSettings:
 
     snap: float = 0.15
     sketch_confidence: float = 0.6
+    regroup: float = 0.8
     beautify: float = 0.12
     wall_thickness: float = 0.1
     draw_velocity: Point = (0.0, 0.0)
@@ -59,6 +62,7 @@ class DrawingSettings:
 DRAWING_RANGES = {
     'snap': Within(0.0, 10.0, 'm'),
     'sketch_confidence': Within(0.0, 1.0),
+    'regroup': Within(0.0, 10.0, 's'),
     'beautify': Within(0.0, 0.5),
     'wall_thickness': Within(SMALLEST, 10.0, 'm'),
 }

@@ -33,7 +33,7 @@ from typing import Any
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PointStamped
 from nav_msgs.msg import Path as PathMessage
-from physsim_ros.drawing import DrawingSession, reading_answer, Tool
+from physsim_ros.drawing import DrawingSession, Reading, submit_reading, Tool
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.requests import (
     Anchor,
@@ -150,6 +150,7 @@ class PhysSimNode(NodeWithoutQosEvents):
             fast_speed=lambda: self._values['fast_speed'],
             set_speed=lambda speed: self.set_parameters([Parameter('speed', value=speed)]),
             advance_frame=self.advance_frame,
+            read_instead=self._read_instead,
             on_success=self._mirror_settings,
         )
         self._page_control = PageControl(
@@ -357,10 +358,25 @@ class PhysSimNode(NodeWithoutQosEvents):
 
     def _stroke(self, message: bytes) -> None:
         with self._drawing_on_snapshot('~/stroke', 'poses') as snapshot:
-            samples, frame = stroke_reader.stroke_from(message, frame_id=self._frame_id)
-            reading = self._session.stroke(samples, frame, snapshot)
-            self.simulation.tell(reading_answer(reading, topic='~/stroke'))
-            self._submit_all(reading.requests, '~/stroke', 'poses')
+            samples, frame, stamp = stroke_reader.stroke_from(message, frame_id=self._frame_id)
+            began = time.monotonic() if stamp is None else stamp
+            reading = self._session.stroke(samples, frame, snapshot, began=began)
+            self._submit_reading(reading, '~/stroke')
+
+    def _read_instead(self) -> str:
+        """
+        Take the next guess about the last stroke, and return a message about it.
+
+        :raises Refusal: there is none, or the world cannot have it
+        """
+        self.apply_requests()
+        reading = self._session.instead()
+        self._submit_reading(reading, '~/instead')
+        self._world_publishers.publish_preview(self._session.preview)
+        return reading.message
+
+    def _submit_reading(self, reading: Reading, topic: str) -> None:
+        submit_reading(self.simulation, self._session, reading, topic=topic, field='poses')
 
     @contextmanager
     def _drawing_on_snapshot(self, topic: str, field: str) -> Iterator[Snapshot]:

@@ -193,6 +193,7 @@ _MEANINGS = {
     'draw_color': f"of what is drawn next: '#rrggbb', '#rrggbbaa', or {AUTO}, one for each",
     'snap': 'what is drawn as near as this to something is meant to meet it [m]',
     'sketch_confidence': 'least confidence with which a stroke is taken for something',
+    'regroup': 'strokes that follow one another within this time are read together [s]; 0: none',
     'beautify': 'how far a stroke may be from regular and still be meant so: angles [rad], '
     'lengths as a share; 0 keeps it as it was drawn',
     'wall_thickness': 'of walls that are drawn [m]',

@@ -135,6 +135,7 @@ def create_services(
     fast_speed: Callable[[], float],
     set_speed: Callable[[float], object],
     advance_frame: Callable[[], None],
+    read_instead: Callable[[], str],
     on_success: Callable[[], None],
 ) -> Mapping[str, Action]:
     """
@@ -147,6 +148,7 @@ def create_services(
     :param fast_speed: returns the speed of `~/fast_forward`, simulation seconds a second
     :param set_speed: sets the speed, simulation seconds a second
     :param advance_frame: advances the world by one frame and publishes it
+    :param read_instead: builds the runner-up of the last stroke, and returns a message
     :param on_success: called after each service that was not refused
     """
 
@@ -170,6 +172,7 @@ def create_services(
         'undo': simulation.undo,
         'redo': simulation.redo,
         'reset': simulation.reset,
+        'instead': read_instead,
         'clear': lambda: simulation.perform(DeleteAll()),
         'load_world': lambda: files.load(confined=True),
         'save_world': files.save,

@@ -34,14 +34,14 @@ _HEADER = 4
 _POSE = 56
 
 
-def stroke_from(message: bytes, *, frame_id: str) -> tuple[Floats, str]:
+def stroke_from(message: bytes, *, frame_id: str) -> tuple[Floats, str, float | None]:
     """
     Return the samples of a stroke, and their frame.
 
     :param message: a serialised nav_msgs/Path
     :param frame_id: name of the world's frame
     :return: (n, 3) float64: x, y [m] and time from the first sample [s]; name of the frame, '' for
-        the world
+        the world; the stamp of the first sample [s], None where all have the same
     :raises Malformed: there are too many samples, they are in different frames, or the message is
         truncated
     """
@@ -51,7 +51,7 @@ def stroke_from(message: bytes, *, frame_id: str) -> tuple[Floats, str]:
         raise Malformed('the message of the stroke breaks off', field='poses') from error
 
 
-def _read(message: bytes, frame_id: str) -> tuple[Floats, str]:
+def _read(message: bytes, frame_id: str) -> tuple[Floats, str, float | None]:
     reader = _Reader(message)
     _, frame = reader.header()
     count = reader.number()
@@ -72,7 +72,8 @@ def _read(message: bytes, frame_id: str) -> tuple[Floats, str]:
             f'a stroke is drawn in one frame, not in {named[0]!r} and {named[1]!r}',
             field='header.frame_id',
         )
-    return samples, '' if named in ([], [frame_id]) else named[0]
+    first = began * 1e-9 if began is not None and samples[:, 2].any() else None
+    return samples, '' if named in ([], [frame_id]) else named[0], first
 
 
 class _Reader:

@@ -301,27 +301,29 @@ class Timeline(Replay):
         return min(course.begins for course in path)[0]
 
     def amend(
-        self, gesture: int, requests: Sequence[Request]
+        self, gestures: Sequence[int], requests: Sequence[Request]
     ) -> tuple[int, list[tuple[str, str] | Refusal]]:
         """
-        Replace the requests of an earlier gesture, and simulate again up to this moment.
+        Replace the requests of earlier gestures, and simulate again up to this moment.
 
-        Later requests that the amended past refuses are dropped; so is what lay ahead.
+        Later requests that the amended past refuses are dropped; so is what lay ahead. Gestures
+        that changed nothing, or are kept no more, are left out; without any, the requests are made
+        now.
 
-        :param gesture: its number
-        :param requests: that take its place, at its first step
+        :param gestures: their numbers, at least one; the requests get the first of them
+        :param requests: that take the place of theirs, at their first step
         :return: that step; and for each request what `apply` returns, or its refusal
-        :raises OutOfHistory: the gesture is kept no more
         """
-        start, now = self.history.gesture_start(gesture, self.serial), self.moment
-        if start is None:
-            raise OutOfHistory('what is to be amended is kept no more', field='history')
-        step, serial = start
+        now = self.moment
+        starts = [self.history.gesture_start(each, self.serial) for each in gestures]
+        found = [start for start in starts if start is not None]
+        step, serial = min(found, key=lambda start: start[1], default=now)
+        gesture = gestures[0]
         self.courses.drop_after((step, serial))
         later = [
             each
             for each in self.history.entries_between(serial, now[1])
-            if each.gesture != gesture
+            if each.gesture not in gestures
         ]
         self.history.cut(step, serial, now=now)
         self.seek_moment(step, serial)

@@ -298,29 +298,35 @@ class Simulation:
         return self._requests.gesture
 
     def amend(
-        self, gesture: int, requests: Sequence[Request], *, topic: str, field: str = ''
+        self,
+        gestures: Sequence[int],
+        requests: Sequence[Request],
+        *,
+        topic: str,
+        field: str = '',
+        asker: str = '',
     ) -> None:
         """
-        Replace the requests of an earlier gesture, as if these had been made then.
+        Replace the requests of earlier gestures, as if these had been made then, in one gesture.
 
         The world is simulated again from there up to this moment. Each request is answered.
 
-        :param gesture: number of it, as `gesture` was after it was submitted
+        :param gestures: numbers of these, as `gesture` was after each was submitted
         :param topic: where the requests come from
         :param field: of the message that they were made of, to be named by a refusal
-        :raises OutOfHistory: the gesture is kept no more; nothing is changed
+        :param asker: whom the answers are for
         """
         self._apply_waiting()
         self._seek_shown()
-        step, done = self.timeline.amend(gesture, requests)
+        step, done = self.timeline.amend(gestures, requests)
         self._undo.clear_undone()
         self.frame_cache.drop_from(step)
         self._note_jump()
         for each in done:
             if isinstance(each, Refusal):
-                answer = Answer.refused(each, topic=topic, subject='', field=field)
+                answer = Answer.refused(each, topic=topic, field=field, asker=asker)
             else:
-                answer = Answer(topic=topic, subject=each[0], message=each[1])
+                answer = Answer(topic=topic, subject=each[0], message=each[1], asker=asker)
             self._answers.append(answer)
 
     def undo(self) -> str:

@@ -123,6 +123,17 @@ class Click:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Instead:
+    """
+    Read the last stroke otherwise.
+
+    :param meaning: one of its guesses; '' is the next one
+    """
+
+    meaning: str = ''
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Drop:
     """Drop the unfinished gesture."""
 
@@ -237,6 +248,7 @@ Message = (
     | Stroke
     | Click
     | Drop
+    | Instead
     | UseHand
     | DrawWith
     | Copy
@@ -351,6 +363,10 @@ def _stroke(fields: Mapping[str, Any]) -> Stroke:
     if len(samples):
         samples[:, 2] -= samples[0, 2]
     return Stroke(samples=samples)
+
+
+def _instead(fields: Mapping[str, Any]) -> Instead:
+    return Instead(meaning=_text(fields.get('meaning', ''), 'meaning'))
 
 
 def _click(fields: Mapping[str, Any]) -> Click:
@@ -486,6 +502,7 @@ _READERS: dict[str, tuple[list[str], Callable[[Mapping[str, Any]], Message]]] = 
     'stroke': (['points'], _stroke),
     'click': (['tool', 'point'], _click),
     'drop': ([], lambda _: Drop()),
+    'instead': (['meaning'], _instead),
     'grab': (['point'], _grab),
     'move': (['point', 'yaw'], _move),
     'let_go': ([], _let_go),

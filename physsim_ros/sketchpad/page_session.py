@@ -26,7 +26,8 @@ from dataclasses import replace
 import time
 from typing import Any
 
-from physsim_ros.drawing import DrawingSession, reading_answer, Tool
+import numpy as np
+from physsim_ros.drawing import DrawingSession, Reading, submit_reading, Tool
 from physsim_ros.model.errors import NotRecognised, PhysSimError, Refusal, WorldFull
 from physsim_ros.model.preview import NO_PREVIEW, Preview
 from physsim_ros.model.requests import KeepHand, LetGo, Request
@@ -73,6 +74,7 @@ class PageSession:
             messages.Stroke: self._stroke,
             messages.Click: self._click,
             messages.Drop: self._drop,
+            messages.Instead: self._instead,
             messages.UseHand: self._use_hand,
             messages.DrawWith: self._draw_with,
             messages.Copy: self._copy,
@@ -158,23 +160,46 @@ class PageSession:
         self._answer(asker, 'dropped what was unfinished')
 
     def _stroke(self, message: messages.Stroke, asker: str) -> None:
-        try:
+        took = float(np.ptp(message.samples[:, 2])) if len(message.samples) else 0.0
+        began = time.monotonic() - took
+
+        def read() -> Reading:
             snapshot = self._world.current_snapshot()
-            reading = self._drawing.stroke(message.samples, '', snapshot)
+            return self._drawing.stroke(message.samples, '', snapshot, began=began)
+
+        self._read(read, '~/stroke', asker)
+
+    def _instead(self, message: messages.Instead, asker: str) -> None:
+        def read() -> Reading:
+            # Requests that wait come before.
+            self._world.current_snapshot()
+            return self._drawing.instead(message.meaning)
+
+        self._read(read, '~/instead', asker)
+
+    def _read(self, read: Callable[[], Reading], topic: str, asker: str) -> None:
+        """Read a stroke, tell the page, and submit what it asks for."""
+        try:
+            reading = read()
         except Refusal as refusal:
             if isinstance(refusal, NotRecognised):
                 self._send_reading(asker, dict(refusal.values), outline=[], built=False)
-            self._refuse(refusal, '~/stroke', asker)
+            self._refuse(refusal, topic, asker)
             return
         outline = reading.outline.tolist()
         self._send_reading(asker, dict(reading.values), outline=outline, built=True)
-        self._tell(replace(reading_answer(reading, topic='~/stroke'), asker=asker))
-        self._submit_all(self._material.applied(reading.requests), '~/stroke', asker)
+        reading = replace(reading, requests=self._material.applied(reading.requests))
+        simulation = self._world.simulation
+        submit_reading(simulation, self._drawing, reading, topic=topic, asker=asker)
 
     def _send_reading(
         self, asker: str, values: dict[str, str], *, outline: list[list[float]], built: bool
     ) -> None:
-        ranked = (('reading', 'confidence'), ('runner_up', 'runner_up_confidence'))
+        ranked = (
+            ('reading', 'confidence'),
+            ('runner_up', 'runner_up_confidence'),
+            ('third', 'third_confidence'),
+        )
         guesses = [
             (values[name], float(values[share])) for name, share in ranked if values.get(name)
         ]

@@ -57,6 +57,7 @@ CONTRACT: dict[str, tuple[Any, str]] = {
     'tool': ('none', 'live'),
     'snap': (0.15, 'live'),
     'sketch_confidence': (0.6, 'live'),
+    'regroup': (0.8, 'live'),
     'beautify': (0.12, 'live'),
     'wall_thickness': (0.1, 'live'),
     'command_timeout': (0.5, 'live'),

@@ -16,11 +16,9 @@
 
 from __future__ import annotations
 
-from physsim_ros.model.errors import OutOfHistory
 from physsim_ros.model.requests import Configure, Delete, Request
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.simulation.simulation import Simulation
-import pytest
 
 from ..building import BOX, DISC, spawning
 
@@ -49,7 +47,7 @@ def test_an_amended_world_is_where_it_would_have_come_with_those_requests() -> N
             other.submit(later, topic='t')
         other.advance_frame()
 
-    other.amend(gesture, [ball], topic='t')
+    other.amend([gesture], [ball], topic='t')
 
     assert other.step == straight.step
     assert other.world.digest() == straight.world.digest()
@@ -60,7 +58,7 @@ def test_the_amended_gesture_is_undone_as_one() -> None:
     gesture = simulation.gesture
     simulation.advance_frame()
 
-    simulation.amend(gesture, [spawning('t/1', DISC), spawning('t/2', DISC)], topic='t')
+    simulation.amend([gesture], [spawning('t/1', DISC), spawning('t/2', DISC)], topic='t')
     simulation.undo()
 
     assert simulation.world.snapshot().scene.names == ()
@@ -73,7 +71,7 @@ def test_what_the_amended_past_refuses_later_is_dropped() -> None:
     simulation.submit(Configure(changes={'damping': 0.5}), topic='t')
     simulation.advance_frame()
 
-    simulation.amend(gesture, [spawning('t/1', DISC)], topic='t')
+    simulation.amend([gesture], [spawning('t/1', DISC)], topic='t')
 
     assert simulation.world.snapshot().scene.names == ('t/1',)
     assert simulation.settings.damping == 0.5
@@ -82,7 +80,7 @@ def test_what_the_amended_past_refuses_later_is_dropped() -> None:
 def test_a_refused_request_is_answered_and_the_others_hold() -> None:
     simulation = world_after((2, spawning('t/0', BOX)), frames=5)
 
-    simulation.amend(simulation.gesture, [Delete(name='no/1'), spawning('t/1', DISC)], topic='t')
+    simulation.amend([simulation.gesture], [Delete(name='no/1'), spawning('t/1', DISC)], topic='t')
 
     frame = simulation.settle()
     assert frame is not None
@@ -90,11 +88,25 @@ def test_a_refused_request_is_answered_and_the_others_hold() -> None:
     assert simulation.world.snapshot().scene.names == ('t/1',)
 
 
-def test_an_unknown_gesture_changes_nothing() -> None:
+def test_several_gestures_become_one() -> None:
     simulation = world_after((2, spawning('t/0', BOX)), frames=5)
-    before = simulation.world.digest()
+    first = simulation.gesture
+    simulation.submit(spawning('t/1', BOX, (3.0, 5.0, 0.0)), topic='t')
+    second = simulation.gesture
+    simulation.advance_frame()
 
-    with pytest.raises(OutOfHistory):
-        simulation.amend(simulation.gesture + 7, [spawning('t/1', DISC)], topic='t')
+    simulation.amend([first, second], [spawning('t/2', DISC)], topic='t')
 
-    assert simulation.world.digest() == before
+    assert simulation.world.snapshot().scene.names == ('t/2',)
+    simulation.undo()
+    assert simulation.world.snapshot().scene.names == ()
+
+
+def test_gestures_that_changed_nothing_are_amended_by_what_is_made_now() -> None:
+    simulation = world_after((2, spawning('t/0', BOX)), frames=5)
+    step = simulation.step
+
+    simulation.amend([simulation.gesture + 7], [spawning('t/1', DISC)], topic='t')
+
+    assert simulation.step == step
+    assert simulation.world.snapshot().scene.names == ('t/0', 't/1')

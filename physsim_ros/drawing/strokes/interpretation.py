@@ -89,12 +89,15 @@ class Guess:
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Reading(Outcome):
     """
-    The most likely meaning of a stroke, and its outcome.
+    The meaning that a stroke was read with, and its outcome.
 
-    :param guesses: one to three, the most likely first, which is the meaning of the reading
+    :param guesses: one to three, that of the reading first, then the most likely
+    :param amends: numbers of earlier gestures that the requests replace: the stroke was read
+        together with earlier ones, or anew
     """
 
     guesses: tuple[Guess, ...]
+    amends: tuple[int, ...] = ()
 
     @property
     def meaning(self) -> str:
@@ -137,16 +140,9 @@ def interpret_stroke(samples: Floats, scene: SceneQuery, settings: DrawingSettin
     :raises NotRecognised: no meaning is likely enough; the message names the three likeliest
     """
     guesses = guess_meanings(samples, scene, settings)
-    if not guesses or not _is_likely(guesses[0], settings):
-        raise NotRecognised(_doubt(guesses), field='poses', values=_values(guesses))
-    outcome = guesses[0].build()
-    return Reading(
-        guesses=guesses,
-        requests=outcome.requests,
-        subject=outcome.subject,
-        message=outcome.message,
-        outline=outcome.outline,
-    )
+    if not is_likely(guesses, settings):
+        raise not_recognised(guesses)
+    return reading_of(guesses, 0)
 
 
 def interpret_strokes(
@@ -206,8 +202,35 @@ def _group_of(meaning: str) -> frozenset[str]:
     return next((group for group in (CLOSED, OPEN) if meaning in group), frozenset({meaning}))
 
 
-def _is_likely(guess: Guess, settings: DrawingSettings) -> bool:
-    """Tell whether a guess is likely enough to be built."""
+def not_recognised(guesses: Sequence[Guess]) -> NotRecognised:
+    """Return the refusal of a stroke of which no guess is likely enough."""
+    return NotRecognised(_doubt(guesses), field='poses', values=_values(guesses))
+
+
+def reading_of(guesses: Sequence[Guess], number: int, *, amends: tuple[int, ...] = ()) -> Reading:
+    """
+    Return the reading of one of the guesses.
+
+    :param amends: numbers of earlier gestures that it replaces
+    :raises Refusal: the world cannot have its outcome
+    """
+    chosen = guesses[number]
+    outcome = chosen.build()
+    return Reading(
+        guesses=(chosen, *(guess for guess in guesses if guess is not chosen)),
+        amends=amends,
+        requests=outcome.requests,
+        subject=outcome.subject,
+        message=outcome.message,
+        outline=outcome.outline,
+    )
+
+
+def is_likely(guesses: Sequence[Guess], settings: DrawingSettings) -> bool:
+    """Tell whether the first of some guesses is likely enough to be built."""
+    if not guesses:
+        return False
+    guess = guesses[0]
     if guess.meaning == DELETION and guess.confidence < SURE:
         return False
     return guess.group_confidence >= settings.sketch_confidence

@@ -33,7 +33,7 @@ from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NothingThere
 from physsim_ros.model.joints import JointKind, JointProperties
 from physsim_ros.model.names import WORLD
-from physsim_ros.model.requests import Axle, Join, Pin, Request
+from physsim_ros.model.requests import Join
 from physsim_ros.model.transform import Point
 
 # Number of sides that a circle of the preview is drawn with.
@@ -134,17 +134,14 @@ def join(kind: JointKind, points: Floats, context: Context) -> Outcome:
     )
 
 
-def join_at(kind: JointKind, point: Point, under: tuple[str, ...], context: Context) -> Request:
+def join_at(kind: JointKind, point: Point, under: tuple[str, ...], context: Context) -> Join:
     """
     Return the request for an axle or a pin of one or two bodies.
 
     :param under: names of the bodies, the topmost first
     """
-    scene = context.scene
-    if under == scene.bodies_at(point)[:2]:
-        return Axle(point=point) if kind is JointKind.AXLE else Pin(point=point)
     a, b = under if len(under) == 2 else (under[0], WORLD)
-    return Join(name=scene.next_joint(), kind=kind, points=(point,), a=a, b=b)
+    return Join(name=context.scene.next_joint(), kind=kind, points=(point,), a=a, b=b)
 
 
 def joint_ends(points: Floats, context: Context) -> tuple[End, End] | None:

@@ -1,0 +1,211 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Figures: the last things that a person drew, each of one or several strokes, with their guesses.
+
+People draw one thing in several strokes, in any order: an x or an arrow of two, a square of four
+lines. Strokes that touch and follow one another within `regroup` seconds are read together, and
+where they are something better than open lines, that reading replaces what the strokes alone were.
+
+Law: a figure remembers; it asks nothing of the world.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from physsim_ros.drawing.scene_query import SceneQuery
+from physsim_ros.drawing.settings import DrawingSettings
+from physsim_ros.drawing.strokes.context import DELETION, SOLIDS
+from physsim_ros.drawing.strokes.interpretation import Guess, guess_meanings, is_likely
+from physsim_ros.drawing.strokes.stroke_order import joined_strokes
+from physsim_ros.model.arrays import Flags, Floats
+from physsim_ros.model.names import WORLD
+from physsim_ros.model.requests import Join, Request
+from scipy.spatial.distance import cdist
+
+# The greatest number of strokes of one figure.
+MOST_STROKES = 12
+# Meanings of open lines, which may be parts of something.
+_LINES = frozenset({'wall', 'hatching', 'mark'})
+# Meanings that several strokes never have together.
+_SINGLE = _LINES | {DELETION, 'rod', 'rope', 'spring'}
+# The greatest distance of strokes that touch, in shares of the larger one's size.
+_TOUCHING = 0.15
+# The greatest number of points of a stroke between which distances are taken.
+_MOST_POINTS = 100
+# The least share of a line that lies on a solid whose mark it is.
+_ON_SOLID = 0.6
+
+
+@dataclass(slots=True, kw_only=True, eq=False)
+class Figure:
+    """
+    One thing that was drawn.
+
+    :param strokes: each (n, 3) float64: x, y [m], time [s]
+    :param began: when its first stroke began [s]
+    :param ended: when its last stroke ended [s]
+    :param scene: over which the first one was drawn
+    :param guesses: what it may mean, the likeliest first
+    :param chosen: which of the guesses it was read with; None is none
+    :param requests: of that reading
+    :param gestures: numbers of the gestures with which these were submitted
+    """
+
+    strokes: tuple[Floats, ...]
+    began: float
+    ended: float
+    scene: SceneQuery
+    guesses: tuple[Guess, ...]
+    chosen: int | None = None
+    requests: tuple[Request, ...] = ()
+    gestures: tuple[int, ...] = ()
+
+    @property
+    def meaning(self) -> str:
+        """Return the meaning that it was read with; '' where it was not recognised."""
+        return '' if self.chosen is None else self.guesses[self.chosen].meaning
+
+    @property
+    def is_open(self) -> bool:
+        """Return whether it is a line, or nothing yet, that may be a part of something."""
+        to_background = any(isinstance(each, Join) and each.b == WORLD for each in self.requests)
+        return (
+            not self.meaning
+            or self.meaning in _LINES
+            or (self.meaning in _SINGLE and to_background)
+        )
+
+    @property
+    def is_solid(self) -> bool:
+        """Return whether it is a body of its own."""
+        return self.meaning in SOLIDS
+
+
+def likeliest_group(
+    figures: Sequence[Figure], last: Figure, settings: DrawingSettings
+) -> Figure | None:
+    """
+    Return the figure of the last strokes together, where that is better than each by itself.
+
+    :param figures: drawn before, the earliest first
+    :param last: the new one, as it is alone
+    """
+    if not last.is_open:
+        return None
+    for group in _groups(figures, last, settings):
+        strokes = tuple(stroke for figure in group for stroke in figure.strokes)
+        first = group[0]
+        guesses = guess_meanings(joined_strokes(strokes), first.scene, settings)
+        if is_likely(guesses, settings) and guesses[0].meaning not in _SINGLE:
+            return Figure(
+                strokes=strokes,
+                began=first.began,
+                ended=last.ended,
+                scene=first.scene,
+                guesses=guesses,
+                chosen=0,
+                gestures=tuple(number for figure in group for number in figure.gestures),
+            )
+    return None
+
+
+def marked_solid(figures: Sequence[Figure], last: Figure, settings: DrawingSettings) -> bool:
+    """Return whether the last stroke is a line through the solid that was drawn before it."""
+    if not figures or not figures[-1].is_solid or not last.is_open:
+        return False
+    solid = figures[-1]
+    near = _follows(solid, last, settings)
+    return near and _share_inside(last, solid) >= _ON_SOLID
+
+
+def marks_inside(
+    figures: Sequence[Figure], solid: Figure, settings: DrawingSettings
+) -> tuple[int, ...]:
+    """Return the gestures of the lines drawn just before a solid that lie in it: its marks."""
+    gestures: list[int] = []
+    later = solid
+    for figure in reversed(figures):
+        inside = figure.is_open and _share_inside(figure, solid) >= _ON_SOLID
+        if not inside or not _follows(figure, later, settings):
+            break
+        gestures += figure.gestures
+        later = figure
+    return tuple(gestures)
+
+
+def _groups(
+    figures: Sequence[Figure], last: Figure, settings: DrawingSettings
+) -> Iterator[list[Figure]]:
+    """Yield the last figures that may be one with the new one, the most figures first."""
+    group = [last]
+    for figure in reversed(figures):
+        count = sum(len(each.strokes) for each in (figure, *group))
+        if not figure.is_open or count > MOST_STROKES or not _follows(figure, group[0], settings):
+            break
+        group.insert(0, figure)
+    # A stroke may touch a later one of its group only.
+    while len(group) > 1 and not _hang_together(group, settings):
+        group.pop(0)
+    for first in range(len(group) - 1):
+        if _hang_together(group[first:], settings):
+            yield group[first:]
+
+
+def _follows(figure: Figure, later: Figure, settings: DrawingSettings) -> bool:
+    return 0.0 < settings.regroup >= later.began - figure.ended
+
+
+def _hang_together(group: Sequence[Figure], settings: DrawingSettings) -> bool:
+    """Return whether each stroke touches another one, directly or by others."""
+    paths = [_few_points(stroke) for figure in group for stroke in figure.strokes]
+    reached, waiting = [paths[0]], paths[1:]
+    while waiting:
+        near = [path for path in waiting if any(_touch(path, it, settings) for it in reached)]
+        if not near:
+            return False
+        reached += near
+        waiting = [path for path in waiting if not any(path is it for it in near)]
+    return True
+
+
+def _touch(one: Floats, other: Floats, settings: DrawingSettings) -> bool:
+    size = max(float(np.hypot(*np.ptp(path, axis=0))) for path in (one, other))
+    return float(cdist(one, other).min()) <= min(_TOUCHING * size, max(settings.snap, size / 20))
+
+
+def _few_points(stroke: Floats) -> Floats:
+    return stroke[:: 1 + len(stroke) // _MOST_POINTS, :2]
+
+
+def _share_inside(line: Figure, solid: Figure) -> float:
+    """Return the share of the points of a line inside the outline of a solid, 0 .. 1."""
+    outline = joined_strokes(solid.strokes)[:, :2]
+    points = np.vstack([_few_points(stroke) for stroke in line.strokes])
+    return float(_inside(points, outline).mean())
+
+
+def _inside(points: Floats, outline: Floats) -> Flags:
+    """Return whether points lie in a closed polyline, by the crossings of a ray (even-odd)."""
+    start, end = outline, np.roll(outline, -1, axis=0)
+    x, y = points[:, :1], points[:, 1:]
+    passes = (start[:, 1] > y) != (end[:, 1] > y)
+    height = np.where(end[:, 1] == start[:, 1], 1.0, end[:, 1] - start[:, 1])
+    at = start[:, 0] + (y - start[:, 1]) / height * (end[:, 0] - start[:, 0])
+    inside: Flags = np.count_nonzero(passes & (x < at), axis=1) % 2 == 1
+    return inside

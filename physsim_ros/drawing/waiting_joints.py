@@ -1,0 +1,73 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Waiting joints: a joint that was drawn before its second body waits for that at the background.
+
+Law: a new body that can move, drawn over the end that a drawn joint has on the background, takes
+that end; otherwise the two bodies of one machine would push each other apart.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from physsim_ros.drawing.scene_query import DRAWN, piece_covers, SceneQuery
+from physsim_ros.model.joints import JointKind
+from physsim_ros.model.names import split_name, WORLD
+from physsim_ros.model.requests import Join, Request, Spawn
+from physsim_ros.model.scene import Joint
+from physsim_ros.model.transform import Point, rotated
+
+# Kinds of joints whose end on the background is a point that a body can cover.
+_KINDS = {JointKind.AXLE, JointKind.PIN, JointKind.ROD, JointKind.ROPE, JointKind.SPRING}
+
+
+def requests_with_waiting_joints(
+    requests: tuple[Request, ...], scene: SceneQuery
+) -> tuple[Request, ...]:
+    """Return requests, and those that join each body which they spawn to joints that wait."""
+    spawned = [each for each in requests if isinstance(each, Spawn) and _moves(each)]
+    return (*requests, *(join for body in spawned for join in _joins_of(body, scene)))
+
+
+def _joins_of(body: Spawn, scene: SceneQuery) -> Iterator[Join]:
+    for joint in scene.joints:
+        if joint.b != WORLD or split_name(joint.name)[0] != DRAWN or joint.kind not in _KINDS:
+            continue
+        end = joint.seat.bx, joint.seat.by
+        if _covers(body, end):
+            yield Join(
+                name=joint.name,
+                kind=joint.kind,
+                points=_points(joint, end, scene),
+                a=joint.a,
+                b=body.name,
+            )
+
+
+def _points(joint: Joint, end: Point, scene: SceneQuery) -> tuple[Point, ...]:
+    if joint.kind.points == 1:
+        return (end,)
+    return scene.in_world(joint.a, (joint.seat.ax, joint.seat.ay)), end
+
+
+def _moves(body: Spawn) -> bool:
+    return not body.properties.anchored and not body.properties.kinematic
+
+
+def _covers(body: Spawn, point: Point) -> bool:
+    x, y, yaw = body.pose
+    local = rotated((point[0] - x, point[1] - y), -yaw)
+    return any(piece_covers(piece, local, 0.0) for piece in body.shape.form.pieces)

@@ -1,0 +1,224 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Sessions: strokes that are one thing, other readings, joints that wait for their bodies."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+import itertools
+import math
+
+import numpy as np
+from physsim_ros.drawing import DrawingSession, DrawingSettings, Reading, submit_reading
+from physsim_ros.model.arrays import Floats
+from physsim_ros.model.errors import NotRecognised
+from physsim_ros.model.joints import JointKind
+from physsim_ros.model.requests import Configure, Request
+from physsim_ros.model.scene import Scene
+from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.shapes import Box, Disc
+from physsim_ros.simulation.simulation import Simulation
+import pytest
+
+from ..building import spawning
+
+Way = Sequence[tuple[float, float]]
+
+
+class Desk:
+    """A standing world, and a person who draws into it."""
+
+    def __init__(self, **settings: float) -> None:
+        world = WorldSettings(gravity=(0.0, 0.0))
+        self.simulation = Simulation(settings=world, speed=0.0)
+        self.session = DrawingSession(DrawingSettings(**settings))
+        self.now = 0.0
+        self.frame = self.simulation.advance_frame()
+
+    def spawn(self, *requests: Request) -> None:
+        for request in requests:
+            self.simulation.submit(request, topic='t')
+        self._settle()
+
+    def draw(self, way: Way | Floats, *, after: float = 0.3) -> Reading:
+        """Draw a stroke of 0.5 s, so long after the last one."""
+        points = np.array(way, dtype=np.float64)
+        if len(points) < 20:
+            sides = itertools.pairwise(points)
+            points = np.vstack([np.linspace(a, b, 25) for a, b in sides])
+        times = np.linspace(0.0, 0.5, len(points))
+        samples = np.column_stack((points, times))
+        began, self.now = self.now + after, self.now + after + 0.5
+        reading = self.session.stroke(samples, '', self.frame.snapshot, began=began)
+        self._submit(reading)
+        return reading
+
+    def instead(self, meaning: str = '') -> Reading:
+        reading = self.session.instead(meaning)
+        self._submit(reading)
+        return reading
+
+    @property
+    def bodies(self) -> list[tuple[str, str]]:
+        return [(each.name, type(each.shape).__name__) for each in self.scene.bodies]
+
+    @property
+    def scene(self) -> Scene:
+        return self.simulation.world.snapshot().scene
+
+    def _submit(self, reading: Reading) -> None:
+        submit_reading(self.simulation, self.session, reading, topic='~/stroke')
+        self._settle()
+
+    def _settle(self) -> None:
+        frame = self.simulation.settle()
+        if frame is not None:
+            assert all(answer.code == '' for answer in frame.answers), frame.answers
+            self.frame = frame
+
+
+def circle(x: float, y: float, radius: float) -> Floats:
+    angle = np.linspace(0.0, 2.0 * math.pi, 60)
+    return np.column_stack((x + radius * np.cos(angle), y + radius * np.sin(angle)))
+
+
+SQUARE = [
+    [(0.0, 0.0), (2.0, 0.05)],
+    [(2.0, 2.0), (0.0, 2.02)],
+    [(2.02, 0.0), (2.0, 1.97)],
+    [(0.0, 2.0), (0.03, 0.03)],
+]
+
+
+def test_four_lines_in_any_order_are_a_rectangle_and_one_gesture() -> None:
+    desk = Desk()
+    for side in SQUARE:
+        last = desk.draw(side)
+
+    assert last.meaning == 'rectangle'
+    assert [kind for _, kind in desk.bodies] == ['Box']
+    desk.simulation.undo()
+    assert desk.bodies == []
+
+
+def test_lines_drawn_slowly_are_walls() -> None:
+    desk = Desk()
+    for side in SQUARE:
+        desk.draw(side, after=1.0)
+
+    assert [kind for _, kind in desk.bodies] == ['Chain'] * 4
+
+
+def test_without_regrouping_each_stroke_is_read_by_itself() -> None:
+    desk = Desk(regroup=0.0)
+    for side in SQUARE:
+        desk.draw(side)
+
+    assert len(desk.bodies) == 4
+
+
+def test_an_x_of_two_strokes_anchors_the_body_and_leaves_no_trace() -> None:
+    desk = Desk()
+    desk.spawn(spawning('a/0', Box(width=2.0, height=2.0)))
+    before = desk.scene.bodies[0].total_mass
+
+    desk.draw([(-0.4, -0.4), (0.4, 0.4)])
+    second = desk.draw([(-0.4, 0.4), (0.4, -0.4)])
+
+    assert second.meaning == 'anchor'
+    (body,) = desk.scene.bodies
+    assert body.anchored
+    assert body.total_mass == before
+
+
+def test_an_arrow_of_shaft_and_head_turns_gravity() -> None:
+    desk = Desk()
+    desk.spawn(spawning('a/0', Disc(radius=0.5), (9.0, 9.0, 0.0)))
+    desk.spawn(Configure(changes={'gravity': (0.0, -9.81)}))
+    desk.draw([(0.0, 0.0), (3.0, 0.0)])
+    head = desk.draw([(2.5, 0.4), (3.0, 0.0), (2.5, -0.4)])
+
+    assert head.meaning == 'gravity'
+    assert [name for name, _ in desk.bodies] == ['a/0']
+    assert desk.simulation.settings.gravity == pytest.approx((9.81, 0.0), abs=0.2)
+
+
+@pytest.mark.parametrize('line_first', [False, True])
+def test_a_circle_with_a_line_through_it_is_a_disc(line_first: bool) -> None:
+    desk = Desk()
+    strokes = [circle(0.0, 0.0, 1.0), [(-1.1, 0.0), (1.1, 0.0)]]
+    for stroke in reversed(strokes) if line_first else strokes:
+        desk.draw(stroke)
+
+    assert [kind for _, kind in desk.bodies] == ['Disc']
+
+
+def test_rods_between_bodies_stay_rods() -> None:
+    desk = Desk()
+    corners = [(0.0, 0.0), (3.0, 0.0), (1.5, 2.5)]
+    desk.spawn(*(spawning(f'a/{i}', Disc(radius=0.3), (*at, 0.0)) for i, at in enumerate(corners)))
+    for start, end in itertools.pairwise([*corners, corners[0]]):
+        desk.draw([start, end])
+
+    assert [joint.kind for joint in desk.scene.joints] == [JointKind.ROD] * 3
+    assert len(desk.bodies) == 3
+
+
+def test_the_runner_up_takes_the_place_of_the_reading() -> None:
+    desk = Desk()
+    desk.spawn(
+        spawning('a/0', Disc(radius=0.5)), spawning('a/1', Disc(radius=0.5), (3.0, 0.0, 0.0))
+    )
+    first = desk.draw([(0.0, 0.0), (3.0, 0.0)])
+    assert first.meaning == 'rod'
+
+    second = desk.instead()
+
+    assert second.meaning == first.runner_up == 'wall'
+    assert desk.scene.joints == ()
+    assert desk.bodies[-1][1] == 'Chain'
+    third = desk.instead('rod')
+    assert third.meaning == 'rod'
+    assert len(desk.bodies) == 2
+
+
+def test_without_another_guess_nothing_is_read_instead() -> None:
+    desk = Desk()
+    with pytest.raises(NotRecognised):
+        desk.session.instead()
+
+
+def test_what_was_not_recognised_can_be_built_instead() -> None:
+    desk = Desk(sketch_confidence=1.0)
+    with pytest.raises(NotRecognised):
+        desk.draw(circle(0.0, 0.0, 1.0))
+
+    reading = desk.instead()
+
+    assert reading.meaning == 'disc'
+    assert [kind for _, kind in desk.bodies] == ['Disc']
+
+
+def test_an_axle_drawn_before_its_wheel_waits_for_it() -> None:
+    desk = Desk()
+    desk.spawn(spawning('chassis/0', Box(width=3.0, height=1.0)))
+    desk.draw(circle(1.0, -0.2, 0.1), after=5.0)
+    (axle,) = desk.scene.joints
+    assert axle.b == 'world'
+
+    desk.draw(circle(1.0, -0.2, 0.6), after=5.0)
+
+    (axle,) = desk.scene.joints
+    assert (axle.kind, axle.a, axle.b) == (JointKind.AXLE, 'chassis/0', 'drawn/0')
