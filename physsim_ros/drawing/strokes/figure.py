@@ -30,7 +30,7 @@ from dataclasses import dataclass
 import numpy as np
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.strokes.context import DELETION, SOLIDS
+from physsim_ros.drawing.strokes.context import DELETION, DISC, OPEN, POLYGON, RECTANGLE
 from physsim_ros.drawing.strokes.interpretation import Guess, guess_meanings, is_likely
 from physsim_ros.drawing.strokes.stroke_order import joined_strokes
 from physsim_ros.model.arrays import Flags, Floats
@@ -43,7 +43,7 @@ MOST_STROKES = 12
 # Meanings of open lines, which may be parts of something.
 _LINES = frozenset({'wall', 'hatching', 'mark'})
 # Meanings that several strokes never have together.
-_SINGLE = _LINES | {DELETION, 'rod', 'rope', 'spring'}
+_SINGLE = _LINES | OPEN | {DELETION}
 # The greatest distance of strokes that touch, in shares of the larger one's size.
 _TOUCHING = 0.15
 # The greatest number of points of a stroke between which distances are taken.
@@ -94,7 +94,7 @@ class Figure:
     @property
     def is_solid(self) -> bool:
         """Return whether it is a body of its own."""
-        return self.meaning in SOLIDS
+        return self.meaning in {DISC, RECTANGLE, POLYGON}
 
 
 def likeliest_group(
