@@ -30,7 +30,7 @@ from physsim_ros.drawing.strokes.interpretation import (
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import BadProperty, NothingThere, NotRecognised, Refusal
 from physsim_ros.model.joints import JointKind
-from physsim_ros.model.requests import Anchor, Axle, Configure, Delete, Join, Spawn
+from physsim_ros.model.requests import Anchor, Configure, Delete, Join, Spawn
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Chain, Disc, Polygon
 from physsim_ros.simulation.world import World
@@ -351,8 +351,9 @@ def test_a_circle_within_a_body_is_an_axle_to_the_background(world: World) -> No
 
     assert reading.meaning == 'axle'
     (axle,) = reading.requests
-    assert isinstance(axle, Axle)
-    assert axle.point == pytest.approx((1.0, 0.0), abs=0.01)
+    assert isinstance(axle, Join)
+    assert (axle.kind, axle.b) == (JointKind.AXLE, 'world')
+    assert axle.points[0] == pytest.approx((1.0, 0.0), abs=0.01)
     assert 'background' in reading.message
 
 
@@ -366,8 +367,9 @@ def test_a_small_circle_over_two_bodies_is_an_axle_in_the_middle_of_the_wheel(
 
     assert reading.meaning == 'axle'
     (axle,) = reading.requests
-    assert isinstance(axle, Axle)
-    assert axle.point == pytest.approx((1.2, -0.4), abs=1e-12)
+    assert isinstance(axle, Join)
+    assert (axle.kind, axle.a, axle.b) == (JointKind.AXLE, 'wheel/0', 'car/0')
+    assert axle.points[0] == pytest.approx((1.2, -0.4), abs=1e-12)
     assert 'wheel/0 and car/0' in reading.message
 
 
