@@ -67,6 +67,10 @@ from visualization_msgs.msg import InteractiveMarkerFeedback, Marker, MarkerArra
 # From one message on `/diagnostics` to the next [ns].
 DIAGNOSTICS_PERIOD = 1_000_000_000
 
+# Time of a tick after which no further publish period is simulated in it [ns]: requests, services
+# and signals wait so long at most, which a person hardly notices. At speed 64 a frame has 64.
+MOST_TICK_NS = 100_000_000
+
 
 class PhysSimNode(NodeWithoutQosEvents):
     """
@@ -187,7 +191,9 @@ class PhysSimNode(NodeWithoutQosEvents):
             self._publish_diagnostics()
         self._handle_pages()
         self._update_contact_recording()
-        frames = self.simulation.advance(now_ns)
+        frames = self.simulation.advance(
+            now_ns, is_overdue=lambda: time.perf_counter_ns() - began > MOST_TICK_NS
+        )
         stepped = time.perf_counter_ns()
         for frame in frames:
             self.publish_frame(frame)

@@ -21,7 +21,7 @@ answered; they are applied in a paused world too, and in the past, where another
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 import itertools
 
 from physsim_ros.engine.contact_report import NO_CONTACTS
@@ -392,11 +392,15 @@ class Simulation:
 
     # Time
 
-    def advance(self, now_ns: int) -> tuple[Frame, ...]:
+    def advance(
+        self, now_ns: int, *, is_overdue: Callable[[], bool] = lambda: False
+    ) -> tuple[Frame, ...]:
         """
         Apply the requests that wait, and advance, or rewind, by the steps that are due.
 
         :param now_ns: steady time, never going back [ns]
+        :param is_overdue: whether the call has taken too long; a frame that advances then ends at
+            the next publish period, however many are due, so that requests do not wait for it
         :return: the frames, in the order in which they are shown; none where nothing is due and
             nothing has changed
         """
@@ -409,8 +413,11 @@ class Simulation:
             steps = self._clock.due(now_ns, self.step)
             if steps == 0:
                 break
-            frames.append(self._play_frame(steps) if steps > 0 else self._rewind_frame(-steps))
-            if self.speed == 0:
+            if steps > 0:
+                frames.append(self._play_frame(steps, is_overdue))
+            else:
+                frames.append(self._rewind_frame(-steps))
+            if self.speed == 0 or is_overdue():
                 break
         if not frames and self._changed:
             frames.append(self._frame(moved=False))
@@ -431,12 +438,20 @@ class Simulation:
         self._apply_waiting()
         self._release_grips()
         self._clock.restart()
-        return self._play_frame(self.frame_steps - self.step % self.frame_steps)
+        return self._play_frame(self._steps_to_period)
 
-    def _play_frame(self, steps: int) -> Frame:
+    @property
+    def _steps_to_period(self) -> int:
+        """Return the number of steps to the next multiple of the publish period."""
+        return self.frame_steps - self.step % self.frame_steps
+
+    def _play_frame(self, steps: int, is_overdue: Callable[[], bool] = lambda: False) -> Frame:
         self._seek_shown()
-        self.timeline.advance(steps)
-        self.timeline.build_ahead(steps)
+        while steps > 0:
+            some = min(steps, self._steps_to_period)
+            self.timeline.advance(some)
+            self.timeline.build_ahead(some)
+            steps = 0 if is_overdue() else steps - some
         return self._frame(moved=True)
 
     def _rewind_frame(self, steps: int) -> Frame:

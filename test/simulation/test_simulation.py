@@ -436,6 +436,24 @@ def test_a_lost_body_is_told_of() -> None:
     assert len(sim.world) == 0
 
 
+def test_a_frame_that_takes_too_long_ends_at_the_next_period_and_makes_the_same_steps() -> None:
+    slow, fast = (Simulation(speed=64.0) for _ in range(2))
+    for simulation in (slow, fast):
+        simulation.submit(spawning('a/0', DISC), topic='~/spawn')
+    now = 0
+
+    while slow.step < 256:
+        now += round(1e9 / 60)
+        frames = slow.advance(now, is_overdue=lambda: True)
+        assert [frame.snapshot.step % slow.frame_steps for frame in frames] == [0] * len(frames)
+        assert len(frames) <= 1
+    while fast.step < slow.step:
+        fast.advance_frame()
+
+    assert slow.step == fast.step == 256
+    assert slow.world.digest() == fast.world.digest()
+
+
 def test_speed_changes_nothing_but_when_frames_come() -> None:
     settings = WorldSettings(bounds=(-5.0, 0.0, 5.0, 9.0))
     digests = []
