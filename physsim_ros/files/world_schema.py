@@ -48,6 +48,7 @@ PARAMETERS = frozenset(
         'speed',
         'tool',
         'viewer',
+        'trace',
         'viewer_url',
         'wall_thickness',
         'world_dir',

@@ -24,6 +24,8 @@ from physsim_ros.model.snapshot import run_state, Snapshot
 
 # Time constant of the smoothed real-time factor, in wall time [s]: legible to a person.
 _SMOOTHING = 1.0
+# Share of the last frame in the smoothed cost of a frame: a tenth of a second at 60 Hz.
+_COST_SHARE = 1 / 6
 # Wait of messages from which on it is a person's concern [s].
 LONG_DELAY = 1.0
 # Share of the speed that was set, below which the world does not keep up [1].
@@ -51,6 +53,8 @@ class FrameStatistics:
 
     def __init__(self) -> None:
         self.real_time_factor = 0.0
+        # Smoothed cost of a frame [s]; None before the first.
+        self.frame_cost: float | None = None
         self._last: tuple[int, int] | None = None
         self._frames = 0
         self._step_ns = 0
@@ -73,6 +77,8 @@ class FrameStatistics:
         self._frames += 1
         self._step_ns += step_ns
         self._frame_ns += frame_ns
+        cost, before = frame_ns * 1e-9, self.frame_cost
+        self.frame_cost = cost if before is None else before + _COST_SHARE * (cost - before)
         if self._last is not None and now_ns > self._last[0]:
             elapsed = now_ns - self._last[0]
             self._elapsed_ns += elapsed

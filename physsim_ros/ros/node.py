@@ -55,7 +55,7 @@ from physsim_ros.ros.services import create_services, WorldFiles
 from physsim_ros.ros.subscriptions import RequestSubscriptions
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.sketchpad import Role, Sketchpad
-from physsim_ros.view import Viewer, ViewerMode
+from physsim_ros.view import FrameContext, Viewer, ViewerMode
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.context import Context
 from rclpy.parameter import Parameter
@@ -229,7 +229,13 @@ class PhysSimNode(NodeWithoutQosEvents):
         if self._session.preview != frame.preview:
             frame = replace(frame, preview=self._session.preview)
         self.frame = frame
-        self._viewer.show(frame, real_time_factor=self._statistics.real_time_factor)
+        statistics = self._statistics
+        context = FrameContext(
+            real_time_factor=statistics.real_time_factor,
+            cost=statistics.frame_cost,
+            traced=parameters.traced_names(self._values['trace']),
+        )
+        self._viewer.show(frame, context=context)
         if self._sketchpad is not None:
             self._sketchpad.show(frame)
 

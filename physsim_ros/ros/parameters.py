@@ -158,6 +158,10 @@ _OF_NODE = {
         'that has failed anew, in a file beside it',
         choices=VIEWERS,
     ),
+    'trace': Spec(
+        default='',
+        meaning='names of bodies, separated by commas, whose way and flight the viewer shows',
+    ),
     'viewer_url': Spec(default='', meaning='Rerun server to connect to', read_only=True),
     'record_file': Spec(default='', meaning='.rrd file written beside any viewer', read_only=True),
     'sketchpad': Spec(
@@ -415,3 +419,8 @@ def _setting(name: str, value: Any) -> Any:
     if name == 'bounds' and len(value) == 0:
         return None
     return tuple(value) if isinstance(SPECS[name].default, list) else value
+
+
+def traced_names(value: str) -> tuple[str, ...]:
+    """Return the names of bodies in the value of parameter `trace`."""
+    return tuple(name for each in value.split(',') if (name := each.strip()))

@@ -20,10 +20,12 @@ and queues) and `recording` (entities). Other folders import the names below; Re
 takes a second to import, is imported only by the thread of a worker.
 """
 
+from physsim_ros.view.frame_context import FrameContext
 from physsim_ros.view.joint_glyphs import joint_strips, JointLines, segment_corners, symbol_size
 from physsim_ros.view.viewer import Viewer, ViewerMode
 
 __all__ = [
+    'FrameContext',
     'JointLines',
     'Viewer',
     'ViewerMode',

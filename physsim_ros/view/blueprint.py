@@ -32,8 +32,13 @@ PAPER = (250, 250, 247)
 _TRACED = 5.0
 
 
-def blueprint() -> rrb.Blueprint:
-    """Return the blueprint of the layout."""
+def blueprint(*, paced: bool, traced: bool) -> rrb.Blueprint:
+    """
+    Return the blueprint of the layout.
+
+    :param paced: whether there is a real-time factor
+    :param traced: whether bodies are traced
+    """
     world = rrb.Spatial2DView(
         origin='world/camera',
         contents='world/**',
@@ -59,7 +64,11 @@ def blueprint() -> rrb.Blueprint:
         name='Time and log',
     )
     return rrb.Blueprint(
-        rrb.Vertical(world, rrb.Tabs(log, *plots.plot_views(), active_tab=0), row_shares=[3, 1]),
+        rrb.Vertical(
+            world,
+            rrb.Tabs(log, *plots.plot_views(paced=paced, traced=traced), active_tab=0),
+            row_shares=[3, 1],
+        ),
         rrb.BlueprintPanel(state='collapsed'),
         rrb.SelectionPanel(state='collapsed'),
         rrb.TimePanel(state='collapsed', timeline=RECORDED, play_state='following'),

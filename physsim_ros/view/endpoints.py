@@ -71,9 +71,9 @@ class RerunSink:
             raise ConnectionError(error) from error
         self._recorder = FrameRecorder(self._recording)
 
-    def draw(self, frames: Sequence[Frame], *, real_time_factor: float) -> None:
+    def draw(self, frames: Sequence[Frame], *, context: FrameContext) -> None:
         """Log frames in order."""
-        self._recorder.draw(frames, context=FrameContext(real_time_factor=real_time_factor))
+        self._recorder.draw(frames, context=context)
 
     def flush(self, timeout: float) -> None:
         """
@@ -110,7 +110,7 @@ class FileEndpoint(Endpoint):
 
     kind = 'record'
     code = 'record_failed'
-    period, capacity, closing, reopens = 0.5, sys.maxsize, 10.0, False
+    period, capacity, closing, reopens = 1.0, sys.maxsize, 10.0, False
 
     def __init__(self, path: Path, *, overwrite: bool) -> None:
         self.where = str(path)

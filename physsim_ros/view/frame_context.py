@@ -25,10 +25,11 @@ class FrameContext:
     Figures of the program at a frame, which the world does not have.
 
     :param real_time_factor: simulation seconds a second; 0 where nothing paces the world
-    :param cost: of the frame, its steps and its publishing [s]; 0 is unknown
+    :param cost: mean of a frame in the last second, its steps and its publishing [s]; None where
+        nothing paces the world
     :param traced: names of the bodies whose way and flight are shown
     """
 
     real_time_factor: float = 0.0
-    cost: float = 0.0
+    cost: float | None = None
     traced: tuple[str, ...] = ()

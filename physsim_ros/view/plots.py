@@ -129,7 +129,7 @@ def send_pace(recording: rr.RecordingStream, batch: FrameBatch, context: FrameCo
     times, speed = batch.times_at([len(batch) - 1]), batch.frames[-1].speed
     values = {
         PACE: context.real_time_factor / speed if speed else 0.0,
-        COST: 1e3 * context.cost,
+        COST: 1e3 * (context.cost or 0.0),
     }
     for path, value in values.items():
         if value:
@@ -137,16 +137,27 @@ def send_pace(recording: rr.RecordingStream, batch: FrameBatch, context: FrameCo
             recording.send_columns(path, times, [column])
 
 
-def plot_views() -> list[rrb.Horizontal]:
-    """Return the views of all plots, for the blueprint."""
+def plot_views(*, paced: bool, traced: bool) -> list[rrb.Horizontal]:
+    """
+    Return the views of the plots that have values, for the blueprint.
+
+    :param paced: whether there is a real-time factor
+    :param traced: whether bodies are traced
+    """
     energy, momentum, angular, counts = (_view(path, plot.name) for path, plot in PLOTS.items())
-    pace = _view(PACE, 'Real-time factor by speed', low=0.0)
-    return [
+    views = [
         rrb.Horizontal(energy, name='Energy'),
         rrb.Horizontal(momentum, angular, name='Momentum'),
-        rrb.Horizontal(_view('plots/bodies', 'Height of traced bodies [m]'), name='Traced bodies'),
-        rrb.Horizontal(counts, pace, _view(COST, 'Cost of a frame [ms]', low=0.0), name='Pace'),
+        rrb.Horizontal(counts, name='Counts'),
     ]
+    if traced:
+        heights = _view('plots/bodies', 'Height of traced bodies, and in free flight [m]')
+        views.append(rrb.Horizontal(heights, name='Traced bodies'))
+    if paced:
+        pace = _view(PACE, 'Real-time factor by speed', low=0.0)
+        cost = _view(COST, 'Cost of a frame [ms]')
+        views.append(rrb.Horizontal(pace, cost, name='Pace'))
+    return views
 
 
 def _view(path: str, name: str, *, low: float | None = None) -> rrb.TimeSeriesView:

@@ -75,7 +75,8 @@ class FrameRecorder:
         self._camera = Camera()
         # Poses of the bodies that were sent last.
         self._poses: Floats = np.empty((0, 3))
-        send_blueprint(recording, blueprint())
+        # Whether there is a real-time factor, and whether bodies are traced, in the layout.
+        self._layout: tuple[bool, bool] | None = None
         self._send_styles()
         self._bodies = MeshTrack(recording)
         self._joints = JointTrack(recording)
@@ -99,6 +100,10 @@ class FrameRecorder:
         :param frames: in order; their arrays are not changed any more
         :param context: of the last of them
         """
+        layout = context.cost is not None, bool(context.traced)
+        if frames and layout != self._layout:
+            self._layout = layout
+            send_blueprint(self._recording, blueprint(paced=layout[0], traced=layout[1]))
         fresh = []
         for frame in frames:
             if self._is_new(frame):

@@ -30,6 +30,7 @@ import time
 from typing import ClassVar, Protocol
 
 from physsim_ros.model.snapshot import Answer, Frame
+from physsim_ros.view.frame_context import FrameContext
 
 # The greatest number of frames in a batch, and the greatest memory of the queue [bytes].
 BATCH, WAITING_BYTES = 60, 256e6
@@ -49,7 +50,7 @@ Report = Callable[[Answer], None]
 class Sink(Protocol):
     """A stream that frames are logged to."""
 
-    def draw(self, frames: Sequence[Frame], *, real_time_factor: float) -> None:
+    def draw(self, frames: Sequence[Frame], *, context: FrameContext) -> None:
         """Log frames in order."""
 
     def flush(self, timeout: float) -> None:
@@ -137,7 +138,7 @@ class SinkWorker:
         self._frames: deque[Frame] = deque()
         self._answers: deque[Answer] = deque(maxlen=ANSWERS)
         self._bytes = 0
-        self._factor = 0.0
+        self._context = FrameContext()
         self._logged = self._dropped = 0
         self._status = 'starting'
         # Steady time of the first flush that timed out; None while flushes succeed [s].
@@ -178,14 +179,14 @@ class SinkWorker:
         """Whether the worker was told to end, and has time left for it."""
         return self._closing.is_set() and self.is_open and time.monotonic() < self._end_by
 
-    def put_frame(self, frame: Frame, *, real_time_factor: float) -> None:
+    def put_frame(self, frame: Frame, *, context: FrameContext) -> None:
         """Queue a frame; a full queue drops its oldest frame, but not the answers of that."""
         capacity = self._endpoint.capacity
         if not self.is_open:
             self._dropped += 1
             return
         with self._lock:
-            self._factor = real_time_factor
+            self._context = context
             self._frames.append(frame)
             self._bytes += _size(frame)
             while len(self._frames) > capacity or self._bytes > WAITING_BYTES:
@@ -297,9 +298,9 @@ class SinkWorker:
                     first = frames[0]
                     frames[0] = replace(first, answers=(*self._answers, *first.answers))
                     self._answers.clear()
-                remaining, factor = len(self._frames), self._factor
+                remaining, context = len(self._frames), self._context
             if frames:
-                sink.draw(frames, real_time_factor=factor)
+                sink.draw(frames, context=context)
                 self._logged += len(frames)
             if not remaining:
                 return

@@ -35,6 +35,7 @@ from physsim_ros.view.endpoints import (
     has_display,
     ServerEndpoint,
 )
+from physsim_ros.view.frame_context import FrameContext
 from physsim_ros.view.sink_worker import ANSWERS, Endpoint, SinkWorker
 
 # Least time between two openings [s]: each may start a program.
@@ -65,7 +66,7 @@ class Viewer:
         self._wanted: tuple[ViewerMode, str] | None = None
         # Steady time before which nothing is opened [s].
         self._next_opening = 0.0
-        self._shown: tuple[Frame, float] | None = None
+        self._shown: tuple[Frame, FrameContext] | None = None
 
     @property
     def state(self) -> str:
@@ -110,16 +111,16 @@ class Viewer:
         self._file_path = path
         self._file = self._open_sink(FileEndpoint(path, overwrite=True), after=self._file)
 
-    def show(self, frame: Frame, *, real_time_factor: float) -> None:
+    def show(self, frame: Frame, *, context: FrameContext) -> None:
         """
         Queue a frame for viewer and file; never blocks.
 
         :param frame: its arrays are not changed any more
-        :param real_time_factor: simulation seconds a second
+        :param context: of the frame
         """
-        self._shown = frame, real_time_factor
+        self._shown = frame, context
         for worker in self._workers:
-            worker.put_frame(frame, real_time_factor=real_time_factor)
+            worker.put_frame(frame, context=context)
 
     def poll(self) -> tuple[Answer, ...]:
         """
@@ -176,6 +177,6 @@ class Viewer:
         """
         worker = SinkWorker(endpoint, report=self._events.append, after=after)
         if self._shown is not None:
-            frame, factor = self._shown
-            worker.put_frame(frame, real_time_factor=factor)
+            frame, context = self._shown
+            worker.put_frame(frame, context=context)
         return worker

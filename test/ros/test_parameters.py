@@ -65,6 +65,7 @@ CONTRACT: dict[str, tuple[Any, str]] = {
     'history': (600.0, 'live'),
     'publish_clock': (True, 'live'),
     'viewer': ('auto', 'live'),
+    'trace': ('', 'live'),
     'viewer_url': ('', 'read-only'),
     'record_file': ('', 'read-only'),
     'sketchpad': ('none', 'live'),

@@ -35,7 +35,7 @@ from physsim_ros.model.scene import Body, Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box
 from physsim_ros.model.snapshot import Answer, Frame, Snapshot
-from physsim_ros.view import endpoints, Viewer, ViewerMode
+from physsim_ros.view import endpoints, FrameContext, Viewer, ViewerMode
 from physsim_ros.view.sink_worker import Endpoint, SinkWorker
 import pytest
 
@@ -50,6 +50,7 @@ pytestmark = pytest.mark.filterwarnings('ignore:RRD file has no footer')
 # Ten times what anything here takes; importing Rerun alone is a second.
 PATIENCE = 20.0
 
+CONTEXT = FrameContext(real_time_factor=1.0)
 BOX = Body(
     name='box/0',
     shape=Box(width=1.0, height=1.0),
@@ -86,7 +87,7 @@ def until(predicate, timeout=PATIENCE):
 
 def show(viewer, count, first=0):
     for step in range(first, first + count):
-        viewer.show(frame(step), real_time_factor=1.0)
+        viewer.show(frame(step), context=CONTEXT)
 
 
 def bulk():
@@ -266,11 +267,11 @@ def test_a_recording_that_was_deleted_is_told_once_and_begun_again(viewers, tmp_
     path.unlink()
     assert 'gone' in events.wait_for('record_failed').message
     until(lambda: not viewer.is_open)
-    viewer.show(frame(10, 'before'), real_time_factor=1.0)
+    viewer.show(frame(10, 'before'), context=CONTEXT)
     assert 'failed (the file is gone' in viewer.state
     viewer.open_viewer(ViewerMode.NONE)
     events.wait_for('')
-    viewer.show(frame(20, 'after'), real_time_factor=1.0)
+    viewer.show(frame(20, 'after'), context=CONTEXT)
     viewer.close()
 
     assert not [each for each in [*events.all, *viewer.poll()] if each.code]
@@ -283,8 +284,8 @@ FULL_DISK = """
     import sys
     from pathlib import Path
     from resource import getrlimit, RLIM_INFINITY, RLIMIT_FSIZE, setrlimit
-    from test.view.test_viewer import bulk, Events, frame, until
-    from physsim_ros.view import Viewer, ViewerMode
+    from test.view.test_viewer import bulk, CONTEXT, Events, frame, until
+    from physsim_ros.view import FrameContext, Viewer, ViewerMode
 
     setrlimit(RLIMIT_FSIZE, (300_000, RLIM_INFINITY))
     viewer = Viewer()
@@ -292,14 +293,14 @@ FULL_DISK = """
     events = Events(viewer)
     events.wait_for('')
     for step in range(10):
-        viewer.show(frame(step, bulk()), real_time_factor=1.0)
+        viewer.show(frame(step, bulk()), context=CONTEXT)
     print(events.wait_for('record_failed').message)
     until(lambda: not viewer.is_open)
     setrlimit(RLIMIT_FSIZE, (RLIM_INFINITY, RLIM_INFINITY))
     viewer.open_viewer(ViewerMode.NONE)
     print(events.wait_for('').message)
     for step in range(10, 20):
-        viewer.show(frame(step, bulk()), real_time_factor=1.0)
+        viewer.show(frame(step, bulk()), context=CONTEXT)
     viewer.close()
     print([each.code for each in (*events.all, *viewer.poll())])
 """
@@ -363,13 +364,13 @@ def test_what_is_recorded_goes_on_when_the_viewer_changes(viewers, server, tmp_p
     server.start()
     path = tmp_path / 'it.rrd'
     viewer = viewers(record_file=str(path))
-    viewer.show(frame(0, 'first'), real_time_factor=1.0)
+    viewer.show(frame(0, 'first'), context=CONTEXT)
     viewer.open_viewer(ViewerMode.CONNECT, server.url)
-    viewer.show(frame(4, 'second'), real_time_factor=1.0)
+    viewer.show(frame(4, 'second'), context=CONTEXT)
     # The one before is in the new viewer too: the world may stand still.
     server.wait_for('/events', 2)
     viewer.open_viewer(ViewerMode.NONE)
-    viewer.show(frame(8, 'third'), real_time_factor=1.0)
+    viewer.show(frame(8, 'third'), context=CONTEXT)
     assert 'connect' not in viewer.state
     viewer.close()
 
@@ -558,7 +559,7 @@ def test_a_server_that_comes_late_is_found_and_gets_every_answer(viewers, server
     viewer = viewers(mode=ViewerMode.CONNECT, url=server.url)
     until(lambda: 'nobody there' in viewer.state)
     for step in range(200):
-        viewer.show(frame(step, f'answer {step}'), real_time_factor=1.0)
+        viewer.show(frame(step, f'answer {step}'), context=CONTEXT)
 
     server.start()
     Events(viewer).wait_for('')
@@ -625,8 +626,8 @@ def test_ten_viewers_leave_no_threads_descriptors_or_ports():
 FROZEN = """
     import os, signal, sys, threading
     from pathlib import Path
-    from test.view.test_viewer import bulk, Events, frame, until
-    from physsim_ros.view import Viewer, ViewerMode
+    from test.view.test_viewer import bulk, CONTEXT, Events, frame, until
+    from physsim_ros.view import FrameContext, Viewer, ViewerMode
 
     url, path, server = sys.argv[1], sys.argv[2], int(sys.argv[3])
     viewer = Viewer()
@@ -637,7 +638,7 @@ FROZEN = """
     os.kill(server, signal.SIGSTOP)
     step = 0
     while 'takes nothing' not in viewer.state:
-        viewer.show(frame(step, bulk()), real_time_factor=1.0)
+        viewer.show(frame(step, bulk()), context=CONTEXT)
         step += 1
         threading.Event().wait(0.01)
     events.wait_for('viewer_lost')
@@ -666,13 +667,13 @@ def test_a_viewer_that_thaws_is_shown_what_is_new(viewers, server):
     steps = iter(range(10_000))
 
     def is_stuck():
-        viewer.show(frame(next(steps), bulk()), real_time_factor=1.0)
+        viewer.show(frame(next(steps), bulk()), context=CONTEXT)
         return 'takes nothing' in viewer.state
 
     until(is_stuck)
     os.kill(server.process.pid, signal.SIGCONT)
     until(lambda: ', open,' in viewer.state)
-    viewer.show(frame(20_000), real_time_factor=1.0)
+    viewer.show(frame(20_000), context=CONTEXT)
     viewer.close()
 
     server.wait_for('/events', next(steps))
@@ -708,11 +709,11 @@ class Blocked(Endpoint):
 def test_a_full_queue_drops_the_oldest_frames_and_keeps_all_answers():
     endpoint, told = Blocked(), []
     worker = SinkWorker(endpoint, report=told.append)
-    worker.put_frame(frame(0, 'answer 0'), real_time_factor=1.0)
+    worker.put_frame(frame(0, 'answer 0'), context=CONTEXT)
     assert endpoint.entered.wait(PATIENCE)
 
     for step in range(1, 101):
-        worker.put_frame(frame(step, f'answer {step}'), real_time_factor=1.0)
+        worker.put_frame(frame(step, f'answer {step}'), context=CONTEXT)
     endpoint.release.set()
     worker.end()
 
@@ -727,10 +728,10 @@ def test_a_full_queue_drops_the_oldest_frames_and_keeps_all_answers():
 def test_putting_a_frame_never_waits_for_drawing():
     endpoint = Blocked()
     worker = SinkWorker(endpoint, report=lambda _: None)
-    worker.put_frame(frame(0), real_time_factor=1.0)
+    worker.put_frame(frame(0), context=CONTEXT)
     assert endpoint.entered.wait(PATIENCE)
 
-    worker.put_frame(frame(1), real_time_factor=1.0)
+    worker.put_frame(frame(1), context=CONTEXT)
     assert not endpoint.release.is_set()
     endpoint.release.set()
     worker.end()
@@ -741,7 +742,7 @@ def test_putting_a_frame_never_waits_for_drawing():
 def test_closing_gives_up_on_one_that_never_draws():
     endpoint = Blocked()
     worker = SinkWorker(endpoint, report=lambda _: None)
-    worker.put_frame(frame(0), real_time_factor=1.0)
+    worker.put_frame(frame(0), context=CONTEXT)
     assert endpoint.entered.wait(PATIENCE)
 
     worker.end()
@@ -783,7 +784,7 @@ def test_what_waited_for_a_way_that_failed_is_let_go():
     worker = SinkWorker(endpoint, report=lambda _: None)
     waiting = frame(0, 'answer')
     kept = weakref.ref(waiting.snapshot)
-    worker.put_frame(waiting, real_time_factor=1.0)
+    worker.put_frame(waiting, context=CONTEXT)
     del waiting
 
     endpoint.release.set()
