@@ -39,7 +39,11 @@ _BLUE, _ORANGE, _GREEN, _PURPLE, _GREY = (
     (178, 121, 162),
     (120, 120, 120),
 )
+# Period of real-time factor and cost [ns].
+_PACE_PERIOD = 1_900_000_000
 Style = tuple[str, tuple[int, int, int]]
+# Index of a frame in a batch, and values of a plot.
+_Row = tuple[int, tuple[float, ...]]
 
 
 class Plot(NamedTuple):
@@ -49,11 +53,13 @@ class Plot(NamedTuple):
     :ivar name: with its unit
     :ivar series: name and colour of each
     :ivar values: of a frame, one for each series
+    :ivar stepped: whether values last until they change; then only changes are sent
     """
 
     name: str
     series: tuple[Style, ...]
     values: Callable[[Frame], tuple[float, ...]]
+    stepped: bool = False
 
 
 def _energies(frame: Frame) -> tuple[float, ...]:
@@ -92,49 +98,78 @@ PLOTS = {
         lambda frame: (angular_momentum(frame.snapshot),),
     ),
     'plots/counts': Plot(
-        'Counts', (('bodies', _BLUE), ('joints', _GREEN), ('contacts', _ORANGE)), _counts
+        'Counts',
+        (('bodies', _BLUE), ('joints', _GREEN), ('contacts', _ORANGE)),
+        _counts,
+        stepped=True,
     ),
 }
 PACE, COST = 'plots/pace', 'plots/cost'
 
 
-def send_styles(recording: rr.RecordingStream) -> None:
-    """Log names and colours of the series."""
-    for path, plot in PLOTS.items():
-        names, colors = zip(*plot.series, strict=True)
-        recording.log(path, rr.SeriesLines(names=names, colors=colors), static=True)
-    recording.log(
-        PACE, rr.SeriesLines(names='real-time factor by speed', colors=[_GREEN]), static=True
-    )
-    recording.log(COST, rr.SeriesLines(names='frame [ms]', colors=[_ORANGE]), static=True)
-
-
-def send_plots(recording: rr.RecordingStream, batch: FrameBatch) -> None:
-    """Send the values of every `SAMPLE`-th frame of a batch, and of its last one."""
-    chosen = batch.sampled(SAMPLE)
-    times = batch.times_at(chosen)
-    for path, plot in PLOTS.items():
-        values = np.array([plot.values(batch.frames[index]) for index in chosen])
-        lengths = [len(plot.series)] * len(chosen)
-        column = columns.column(columns.SCALARS, values.ravel(), lengths)
-        recording.send_columns(path, times, [column])
-
-
-def send_pace(recording: rr.RecordingStream, batch: FrameBatch, context: FrameContext) -> None:
+class Plots:
     """
-    Send real-time factor and cost of the last frame of a batch, where there are any.
+    Sends the values of plots.
 
-    The factor is that of the asked speed: 1 is a world that keeps up.
+    :param recording: stream to log to
     """
-    times, speed = batch.times_at([len(batch) - 1]), batch.frames[-1].speed
-    values = {
-        PACE: context.real_time_factor / speed if speed else 0.0,
-        COST: 1e3 * (context.cost or 0.0),
-    }
-    for path, value in values.items():
-        if value:
-            column = columns.column(columns.SCALARS, np.array([value]), [1])
-            recording.send_columns(path, times, [column])
+
+    def __init__(self, recording: rr.RecordingStream) -> None:
+        self._recording = recording
+        # Values of stepped plots that were sent last, and time at which the pace was [ns].
+        self._sent: dict[str, tuple[float, ...]] = {}
+        self._paced: int | None = None
+        for path, plot in PLOTS.items():
+            names, colors = zip(*plot.series, strict=True)
+            mode = rr.components.InterpolationMode.StepAfter if plot.stepped else None
+            style = rr.SeriesLines(names=names, colors=colors, interpolation_mode=mode)
+            recording.log(path, style, static=True)
+        for path, name, color in (
+            (PACE, 'real-time factor by speed', _GREEN),
+            (COST, 'frame [ms]', _ORANGE),
+        ):
+            recording.log(path, rr.SeriesLines(names=name, colors=[color]), static=True)
+
+    def send(self, batch: FrameBatch) -> None:
+        """Send the values of every `SAMPLE`-th frame of a batch, and of its last one."""
+        for path, plot in PLOTS.items():
+            rows = [(index, plot.values(batch.frames[index])) for index in batch.sampled(SAMPLE)]
+            if plot.stepped:
+                rows = self._changes(path, rows)
+            if rows:
+                values = np.array([each for _, each in rows]).ravel()
+                column = columns.column(columns.SCALARS, values, [len(plot.series)] * len(rows))
+                times = batch.times_at([index for index, _ in rows])
+                self._recording.send_columns(path, times, [column])
+
+    def _changes(self, path: str, rows: list[_Row]) -> list[_Row]:
+        """Return the rows whose values differ from those before."""
+        changes = []
+        for index, values in rows:
+            if self._sent.get(path) != values:
+                self._sent[path] = values
+                changes.append((index, values))
+        return changes
+
+    def send_pace(self, batch: FrameBatch, context: FrameContext) -> None:
+        """
+        Send real-time factor and cost of the last frame of a batch, where they are known and due.
+
+        The factor is that of the asked speed: 1 is a world that keeps up.
+        """
+        last, speed = len(batch) - 1, batch.frames[-1].speed
+        now = int(batch.recorded[last])
+        if self._paced is not None and now - self._paced < _PACE_PERIOD:
+            return
+        values = {
+            PACE: context.real_time_factor / speed if speed else 0.0,
+            COST: 1e3 * (context.cost or 0.0),
+        }
+        for path, value in values.items():
+            if value:
+                self._paced = now
+                column = columns.column(columns.SCALARS, np.array([value]), [1])
+                self._recording.send_columns(path, batch.times_at([last]), [column])
 
 
 def plot_views(*, paced: bool, traced: bool) -> list[rrb.Horizontal]:

@@ -27,7 +27,7 @@ import numpy as np
 from physsim_ros.model.arrays import Floats, Singles
 from physsim_ros.model.settings import Bounds
 from physsim_ros.model.snapshot import Frame
-from physsim_ros.view import contact_arrows, grid, plots, velocities
+from physsim_ros.view import contact_arrows, grid, velocities
 from physsim_ros.view.blueprint import blueprint
 from physsim_ros.view.blueprint_stream import send_blueprint
 from physsim_ros.view.body_geometry import BodyGeometry, DEPTH
@@ -41,7 +41,7 @@ from physsim_ros.view.joint_geometry import JointGeometry
 from physsim_ros.view.joint_track import JointTrack
 from physsim_ros.view.legend import Legend
 from physsim_ros.view.mesh_track import MeshTrack
-from physsim_ros.view.plots import send_pace, send_plots
+from physsim_ros.view.plots import Plots
 from physsim_ros.view.preview_lines import PreviewLines
 from physsim_ros.view.run_state_track import RunStateTrack
 from physsim_ros.view.status import Status
@@ -85,6 +85,7 @@ class FrameRecorder:
         self._hands = HandLines(recording)
         self._previews = PreviewLines(recording)
         self._run_states = RunStateTrack(recording)
+        self._plots = Plots(recording)
         self._status = Status(recording)
         self._legend = Legend(recording)
 
@@ -113,7 +114,7 @@ class FrameRecorder:
         for batch in self._clock.batches(fresh):
             self._draw_batch(batch, context)
         if batch is not None:
-            send_pace(self._recording, batch, context)
+            self._plots.send_pace(batch, context)
 
     def _is_new(self, frame: Frame) -> bool:
         if self._last is None or frame.moved or frame.answers or frame.speed != self._last.speed:
@@ -146,7 +147,7 @@ class FrameRecorder:
         self._traces.send(batch, context.traced, _JOINTS * unit)
         self._hands.send(batch, _PREVIEW * unit)
         self._previews.send(batch, height=_PREVIEW * unit, repeat=REPEAT)
-        send_plots(self._recording, batch)
+        self._plots.send(batch)
         send_events(self._recording, batch)
         self._run_states.send(batch)
         self._status.send(batch)
@@ -181,7 +182,6 @@ class FrameRecorder:
         }
         for path, style in styles.items():
             self._recording.log(path, style, static=True)
-        plots.send_styles(self._recording)
         grid.send_style(self._recording)
 
     def _send_geometry(self, batch: FrameBatch, bodies: BodyGeometry, *, everything: bool) -> None:

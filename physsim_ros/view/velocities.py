@@ -25,7 +25,7 @@ PATH = 'world/velocities'
 # Time by which a velocity is multiplied [s].
 _AHEAD = 0.2
 # Shortest period at which they are sent [frames].
-_PERIOD = 6
+_PERIOD = 10
 COLOR = (44, 120, 60)
 
 

@@ -17,7 +17,7 @@
 import gc
 import sys
 
-from . import capacity, crowd, frames, joints, outside, pages, resting, rewinding, startup
+from . import capacity, crowd, frames, joints, outside, pages, picture, resting, rewinding, startup
 
 # As the node does: what has been imported stays, and the collector need not look at it.
 gc.collect()
@@ -30,4 +30,5 @@ crowd.table()
 joints.table()
 rewinding.table()
 pages.table()
+picture.table()
 startup.table()
