@@ -234,6 +234,7 @@ class Frame:
     :param speed: simulation time by wall time; 0 is paused
     :param moved: whether simulation time differs from that of the frame before
     :param preview: of the unfinished drawing
+    :param past: whether it lies before the newest step of its course
     """
 
     snapshot: Snapshot
@@ -242,6 +243,7 @@ class Frame:
     speed: float = 1.0
     moved: bool = True
     preview: Preview = NO_PREVIEW
+    past: bool = False
 
 
 def run_state(speed: float) -> str:

@@ -587,6 +587,7 @@ class Simulation:
             answers=tuple(self._answers),
             speed=self.speed,
             moved=moved,
+            past=snapshot.step < self.timeline.history.head,
         )
         self._answers.clear()
         self._changed = False

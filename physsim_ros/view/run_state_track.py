@@ -52,7 +52,7 @@ _COURSE_COLORS = (
 )
 _MARK_COLOR = (228, 87, 86)
 # Topics of answers after which a new branch of time begins.
-_BRANCHING = {'branch', '~/undo', '~/redo', '~/reset'}
+_BRANCHING = {'branch', '~/undo', '~/redo', '~/reset', '~/timeline'}
 # Topics of answers that are marked, and the word of each.
 _MARKED = {
     '~/load_world': 'load',
@@ -61,24 +61,11 @@ _MARKED = {
     '~/undo': 'undo',
     '~/redo': 'redo',
     'branch': 'branch',
+    '~/timeline': 'return',
     'divergence': 'divergence',
 }
 # Duration of a mark [frames].
 _MARKED_FOR = 30
-
-
-class PastWatch:
-    """Tells whether a frame lies before the newest step of its branch."""
-
-    def __init__(self) -> None:
-        self._newest = 0
-
-    def is_past(self, frame: Frame) -> bool:
-        """Return whether a frame is in the past; frames are given in order."""
-        step = frame.snapshot.step
-        branching = any(each.topic in _BRANCHING and not each.code for each in frame.answers)
-        self._newest = step if branching else max(step, self._newest)
-        return step < self._newest
 
 
 class RunStateTrack:
@@ -92,7 +79,6 @@ class RunStateTrack:
         self._recording = recording
         self._states: dict[str, str | None] = {}
         self._branches = 0
-        self._past = PastWatch()
         self._settings: WorldSettings | None = None
         self._mark_ends: int | None = None
         self._marks: set[str] = set()
@@ -105,7 +91,7 @@ class RunStateTrack:
         for index, frame in enumerate(batch.frames):
             times = batch.times_at([index])[:1]
             self._send(RUN, run_state(frame.speed), times)
-            self._send(PAST, 'past' if self._past.is_past(frame) else 'present', times)
+            self._send(PAST, 'past' if frame.past else 'present', times)
             topics = [answer.topic for answer in frame.answers if not answer.code]
             if self._branches == 0 or _BRANCHING.intersection(topics):
                 self._branches += 1

@@ -18,7 +18,6 @@ from __future__ import annotations
 
 from physsim_ros.model.snapshot import Frame
 from physsim_ros.view.frame_batch import FrameBatch
-from physsim_ros.view.run_state_track import PastWatch
 import rerun as rr
 
 # In pixels of the image of the camera, so that they stay when the camera moves.
@@ -39,7 +38,6 @@ class Status:
 
     def __init__(self, recording: rr.RecordingStream) -> None:
         self._recording = recording
-        self._past = PastWatch()
         self._words = ''
         style = rr.Points2D.from_fields(
             positions=[_AT], colors=[_INK], radii=rr.Radius.ui_points(0.0), show_labels=True
@@ -48,10 +46,7 @@ class Status:
 
     def send(self, batch: FrameBatch) -> None:
         """Send the words of every `SAMPLE`-th frame, and where the run state changes."""
-        words = [
-            (index, status_words(frame, past=self._past.is_past(frame)))
-            for index, frame in enumerate(batch.frames)
-        ]
+        words = [(index, status_words(frame)) for index, frame in enumerate(batch.frames)]
         chosen = set(batch.sampled(SAMPLE))
         rows = []
         for index, text in words:
@@ -63,10 +58,10 @@ class Status:
         self._recording.send_columns(PATH, times, labels)
 
 
-def status_words(frame: Frame, *, past: bool) -> str:
+def status_words(frame: Frame) -> str:
     """Return simulation time, speed, and whether the world is in the past."""
     words = [f'{frame.snapshot.stamp * 1e-9:.2f} s', _speed_words(frame.speed)]
-    return '  '.join([*words, *(['in the past'] if past else [])])
+    return '  '.join([*words, *(['in the past'] if frame.past else [])])
 
 
 def _speed_words(speed: float) -> str:

@@ -549,7 +549,8 @@ def test_a_body_that_is_traced_leaves_its_way_and_flies_beside_its_parabola(reco
 def test_time_speed_and_the_past_are_written_in_the_picture(recording):
     box = scene(body())
     for number, (step, speed) in enumerate(((240, 1.0), (236, -2.0), (236, 0.0))):
-        recording.draw(frame(box, [(number, 0, 0)], step=step, speed=speed))
+        past = step < 240
+        recording.draw(frame(box, [(number, 0, 0)], step=step, speed=speed, past=past))
 
     words = [row.value.item() for row in recording.rows('world/camera/status', 'Points2D:labels')]
     assert words == [

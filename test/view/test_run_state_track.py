@@ -22,6 +22,7 @@ import numpy as np
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer, Frame, Snapshot
+from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.view.frame_batch import RecordedClock
 from physsim_ros.view.run_state_track import RunStateTrack
 import pytest
@@ -116,7 +117,7 @@ def test_a_state_goes_on_from_one_batch_to_the_next(tmp_path: Path) -> None:
     assert [number for number, _ in rows['/time/run']] == [0, 6]
 
 
-@pytest.mark.parametrize('topic', ['branch', '~/undo', '~/redo', '~/reset'])
+@pytest.mark.parametrize('topic', ['branch', '~/undo', '~/redo', '~/reset', '~/timeline'])
 def test_what_turns_the_course_begins_a_new_one(topic: str, tmp_path: Path) -> None:
     frames = [frame(1.0), frame(1.0, '~/spawn'), frame(1.0, '~/spawn', topic), frame(1.0)]
     rows = drawn(tmp_path / 'band.rrd', frames)
@@ -127,3 +128,17 @@ def test_what_only_answers_keeps_the_course(tmp_path: Path) -> None:
     topics = ('~/spawn', '~/anchor', 'history', 'divergence', '~/seek', '~/speed')
     rows = drawn(tmp_path / 'band.rrd', [frame(1.0, topic) for topic in topics])
     assert rows['/time/course'] == [(0, '1')]
+
+
+def test_past_and_present_stand_where_they_begin(tmp_path: Path) -> None:
+    sim = Simulation(physics_rate=240, publish_rate=60)
+    frames = []
+    for tick in range(40):
+        if tick in {10, 15}:
+            sim.speed = -sim.speed
+        frames += sim.advance(tick * 16_666_667)
+    states = drawn(tmp_path / 'band.rrd', frames)['/time/past']
+    assert [state for _, state in states] == ['present', 'past', 'present']
+    # A world that is loaded begins anew: there is nothing after it.
+    sim.begin(sim.world.save())
+    assert not sim.advance_frame().past
