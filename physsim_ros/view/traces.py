@@ -21,6 +21,8 @@ follows y0 + v0 t + g t² / 2.
 
 from __future__ import annotations
 
+from collections import defaultdict
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -56,6 +58,9 @@ class Traces:
         self._recording = recording
         self._traces: dict[str, _Trace] = {}
         self._styled: set[str] = set()
+        self._heights: defaultdict[str, list[tuple[float, float]]] = defaultdict(list)
+        style = rr.LineStrips3D.from_fields(radii=rr.Radius.ui_points(1.0))
+        recording.log(PATH, style, static=True)
 
     def send(self, batch: FrameBatch, names: tuple[str, ...], height: float) -> None:
         """
@@ -68,47 +73,61 @@ class Traces:
         for name in list(self._traces):
             if name not in names or name not in rows:
                 del self._traces[name]
-        for name in names:
-            if name in rows:
-                self._send_body(batch, name, rows[name], height)
+        traced = {name: rows[name] for name in names if name in rows}
+        if not traced:
+            return
+        segments = [
+            segment for frame in batch.frames for segment in self._segments(frame, traced, height)
+        ]
+        for name in traced:
+            self._send_heights(batch, name)
+        colors = [batch.scene.bodies[row].color for row in traced.values()] * len(batch)
+        corners = np.array(segments, dtype=np.float32).reshape(-1, 3)
+        lengths = [len(traced)] * len(batch)
+        strips = corners, np.full(len(segments), 2, dtype=np.intp)
+        levels = np.rint(np.array(colors) * 255).astype(np.uint8)
+        values = [
+            columns.column(columns.STRIPS, strips, lengths),
+            columns.column(columns.STRIP_COLORS, levels, lengths),
+        ]
+        self._recording.send_columns(PATH, batch.times, values)
 
-    def _send_body(self, batch: FrameBatch, name: str, row: int, height: float) -> None:
-        segments, heights = [], []
-        for frame in batch.frames:
-            now = frame.snapshot
+    def _segments(
+        self, frame: Frame, traced: dict[str, int], height: float
+    ) -> Iterator[tuple[tuple[float, float, float], tuple[float, float, float]]]:
+        """Yield the way of each body since the frame before, and note its height."""
+        now = frame.snapshot
+        for name, row in traced.items():
             x, y = now.centers[row].tolist()
             trace = self._traces.get(name)
             flight = None if trace is None else self._flight_height(frame, row, trace)
             if trace is None or flight is None:
-                start = now.stamp
                 trace = self._traces[name] = _Trace(
                     position=(x, y) if trace is None else trace.position,
-                    stamp=now.stamp, start=start, height=y, rise=float(now.twists[row, 1]),
-                )  # fmt: skip
+                    stamp=now.stamp,
+                    start=now.stamp,
+                    height=y,
+                    rise=float(now.twists[row, 1]),
+                )
                 flight = y
-            heights.append((y, flight))
-            segments.append(((*trace.position, height), (x, y, height)))
+            self._heights[name].append((y, flight))
+            yield (*trace.position, height), (x, y, height)
             trace.position, trace.stamp = (x, y), now.stamp
-        body = batch.scene.bodies[row]
-        path = f'{PATH}/{name}'
+
+    def _send_heights(self, batch: FrameBatch, name: str) -> None:
+        """Send the heights of a body in a batch, and forget them."""
         plot = f'{PLOTS}/{name}'
         if name not in self._styled:
             self._styled.add(name)
-            color = tuple(round(255 * each) for each in body.color[:3])
-            radii = rr.Radius.ui_points(1.0)
-            style = rr.LineStrips3D.from_fields(colors=[color], radii=radii)
-            self._recording.log(path, style, static=True)
+            color = batch.scene.bodies[batch.scene.names.index(name)].color[:3]
             series = rr.SeriesLines(
-                names=[f'{name}', f'{name} by y + v t + g t²/2'], colors=[color, _FLIGHT]
+                names=[name, f'{name} by y + v t + g t²/2'],
+                colors=[tuple(round(255 * each) for each in color), _FLIGHT],
             )
             self._recording.log(plot, series, static=True)
-        corners = np.array(segments, dtype=np.float32).reshape(-1, 3)
-        strips = (corners, np.full(len(segments), 2, dtype=np.intp))
-        column = columns.column(columns.STRIPS, strips, [1] * len(batch))
-        self._recording.send_columns(path, batch.times, [column])
-        values = np.array(heights).ravel()
-        series_column = columns.column(columns.SCALARS, values, [2] * len(batch))
-        self._recording.send_columns(plot, batch.times, [series_column])
+        values = np.array(self._heights.pop(name)).ravel()
+        column = columns.column(columns.SCALARS, values, [2] * len(batch))
+        self._recording.send_columns(plot, batch.times, [column])
 
     @staticmethod
     def _flight_height(frame: Frame, row: int, trace: _Trace) -> float | None:

@@ -542,7 +542,7 @@ def test_a_body_that_is_traced_leaves_its_way_and_flies_beside_its_parabola(reco
     assert len(heights) == 10
     for height, flight in heights:
         assert flight == pytest.approx(height, abs=1e-9)
-    way = recording.last('world/traces/ball/0', 'LineStrips3D:strips')
+    way = recording.last('world/traces', 'LineStrips3D:strips')
     assert len(way) == 1
 
 
