@@ -110,7 +110,9 @@ class FileEndpoint(Endpoint):
 
     kind = 'record'
     code = 'record_failed'
-    period, capacity, closing, reopens = 1.0, sys.maxsize, 10.0, False
+    # Long batches take less room. Below CHECK_PERIOD: with a full disk, a flush right after the
+    # first frames let `close` wait for ever (Rerun 0.41).
+    period, capacity, closing, reopens = 0.9, sys.maxsize, 10.0, False
 
     def __init__(self, path: Path, *, overwrite: bool) -> None:
         self.where = str(path)
