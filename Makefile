@@ -1,4 +1,4 @@
-# make run | test | lint | bench | ablate | evaluate | gallery | soak | clean; ARGS='...' is handed on to the program that a target runs.
+# `make` alone lists the targets. ARGS='...' is handed on to the program that a target runs.
 #
 # What it needs: Linux, make, and a Python of 3.11 or later with venv. It builds .venv beside this file and changes
 # nothing else. Where ROS 2 Jazzy is sourced, that is used; everywhere else Jazzy comes as wheels.
@@ -32,21 +32,27 @@ endif
 # TypeScript's checker, for the types in the comments of the page.
 TSC := npx --yes --package=typescript -- tsc
 
-.PHONY: run test lint bench ablate evaluate gallery soak clean
+.DEFAULT_GOAL := help
+.PHONY: help run test lint bench ablate evaluate gallery soak clean
 
-run: $(STAMP)
-	@echo 'Where to look:'
-	@echo '  the page  draw with pen and mouse, at the address printed below'
-	@echo '  Rerun     opens by itself where there is a display, else at the address printed below'
-	@echo '  RViz      fixed frame `world`, add MarkerArray /physsim/markers'
+# The comments after `##` are the help.
+help:  ## list the targets
+	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-9s %s\n", $$1, $$2 }' Makefile
+	@echo "ARGS='...' is handed on, as in: make run ARGS='-p world_file:=car', make test ARGS=test/laws"
+
+run: $(STAMP)  ## start the demo world, and its page in the browser
+	@echo 'The world starts. Ctrl-C ends it. Where to look:'
+	@echo '  the page  draw with pen, mouse and fingers, at the address below'
+	@echo '  Rerun     opens by itself where there is a display, else at the address `web:` below'
+	@echo '  RViz      rviz2 -d config/physsim.rviz'
+	@echo '  Foxglove  layout config/foxglove.json'
 	@echo '  ros2      topics and services under /physsim'
-	@echo 'Ctrl-C ends it.'
 	@exec $(BIN)/physsim --ros-args -p world_file:=demo -p sketchpad:=serve $(ARGS)
 
-test: $(STAMP)
+test: $(STAMP)  ## run every test: a quarter of an hour
 	$(BIN)/python -m pytest --numprocesses=auto --maxprocesses=8 --dist=worksteal $(ARGS)
 
-lint: $(STAMP)
+lint: $(STAMP)  ## check style, types and imports
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
 	$(BIN)/mypy physsim_ros
@@ -55,30 +61,35 @@ lint: $(STAMP)
 	@if $(TSC) --version >/dev/null 2>&1; then $(TSC) -p physsim_ros/sketchpad/page; \
 	else echo 'The types of the page are not checked: there is no node, or no registry.'; fi
 
-bench: $(STAMP)
+bench: $(STAMP)  ## measure times against the bare engine
 	$(BIN)/python -m test.bench $(ARGS)
 
-ablate: $(STAMP)
+ablate: $(STAMP)  ## measure each stage of a step by leaving it out
 	$(BIN)/python -m test.ablation $(ARGS)
 
-evaluate: $(STAMP)
+evaluate: $(STAMP)  ## measure how drawn strokes are read
 	$(BIN)/python -m test.evaluation $(ARGS)
 
 # Draws the pictures of README and docs anew; needs a Vulkan driver (Debian: mesa-vulkan-drivers libvulkan1).
-gallery: $(STAMP)
+gallery: $(STAMP)  ## draw the pictures of README and docs anew
 	$(BIN)/python -m test.gallery $(ARGS)
 
 # MINUTES=30 and SEED=0 unless they are given.
-soak: $(STAMP)
+soak: $(STAMP)  ## disturb a world at random for MINUTES=30, with SEED=0
 	MINUTES=$(MINUTES) SEED=$(SEED) $(BIN)/python -m test.adversary $(ARGS)
 
-clean:
+clean:  ## remove .venv and all that was built
 	rm -rf $(VENV) build install log dist *.egg-info .hypothesis .import_linter_cache .mypy_cache .pytest_cache .ruff_cache
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
+
+# The lines of pip that say what it does now; what was there already, and from where, is left out.
+PROGRESS := sed -u -n -E '/^ *(Collecting|Downloading|Building|Installing|Successfully|ERROR)/ s/^ *(.{1,120}).*/  \1/p'
 
 # The stamp is written last, so an interrupted installation starts over; a new setup.py is installed on top.
 $(STAMP): setup.py
 	@[ -n '$(PYTHON)' ] || { echo 'No Python of 3.11 or later with venv; name one: make PYTHON=/path/to/python' >&2; exit 1; }
-	[ -e $@ ] || $(PYTHON) -m venv --clear $(VENV_OPTIONS) $(VENV)
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[$(EXTRAS)]'
+	@[ -e $@ ] || echo '1 of 2: an environment in $(VENV), beside this file.'
+	@[ -e $@ ] || $(PYTHON) -m venv --clear $(VENV_OPTIONS) $(VENV)
+	@echo '2 of 2: packages into it, some 150, of which Rerun is the largest (170 MB); two or three minutes the first time.'
+	@set -o pipefail; $(BIN)/python -m pip install --disable-pip-version-check --editable '.[$(EXTRAS)]' | $(PROGRESS)
 	@touch $@

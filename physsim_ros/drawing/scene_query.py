@@ -34,6 +34,7 @@ from physsim_ros.model.scene import Body, Joint
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Capsule, Circle, Convex, Piece
 from physsim_ros.model.snapshot import Snapshot
+from physsim_ros.model.texts import nearest_name
 from physsim_ros.model.transform import Point, Pose, rotated
 
 # The namespace of drawn bodies and joints.
@@ -141,7 +142,9 @@ class SceneQuery:
             return point
         if frame not in self._rows:
             raise UnknownFrame(
-                f'frame {frame!r} is neither the world nor a body', field='header.frame_id'
+                f'frame {frame!r} is neither the world nor a body'
+                f'{nearest_name(frame, self._rows)}',
+                field='header.frame_id',
             )
         return self.in_world(frame, point)
 

@@ -19,8 +19,8 @@ Nothing here knows ROS or Rerun. The state of a world is a value of `model.check
 recognised in `drawing`. Start with `world_file`, then `world_reader` and `world_writer`.
 """
 
-from physsim_ros.files.drawing_file import BadDrawing, find_drawing, load_drawing, Pace
-from physsim_ros.files.resources import shipped, shipped_pictures
+from physsim_ros.files.drawing_file import BadDrawing, drawings, find_drawing, load_drawing, Pace
+from physsim_ros.files.resources import files_by_name, shipped, shipped_pictures, title_of
 from physsim_ros.files.world_file import (
     find_world,
     hides_shipped,
@@ -28,6 +28,7 @@ from physsim_ros.files.world_file import (
     save_world,
     shipped_worlds,
     user_worlds,
+    worlds_in,
 )
 from physsim_ros.files.world_reader import spawn_from, state_from
 from physsim_ros.files.world_schema import PARAMETERS, SETTINGS
@@ -39,6 +40,8 @@ __all__ = [
     'SETTINGS',
     'BadDrawing',
     'Pace',
+    'drawings',
+    'files_by_name',
     'find_drawing',
     'find_world',
     'hides_shipped',
@@ -52,5 +55,7 @@ __all__ = [
     'spawn_from',
     'state_from',
     'text_of',
+    'title_of',
     'user_worlds',
+    'worlds_in',
 ]

@@ -31,11 +31,12 @@ from xml.etree.ElementTree import ParseError
 
 import numpy as np
 from numpy.typing import NDArray
-from physsim_ros.files.resources import is_plain, shipped
+from physsim_ros.files.resources import files_by_name, is_plain, shipped
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import PhysSimError
 from physsim_ros.model.requests import FARTHEST
 from physsim_ros.model.settings import MOST_SAMPLES
+from physsim_ros.model.texts import nearest_name
 from svgelements import Curve, Matrix, Shape, SVG
 from svgelements import Path as SvgPath
 
@@ -51,6 +52,9 @@ _FEWEST = 30
 _LONGEST = 1e7
 # Raised by svgelements 1.9 at malformed elements and attributes, instead of an error of its own.
 _SVG_ERRORS = (ArithmeticError, AttributeError, LookupError, TypeError)
+
+# Suffixes of drawings.
+_SUFFIXES = ('.svg', '.json')
 
 
 class BadDrawing(PhysSimError):
@@ -70,6 +74,11 @@ class Pace:
     rate: float = 100.0
 
 
+def drawings() -> dict[str, Path]:
+    """Return the shipped drawings by their plain names."""
+    return files_by_name(shipped('drawings'), *_SUFFIXES)
+
+
 def find_drawing(name: str) -> Path:
     """
     Return the file of a path, or of the plain name of a shipped drawing.
@@ -77,12 +86,17 @@ def find_drawing(name: str) -> Path:
     :raises BadDrawing: there is none
     """
     paths = [Path(name)]
+    looked = [str(Path(name).absolute().parent)]
     if is_plain(name):
-        paths += [shipped('drawings') / f'{name}{suffix}' for suffix in ('.svg', '.json')]
+        paths += [shipped('drawings') / f'{name}{suffix}' for suffix in _SUFFIXES]
+        looked.append(str(shipped('drawings')))
     for path in paths:
         if path.is_file():
             return path
-    raise BadDrawing(f'there is no drawing {name!r}')
+    raise BadDrawing(
+        f'there is no drawing {name!r} in {" and ".join(looked)}'
+        f'{nearest_name(Path(name).stem, drawings())}'
+    )
 
 
 def load_drawing(

@@ -18,7 +18,15 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
+import re
 import sys
+
+# Start of a file in which its title is looked for [bytes].
+_TITLE_WITHIN = 400
+# A comment of YAML or of XML, and the first sentence of it.
+_COMMENT = re.compile(
+    r'^#(?P<yaml>.*?)\.\s|<!--(?P<xml>.*?)(?:\.\s|-->)', re.DOTALL | re.MULTILINE
+)
 
 
 def shipped(folder: str) -> Path:
@@ -49,3 +57,30 @@ def _shipped(folder: Path) -> Path:
 def is_plain(name: str) -> bool:
     """Tell whether a name has neither directory nor suffix, like the names of shipped files."""
     return Path(name).name == name and not Path(name).suffix
+
+
+def files_by_name(directory: Path, *suffixes: str) -> dict[str, Path]:
+    """
+    Return the files of a directory by their plain names, in order; none where it cannot be read.
+
+    :param suffixes: of the files, with the dot
+    """
+    try:
+        return {
+            path.stem: path
+            for path in sorted(directory.iterdir())
+            if path.suffix in suffixes and not path.name.startswith('.') and path.is_file()
+        }
+    except OSError:
+        return {}
+
+
+def title_of(path: Path) -> str:
+    """Return the first sentence of the comment that a file begins with, or its plain name."""
+    with path.open('rb') as file:
+        start = file.read(_TITLE_WITHIN).decode(errors='ignore')
+    found = _COMMENT.search(start)
+    if found is None:
+        return path.stem
+    sentence = found['xml'] or found['yaml']
+    return ' '.join(word for word in sentence.split() if word != '#')

@@ -30,7 +30,7 @@ import textwrap
 
 from physsim_ros.files.entry_lines import load_entries
 from physsim_ros.files.regular_file import read_file, write_file
-from physsim_ros.files.resources import is_plain, shipped
+from physsim_ros.files.resources import files_by_name, is_plain, shipped
 from physsim_ros.files.world_reader import state_from
 from physsim_ros.files.world_schema import FORMAT
 from physsim_ros.files.world_writer import text_of
@@ -38,6 +38,7 @@ from physsim_ros.files.yaml12 import first_value
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import BadWorldFile, Malformed, Refusal, UnknownProperty
 from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.texts import nearest_name
 
 # Length of a list of names in a message [characters].
 _LONGEST_LIST = 500
@@ -91,13 +92,21 @@ def find_world(name: str, *, world_dir: Path, confined: bool) -> Path:
             if confined:
                 _check_place(path.resolve(), name, (world_dir, shipped_worlds()))
             return path
-    known = sorted({each.stem for each in _worlds(world_dir) + _worlds(shipped_worlds())})
+    known = sorted({*worlds_in(world_dir), *worlds_in(shipped_worlds())})
     there = textwrap.shorten(', '.join(known), _LONGEST_LIST, placeholder=' …')
-    raise BadWorldFile(f'there is no world {name[:99]!r}; there are {there}', field='world_file')
+    # Peers on the graph are not told the directories of this machine.
+    directories = ('world_dir', 'config/worlds') if confined else {path.parent for path in paths}
+    looked = ' and '.join(sorted(str(each) for each in directories))
+    raise BadWorldFile(
+        f'there is no world {name[:99]!r} in {looked}'
+        f'{nearest_name(Path(name).stem, known)}; there are {there}',
+        field='world_file',
+    )
 
 
-def _worlds(directory: Path) -> list[Path]:
-    return [path for path in directory.glob('*.yaml') if not path.name.startswith('.')]
+def worlds_in(directory: Path) -> dict[str, Path]:
+    """Return the world files of a directory by their plain names."""
+    return files_by_name(directory, _SUFFIX)
 
 
 def load_world(

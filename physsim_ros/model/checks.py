@@ -22,12 +22,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-import difflib
 import math
 import reprlib
 from typing import Any
 
 from physsim_ros.model.errors import BadProperty, Malformed, UnknownProperty
+from physsim_ros.model.texts import nearest_name
 from physsim_ros.model.transform import Point
 
 # Greatest speed [m/s] and spin [rad/s]. A body at this speed covers metres in a step, which
@@ -223,9 +223,7 @@ def check_key(key: object, known: list[str]) -> None:
     """
     if key in known:
         return
-    # Similarity below difflib's default cutoff (0.6) suggests another word, not a misspelling.
-    near = difflib.get_close_matches(str(key).lower(), known, n=1)
-    nearest = f'; nearest is {near[0]!r}' if near else ''
+    nearest = nearest_name(str(key).lower(), known)
     raise UnknownProperty(
         f'there is no property {shown(str(key))}{nearest}', field=str(key)[:_LONGEST_SHOWN]
     )

@@ -16,6 +16,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+import difflib
+from itertools import islice
 import unicodedata
 
 # Unicode categories of control characters, surrogates, line and paragraph separators. Format
@@ -24,6 +27,8 @@ _UNPRINTABLE = {'Cc', 'Cs', 'Zl', 'Zp'}
 # Greatest lengths of a word and of a whole message [characters]: some six lines of a terminal.
 LONGEST_WORD, LONGEST_MESSAGE = 80, 480
 _OMISSION = '…'
+# Names that a misspelt one is compared with [1], some 10 µs each: a peer may repeat its mistake.
+_MOST_COMPARED = 200
 
 
 def is_printable(text: str) -> bool:
@@ -49,3 +54,15 @@ def message_text(text: str) -> str:
     if len(text) > LONGEST_WORD:
         text = ' '.join(map(abbreviated, text.split(' ')))
     return abbreviated(text, LONGEST_MESSAGE)
+
+
+def nearest_name(name: str, known: Iterable[str]) -> str:
+    """
+    Return the end of a sentence that names the most similar of the known names, or ''.
+
+    :param name: that is not known
+    :param known: names, of which the first `_MOST_COMPARED` are compared
+    """
+    # Similarity below difflib's default cutoff (0.6) suggests another word, not a misspelling.
+    near = difflib.get_close_matches(abbreviated(name), islice(known, _MOST_COMPARED), n=1)
+    return f'; nearest is {near[0]!r}' if near else ''

@@ -31,9 +31,10 @@ import time
 from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import PoseStamped
 from nav_msgs.msg import Path
-from physsim_ros.files import BadDrawing, find_drawing, load_drawing, Pace
+from physsim_ros.files import BadDrawing, drawings, find_drawing, load_drawing, Pace, shipped
 from physsim_ros.model.arrays import Floats
 from physsim_ros.ros.qos_safe_node import LOSSLESS, NodeWithoutQosEvents
+from physsim_ros.ros.usage import files_table
 import rclpy
 from rclpy.exceptions import InvalidTopicNameException
 from rclpy.experimental import EventsExecutor
@@ -234,9 +235,17 @@ def _options(arguments: Sequence[str]) -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         prog='physsim_draw',
         description='Draw a drawing into a running world, stroke by stroke.',
-        epilog='It ends with 1 where a stroke was refused.',
+        epilog='It ends with 1 where a stroke was refused. '
+        f'Shipped drawings, as --list tells them: {", ".join(drawings())}.',
     )
-    parser.add_argument('drawing', help='an SVG or JSON file, or a name in config/drawings')
+    parser.add_argument(
+        'drawing',
+        help='an SVG file, a JSON file ([[[x, y], ...], ...], or [x, y, t]), or the name of a '
+        'shipped drawing',
+    )
+    parser.add_argument(
+        '--list', action=_List, help='tell the shipped drawings and where they are, and exit'
+    )
     parser.add_argument(
         '--scale',
         type=_positive,
@@ -273,6 +282,17 @@ def _options(arguments: Sequence[str]) -> argparse.Namespace:
         help='how long to wait for the world, and for each answer [s] (default: %(default)g)',
     )
     return parser.parse_args(arguments)
+
+
+class _List(argparse.Action):
+    """Tells the shipped drawings, and exits."""
+
+    def __init__(self, option_strings: Sequence[str], dest: str, help: str) -> None:  # noqa: A002
+        super().__init__(option_strings, dest, nargs=0, help=help)
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
+        listed = files_table(f'drawings in {shipped("drawings")}:', drawings())
+        parser.exit(message=listed)
 
 
 def _positive(text: str) -> float:

@@ -572,5 +572,10 @@ class PhysSimNode(NodeWithoutQosEvents):
 
 def _print_addresses(sketchpad: Sketchpad) -> None:
     """Print where the page is, for the person at the terminal."""
-    sys.stdout.write(f'Draw on it: {sketchpad.url()}\nOnly watch: {sketchpad.url(Role.VIEW)}\n')
+    sys.stdout.write(
+        '\n'
+        '  The page is at\n\n'
+        f'      {sketchpad.url()}\n\n'
+        f'  and for those who only watch: {sketchpad.url(Role.VIEW)}\n\n'
+    )
     sys.stdout.flush()

@@ -79,6 +79,16 @@ def reduce_latency() -> None:
     os.environ.setdefault('FASTRTPS_DEFAULT_PROFILES_FILE', str(profiles))
 
 
+class _Usage(ArgumentParser):
+    """A parser whose help ends with the worlds and parameters there are."""
+
+    def format_help(self) -> str:
+        """Return the help."""
+        from physsim_ros.ros.usage import physsim_help
+
+        return super().format_help() + physsim_help()
+
+
 def main() -> None:
     """Run the node until it is interrupted."""
     watch = TerminationWatch()
@@ -93,11 +103,10 @@ def main() -> None:
     from rclpy.utilities import remove_ros_args
 
     # All settings are parameters; the parser refuses other arguments, which would be ignored.
-    usage = ArgumentParser(
+    usage = _Usage(
         prog='physsim',
         description='Run a physics world as a ROS 2 node.',
-        epilog='Parameters, as config/physsim.yaml lists them, come after --ros-args: '
-        'physsim --ros-args -p world_file:=demo -p gravity:="[0.0, -1.62]"',
+        epilog='For example: physsim --ros-args -p world_file:=demo -p gravity:="[0.0, -1.62]"',
     )
     try:
         usage.parse_args(remove_ros_args(sys.argv)[1:])

@@ -26,12 +26,14 @@ from dataclasses import replace
 import math
 
 from physsim_ros.engine.space import Space
-from physsim_ros.model.errors import Anchored, BadProperty, NothingThere, UnknownBody, UnknownJoint
+from physsim_ros.model.errors import Anchored, BadProperty, NothingThere, UnknownJoint
 from physsim_ros.model.joints import JointKind, JointProperties
 from physsim_ros.model.names import split_name, WORLD
 from physsim_ros.model.requests import Join
 from physsim_ros.model.scene import Joint, Seat
+from physsim_ros.model.texts import nearest_name
 from physsim_ros.model.transform import Point, Pose, rotated
+from physsim_ros.simulation.lookup import body_of_name
 
 # Points that lie so near to where a joint is drawn are where it is [m]: what is drawn comes back
 # in the digits of a double, and from a person's hand never.
@@ -101,7 +103,8 @@ def unjoin(space: Space, name: str) -> tuple[str, str]:
     :raises UnknownJoint: there is none of that name
     """
     if name not in space.joints.by_name:
-        raise UnknownJoint(f'there is no joint {name!r}', field='name')
+        nearest = nearest_name(name, space.joints.by_name)
+        raise UnknownJoint(f'there is no joint {name!r}{nearest}', field='name')
     space.unjoin(name)
     return name, f'deleted joint {name}'
 
@@ -159,8 +162,8 @@ def _members(
     :raises NothingThere: no name is given, and no body is there
     """
     for field, name in (('a', request.a), ('b', request.b)):
-        if name and name != WORLD and name not in space.bodies.by_name:
-            raise UnknownBody(f'there is no body {name!r}', field=field)
+        if name and name != WORLD:
+            body_of_name(space, name, field)
     a, b = request.a, request.b
     first = [name for name in space.bodies.at(points[0]) if name != b]
     last = space.bodies.at(points[-1])

@@ -22,6 +22,7 @@ from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.space import Space
 from physsim_ros.model.errors import UnknownBody, UnknownFrame
 from physsim_ros.model.requests import check_pose
+from physsim_ros.model.texts import nearest_name
 from physsim_ros.model.transform import Point, Pose, rotated
 
 
@@ -33,7 +34,8 @@ def body_of_name(space: Space, name: str, field: str = 'name') -> RigidBody:
     :raises UnknownBody: there is none
     """
     if name not in space.bodies.by_name:
-        raise UnknownBody(f'there is no body {name!r}', field=field)
+        nearest = nearest_name(name, space.bodies.by_name)
+        raise UnknownBody(f'there is no body {name!r}{nearest}', field=field)
     return space.bodies.by_name[name]
 
 
@@ -49,7 +51,9 @@ def pose_in_world(space: Space, pose: Pose, frame: str) -> Pose:
         return pose
     if frame not in space.bodies.by_name:
         raise UnknownFrame(
-            f'frame {frame!r} is neither the world nor a body', field='header.frame_id'
+            f'frame {frame!r} is neither the world nor a body'
+            f'{nearest_name(frame, space.bodies.by_name)}',
+            field='header.frame_id',
         )
     x, y, yaw = space.bodies.by_name[frame].pose
     turned_x, turned_y = rotated((pose[0], pose[1]), yaw)

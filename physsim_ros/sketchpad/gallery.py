@@ -17,15 +17,14 @@
 
 from __future__ import annotations
 
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
-from physsim_ros.files import shipped_pictures, shipped_worlds
+from physsim_ros.files import shipped_pictures, shipped_worlds, title_of, worlds_in
 
 # Worlds of the user that are listed.
 MOST_WORLDS = 500
-# Start of a file in which its title is looked for [characters].
-_TITLE_WITHIN = 400
 
 
 def gallery_content(world_dir: Path) -> dict[str, Any]:
@@ -34,23 +33,12 @@ def gallery_content(world_dir: Path) -> dict[str, Any]:
 
     :param world_dir: directory of the user's worlds
     """
-    shipped = [_entry(path, shipped=True) for path in _files(shipped_worlds())]
-    own = [_entry(path, shipped=False) for path in _files(world_dir)[:MOST_WORLDS]]
+    shipped = [_entry(path, shipped=True) for path in worlds_in(shipped_worlds()).values()]
+    files = islice(worlds_in(world_dir).values(), MOST_WORLDS)
+    own = [_entry(path, shipped=False) for path in files]
     # A world of the user comes before the shipped one of its name.
     worlds = {entry['name']: entry for entry in shipped + own}
     return {'type': 'worlds', 'worlds': list(worlds.values())}
-
-
-def _files(directory: Path) -> list[Path]:
-    try:
-        return sorted(
-            path
-            for path in directory.glob('*.yaml')
-            if path.is_file() and not path.name.startswith('.')
-        )
-    except OSError:
-        # A directory that may not be read has no worlds.
-        return []
 
 
 def _entry(path: Path, *, shipped: bool) -> dict[str, Any]:
@@ -59,16 +47,7 @@ def _entry(path: Path, *, shipped: bool) -> dict[str, Any]:
     return {
         'name': name,
         # A comment of the user's is nobody else's business.
-        'title': _title(path) if shipped else name,
+        'title': title_of(path) if shipped else name,
         'picture': f'/gallery/{name}.png' if picture else '',
         'shipped': shipped,
     }
-
-
-def _title(path: Path) -> str:
-    """Return the first sentence of the comment that a file begins with."""
-    with path.open(encoding='utf-8') as file:
-        start = file.read(_TITLE_WITHIN)
-    lines = start.splitlines()
-    comment = ' '.join(line.removeprefix('#').strip() for line in lines if line.startswith('#'))
-    return comment.partition('.')[0] or path.stem

@@ -16,10 +16,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from physsim_ros.model.errors import BadWorldFile, Malformed, PhysSimError
 from physsim_ros.model.names import LONGEST_NAME, shown_name
 from physsim_ros.model.snapshot import Answer
-from physsim_ros.model.texts import abbreviated, is_printable, LONGEST_MESSAGE, LONGEST_WORD
+from physsim_ros.model.texts import (
+    abbreviated,
+    is_printable,
+    LONGEST_MESSAGE,
+    LONGEST_WORD,
+    nearest_name,
+)
 import pytest
 
 NASTY = ['\x1b[31mred', 'bell\a', 'line\nline', 'half \ud83d', 'sep\u2028sep', 'nul\0', '\x9b31m']
@@ -52,3 +60,17 @@ def test_a_megabyte_is_cut_and_the_reason_remains() -> None:
         # An escape has up to ten characters.
         assert max(len(answer.subject), len(answer.field)) <= 10 * LONGEST_WORD
         assert is_printable(answer.subject + answer.field)
+
+
+def test_a_misspelt_name_is_answered_with_the_nearest() -> None:
+    assert nearest_name('ramp0', ['box/0', 'ramp/0']) == "; nearest is 'ramp/0'"
+    assert nearest_name('ramp0', ['box/0', 'ball/0']) == ''
+    assert nearest_name('', []) == ''
+
+
+def test_the_time_for_the_nearest_name_is_bounded() -> None:
+    def names() -> Iterator[str]:
+        yield from (f'box/{number}' for number in range(1000))
+        pytest.fail('all names were compared')
+
+    assert nearest_name('x' * 10**6, names()) == ''

@@ -92,6 +92,8 @@ def test_strokes_build_a_car_while_time_stands_still_and_then_it_rolls(outside: 
     ('words', 'told', 'code'),
     [
         (['nothing'], 'no drawing', 1),
+        (['see-saw'], "nearest is 'seesaw'", 1),
+        (['--list'], 'pendulum', 0),
         (['car', '--world', '/nobody', '--patience', 0.5], 'no world at /nobody', 1),
         (['car', '--world', 'a b'], '--world: Invalid topic name', 1),
         (['car', '--ros-args', '-p'], 'physsim_draw: Failed to parse ROS arguments', 1),

@@ -24,6 +24,7 @@ import signal
 import sys
 from typing import Any
 
+from physsim_ros.ros.parameters import SPECS
 import pytest
 
 from ..outside import Outside, PATIENCE, ROOT
@@ -201,6 +202,7 @@ def test_a_thousand_bodies_without_a_viewer_fit_into_memory(outside: Outside) ->
         ({'gravity': '[0, -9.81]'}, ['gravity', 'same type']),
         ({'bounds': '[1, 0, 0, 1]'}, ['bounds']),
         ({'world_file': 'nowhere'}, ['nowhere']),
+        ({'world_file': 'dominos'}, ['nearest is', 'dominoes', 'config/worlds']),
         ({'world_file': '/etc'}, ['/etc']),
     ],
     ids=lambda value: '-'.join(value) if isinstance(value, dict) else '',
@@ -270,3 +272,13 @@ def test_it_says_how_it_is_told_things(outside: Outside, words: list[str], code:
     with outside.start_installed('physsim', *words) as program:
         assert program.finish() == code
     assert 'usage: physsim' in ''.join(program.lines)
+
+
+def test_its_help_tells_every_world_and_parameter(outside: Outside) -> None:
+    with outside.start_installed('physsim', '--help') as program:
+        assert program.finish() == 0
+    names = [line.split()[0] for line in program.lines if re.match('  [a-z]', line)]
+    worlds = [path.stem for path in (ROOT / 'config' / 'worlds').glob('*.yaml')]
+    assert {*worlds, *SPECS} <= set(names)
+    # The sentence that the file begins with, whole.
+    assert 'at its steepest 36 degrees' in ' '.join(' '.join(program.lines).split())

@@ -73,7 +73,7 @@ def test_requests_are_answered_in_order_and_one_each() -> None:
         Answer(
             topic='~/spawn',
             subject='a/1',
-            message="there is no body 'a/1'",
+            message="there is no body 'a/1'; nearest is 'a/0'",
             code='unknown_body',
             field='name',
         ),
