@@ -90,6 +90,6 @@ $(STAMP): setup.py
 	@[ -n '$(PYTHON)' ] || { echo 'No Python of 3.11 or later with venv; name one: make PYTHON=/path/to/python' >&2; exit 1; }
 	@[ -e $@ ] || echo '1 of 2: an environment in $(VENV), beside this file.'
 	@[ -e $@ ] || $(PYTHON) -m venv --clear $(VENV_OPTIONS) $(VENV)
-	@echo '2 of 2: packages into it, some 150, of which Rerun is the largest (170 MB); two or three minutes the first time.'
+	@echo '2 of 2: packages into it, some 170, of which Rerun is the largest (170 MB); two or three minutes the first time.'
 	@set -o pipefail; $(BIN)/python -m pip install --disable-pip-version-check --editable '.[$(EXTRAS)]' | $(PROGRESS)
 	@touch $@

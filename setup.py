@@ -48,6 +48,7 @@ setup(
     ],
     packages=find_packages(include=[PACKAGE, f'{PACKAGE}.*']),
     package_data={
+        PACKAGE: ['py.typed'],
         f'{PACKAGE}.ros': ['*.xml'],
         f'{PACKAGE}.sketchpad': ['page/*', 'page/*/*'],
     },

@@ -15,6 +15,10 @@
 """
 A pytest plugin: a world in the process of a test, which advances its time.
 
+pytest loads it wherever the package is installed (entry point `pytest11`), in other projects too;
+from a source tree alone, `pytest -p physsim_ros.testing` does. The fixture is `physsim`, a
+`PhysSim`; names and types are for `from physsim_ros.testing import PhysSim, Refused`.
+
 Laws: ROS is not imported before a test requests the fixture `physsim`; simulation time does not
 depend on the wall clock, which only bounds the wait for an answer; messages that other nodes send
 in reaction to a frame have arrived before the next frame, so that every run gives the same bits;
@@ -23,7 +27,7 @@ no node of another process hears the world or is heard by it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import contextmanager
 import itertools
 import math
@@ -55,13 +59,21 @@ _PEERS = ('ROS_DISCOVERY_SERVER', 'ROS_STATIC_PEERS')
 _TIMEOUT = 10.0
 # Additional timeout for each marker of an array, which takes half a millisecond [s].
 _TIMEOUT_EACH = 0.01
+# Bodies that a failure describes [1]: what a screen shows at a time.
+_MOST_DESCRIBED = 30
 # The greatest number of rounds of messages in reaction to messages: two nodes that answer each
 # other never end.
 _MOST_ROUNDS = 100
 
 
 class Pose(NamedTuple):
-    """Pose of a body: x, y [m], yaw [rad]."""
+    """
+    Pose of a body in the world.
+
+    :ivar x: of the origin of its shape [m]
+    :ivar y: of the same [m]
+    :ivar yaw: counter-clockwise from the x axis [rad]
+    """
 
     x: float
     y: float
@@ -69,7 +81,13 @@ class Pose(NamedTuple):
 
 
 class Twist(NamedTuple):
-    """Twist of a body: vx, vy of its centre of mass [m/s], angular velocity (spin) [rad/s]."""
+    """
+    Twist of a body, in axes of the world.
+
+    :ivar vx: velocity of its centre of mass along x [m/s]
+    :ivar vy: the same along y [m/s]
+    :ivar spin: angular velocity, counter-clockwise [rad/s]
+    """
 
     vx: float
     vy: float
@@ -77,11 +95,21 @@ class Twist(NamedTuple):
 
 
 class Contact(NamedTuple):
-    """A contact of the last frame: names of the pair, and the impulse on b [N s]."""
+    """
+    Two bodies that touched during the last frame.
+
+    :ivar a: name of the body that was spawned first
+    :ivar b: name of the other one, or 'world' for the walls of `bounds`
+    :ivar impulse: x, y of the impulse of a on b over the frame [N s]
+    :ivar point: x, y of the mean contact point [m]
+    :ivar normal: x, y of the unit vector from a to b
+    """
 
     a: str
     b: str
     impulse: tuple[float, float]
+    point: tuple[float, float]
+    normal: tuple[float, float]
 
 
 class Refused(Exception):
@@ -96,6 +124,14 @@ class Refused(Exception):
         super().__init__(f'{code}: {message}')
         self.code = code
         self.field = field
+
+
+class UnknownName(KeyError):
+    """No body or joint has that name; the message tells the nearest one."""
+
+    def __str__(self) -> str:
+        """Return the message as it is, which a KeyError quotes."""
+        return str(self.args[0])
 
 
 @contextmanager
@@ -114,10 +150,15 @@ class PhysSim:
     A world whose time a test advances, and a client that publishes requests to it.
 
     :param context: of ROS
+    :param directory: in which `load` looks for files first, as that of the test
     :param parameters: of the node, as name -> value
+
+    :ivar recording: the file that frames are recorded in; None if they are not
     """
 
-    def __init__(self, context: Context, **parameters: Any) -> None:
+    def __init__(
+        self, context: Context, *, directory: Path | None = None, **parameters: Any
+    ) -> None:
         from physsim_ros.ros.node import PhysSimNode
         from rclpy.experimental import EventsExecutor
         from rclpy.parameter import Parameter
@@ -125,6 +166,8 @@ class PhysSim:
         values = {'viewer': 'none', 'publish_rate': 60.0} | parameters
         overrides = [Parameter(name, value=value) for name, value in values.items()]
         self.context = context
+        self._directories = [*filter(None, [directory]), Path()]
+        self.recording: Path | None = None
         self.node = PhysSimNode(context=context, parameter_overrides=overrides)
         self._client = _Client(context)
         self._executor = EventsExecutor(context=context)
@@ -137,18 +180,26 @@ class PhysSim:
 
     def load(self, world: str | Path) -> None:
         """
-        Replace the world by that of a file, by name or path.
+        Replace the world by that of a file.
 
+        :param world: a path, relative to the test's own file or to the working directory, where
+            `.yaml` may be left out; or the name of a shipped world
         :raises Refused: there is no such file, or it is not a world
         """
         from rclpy.parameter import Parameter
 
-        # A relative path is relative to the working directory, as everywhere in Python.
         given = Path(world) if Path(world).suffix else Path(f'{world}.yaml')
-        path = given.resolve() if given.is_file() else world
-        self.node.set_parameters([Parameter('world_file', value=str(path))])
-        with _refusing():
-            self.node.world_files.load(confined=False)
+        paths = [directory.absolute() / given for directory in self._directories]
+        path = next((path for path in paths if path.is_file()), None)
+        self.node.set_parameters([Parameter('world_file', value=str(path or world))])
+        try:
+            with _refusing():
+                self.node.world_files.load(confined=False)
+        except Refused as refused:
+            if path is None:
+                looked = ' and '.join(str(each) for each in paths)
+                refused.add_note(f'There is neither {looked}, nor a shipped world of that name.')
+            raise
         self.node.apply_requests()
         self.settle()
 
@@ -200,7 +251,9 @@ class PhysSim:
                 return
             self.step()
         if not predicate():
-            raise TimeoutError(f'not so within {timeout:g} simulated seconds')
+            raise TimeoutError(
+                f'not so within {timeout:g} simulated seconds\n{self.describe_state()}'
+            )
 
     def _frames(self, seconds: float) -> int:
         frames = seconds / self.node.frame_period
@@ -327,7 +380,7 @@ class PhysSim:
         """
         Return the pose of a body.
 
-        :raises KeyError: there is no such body
+        :raises UnknownName: there is no such body
         """
         return Pose(*self._snapshot.poses[self._row(name)].tolist())
 
@@ -335,20 +388,30 @@ class PhysSim:
         """
         Return the twist of a body.
 
-        :raises KeyError: there is no such body
+        :raises UnknownName: there is no such body
         """
         return Twist(*self._snapshot.twists[self._row(name)].tolist())
 
     def contacts(self, name: str | None = None) -> list[Contact]:
-        """Return the contacts of the last frame, all or of one body; 'world' is the boundary."""
+        """
+        Return the contacts of the last frame.
+
+        :param name: of a body, whose contacts are returned; 'world' is the walls of `bounds`
+        :raises UnknownName: there is no such body, nor was there in that frame
+        """
         frame = self.node.frame
+        names = [*(() if frame is None else frame.snapshot.scene.names), 'world']
+        if name is not None and name not in names:
+            self._row(name)
         if frame is None or frame.contacts is None:
             return []
         found = frame.contacts
-        names = [*frame.snapshot.scene.names, 'world']
+        vectors = (found.impulses, found.points, found.normals)
         contacts = [
-            Contact(names[a], names[b], (impulse[0], impulse[1]))
-            for (a, b), impulse in zip(found.pairs.tolist(), found.impulses.tolist(), strict=True)
+            Contact(names[a], names[b], *map(tuple, each))
+            for (a, b), *each in zip(
+                found.pairs.tolist(), *(each.tolist() for each in vectors), strict=True
+            )
         ]
         return [each for each in contacts if name is None or name in (each.a, each.b)]
 
@@ -361,12 +424,9 @@ class PhysSim:
         """
         Return the force of a joint in the last step [N].
 
-        :raises KeyError: there is no such joint
+        :raises UnknownName: there is no such joint
         """
-        snapshot = self._snapshot
-        if joint not in self.joints:
-            raise KeyError(joint)
-        return float(snapshot.forces[self.joints.index(joint)])
+        return float(self._snapshot.forces[_index(joint, self.joints, 'joint')])
 
     @property
     def joints(self) -> tuple[str, ...]:
@@ -387,16 +447,43 @@ class PhysSim:
         return self.node.simulation.world.snapshot()
 
     def _row(self, name: str) -> int:
-        try:
-            return self.names.index(name)
-        except ValueError:
-            raise KeyError(name) from None
+        return _index(name, self.names, 'body')
+
+    def describe_state(self) -> str:
+        """Return the time, and pose and velocity of the first bodies, a line each."""
+        names = self.names
+        lines = [f'at {self.time:g} s, bodies: {len(names)}; x, y [m], yaw [rad]:']
+        for name in names[:_MOST_DESCRIBED]:
+            pose, twist = self.pose(name), self.twist(name)
+            speed = math.hypot(twist.vx, twist.vy)
+            lines.append(
+                f'  {name:20}  {pose.x:8.3f} {pose.y:8.3f} {pose.yaw:8.3f}, '
+                f'with {speed:.3f} m/s and {twist.spin:.3f} rad/s'
+            )
+        if len(names) > _MOST_DESCRIBED:
+            lines.append(f'  and {len(names) - _MOST_DESCRIBED} more')
+        return '\n'.join(lines)
 
     # Recording
 
     def record(self, path: str | Path) -> None:
         """Record all frames from now on in a `.rrd` file, which is complete after the test."""
-        self.node.record(Path(path))
+        self.recording = Path(path)
+        self.node.record(self.recording)
+
+    def record_past(self, path: Path) -> None:
+        """
+        Record all frames of the history in a `.rrd` file; nothing but this can be done after it.
+
+        Other nodes hear nothing of it: the past is repeated from the log of requests.
+        """
+        simulation = self.node.simulation
+        status = simulation.status
+        simulation.seek(round(status.oldest * 1e9))
+        self.node.apply_requests()
+        self.record(path)
+        for _ in range(self._frames(status.newest - status.oldest)):
+            self.node.advance_frame()
 
     # Spinning
 
@@ -487,10 +574,44 @@ class _Client:
 
 
 @pytest.fixture
-def physsim(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[PhysSim]:
-    """Give a world with its own context and domain, whose time the test advances."""
-    with own_context(monkeypatch) as context, PhysSim(context, world_dir=str(tmp_path)) as world:
+def physsim(
+    request: pytest.FixtureRequest, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> Iterator[PhysSim]:
+    """
+    Give a world with its own context and domain, whose time the test advances.
+
+    Where the test fails, a recording of it is kept in its `tmp_path`.
+    """
+    directory = request.path.parent
+    with (
+        own_context(monkeypatch) as context,
+        PhysSim(context, directory=directory, world_dir=str(tmp_path)) as world,
+    ):
         yield world
+        path = request.node.stash.get(_RECORDING, None)
+        if path is not None:
+            world.record_past(path)
+
+
+# The file that keeps what a failed test has done.
+_RECORDING = pytest.StashKey[Path]()
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport(
+    item: pytest.Item, call: pytest.CallInfo[None]
+) -> Generator[None, pytest.TestReport, pytest.TestReport]:
+    """Tell in the report of a failed test where bodies are, and where its recording is."""
+    report = yield
+    arguments = getattr(item, 'funcargs', {})
+    world = arguments.get('physsim')
+    if call.when == 'call' and report.failed and isinstance(world, PhysSim):
+        path = world.recording
+        if path is None:
+            path = item.stash[_RECORDING] = arguments['tmp_path'] / 'failed.rrd'
+        words = f'{world.describe_state()}\nrecording: {path}'
+        report.sections.append(('physsim', words))
+    return report
 
 
 @contextmanager
@@ -511,6 +632,21 @@ def own_context(monkeypatch: pytest.MonkeyPatch) -> Iterator[Context]:
         yield context
     finally:
         context.try_shutdown()
+
+
+def _index(name: str, names: Sequence[str], kind: str) -> int:
+    """
+    Return the index of a name.
+
+    :param kind: of what is named, for the message
+    :raises UnknownName: it is not there
+    """
+    from physsim_ros.model.texts import nearest_name
+
+    if name in names:
+        return names.index(name)
+    there = '' if names else '; there are none'
+    raise UnknownName(f'there is no {kind} {name!r}{nearest_name(name, names)}{there}')
 
 
 def _stamped(point: PointStamped | tuple[float, float]) -> PointStamped:

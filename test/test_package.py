@@ -170,7 +170,16 @@ def test_pip_is_told_what_rosdep_cannot_bring(distribution):
     always = {each.name.lower(): each.specifier for each in requirements if each.marker is None}
     extras = {str(each.marker) for each in requirements if each.marker is not None}
 
-    named = {'numpy', 'pyarrow', 'pymunk', 'pyyaml', 'rerun-sdk', 'scipy', 'svgelements'}
+    named = {
+        'numpy',
+        'pyarrow',
+        'pymunk',
+        'pyyaml',
+        'rerun-sdk',
+        'scipy',
+        'svgelements',
+        'tornado',
+    }
     assert set(always) == named
     assert '1.26.4' not in always['numpy']
     assert '8.0.0' not in always['pymunk']
@@ -205,6 +214,33 @@ def test_pip_installs_every_world_the_manifest_and_the_marker(installed):
     assert missing == []
     assert (share / 'physsim_ros' / 'package.xml').is_file()
     assert (share / 'ament_index/resource_index/packages/physsim_ros').is_file()
+
+
+FOREIGN = """
+from physsim_ros.testing import Contact, PhysSim, Refused
+
+
+def test_of_others(physsim: PhysSim) -> None:
+    physsim.load('demo')
+    heights: list[float] = [physsim.pose(name).y for name in physsim.names]
+    contacts: list[Contact] = physsim.contacts('ball/0')
+    code: str = Refused('bad_size', 'it is 0', 'scale.x').code
+    assert heights and contacts and code and physsim.context.ok()
+"""
+
+
+def test_tests_of_others_are_checked_by_mypy(installed, tmp_path):
+    (site,) = installed.glob('lib/*/site-packages')
+    test = tmp_path / 'test_of_others.py'
+    check = [sys.executable, '-m', 'mypy', '--strict', '--config-file=', test.name]
+    options = {'cwd': tmp_path, 'env': {**os.environ, 'PYTHONPATH': str(site)}, 'timeout': BUILD}
+
+    test.write_text(FOREIGN)
+    _run(*check, **options)
+
+    test.write_text(FOREIGN.replace('.y for', '.height for'))
+    wrong = subprocess.run(check, capture_output=True, text=True, check=False, **options)
+    assert '"Pose" has no attribute "height"' in wrong.stdout
 
 
 def test_pip_installs_no_tests(installed):

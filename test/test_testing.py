@@ -26,7 +26,7 @@ import subprocess
 import sys
 from typing import Any
 
-from physsim_ros.testing import own_context, PhysSim, Refused
+from physsim_ros.testing import own_context, PhysSim, Refused, UnknownName
 import pytest
 from rclpy.node import Node
 from rclpy.time import Time
@@ -37,6 +37,8 @@ from visualization_msgs.msg import MarkerArray
 
 from .client import Client
 from .messages import box, command, delete, disc, point
+
+pytest_plugins = ['pytester']
 
 G = 9.81
 ROBOT = """
@@ -161,6 +163,71 @@ def test_the_plugin_is_installed_with_the_package() -> None:
     assert found.value == 'physsim_ros.testing'
 
 
+FAILS = """
+import pytest
+from physsim_ros.testing import PhysSim
+from visualization_msgs.msg import Marker
+
+
+@pytest.fixture
+def falling(physsim: PhysSim) -> PhysSim:
+    physsim.load('ball')
+    return physsim
+
+
+def test_it_rises(falling: PhysSim) -> None:
+    falling.run(1.0)
+    falling.anchor((0.0, falling.pose('ball/0').y))
+    falling.until(lambda: falling.pose('ball/0').y > 9.0, timeout=0.5)
+
+
+def test_it_falls(falling: PhysSim) -> None:
+    falling.run(0.5)
+"""
+BALL = 'format: 1\nbodies: [{name: ball/0, circle: {radius: 1}, at: [0, 5]}]\n'
+
+
+def test_a_failed_test_tells_where_things_are_and_keeps_its_recording(
+    pytester: pytest.Pytester,
+) -> None:
+    # The file beside the test is found from any working directory.
+    directory = pytester.mkdir('elsewhere')
+    (directory / 'test_it.py').write_text(FAILS)
+    (directory / 'ball.yaml').write_text(BALL)
+    done = pytester.runpytest_subprocess('elsewhere', '--basetemp', 'kept')
+    done.assert_outcomes(passed=1, failed=1)
+    printed = done.stdout.str()
+    assert 'not so within 0.5 simulated seconds' in printed
+    assert re.search(r'ball/0 +0\.000 +0\.0\d\d ', printed)
+    (path,) = re.findall(r'^recording: (.*)$', printed, re.MULTILINE)
+    # Only the failed one, from its first frame to its last.
+    assert [str(each) for each in pytester.path.rglob('*.rrd')] == [path]
+    steps = recorded_steps(Path(path))
+    assert steps[0] <= 4
+    assert steps == list(range(steps[0], 4 * 90 + 1, 4))
+
+
+def test_a_recording_of_the_past_holds_what_happened(physsim: PhysSim, tmp_path: Path) -> None:
+    physsim.load('demo')
+    physsim.run(0.5)
+    physsim.spawn(disc('late/0', at=(0.0, 20.0)))
+    physsim.run(0.5)
+    expected = physsim.digest()
+    physsim.record_past(tmp_path / 'past.rrd')
+    assert physsim.digest() == expected
+
+
+def recorded_steps(path: Path) -> list[int]:
+    steps: set[int] = set()
+    for each in chunk.RrdReader(path).stream():
+        table = each.to_record_batch()
+        if 'sim_time' in table.schema.names:
+            stamps = table.column('sim_time').cast('int64').to_pylist()
+            # ns, at 240 Hz
+            steps |= {round(stamp * 240e-9) for stamp in stamps}
+    return sorted(steps)
+
+
 # Driving
 
 
@@ -208,7 +275,8 @@ def test_until_stops_at_the_first_frame_in_which_it_is_so(physsim: PhysSim) -> N
 
 
 def test_until_gives_up_after_its_timeout(physsim: PhysSim) -> None:
-    with pytest.raises(TimeoutError, match=r'0\.5'):
+    physsim.spawn(disc('ball/0', at=(3.0, 50.0)))
+    with pytest.raises(TimeoutError, match=r'(?s)0\.5.*ball/0 +3\.000 '):
         physsim.until(lambda: False, timeout=0.5)
     assert physsim.time == pytest.approx(0.5)
     with pytest.raises(TimeoutError):
@@ -441,9 +509,11 @@ def test_pose_and_twist_are_by_name(physsim: PhysSim) -> None:
     pose, twist = physsim.pose('a/1'), physsim.twist('a/1')
     assert (pose.x, pose.y, pose.yaw) == pytest.approx((5.0, 6.0, 0.7))
     assert (twist.vx, twist.vy, twist.spin) == pytest.approx((1.0, 2.0, 3.0))
-    for read in (physsim.pose, physsim.twist):
-        with pytest.raises(KeyError, match='a/2'):
+    for read in (physsim.pose, physsim.twist, physsim.contacts):
+        with pytest.raises(UnknownName, match=r"^there is no body 'a/2'; nearest is 'a/\d'$"):
             read('a/2')
+    with pytest.raises(UnknownName, match=r"^there is no joint 'a/2'; there are none$"):
+        physsim.force('a/2')
 
 
 def test_contacts_tell_of_the_last_frame(physsim: PhysSim) -> None:
@@ -456,6 +526,9 @@ def test_contacts_tell_of_the_last_frame(physsim: PhysSim) -> None:
     assert (contact.a, contact.b) == ('floor/0', 'a/0')
     # N s: what carries 3 kg for a sixtieth of a second
     assert contact.impulse == pytest.approx((0.0, 3 * G / 60), rel=1e-3, abs=1e-9)
+    # m: within the engine's contact slop
+    assert contact.point == pytest.approx((-2.0, 0.0), abs=0.01)
+    assert contact.normal == pytest.approx((0.0, 1.0), abs=1e-9)
     assert physsim.contacts('a/0') == physsim.contacts('floor/0') == [contact]
     assert physsim.contacts('a/1') == []
 
