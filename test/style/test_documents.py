@@ -12,16 +12,17 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""The README tells what to install, and documents name files that exist."""
+"""Documents tell what to install, name files that exist, and list what the code has."""
 
 import ast
 from pathlib import Path
 import re
 
+from physsim_ros.model.errors import Refusal
 import pytest
 
 ROOT = Path(__file__).parents[2]
-README = (ROOT / 'README.md').read_text(encoding='utf-8')
+DOCS = ROOT / 'docs'
 
 
 @pytest.mark.linter
@@ -34,14 +35,19 @@ def test_what_pip_is_to_bring_is_what_the_package_asks_for():
         for keyword in call.keywords
         if keyword.arg == 'install_requires'
     )
-    (line,) = re.findall(r'^pip install (.*)$', README, re.MULTILINE)
+    text = (DOCS / 'installation.md').read_text(encoding='utf-8')
+    (line,) = re.findall(r"^pip install ('numpy.*)$", text, re.MULTILINE)
 
     # rosdep knows these two.
     known = {'PyYAML', 'tornado>=6.4,<7'}
     assert {word.strip("'") for word in line.split()} == set(asked) - known
 
 
-DOCUMENTS = [ROOT / 'README.md', *sorted((ROOT / 'docs').rglob('*.md'))]
+DOCUMENTS = [
+    path
+    for path in (ROOT / 'README.md', ROOT / 'CONTRIBUTING.md', *sorted(DOCS.rglob('*.md')))
+    if '_build' not in path.parts
+]
 # Paths in documents begin at the repository or at the package.
 BASES = [ROOT, ROOT / 'physsim_ros']
 
@@ -73,8 +79,57 @@ def test_every_link_of_a_document_to_a_file_leads_somewhere(document):
 
 @pytest.mark.linter
 def test_the_architecture_names_every_folder_of_the_package():
-    named = _named_paths((ROOT / 'docs' / 'architecture.md').read_text(encoding='utf-8'))
+    named = _named_paths((DOCS / 'architecture.md').read_text(encoding='utf-8'))
     package = ROOT / 'physsim_ros'
     folders = {f'{path.parent.relative_to(package)}/' for path in package.rglob('*/__init__.py')}
 
     assert sorted(folders - named) == []
+
+
+@pytest.mark.linter
+def test_the_readme_is_read_in_five_minutes():
+    assert len((ROOT / 'README.md').read_text(encoding='utf-8').splitlines()) <= 120
+
+
+@pytest.mark.linter
+def test_every_page_is_in_a_table_of_contents():
+    listed = set()
+    for index in DOCS.rglob('index.md'):
+        for block in re.findall(r'```{toctree}\n(.*?)```', index.read_text('utf-8'), re.DOTALL):
+            words = [word for word in block.splitlines() if word and not word.startswith(':')]
+            listed |= {path for word in words for path in index.parent.glob(f'{word}.md')}
+
+    pages = {path for path in DOCUMENTS if path.is_relative_to(DOCS)}
+    assert pages - listed == {DOCS / 'index.md'}
+
+
+def _section(heading):
+    """Return the text of the interface below a heading, to the next one."""
+    _, _, text = (DOCS / 'interface.md').read_text(encoding='utf-8').partition(heading)
+    return text.partition('\n#')[0]
+
+
+@pytest.mark.linter
+def test_the_table_of_parameters_is_that_of_the_node():
+    parameters = pytest.importorskip('physsim_ros.ros.parameters', reason='there is no ROS')
+
+    def row(name, spec):
+        default = str(spec.default).lower() if isinstance(spec.default, bool) else spec.default
+        span = '' if spec.low is None else f'{spec.low:g} .. {spec.high:g}'
+        choices = ', '.join(f'`{each}`' for each in spec.choices)
+        known = '; '.join(filter(None, (span, choices, 'read-only' * spec.read_only)))
+        return f'| `{name}` | {"" if default == "" else f"`{default}`"} | {known} |'
+
+    table = _section('\n## Parameters\n')
+    rows = [re.sub(r'[^|]*\|$', '', line) for line in table.splitlines() if line[:3] == '| `']
+    assert sorted(rows) == sorted(row(*each) for each in parameters.SPECS.items())
+
+
+@pytest.mark.linter
+def test_the_table_of_codes_has_every_refusal():
+    def codes(kind):
+        return {kind.code}.union(*(codes(each) for each in kind.__subclasses__()))
+
+    answers = _section('\n### Answers\n')
+    missing = {code for code in codes(Refusal) if f'`{code}`' not in answers}
+    assert missing <= {Refusal.code}
