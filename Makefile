@@ -33,7 +33,7 @@ endif
 TSC := npx --yes --package=typescript -- tsc
 
 .DEFAULT_GOAL := help
-.PHONY: help run test lint bench ablate evaluate gallery soak clean
+.PHONY: help run test lint bench ablate evaluate gallery docs soak clean
 
 # The comments after `##` are the help.
 help:  ## list the targets
@@ -74,12 +74,17 @@ evaluate: $(STAMP)  ## measure how drawn strokes are read
 gallery: $(STAMP)  ## draw the pictures of README and docs anew
 	$(BIN)/python -m test.gallery $(ARGS)
 
+# The site, from docs/ and the docstrings; any warning, as a link that leads nowhere, fails.
+docs: $(VENV)/.with-docs
+	$(BIN)/python -m sphinx --quiet --fail-on-warning --keep-going -j auto docs docs/_build/html $(ARGS)
+	@echo 'Open docs/_build/html/index.html'
+
 # MINUTES=30 and SEED=0 unless they are given.
 soak: $(STAMP)  ## disturb a world at random for MINUTES=30, with SEED=0
 	MINUTES=$(MINUTES) SEED=$(SEED) $(BIN)/python -m test.adversary $(ARGS)
 
 clean:  ## remove .venv and all that was built
-	rm -rf $(VENV) build install log dist *.egg-info .hypothesis .import_linter_cache .mypy_cache .pytest_cache .ruff_cache
+	rm -rf $(VENV) build install log dist docs/_build docs/api *.egg-info .hypothesis .import_linter_cache .mypy_cache .pytest_cache .ruff_cache
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
 
 # The lines of pip that say what it does now; what was there already, and from where, is left out.
@@ -92,4 +97,8 @@ $(STAMP): setup.py
 	@[ -e $@ ] || $(PYTHON) -m venv --clear $(VENV_OPTIONS) $(VENV)
 	@echo '2 of 2: packages into it, some 170, of which Rerun is the largest (170 MB); two or three minutes the first time.'
 	@set -o pipefail; $(BIN)/python -m pip install --disable-pip-version-check --editable '.[$(EXTRAS)]' | $(PROGRESS)
+	@touch $@
+
+$(VENV)/.with-docs: $(STAMP)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[docs]'
 	@touch $@

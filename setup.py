@@ -86,6 +86,8 @@ setup(
             'ros-jazzy-common-interfaces',
             'ros-jazzy-rclpy[fastrtps]',
         ],
+        # The site: `make docs`. 8.2 brings the pages of modules.
+        'docs': ['furo', 'myst-parser>=4', 'sphinx>=8.2'],
         'test': [
             # A second middleware, for readers that are not Fast DDS.
             'cyclonedds>=0.10',

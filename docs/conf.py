@@ -20,18 +20,18 @@ Sphinx, since it is what docs.ros.org is made with and the docstrings are writte
 """
 
 from pathlib import Path
+import re
 import sys
-from xml.etree import ElementTree as ET
 
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
 
 project = 'physsim_ros'
 author = 'physsim_ros maintainers'
-release = ET.parse(ROOT / 'package.xml').findtext('version')
+(release,) = re.findall('<version>(.*)</version>', (ROOT / 'package.xml').read_text('utf-8'))
 version = release
 
-extensions = ['myst_parser', 'sphinx.ext.apidoc', 'sphinx.ext.autodoc', 'sphinx.ext.viewcode']
+extensions = ['myst_parser', 'sphinx.ext.apidoc', 'sphinx.ext.autodoc']
 exclude_patterns = ['_build']
 html_theme = 'furo'
 html_title = f'physsim_ros {release}'
@@ -40,8 +40,6 @@ html_title = f'physsim_ros {release}'
 default_role = 'literal'
 # Headings that links name by their text, as in the repository.
 myst_heading_anchors = 3
-myst_links_external_new_tab = True
-myst_enable_extensions = ['deflist']
 
 # A page for each module, from its docstrings.
 apidoc_modules = [
