@@ -56,10 +56,11 @@ setup(
     data_files=[
         ('share/ament_index/resource_index/packages', [f'resource/{PACKAGE}']),
         (SHARE, ['package.xml']),
-        (f'{SHARE}/config', sorted(glob('config/*.yaml'))),
+        (f'{SHARE}/config', sorted(glob('config/*.*'))),
         (f'{SHARE}/config/sros2', sorted(glob('config/sros2/*.xml'))),
         (f'{SHARE}/config/drawings', sorted(glob('config/drawings/*'))),
         (f'{SHARE}/config/worlds', sorted(glob('config/worlds/*.yaml'))),
+        (f'{SHARE}/launch', sorted(glob('launch/*.launch.py'))),
         (f'{SHARE}/docs/worlds', sorted(glob('docs/worlds/*.png'))),
     ],
     zip_safe=False,

@@ -126,7 +126,10 @@ class PhysSimNode(NodeWithoutQosEvents):
         self._frame_id: str = self._values['frame_id']
         self.world_files = WorldFiles(self.simulation, self._values, self.get_logger().info)
         self._world_publishers = Publishers(
-            self, frame_id=self._frame_id, publish_clock=self._values['publish_clock']
+            self,
+            frame_id=self._frame_id,
+            publish_clock=self._values['publish_clock'],
+            publish_tf=self._values['publish_tf'],
         )
         self._session = DrawingSession(
             parameters.drawing_settings(self._values), Tool(self._values['tool'])

@@ -151,6 +151,11 @@ _OF_NODE = {
         high=86400.0,
     ),
     'publish_clock': Spec(default=True, meaning='whether the clock is published'),
+    'publish_tf': Spec(
+        default=False,
+        meaning='whether the pose of every body is published on /tf, too; needs tf2_msgs',
+        read_only=True,
+    ),
     'viewer': Spec(
         default='auto',
         meaning='none, spawn (native Rerun), web (served on localhost), connect (to viewer_url), '

@@ -30,6 +30,7 @@ from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import PoseArray
+from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.preview import NO_PREVIEW, Preview
 from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.model.timeline import TimelineStatus
@@ -65,10 +66,14 @@ class Publishers:
     :param node: that owns them
     :param frame_id: name of the world frame
     :param publish_clock: whether simulation time is published on `clock`
+    :param publish_tf: whether poses are published on `/tf`, too
+    :raises BadProperty: they cannot be, since tf2_msgs is not installed
     :ivar events: the publisher of `~/events`
     """
 
-    def __init__(self, node: Node, *, frame_id: str, publish_clock: bool) -> None:
+    def __init__(
+        self, node: Node, *, frame_id: str, publish_clock: bool, publish_tf: bool = False
+    ) -> None:
         def stream(kind: Any, topic: str, depth: int, encoder: Encoder) -> _Stream:
             return _Stream(node.create_publisher(kind, topic, _reliable(depth)), encoder)
 
@@ -82,12 +87,16 @@ class Publishers:
         self._contacts = stream(
             MultiDOFJointState, '~/contacts', 5, encoders.ContactsEncoder(frame_id)
         )
-        self._state_streams = (
+        self._state_streams: tuple[_Stream, ...] = (
             self._clock,
             stream(PoseArray, '~/poses', 5, encoders.PosesEncoder(frame_id)),
             stream(MultiDOFJointState, '~/states', 5, encoders.StatesEncoder(frame_id)),
             _LatchedStream(latched(MarkerArray, '~/markers'), encoders.MarkersEncoder(frame_id)),
         )
+        if publish_tf:
+            # The depth that tf2_ros has.
+            tf = stream(_tf_message(), '/tf', 100, encoders.TransformsEncoder(frame_id))
+            self._state_streams += (tf,)
         self._timeline = TimelinePublisher(latched(DiagnosticStatus, '~/timeline'))
         self._preview_publisher = latched(MarkerArray, '~/preview')
         self._frame_id = frame_id
@@ -287,6 +296,23 @@ class _LatchedStream(_Stream):
     def _send(self, frame: Frame) -> None:
         super()._send(frame)
         self._latched, self._age = frame, 0
+
+
+def _tf_message() -> Any:
+    """
+    Return the message type of `/tf`, which is no part of common_interfaces.
+
+    :raises BadProperty: its package is not installed
+    """
+    try:
+        from tf2_msgs.msg import TFMessage  # noqa: PLC0415 - most worlds do without
+    except ModuleNotFoundError as error:
+        raise BadProperty(
+            'publish_tf needs the package tf2_msgs, which is not installed here (on Ubuntu '
+            'ros-jazzy-tf2-msgs; there is no wheel of it)',
+            field='publish_tf',
+        ) from error
+    return TFMessage
 
 
 def _reliable(depth: int, durability: DurabilityPolicy = DurabilityPolicy.VOLATILE) -> QoSProfile:

@@ -64,6 +64,7 @@ CONTRACT: dict[str, tuple[Any, str]] = {
     'drag_force': (10.0, 'live'),
     'history': (600.0, 'live'),
     'publish_clock': (True, 'live'),
+    'publish_tf': (False, 'read-only'),
     'viewer': ('auto', 'live'),
     'trace': ('', 'live'),
     'viewer_url': ('', 'read-only'),

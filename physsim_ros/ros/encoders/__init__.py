@@ -30,6 +30,7 @@ from physsim_ros.ros.encoders.markers import DELETE_REPEATS, MarkersEncoder
 from physsim_ros.ros.encoders.poses import PosesEncoder
 from physsim_ros.ros.encoders.preview import preview_message
 from physsim_ros.ros.encoders.states import StatesEncoder
+from physsim_ros.ros.encoders.transforms import TransformsEncoder
 
 __all__ = [
     'DELETE_REPEATS',
@@ -39,6 +40,7 @@ __all__ = [
     'MarkersEncoder',
     'PosesEncoder',
     'StatesEncoder',
+    'TransformsEncoder',
     'encode_clock',
     'encode_event',
     'preview_message',

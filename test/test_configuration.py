@@ -1,0 +1,94 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The files for RViz, Foxglove and ros2 launch name what the node has."""
+
+from __future__ import annotations
+
+import ast
+import json
+from pathlib import Path
+import runpy
+from typing import Any
+
+from geometry_msgs.msg import PointStamped
+from physsim_ros.ros.parameters import check, SPECS
+from physsim_ros.testing import PhysSim
+import pytest
+from rclpy.parameter import Parameter
+from rclpy.qos import DurabilityPolicy
+from visualization_msgs.msg import MarkerArray
+import yaml
+
+ROOT = Path(__file__).parents[1]
+CONFIG = ROOT / 'config'
+LAUNCH = ROOT / 'launch' / 'physsim.launch.py'
+PICTURES = {'/physsim/markers', '/physsim/preview'}
+
+
+def test_rviz_shows_what_is_published_and_clicks_where_it_is_heard(physsim: PhysSim) -> None:
+    manager = yaml.safe_load((CONFIG / 'physsim.rviz').read_text())['Visualization Manager']
+    assert manager['Global Options']['Fixed Frame'] == SPECS['frame_id'].default
+    topics = [
+        each['Topic'] for each in manager['Displays'] if each['Class'].endswith('MarkerArray')
+    ]
+    assert {topic['Value'] for topic in topics} == PICTURES
+    published = {each.topic_name: each for each in physsim.node.publishers}
+    for topic in topics:
+        publisher = published[topic['Value']]
+        assert publisher.msg_type is MarkerArray
+        kept = publisher.qos_profile.durability is DurabilityPolicy.TRANSIENT_LOCAL
+        assert kept is (topic['Durability Policy'] == 'Transient Local')
+    (tool,) = [each for each in manager['Tools'] if each['Class'].endswith('PublishPoint')]
+    heard = {each.topic_name: each.msg_type for each in physsim.node.subscriptions}
+    assert heard[tool['Topic']['Value']] is PointStamped
+
+
+def test_foxglove_shows_what_is_published_and_clicks_where_it_is_heard(physsim: PhysSim) -> None:
+    layout = json.loads((CONFIG / 'foxglove.json').read_text())
+    panels = layout['configById']
+    assert set(leaves(layout['layout'])) == set(panels)
+    world = panels['3D!world']
+    assert set(world['topics']) == PICTURES
+    assert world['followTf'] == SPECS['frame_id'].default
+    published = {each.topic_name for each in physsim.node.publishers}
+    assert PICTURES | {panels['RawMessages!events']['topicPath']} <= published
+    heard = {each.topic_name for each in physsim.node.subscriptions}
+    assert world['publish']['pointTopic'] in heard
+
+
+def leaves(layout: Any) -> list[str]:
+    """Return the panels of a layout."""
+    if isinstance(layout, str):
+        return [layout]
+    return leaves(layout['first']) + leaves(layout['second'])
+
+
+def test_the_arguments_of_the_launch_file_are_parameters_of_the_node() -> None:
+    tree = ast.parse(LAUNCH.read_text())
+    (given,) = [
+        ast.literal_eval(statement.value)
+        for statement in tree.body
+        if isinstance(statement, ast.Assign) and ast.unparse(statement.targets[0]) == 'PARAMETERS'
+    ]
+    for name, (default, _) in given.items():
+        check(Parameter(name, value=default))
+        assert name in SPECS
+
+
+def test_the_launch_file_is_understood_by_ros_2_launch() -> None:
+    pytest.importorskip('launch_ros', reason='launch and launch_ros have no wheels')
+    description = runpy.run_path(str(LAUNCH))['generate_launch_description']()
+    names = {each.name for each in description.get_launch_arguments()}
+    assert names == {'world_file', 'sketchpad', 'viewer', 'params_file', 'rviz'}
