@@ -78,6 +78,15 @@ def write_profiles(path: Path, partition: str) -> None:
     path.write_text(text.replace('</profiles>', f'{subscriber}</profiles>'))
 
 
+def installed_program(name: str) -> str | None:
+    """Return the path of one of the package's own programs, as colcon or pip installs it."""
+    prefixes = filter(None, os.environ.get('AMENT_PREFIX_PATH', '').split(os.pathsep))
+    directories = [Path(prefix) / 'lib' / 'physsim_ros' for prefix in prefixes]
+    directories.append(Path(sys.executable).parent)
+    path = os.pathsep.join([*map(str, directories), os.environ['PATH']])
+    return shutil.which(name, path=path)
+
+
 class Program:
     """A process and the lines that it prints."""
 
@@ -180,9 +189,8 @@ class Outside:
 
     def start_installed(self, name: str, *words: object) -> Program:
         """Start one of the package's own programs, as it is installed."""
-        beside = Path(sys.executable).parent
-        executable = shutil.which(name, path=f'{beside}{os.pathsep}{os.environ["PATH"]}')
-        assert executable, 'the package is not installed: make test'
+        executable = installed_program(name)
+        assert executable, 'the package is not installed: make test, or colcon build'
         return self.start(executable, *words)
 
     def start_elsewhere(self, name: str, *arguments: object) -> Program:
