@@ -48,7 +48,7 @@ apidoc_modules = [
         'destination': 'api',
         'separate_modules': True,
         'module_first': True,
-        'automodule_options': {'members', 'show-inheritance'},
+        'automodule_options': {'members', 'show-inheritance', 'ignore-module-all'},
     }
 ]
 autodoc_member_order = 'bysource'

@@ -27,6 +27,7 @@ from physsim_ros.view.frame_context import FrameContext
 from physsim_ros.view.recording import FrameRecorder
 import rerun as rr
 
+from .page import draw_page
 from ..pictures import headless_viewer, HeadlessViewer
 from ..worlds.digests import scene, SCENES
 
@@ -146,7 +147,12 @@ def main(chosen: list[str]) -> None:
         'window': draw_window,
         'time': draw_time,
     }
+    if not chosen or 'page' in chosen:
+        draw_page(DOCS / 'page.webp')
+        print('page', flush=True)
     names = [name for name in (*SCENES, *pictures) if not chosen or Path(name).name in chosen]
+    if not names:
+        return
     with (
         tempfile.TemporaryDirectory() as directory,
         headless_viewer(WIDTH, HEIGHT) as viewer,

@@ -36,10 +36,10 @@ def _constraints(joint: Joint, ends: Ends) -> list[pymunk.Constraint]:
 
 def lengths(batch: Batch, motion: Motion) -> tuple[Floats, Floats]:
     """
-    Return the distances |d| of the anchors [m], and the rates to solve for [m/s].
+    Return the distances `|d|` of the anchors [m], and the rates to solve for [m/s].
 
-    With d = p_a - p_b and n = d / |d|, dJ/dt v is n . (w_b^2 r_b - w_a^2 r_a) plus the square of
-    the velocity of d across n over |d|; the rate is - dt / 2 times that.
+    With `d = p_a - p_b` and `n = d / |d|`, dJ/dt v is n . (w_b^2 r_b - w_a^2 r_a) plus the square
+    of the velocity of d across n over `|d|`; the rate is - dt / 2 times that.
 
     :return: (k,) float64 each
     """
@@ -54,7 +54,7 @@ def lengths(batch: Batch, motion: Motion) -> tuple[Floats, Floats]:
 
 
 def _aim(batch: Batch, motion: Motion) -> None:
-    """Have each `PinJoint` solve for its rate: Chipmunk solves for (distance - |d|) / dt."""
+    """Have each `PinJoint` solve for its rate: Chipmunk solves for `(distance - |d|) / dt`."""
     length, rate = lengths(batch, motion)
     for pointer, aimed in zip(
         batch.constraints, (length + rate * motion.dt).tolist(), strict=True

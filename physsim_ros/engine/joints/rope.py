@@ -36,7 +36,7 @@ def _constraints(joint: Joint, ends: Ends) -> list[pymunk.Constraint]:
 
 def _aim(batch: Batch, motion: Motion) -> None:
     """
-    Have each taut `SlideJoint` solve for its rate: Chipmunk solves for (max - |d|) / dt.
+    Have each taut `SlideJoint` solve for its rate: Chipmunk solves for `(max - |d|) / dt`.
 
     It only holds back: a rate at which the anchors part is none.
     """

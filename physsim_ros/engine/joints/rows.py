@@ -57,7 +57,7 @@ def angle(batch: Batch, a: Floats, b: Floats) -> tuple[Floats, Floats]:
 
 
 def distance(batch: Batch, a: Floats, b: Floats) -> tuple[Floats, Floats]:
-    """Return the row of the distance of two anchors: x = |p_a - p_b|."""
+    """Return the row of the distance of two anchors: `x = |p_a - p_b|`."""
     arm_a, arm_b, apart = arms(batch, a, b)
     length = np.hypot(apart[:, 0], apart[:, 1])
     # Anchors on each other have no direction; any one parts them.
