@@ -75,7 +75,8 @@ gallery: $(STAMP)  ## draw the pictures of README and docs anew
 	$(BIN)/python -m test.gallery $(ARGS)
 
 # The site, from docs/ and the docstrings; any warning, as a link that leads nowhere, fails.
-docs: $(VENV)/.with-docs
+docs: $(VENV)/.with-docs  ## build the site, docs/_build/html
+	@rm -rf docs/api  # pages of modules that are no more
 	$(BIN)/python -m sphinx --quiet --fail-on-warning --keep-going -j auto docs docs/_build/html $(ARGS)
 	@echo 'Open docs/_build/html/index.html'
 
