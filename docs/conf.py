@@ -48,9 +48,10 @@ apidoc_modules = [
         'destination': 'api',
         'separate_modules': True,
         'module_first': True,
-        'automodule_options': {'members', 'show-inheritance', 'ignore-module-all'},
     }
 ]
 autodoc_member_order = 'bysource'
+# What a folder exports is told in its front and in its file; a type may lead to either.
+suppress_warnings = ['ref.python']
 autodoc_typehints = 'description'
 autodoc_typehints_description_target = 'documented'

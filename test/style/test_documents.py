@@ -92,6 +92,16 @@ def test_the_readme_is_read_in_five_minutes():
 
 
 @pytest.mark.linter
+def test_the_changelog_begins_with_the_version_of_the_package():
+    titles = re.findall(r'^(.*)\n-+$', (ROOT / 'CHANGELOG.rst').read_text('utf-8'), re.MULTILINE)
+    (version,) = re.findall('<version>(.*)</version>', (ROOT / 'package.xml').read_text('utf-8'))
+
+    newest = next(title for title in titles if title != 'Forthcoming')
+    assert newest.split()[0] == version
+    assert f"version='{version}'" in (ROOT / 'setup.py').read_text('utf-8')
+
+
+@pytest.mark.linter
 def test_every_page_is_in_a_table_of_contents():
     listed = set()
     for index in DOCS.rglob('index.md'):
