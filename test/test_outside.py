@@ -21,7 +21,23 @@ from pathlib import Path
 import subprocess
 import sys
 
-from .outside import DOMAINS, Outside, own_domain, ROOT
+import pytest
+
+from .outside import DOMAINS, installed_program, Outside, own_domain, ROOT
+
+
+def test_programs_are_those_that_colcon_installed_before_those_of_pip(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    program = tmp_path / 'overlay' / 'lib' / 'physsim_ros' / 'physsim'
+    program.parent.mkdir(parents=True)
+    program.touch(mode=0o755)
+    monkeypatch.setenv('AMENT_PREFIX_PATH', f'/opt/ros/nothing:{tmp_path / "overlay"}')
+    assert installed_program('physsim') == str(program)
+    monkeypatch.delenv('AMENT_PREFIX_PATH')
+    assert installed_program('physsim') != str(program)
+    beside = Path(sys.executable).name
+    assert installed_program(beside) == str(Path(sys.executable))
 
 
 def test_domains_are_given_to_one_at_a_time() -> None:

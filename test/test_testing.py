@@ -122,10 +122,12 @@ def run_pytest(directory: Path, *words: str, **environment: str) -> str:
     # Where the package is installed the plugin comes by itself, as for everybody.
     found = entry_points(group='pytest11', name='physsim')
     plugin = [] if found else ['-p', 'physsim_ros.testing']
+    # colcon hands its arguments on by this variable, which is inherited.
+    inherited = {name: value for name, value in os.environ.items() if name != 'PYTEST_ADDOPTS'}
     done = subprocess.run(
         [sys.executable, '-m', 'pytest', '-s', '-p', 'no:cacheprovider', *plugin, *words],
         cwd=directory,
-        env=os.environ | environment,
+        env=inherited | environment,
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,
