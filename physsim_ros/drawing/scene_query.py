@@ -85,6 +85,10 @@ class SceneQuery:
         x, y, yaw = self.snapshot.poses[self._rows[name]].tolist()
         return x, y, yaw
 
+    def centroid(self, name: str) -> Point:
+        """Return the centre of mass of a body at uniform density [m]."""
+        return self.in_world(name, self.body(name).shape.form.centroid)
+
     def twist(self, name: str) -> Pose:
         """Return vx, vy [m/s] of a body's centre of mass and its angular velocity [rad/s]."""
         vx, vy, spin = self.snapshot.twists[self._rows[name]].tolist()

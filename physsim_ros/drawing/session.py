@@ -142,6 +142,8 @@ class DrawingSession:
         group = likeliest_group(self._figures, figure, self.settings)
         if group is not None:
             figure = group
+            while self._figures and self._figures[-1].began >= figure.began:
+                self._figures.pop()
         elif figure.is_solid:
             figure.gestures = marks_inside(self._figures, figure, self.settings)
         self._figures.append(figure)

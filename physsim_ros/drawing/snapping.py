@@ -37,6 +37,8 @@ _ACROSS = 0.25
 # The greatest distance of a wheel's middle from the body that carries it, in radii of the wheel:
 # beyond it the two hardly overlap, and would be drawn apart if they did not touch.
 _CARRIED = 0.9
+# The least area of a wheel, as a share of the circle about it; a pentagon's is 0.76.
+_ROUND = 0.75
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,8 +89,7 @@ def axle_pivot(
     if len(under) == 1 or scene.body(under[1]).anchored:
         carrier = _carrier_of(under[0], center, settings.snap, scene)
         if carrier is not None:
-            x, y, _ = scene.pose(under[0])
-            return (x, y), (under[0], carrier)
+            return scene.centroid(under[0]), (under[0], carrier)
     for name in under:
         if isinstance(scene.body(name).shape, Disc):
             x, y, _ = scene.pose(name)
@@ -129,12 +130,15 @@ def _carrier_of(wheel: str, center: Point, snap: float, scene: SceneQuery) -> st
     A wheel may stand half below its chassis; it never turns about the road on which it stands.
 
     :param wheel: name of the topmost body at the centre of the drawn circle
-    :return: None also where that body is no disc, or the circle is not about its middle
+    :return: None also where that body is not about round, or the circle is not about its middle
     """
-    shape, (x, y, _) = scene.body(wheel).shape, scene.pose(wheel)
-    if not isinstance(shape, Disc) or math.dist((x, y), center) > max(snap, shape.radius / 4):
+    form = scene.body(wheel).shape.form
+    x, y = scene.centroid(wheel)
+    if form.area < _ROUND * math.pi * form.outer**2:
         return None
-    near = scene.bodies_at((x, y), _CARRIED * shape.radius)
+    if math.dist((x, y), center) > max(snap, form.outer / 4):
+        return None
+    near = scene.bodies_at((x, y), _CARRIED * form.outer)
     movable = [each for each in near if each != wheel and not scene.body(each).fixed]
 
     def distance(name: str) -> float:
@@ -169,7 +173,7 @@ def _snapped(point: Point, name: str, scene: SceneQuery, settings: DrawingSettin
         return point
     body = scene.body(name)
     # A body joined exactly at its middle does not turn under gravity.
-    middle = scene.in_world(name, body.shape.form.centroid)
+    middle = scene.centroid(name)
     if not body.fixed and math.dist(point, middle) <= min(settings.snap, body.shape.form.inner):
         return middle
     return point if name in scene.bodies_at(point) else _surface(point, name, scene)

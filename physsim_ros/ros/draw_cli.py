@@ -16,6 +16,7 @@
 The program `physsim_draw`: publishes the strokes of a drawing to a world, one after the other.
 
 Law: it uses topics and services only, and publishes a stroke after the answer to the one before.
+Each stroke of a drawing is a thing of its own: its stamps say that the pen paused before it.
 """
 
 from __future__ import annotations
@@ -31,6 +32,8 @@ import time
 from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import PoseStamped
 from nav_msgs.msg import Path
+import numpy as np
+from physsim_ros.drawing import DRAWING_RANGES
 from physsim_ros.files import BadDrawing, drawings, find_drawing, load_drawing, Pace, shipped
 from physsim_ros.model.arrays import Floats
 from physsim_ros.ros.qos_safe_node import LOSSLESS, NodeWithoutQosEvents
@@ -43,6 +46,9 @@ from rclpy.task import Future
 from rclpy.time import Time
 from rclpy.utilities import remove_ros_args
 from std_srvs.srv import Trigger
+
+# Time between two strokes by their stamps [s]: no world reads strokes so far apart together.
+_PAUSE = 1.0 + DRAWING_RANGES['regroup'].high
 
 
 class Unanswered(Exception):
@@ -65,6 +71,8 @@ class StrokePublisher(NodeWithoutQosEvents):
         super().__init__('physsim_draw')
         self._patience = patience
         self._answers: deque[DiagnosticStatus] = deque()
+        # The least stamp of the next stroke [ns].
+        self._next_stamp = 0
         self._strokes = self.create_publisher(Path, f'{world}/stroke', LOSSLESS)
         self._events = self.create_subscription(
             DiagnosticStatus, f'{world}/events', self._receive, LOSSLESS
@@ -142,7 +150,8 @@ class StrokePublisher(NodeWithoutQosEvents):
     def _message(self, stroke: Floats, frame_id: str) -> Path:
         message = Path()
         message.header.frame_id = frame_id
-        began = self.get_clock().now().nanoseconds
+        began = max(self.get_clock().now().nanoseconds, self._next_stamp)
+        self._next_stamp = began + round((float(np.ptp(stroke[:, 2])) + _PAUSE) * 1e9)
         for x, y, seconds in stroke.tolist():
             sample = PoseStamped()
             sample.header.frame_id = frame_id

@@ -176,6 +176,28 @@ def test_rods_between_bodies_stay_rods() -> None:
     assert len(desk.bodies) == 3
 
 
+def test_a_thin_rectangle_of_four_lines_beside_a_body_is_one_body_without_rods() -> None:
+    desk = Desk()
+    desk.spawn(spawning('a/0', Box(width=2.0, height=0.3), (-0.9, 0.0, 0.0)))
+    corners = [(0.0, 0.15), (2.0, 0.15), (2.0, -0.15), (0.0, -0.15), (0.0, 0.15)]
+    for side in itertools.pairwise(corners):
+        last = desk.draw(side)
+
+    assert last.meaning == 'rectangle'
+    assert desk.bodies == [('a/0', 'Box'), (last.subject, 'Box')]
+    assert desk.scene.joints == ()
+
+
+def test_a_rod_drawn_at_once_after_four_lines_is_a_rod() -> None:
+    desk = Desk()
+    desk.spawn(spawning('a/0', Disc(radius=0.3), (5.0, 1.0, 0.0)))
+    for side in SQUARE:
+        desk.draw(side)
+
+    assert desk.draw([(1.9, 1.0), (5.0, 1.0)]).meaning == 'rod'
+    assert [kind for _, kind in desk.bodies] == ['Disc', 'Box']
+
+
 def test_the_runner_up_takes_the_place_of_the_reading() -> None:
     desk = Desk()
     desk.spawn(

@@ -32,8 +32,10 @@ from physsim_ros.drawing.strokes.recogniser import recognise_form
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.errors import Refusal
 
+from .people import drawn_by, PEOPLE
 from .reliability import Reliability
 from .scenes import faulty_scenes, MEANINGS, Scene, scenes
+from ..drawing.machines import LAWS, Machine, strokes_of
 
 CLOSED = ('disc', 'rectangle', 'polygon')
 SETTINGS = DrawingSettings()
@@ -123,6 +125,24 @@ def main(arguments: list[str]) -> None:
         tally.add(scene)
     print(f'{count} strokes of each kind, half `{half}`\n')
     tally.show()
+    show_machines(half)
+
+
+def show_machines(half: str) -> None:
+    """Print the share of shipped drawings that run when people of a half draw them."""
+    print('\ndrawings that run, of eight people each')
+    total: list[bool] = []
+    for name, law in LAWS.items():
+        runs, failed = [], []
+        for person in PEOPLE:
+            try:
+                law(Machine(drawn_by(person, strokes_of(name), half=half)))
+            except (AssertionError, Refusal):
+                failed.append(person)
+            runs.append(person not in failed)
+        total += runs
+        print(f'{name:<34}{statistics.fmean(runs):7.1%} {", ".join(failed)}')
+    print(f'{"all":<34}{statistics.fmean(total):7.1%} of {len(total)}')
 
 
 main(sys.argv[1:])

@@ -322,7 +322,8 @@ def test_a_file_that_is_not_there_or_cannot_be_read_is_refused(tmp_path: Path) -
 
 
 @pytest.mark.parametrize(
-    ('name', 'strokes'), [('car', 6), ('pendulum', 3), ('spring_and_mass', 3), ('seesaw', 5)]
+    ('name', 'strokes'),
+    [('car', 6), ('pendulum', 3), ('spring_and_mass', 3), ('seesaw', 5), ('catapult', 8)],
 )
 def test_the_shipped_drawings_are_found_by_name(name: str, strokes: int) -> None:
     path = find_drawing(name)

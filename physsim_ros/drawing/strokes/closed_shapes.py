@@ -49,7 +49,7 @@ from physsim_ros.model.transform import cross
 OVAL = 'oval'
 # The greatest gap of a closed outline, in shares of its length: 99 of 100 people leave less than
 # 11.5 %, and a question mark has 17 %.
-_GAP = 0.145
+_GAP = 0.147
 # The greatest distance of an outline from a rectangle (rms), in shares of its size: that of an
 # octagon is 0.024 and more; and that in shares of the error of an ellipse, 0.5 for an oval.
 _SQUARE, _SQUARER = 0.022, 0.22

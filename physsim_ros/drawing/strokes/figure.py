@@ -30,7 +30,14 @@ from dataclasses import dataclass
 import numpy as np
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.strokes.context import DELETION, DISC, OPEN, POLYGON, RECTANGLE
+from physsim_ros.drawing.strokes.context import (
+    CLOSED,
+    DELETION,
+    DISC,
+    OPEN,
+    POLYGON,
+    RECTANGLE,
+)
 from physsim_ros.drawing.strokes.interpretation import Guess, guess_meanings, is_likely
 from physsim_ros.drawing.strokes.stroke_order import joined_strokes
 from physsim_ros.model.arrays import Flags, Floats
@@ -92,6 +99,11 @@ class Figure:
         )
 
     @property
+    def is_line(self) -> bool:
+        """Return whether it is an open line, or nothing yet, whatever that line joins."""
+        return not self.meaning or self.meaning in _SINGLE
+
+    @property
     def is_solid(self) -> bool:
         """Return whether it is a body of its own."""
         return self.meaning in {DISC, RECTANGLE, POLYGON}
@@ -106,13 +118,19 @@ def likeliest_group(
     :param figures: drawn before, the earliest first
     :param last: the new one, as it is alone
     """
-    if not last.is_open:
+    if not last.is_line:
         return None
     for group in _groups(figures, last, settings):
+        joints = [not figure.is_open and figure.is_line for figure in group]
+        if all(joints):
+            # Rods from body to body to body are a truss, no polygon.
+            continue
         strokes = tuple(stroke for figure in group for stroke in figure.strokes)
         first = group[0]
         guesses = guess_meanings(joined_strokes(strokes), first.scene, settings)
-        if is_likely(guesses, settings) and guesses[0].meaning not in _SINGLE:
+        if not is_likely(guesses, settings) or guesses[0].meaning in _SINGLE:
+            continue
+        if guesses[0].meaning in CLOSED or not any(joints):
             return Figure(
                 strokes=strokes,
                 began=first.began,
@@ -156,7 +174,8 @@ def _groups(
     group = [last]
     for figure in reversed(figures):
         count = sum(len(each.strokes) for each in (figure, *group))
-        if not figure.is_open or count > MOST_STROKES or not _follows(figure, group[0], settings):
+        part = figure.is_line or _is_side(last, figure, settings)
+        if not part or count > MOST_STROKES or not _follows(figure, group[0], settings):
             break
         group.insert(0, figure)
     # A stroke may touch a later one of its group only.
@@ -169,6 +188,15 @@ def _groups(
 
 def _follows(figure: Figure, later: Figure, settings: DrawingSettings) -> bool:
     return 0.0 < settings.regroup >= later.began - figure.ended
+
+
+def _is_side(line: Figure, figure: Figure, settings: DrawingSettings) -> bool:
+    """Return whether a line begins and ends on a figure of several lines: it is one more side."""
+    if len(figure.strokes) < 2 or not figure.is_solid:
+        return False
+    outline = np.vstack([_few_points(stroke) for stroke in figure.strokes])
+    (stroke,) = line.strokes
+    return all(_touch(end[None, :2], outline, settings) for end in stroke[[0, -1]])
 
 
 def _hang_together(group: Sequence[Figure], settings: DrawingSettings) -> bool:

@@ -65,7 +65,7 @@ def hypotheses(features: Features, plain: float) -> Iterator[Hypothesis]:
     )
     # Small loops come from bends, and from setting the pen down.
     loops = sum(last - first > _LOOP * len(points) for _, first, last in features.crossings)
-    weight = plain * calm * rises(stroke.gap, 0.13, 0.01) * falls(loops, 0.5, 0.2)
+    weight = plain * calm * rises(stroke.gap, 0.147, 0.006) * falls(loops, 0.5, 0.2)
     if weight >= LEAST:
         yield Hypothesis(primitive=LINE, weight=weight, points=bends_of(points))
 
@@ -98,8 +98,8 @@ def _joint_along(points: Floats, context: Context) -> tuple[JointKind, float]:
     ends = request_builder.joint_ends(drawn, context)
     sides = np.diff(points, axis=0)
     between = ends is not None and ends[1].body != WORLD
-    curve = simplified(drawn, points) if between else None
-    if curve is not None and math.dist(start, end) < _SAGGING * path_length(curve):
+    curved = between and simplified(drawn, points) is not None
+    if curved and math.dist(start, end) < _SAGGING * _cubic_length(drawn):
         return JointKind.ROPE, BETWEEN
     if math.dist(start, end) > _STRAIGHT * float(np.hypot(*sides.T).sum()):
         # A line beside a body that ends on no other is a wall.
@@ -109,3 +109,11 @@ def _joint_along(points: Floats, context: Context) -> tuple[JointKind, float]:
     turns = np.sign(cross(sides[:-1], sides[1:]))
     teeth = len(turns) >= _FEWEST_TEETH and bool((turns[1:] == -turns[:-1]).all())
     return JointKind.SPRING, BETWEEN if between and teeth else 0.0
+
+
+def _cubic_length(points: Floats) -> float:
+    """Return the length of the cubic nearest to a stroke: of the stroke without tremor [m]."""
+    share = np.linspace(-1.0, 1.0, len(points))
+    basis = np.polynomial.legendre.legvander(share, 3)
+    coefficients, *_ = np.linalg.lstsq(basis, points, rcond=None)
+    return path_length(basis @ coefficients)

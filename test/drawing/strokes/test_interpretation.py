@@ -745,6 +745,43 @@ def test_a_round_arrow_about_an_axle_is_a_motor_of_its_turn_a_second(
     assert motor.properties.rate == pytest.approx(sweep, abs=0.3)
 
 
+def test_a_trembling_round_arrow_is_a_motor(world: World) -> None:
+    spawn(world, 'wheel/0', Disc(radius=0.4), (1.0, 0.4, 0.0))
+    carry_out(world, draw(world, circle(1.0, 0.4, 0.08)))
+    arrow = round_arrow(1.0, 0.4, 0.6, 4.5)
+    phase = np.linspace(0.0, 60.0, len(arrow))
+
+    reading = draw(world, arrow + 0.015 * np.column_stack((np.sin(phase), np.cos(1.3 * phase))))
+
+    assert reading.meaning == 'motor'
+
+
+def test_a_trembling_straight_line_between_two_bodies_is_a_rod_and_a_bow_a_rope(
+    world: World,
+) -> None:
+    spawn(world, 'a/0', Disc(radius=0.3), (0.0, 0.0, 0.0))
+    spawn(world, 'b/0', Disc(radius=0.3), (3.0, 0.0, 0.0))
+    share = np.linspace(0.0, 1.0, 100)
+    trembling = 0.06 * np.sin(60.0 * share)
+
+    assert draw(world, np.column_stack((3.0 * share, trembling))).meaning == 'rod'
+    sagging = trembling - 3.2 * share * (1.0 - share)
+    assert draw(world, np.column_stack((3.0 * share, sagging))).meaning == 'rope'
+
+
+def test_a_wheel_with_corners_half_below_its_chassis_gets_its_axle_to_it(world: World) -> None:
+    spawn(world, 'road/0', Box(width=9.0, height=1.0), (0.0, -0.95, 0.0))
+    spawn(world, 'chassis/0', Box(width=3.0, height=0.5), (0.0, 0.3, 0.0))
+    angle = np.linspace(0.0, 2.0 * math.pi, 8)[:-1]
+    corners = tuple(zip(0.5 * np.cos(angle), 0.5 * np.sin(angle), strict=True))
+    spawn(world, 'wheel/0', Polygon(outline=corners), (1.0, 0.0, 0.0))
+
+    carry_out(world, draw(world, circle(1.02, 0.01, 0.1)))
+
+    (joint,) = world.snapshot().scene.joints
+    assert (joint.a, joint.b) == ('wheel/0', 'chassis/0')
+
+
 def test_a_second_round_arrow_changes_the_motor(world: World) -> None:
     spawn(world, 'wheel/0', Disc(radius=0.4), (1.0, 0.4, 0.0))
     carry_out(world, draw(world, circle(1.0, 0.4, 0.08)))

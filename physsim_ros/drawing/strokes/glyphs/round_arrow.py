@@ -40,8 +40,9 @@ PRIMITIVE = 'round arrow'
 _STRIDE = 3
 # The least turn of the pen at the tip [rad]: barbs point back.
 _TURN = 1.5
-# The greatest turn of the pen along the arc [rad]: two sides of a triangle are no arc.
-_CORNER = 0.8
+# The greatest turn of the pen over a twelfth of the arc [rad]: two sides of a triangle turn by 2,
+# a trembling arc of most of a round by 0.7.
+_CORNER = 0.95
 
 
 def hypothesis(features: Features) -> Hypothesis:
@@ -59,8 +60,10 @@ def _round_arrow_from_tail(points: Floats) -> Hypothesis | None:
     """Return the hypothesis of a round arrow whose tail is the first point, if it has a tip."""
     sides = points[_STRIDE:] - points[:-_STRIDE]
     bends = np.abs(angles(sides[:-_STRIDE], sides[_STRIDE:]))
-    sharp = np.flatnonzero(bends > _TURN)
-    if len(sharp) == 0 or sharp[0] < len(points) // 3:
+    # Sharp bends before are of the hand, or corners: those are counted below.
+    earliest = len(points) // 3
+    sharp = earliest + np.flatnonzero(bends[earliest:] > _TURN)
+    if len(sharp) == 0:
         return None
     # The sharpest point of the first bend is the tip.
     tip = int(sharp[0] + bends[slice(sharp[0], sharp[0] + 2 * _STRIDE)].argmax()) + _STRIDE
@@ -72,7 +75,7 @@ def _round_arrow_from_tail(points: Floats) -> Hypothesis | None:
     inner, outer = float(-out.min()), float(out.max())
     weight = (
         falls(error / radius, 0.07, 0.008)
-        * falls(float(bends[slice(max(tip - 3 * _STRIDE, 1))].max()), _CORNER, 0.08)
+        * falls(_sharpest_bend(arc), _CORNER, 0.08)
         * rises(sweep, 1.7, 0.12)
         * falls(sweep, 7.0, 0.2)
         * rises(min(inner, outer) / max(inner, outer, 1e-12), 0.2, 0.03)
@@ -130,6 +133,15 @@ def _nearest_axle(center: Floats, arc: Floats, scene: SceneQuery) -> Joint | Non
 
 def _pivot(axle: Joint, scene: SceneQuery) -> Point:
     return scene.in_world(axle.a, (axle.seat.ax, axle.seat.ay))
+
+
+def _sharpest_bend(arc: Floats) -> float:
+    """Return the greatest change of direction within an arc, over a twelfth of it [rad]."""
+    stride = max(len(arc) // 12, 1)
+    sides = arc[stride:] - arc[:-stride]
+    # The last sides turn into the head.
+    bends = np.abs(angles(sides[:-stride], sides[stride:]))[:-_STRIDE]
+    return float(bends.max(initial=0.0))
 
 
 def _circle(points: Floats) -> tuple[Floats, float, float]:
