@@ -299,7 +299,6 @@ def test_redo_returns_to_where_undo_was_asked_for(driven: Driven) -> None:
 IDLE: list[Callable[[Driven], object]] = [
     lambda driven: driven.ask(Delete(name='nobody/0')),
     lambda driven: driven.ask(DeleteAll(namespace='nobody')),
-    lambda driven: driven.simulation.tell(Answer(topic='~/test')),
     lambda driven: driven.run(0.5, 0.0),
 ]
 
