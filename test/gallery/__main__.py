@@ -36,6 +36,11 @@ DOCS = Path(__file__).parents[2] / 'docs'
 WIDTH, HEIGHT = 1400, 920
 # Simulation time of the picture of a scene [s], where most is going on.
 TIMES = {
+    'drawings/catapult': 1.4,
+    'drawings/cradle': 1.0,
+    'drawings/double_pendulum': 1.0,
+    'drawings/marble_run': 6.0,
+    'drawings/windmill': 0.5,
     'worlds/bridge': 4.0,
     'worlds/car': 5.5,
     'worlds/catapult': 1.6,

@@ -121,7 +121,7 @@ def likeliest_group(
     if not last.is_line:
         return None
     for group in _groups(figures, last, settings):
-        joints = [not figure.is_open and figure.is_line for figure in group]
+        joints = [_leaves_its_bodies(figure) for figure in group]
         if all(joints):
             # Rods from body to body to body are a truss, no polygon.
             continue
@@ -188,6 +188,19 @@ def _groups(
 
 def _follows(figure: Figure, later: Figure, settings: DrawingSettings) -> bool:
     return 0.0 < settings.regroup >= later.began - figure.ended
+
+
+def _leaves_its_bodies(figure: Figure) -> bool:
+    """Return whether a figure is a joint between two bodies that does not lie on them alone."""
+    if not figure.requests:
+        # A stroke that is not built yet.
+        return figure.is_line and not figure.is_open
+    points, scene = np.vstack([_few_points(stroke) for stroke in figure.strokes]), figure.scene
+    return any(
+        float((scene.covers(each.a, points) | scene.covers(each.b, points)).mean()) < _ON_SOLID
+        for each in figure.requests
+        if isinstance(each, Join) and each.b not in {'', WORLD}
+    )
 
 
 def _is_side(line: Figure, figure: Figure, settings: DrawingSettings) -> bool:
