@@ -36,9 +36,9 @@ DOCS = Path(__file__).parents[2] / 'docs'
 WIDTH, HEIGHT = 1400, 920
 # Simulation time of the picture of a scene [s], where most is going on.
 TIMES = {
-    'drawings/catapult': 1.4,
+    'drawings/catapult': 0.9,
     'drawings/cradle': 1.0,
-    'drawings/double_pendulum': 1.0,
+    'drawings/double_pendulum': 0.4,
     'drawings/marble_run': 6.0,
     'drawings/windmill': 0.5,
     'worlds/bridge': 4.0,
