@@ -80,7 +80,7 @@ SERVICES = {
     f'/physsim/{name}'
     for name in (
         'play', 'pause', 'rewind', 'fast_forward', 'fast_rewind', 'step', 'reset', 'clear',
-        'undo', 'redo', 'save_world', 'load_world',
+        'undo', 'redo', 'instead', 'save_world', 'load_world',
     )
 }  # fmt: skip
 # In the order in which the program outside spawns them.
