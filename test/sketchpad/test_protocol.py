@@ -88,6 +88,21 @@ def test_a_page_that_is_closed_lets_go(browser: Browser) -> None:
     browser.until(lambda: not grips(physsim))
 
 
+def test_a_page_takes_the_runner_up_of_a_stroke_instead(browser: Browser) -> None:
+    physsim, page = browser.physsim, browser.open_page()
+    for x in (0.0, 3.0):
+        page.send('stroke', points=circle(x, 5.0, 0.5))
+    page.until(lambda: len(physsim.names) == 2)
+    line = [[0.03 * number, 5.0, 0.005 * number] for number in range(101)]
+    page.ask('stroke', points=line)
+    page.until(lambda: page.of_type('reading')[-1]['meaning'] == 'rod')
+    runner_up = page.of_type('reading')[-1]['runner_up']
+    assert page.ask('instead', meaning=runner_up)['ok']
+    assert page.of_type('reading')[-1]['meaning'] == runner_up == 'wall'
+    page.until(lambda: len(physsim.names) == 3)
+    assert page.ask('instead', meaning='nothing of the kind')['code'] == 'not_recognised'
+
+
 def test_a_page_draws_with_its_own_material(browser: Browser) -> None:
     physsim, page, other = browser.physsim, browser.open_page(), browser.open_page()
     assert page.ask('draw_with', density=7.0, velocity=[2.0, 0.0], color='#ff0000')['ok']
