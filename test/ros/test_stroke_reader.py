@@ -53,7 +53,7 @@ def path(
 @pytest.mark.parametrize('count', [0, 1, 2, 7])
 def test_every_sample_is_read_whatever_its_frame_is_called(frame: str, count: int) -> None:
     points = [(1.5 * number, -number / 3) for number in range(count)]
-    samples, found = stroke_from(
+    samples, found, _ = stroke_from(
         path(*points, frame=frame, frames=[frame] * count), frame_id='map'
     )
     assert samples.shape == (count, 3)
@@ -64,7 +64,7 @@ def test_every_sample_is_read_whatever_its_frame_is_called(frame: str, count: in
 @pytest.mark.parametrize('frames', [['', '', ''], ['map', '', 'map']])
 @pytest.mark.parametrize('frame', ['', 'map'])
 def test_the_frame_of_the_world_may_be_said_or_left_out(frame: str, frames: list[str]) -> None:
-    _, found = stroke_from(
+    _, found, _ = stroke_from(
         path((0, 0), (1, 1), (2, 2), frame=frame, frames=frames), frame_id='map'
     )
     assert found == ''
@@ -80,19 +80,19 @@ def test_poses_of_different_frames_are_no_stroke() -> None:
 @pytest.mark.parametrize('begin', [0, 10**18 + 999_999_999])
 def test_times_count_from_the_first_sample(begin: int) -> None:
     points = ((0, 0, 0), (1, 0, 0.25), (2, 0, 0.125), (3, 0, 1.75))
-    samples, _ = stroke_from(path(*points, begin=begin), frame_id='world')
+    samples, *_ = stroke_from(path(*points, begin=begin), frame_id='world')
     assert samples[:, 2].tolist() == [0.0, 0.25, 0.125, 1.75]
 
 
 def test_what_is_not_finite_is_left_for_the_reader_to_refuse() -> None:
-    samples, _ = stroke_from(path((math.nan, math.inf)), frame_id='world')
+    samples, *_ = stroke_from(path((math.nan, math.inf)), frame_id='world')
     assert np.isnan(samples[0, 0])
     assert np.isinf(samples[0, 1])
 
 
 def test_as_many_samples_as_a_stroke_may_have_are_read_and_one_more_is_refused() -> None:
     points = [(0.001 * number, 0.0) for number in range(MOST_SAMPLES + 1)]
-    samples, _ = stroke_from(path(*points[:-1]), frame_id='world')
+    samples, *_ = stroke_from(path(*points[:-1]), frame_id='world')
     assert len(samples) == MOST_SAMPLES
     with pytest.raises(Malformed, match=str(MOST_SAMPLES + 1)) as refused:
         stroke_from(path(*points), frame_id='world')
@@ -108,14 +108,14 @@ def test_a_path_that_is_too_long_is_not_looked_into() -> None:
 
 def test_a_frame_that_is_no_text_is_another_frame_and_no_accident() -> None:
     message = path((1, 2), frame='worlds', frames=['']).replace(b'worlds', b'\xffworld')
-    _, frame = stroke_from(message, frame_id='world')
+    _, frame, _ = stroke_from(message, frame_id='world')
     assert frame == '\N{REPLACEMENT CHARACTER}world'
 
 
 def test_big_endian_paths_are_read_too() -> None:
     said = struct.pack('>iII1s3xI', 0, 0, 1, b'', 1)
     sample = struct.pack('>iII1s7x7d', 3, 0, 1, b'', 1.5, -2.5, 0.0, 0.0, 0.0, 0.0, 1.0)
-    samples, _ = stroke_from(b'\0\0\0\0' + said + sample, frame_id='world')
+    samples, *_ = stroke_from(b'\0\0\0\0' + said + sample, frame_id='world')
     assert samples.tolist() == [[1.5, -2.5, 0.0]]
 
 
@@ -132,7 +132,7 @@ def test_no_bytes_are_more_than_refused(noise: bytes, place: int) -> None:
     message, end = path((0, 0), (1, 1), (2, 0)), place + len(noise)
     message = message[:place] + noise + message[end:]
     try:
-        samples, _ = stroke_from(message, frame_id='world')
+        samples, *_ = stroke_from(message, frame_id='world')
     except Malformed:
         return
     assert samples.shape[1] == 3
