@@ -51,7 +51,8 @@ apidoc_modules = [
     }
 ]
 autodoc_member_order = 'bysource'
-# What a folder exports is told in its front and in its file; a type may lead to either.
+# A type that a folder exports has two pages, of the folder and of its file: links may lead to
+# either.
 suppress_warnings = ['ref.python']
 autodoc_typehints = 'description'
 autodoc_typehints_description_target = 'documented'

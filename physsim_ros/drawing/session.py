@@ -160,14 +160,12 @@ class DrawingSession:
         :raises NotRecognised: there is no such guess
         :raises Refusal: the world cannot have its outcome
         """
-        figure = self._figures[-1] if self._figures else None
-        guesses = () if figure is None else figure.guesses
-        meanings = [guess.meaning for guess in guesses]
-        following = 0 if figure is None or figure.chosen is None else figure.chosen + 1
-        others = [*meanings[following:], *meanings[: max(following - 1, 0)]]
-        if figure is None or (meaning or ''.join(others[:1])) not in others or not others:
-            raise NotRecognised('there is no other reading of what was drawn last', field='poses')
-        return self._shown(self._build(figure, meanings.index(meaning or others[0])))
+        if self._figures:
+            figure = self._figures[-1]
+            for number in figure.other_guesses:
+                if meaning in {'', figure.guesses[number].meaning}:
+                    return self._shown(self._build(figure, number))
+        raise NotRecognised('there is no other reading of what was drawn last', field='poses')
 
     def note_gesture(self, gesture: int) -> None:
         """Note the number of the gesture with which the last reading was submitted."""

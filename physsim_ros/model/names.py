@@ -25,7 +25,7 @@ WORLD = 'world'
 LONGEST_NAME = 1000
 # Between the two names of a contact.
 PAIR_SEPARATOR = '|'
-# What a decoder puts in place of bytes that are not UTF-8.
+# The character that decoders put in place of bytes that are not UTF-8.
 REPLACEMENT = '\ufffd'
 # Prefixes of the namespaces of markers that are no bodies: joints (`~/join` accepts it), their
 # lines, the x of an anchored body; and the namespaces of the walls and of hands. A body and a

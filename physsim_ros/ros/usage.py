@@ -35,7 +35,7 @@ services (`ros2 node info /physsim`).
 
 
 def physsim_help() -> str:
-    """Return what the help of `physsim` ends with: worlds, parameters and where to read on."""
+    """Return the end of the help of `physsim`: worlds, parameters and where to read on."""
     own = user_worlds()
     parameters = {name: _meaning(spec) for name, spec in SPECS.items()}
     tables = (

@@ -38,7 +38,7 @@ from physsim_ros.simulation import joint_requests
 from physsim_ros.simulation.capacity import Capacity
 from physsim_ros.simulation.lookup import body_of_name, pose_in_world
 
-# What a request did: the body concerned, or '', and a sentence that says so.
+# The result of a request: the body concerned, or '', and a sentence about it.
 Done = tuple[str, str]
 
 

@@ -69,7 +69,7 @@ class Courses:
     def reachable(self, history: History) -> list[LeftCourse]:
         """Return the courses that can be returned to, by number."""
         self._drop(each for each in self._left.values() if self._is_lost(each, history))
-        # What begins in a log that was undone cannot be reached until it is redone.
+        # A course that begins in a log that was undone is not reachable until that is redone.
         found, parents = [], {self.current}
         for course in sorted(self._left.values(), key=lambda course: course.begins):
             cut = course.parent == self.current and course.begins > history.end

@@ -57,7 +57,7 @@ class Ghosts:
         self._shots = {each: self._shots[each] for each in self._shots if each in numbers}
 
     def snapshot_at(self, number: int, step: int) -> Snapshot | None:
-        """Return what a course showed last at or before a step; None where that is not kept."""
+        """Return the last frame that a course showed until a step; None where it is not kept."""
         shots = self._shots.get(number, [])
         place = bisect_right(shots, step, key=lambda shot: shot.snapshot.step)
         return shots[place - 1].snapshot if place else None

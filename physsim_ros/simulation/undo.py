@@ -120,7 +120,7 @@ class Undo:
 
     @property
     def redo_words(self) -> str:
-        """Return what `redo` would do, in words; '' if nothing."""
+        """Return the words for the request that `redo` would repeat; '' if there is none."""
         if not self._undone:
             return ''
         undone = self._undone[-1]

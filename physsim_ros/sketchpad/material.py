@@ -27,7 +27,7 @@ from physsim_ros.sketchpad.messages import DrawWith
 
 
 class Material:
-    """What a page has chosen so far; the rest is that of the world."""
+    """The material of what a page draws next; unset properties are those of the world."""
 
     def __init__(self) -> None:
         self._properties = Properties()

@@ -419,7 +419,7 @@ def _let_go(_: Mapping[str, Any]) -> UseHand:
     return UseHand(request=LetGo(hand=_HAND))
 
 
-# What a page may choose for what it draws.
+# The properties that a page may choose for the bodies that it draws.
 _MATERIAL = ['density', 'friction', 'elasticity', 'velocity']
 
 

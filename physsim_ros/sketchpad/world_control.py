@@ -13,7 +13,7 @@
 # limitations under the License.
 
 
-"""What a page may ask of the node, apart from requests of the world."""
+"""The interface of the node to pages, apart from requests of the world."""
 
 from __future__ import annotations
 

@@ -50,7 +50,7 @@ def clean_samples(samples: Floats) -> Floats:
     grain = GRAIN * _robust_size(samples)
     merged = _merged(samples, grain)
     kept = _without_jumps(merged)
-    # What a spike interrupted is one rest again.
+    # The two parts of a rest that a spike interrupted are one rest again.
     return kept if len(kept) == len(merged) else _merged(kept, grain)
 
 

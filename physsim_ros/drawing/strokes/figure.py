@@ -47,10 +47,10 @@ from scipy.spatial.distance import cdist
 
 # The greatest number of strokes of one figure.
 MOST_STROKES = 12
-# Meanings of open lines, which may be parts of something.
-_LINES = frozenset({'wall', 'hatching', 'mark'})
+# Meanings of open lines that join nothing.
+_LOOSE = frozenset({'wall', 'hatching'})
 # Meanings that several strokes never have together.
-_SINGLE = _LINES | OPEN | {DELETION}
+_SINGLE = OPEN | {DELETION}
 # The greatest distance of strokes that touch, in shares of the larger one's size.
 _TOUCHING = 0.15
 # The greatest number of points of a stroke between which distances are taken.
@@ -90,23 +90,27 @@ class Figure:
 
     @property
     def is_open(self) -> bool:
-        """Return whether it is a line, or nothing yet, that may be a part of something."""
+        """Return whether it is an open line, or nothing yet, that joins no two bodies."""
         to_background = any(isinstance(each, Join) and each.b == WORLD for each in self.requests)
-        return (
-            not self.meaning
-            or self.meaning in _LINES
-            or (self.meaning in _SINGLE and to_background)
-        )
+        return self.is_line and (self.meaning in {'', *_LOOSE} or to_background)
 
     @property
     def is_line(self) -> bool:
         """Return whether it is an open line, or nothing yet, whatever that line joins."""
-        return not self.meaning or self.meaning in _SINGLE
+        return not self.meaning or self.meaning in OPEN
 
     @property
     def is_solid(self) -> bool:
         """Return whether it is a body of its own."""
         return self.meaning in {DISC, RECTANGLE, POLYGON}
+
+    @property
+    def other_guesses(self) -> list[int]:
+        """Return the numbers of the guesses but the chosen one, that after it first."""
+        count = len(self.guesses)
+        if self.chosen is None:
+            return list(range(count))
+        return [(self.chosen + step) % count for step in range(1, count)]
 
 
 def likeliest_group(
@@ -178,9 +182,6 @@ def _groups(
         if not part or count > MOST_STROKES or not _follows(figure, group[0], settings):
             break
         group.insert(0, figure)
-    # A stroke may touch a later one of its group only.
-    while len(group) > 1 and not _hang_together(group, settings):
-        group.pop(0)
     for first in range(len(group) - 1):
         if _hang_together(group[first:], settings):
             yield group[first:]
