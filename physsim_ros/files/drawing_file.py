@@ -33,8 +33,8 @@ import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.files.resources import files_by_name, is_plain, shipped
 from physsim_ros.model.arrays import Floats
+from physsim_ros.model.checks import FARTHEST
 from physsim_ros.model.errors import PhysSimError
-from physsim_ros.model.requests import FARTHEST
 from physsim_ros.model.settings import MOST_SAMPLES
 from physsim_ros.model.texts import nearest_name
 from svgelements import Curve, Matrix, Shape, SVG

@@ -34,10 +34,10 @@ from physsim_ros.files.joint_reader import joints_from
 from physsim_ros.files.world_schema import FORMAT, PARAMETERS, PROPERTIES, SETTINGS
 from physsim_ros.model.body_properties import properties_from
 from physsim_ros.model.checkpoint import BodyState, Motion, WorldState
-from physsim_ros.model.checks import check_key, known_mapping, number, pair, Within
+from physsim_ros.model.checks import check_key, known_mapping, LONGEST, number, pair, Within
 from physsim_ros.model.colors import Color, color_from
 from physsim_ros.model.errors import BadProperty, UnknownProperty
-from physsim_ros.model.requests import Command, LONGEST, Spawn
+from physsim_ros.model.requests import Command, Spawn
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Shape, SHAPES
 from physsim_ros.model.transform import Pose, rotated

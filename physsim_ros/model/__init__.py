@@ -16,7 +16,7 @@
 Values that all folders use, frozen and checked; numpy is the most that is imported here.
 
 Nothing here moves, reads a clock or knows an engine. Each module is a front of its own, named by
-a noun, and so are the packages `shapes` and `joints`; this file exports nothing.
+a noun, and so are the packages `shapes`, `joints` and `requests`; this file exports nothing.
 Values of one thing: `names`, `colors`, `transform`, `arrays`, `checks`, `errors`.
 The world: `shapes`, `body_properties`, `joints`, `settings`, `scene`. Asked of it: `requests`.
 Told of it: `snapshot`, `preview`. Saved of it: `checkpoint`. Start with `scene` and `requests`.

@@ -28,11 +28,16 @@ from typing import Any
 
 from physsim_ros.model.errors import BadProperty, Malformed, UnknownProperty
 from physsim_ros.model.texts import nearest_name
-from physsim_ros.model.transform import Point
+from physsim_ros.model.transform import Point, Pose
 
 # Greatest speed [m/s] and spin [rad/s]. A body at this speed covers metres in a step, which
 # float64 positions resolve.
 FASTEST = 1e5
+# Greatest coordinate [m]: beyond 10 000 km float64 positions are coarser than a nanometre.
+FARTHEST = 1e7
+# Greatest lifetime [s]: 300 years, more than a message's Duration holds, and exact as a number of
+# steps.
+LONGEST = 1e10
 # Least and greatest mass [kg], and greatest force [N], torque [N m] and stiffness [N/m]: from a
 # dust grain to a mountain. Impulses between any two of these are finite.
 LIGHTEST, HEAVIEST = 1e-9, 1e12
@@ -213,6 +218,31 @@ def check_finite(values: tuple[float, ...], count: int, name: str) -> None:
         raise Malformed(f'{name} needs {count} numbers, not {len(values)}', field=name)
     if not all(map(math.isfinite, values)):
         raise Malformed(f'{name} is not finite', field=name)
+
+
+def check_point(point: Point, name: str) -> None:
+    """
+    Refuse a point that is not finite or too far away.
+
+    :raises Malformed: it is not finite
+    :raises BadProperty: it is too far away
+    """
+    check_finite(point, 2, name)
+    if max(map(abs, point)) > FARTHEST:
+        raise BadProperty(f'{name} is further away than {FARTHEST:g} m', field=name)
+
+
+def check_pose(pose: Pose, name: str) -> None:
+    """
+    Refuse a pose that is not finite or too far away.
+
+    :raises Malformed: it is not finite
+    :raises BadProperty: it is too far away
+    """
+    check_finite(pose, 3, name)
+    check_point(pose[:2], name)
+    if abs(pose[2]) > FARTHEST:
+        raise BadProperty(f'the yaw of {name} is too large', field=name)
 
 
 def check_key(key: object, known: list[str]) -> None:

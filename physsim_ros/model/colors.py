@@ -24,7 +24,7 @@ from __future__ import annotations
 import re
 import zlib
 
-from physsim_ros.model.checks import shown
+from physsim_ros.model.checks import check_finite, shown
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.names import split_name
 
@@ -48,6 +48,20 @@ def color_from(text: str) -> Color:
             f"color must be '#rrggbb' or '#rrggbbaa', not {shown(text)}", field='color'
         )
     red, green, blue, alpha = (each / 255 for each in (*bytes.fromhex(text[1:]), 255)[:4])
+    return red, green, blue, alpha
+
+
+def check_color(color: Color) -> Color:
+    """
+    Return the colour, its channels as plain floats.
+
+    :raises Malformed: it has not four channels, or one is not finite
+    :raises BadProperty: a channel lies outside 0 .. 1
+    """
+    check_finite(color, 4, 'color')
+    if not all(0.0 <= channel <= 1.0 for channel in color):
+        raise BadProperty('each channel of color must lie in 0 .. 1', field='color')
+    red, green, blue, alpha = map(float, color)
     return red, green, blue, alpha
 
 

@@ -35,14 +35,7 @@ from geometry_msgs.msg import PointStamped
 from nav_msgs.msg import Path as PathMessage
 from physsim_ros.drawing import DrawingSession, Reading, submit_reading, Tool
 from physsim_ros.model.errors import Refusal
-from physsim_ros.model.requests import (
-    Anchor,
-    Axle,
-    Configure,
-    Pin,
-    Release,
-    Request,
-)
+from physsim_ros.model.requests import Anchor, Axle, Configure, Pin, Release, Request
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer, Frame, Snapshot
 from physsim_ros.ros import conversions, parameters, stroke_reader

@@ -26,11 +26,11 @@ from typing import Any
 from physsim_ros.engine.body import REST, RigidBody
 from physsim_ros.engine.space import Space
 from physsim_ros.model.body_properties import Properties
-from physsim_ros.model.checks import HEAVIEST, LIGHTEST
+from physsim_ros.model.checks import check_pose, HEAVIEST, LIGHTEST
 from physsim_ros.model.colors import color_of
 from physsim_ros.model.errors import Anchored, BadProperty, NothingThere, WorldFull
 from physsim_ros.model.names import split_name
-from physsim_ros.model.requests import ChangeBody, check_pose, Command, MoveBodies, Spawn
+from physsim_ros.model.requests import ChangeBody, Command, MoveBodies, Spawn
 from physsim_ros.model.scene import Body
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.transform import Point, Pose

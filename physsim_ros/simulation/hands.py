@@ -24,9 +24,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from physsim_ros.model.requests import (
-    Dragging,
     Grab,
     GrabToPlace,
+    HandRequest,
     KeepHand,
     LetGo,
     MoveHand,
@@ -60,7 +60,7 @@ class Hands:
     def __contains__(self, hand: str) -> bool:
         return hand in self._dragging
 
-    def gesture_of(self, request: Dragging, gesture: int) -> int:
+    def gesture_of(self, request: HandRequest, gesture: int) -> int:
         """
         Return the gesture that a request is part of.
 
@@ -69,7 +69,7 @@ class Hands:
         hand = self._dragging.get(request.hand)
         return gesture if hand is None or isinstance(request, Grab) else hand.gesture
 
-    def note_request(self, request: Dragging, gesture: int) -> None:
+    def note_request(self, request: HandRequest, gesture: int) -> None:
         """Note that a request of a hand was carried out."""
         match request:
             case Grab(hand=hand):
@@ -97,7 +97,7 @@ class Hands:
         self._dragging.clear()
 
 
-def placing(request: Dragging) -> Dragging:
+def placing(request: HandRequest) -> HandRequest:
     """Return the request that a hand makes of a paused world, in which bodies are placed."""
     match request:
         case GrabToPlace() | PlaceHand() | KeepHand() | LetGo():

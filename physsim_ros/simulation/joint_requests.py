@@ -13,7 +13,7 @@
 # limitations under the License.
 
 """
-Joining: which two bodies a request means, where the joint sits on them, and what is refused.
+JointRequest: which two bodies a request means, where the joint sits on them, and what is refused.
 
 Laws: nothing is changed before all has been checked; a joint that is asked for where it already
 is keeps its seat to the last bit, so that whoever publishes what is drawn changes nothing.

@@ -20,8 +20,8 @@ from collections.abc import Iterable
 
 from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.space import Space
+from physsim_ros.model.checks import check_pose
 from physsim_ros.model.errors import UnknownBody, UnknownFrame
-from physsim_ros.model.requests import check_pose
 from physsim_ros.model.texts import nearest_name
 from physsim_ros.model.transform import Point, Pose, rotated
 

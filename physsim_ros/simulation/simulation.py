@@ -28,8 +28,8 @@ from physsim_ros.engine.contact_report import NO_CONTACTS
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import BadProperty, Refusal
 from physsim_ros.model.requests import (
-    Dragging,
     Grab,
+    HandRequest,
     KeepHand,
     LetGo,
     MoveHand,
@@ -523,7 +523,7 @@ class Simulation:
 
     def _apply(self, request: Request, gesture: int) -> tuple[str, str]:
         made = self.timeline.moment
-        if isinstance(request, Dragging):
+        if isinstance(request, HandRequest):
             done = self._drag(request, gesture)
         else:
             done = self._apply_to_world(request, gesture)
@@ -532,7 +532,7 @@ class Simulation:
             self._release_grips()
         return done
 
-    def _drag(self, request: Dragging, gesture: int) -> tuple[str, str]:
+    def _drag(self, request: HandRequest, gesture: int) -> tuple[str, str]:
         if request.hand not in self._hands and not isinstance(request, Grab):
             # A grip of the past that is shown belongs to no hand of now.
             return '', f'{request.hand} holds no body'

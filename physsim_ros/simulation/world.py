@@ -37,21 +37,21 @@ from physsim_ros.model.joints import JointKind
 from physsim_ros.model.requests import (
     Anchor,
     Axle,
+    BodyRequest,
     ChangeBody,
     Command,
     Configure,
     Delete,
     DeleteAll,
     DeleteBodies,
-    Dragging,
     Grab,
+    HandRequest,
     Join,
-    Joining,
+    JointRequest,
     KeepHand,
     LetGo,
     MoveBodies,
     MoveHand,
-    OfBodies,
     Pin,
     Release,
     Request,
@@ -214,11 +214,11 @@ class World:
         return done
 
     def _carry_out(self, request: Request) -> tuple[str, str]:
-        if isinstance(request, Joining):
+        if isinstance(request, JointRequest):
             return self._join(request)
-        if isinstance(request, Dragging):
+        if isinstance(request, HandRequest):
             return self._drag(request)
-        if isinstance(request, OfBodies):
+        if isinstance(request, BodyRequest):
             return self._change_bodies(request)
         match request:
             case Configure(changes=changes):
@@ -290,7 +290,7 @@ class World:
 
     # Requests
 
-    def _change_bodies(self, request: OfBodies) -> tuple[str, str]:
+    def _change_bodies(self, request: BodyRequest) -> tuple[str, str]:
         space = self._space
         match request:
             case Spawn():
@@ -321,7 +321,7 @@ class World:
         self._spawned = max(self._spawned, self._space.bodies.by_name[request.name].serial + 1)
         return done
 
-    def _join(self, request: Joining) -> tuple[str, str]:
+    def _join(self, request: JointRequest) -> tuple[str, str]:
         match request:
             case Join(points=points, frame=frame):
                 placed = points_in_world(self._space, points, frame)
@@ -335,7 +335,7 @@ class World:
                 (point,) = points_in_world(self._space, (point,), frame)
                 return joint_requests.pin(self._space, kind, point)
 
-    def _drag(self, request: Dragging) -> tuple[str, str]:
+    def _drag(self, request: HandRequest) -> tuple[str, str]:
         match request:
             case Grab(point=point, frame=frame):
                 (point,) = points_in_world(self._space, (point,), frame)

@@ -31,18 +31,26 @@ from physsim_ros.drawing import Tool
 from physsim_ros.files import spawn_from
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.body_properties import Properties, properties_from
-from physsim_ros.model.checks import check_key, flag, number, pair, shown, Whole, Within
+from physsim_ros.model.checks import (
+    check_key,
+    check_point,
+    flag,
+    LONGEST,
+    number,
+    pair,
+    shown,
+    Whole,
+    Within,
+)
 from physsim_ros.model.colors import Color, color_from
 from physsim_ros.model.errors import BadProperty, Malformed
 from physsim_ros.model.requests import (
     ChangeBody,
-    check_point,
     Configure,
     DeleteBodies,
-    Dragging,
     Grab,
+    HandRequest,
     LetGo,
-    LONGEST,
     MoveBodies,
     MoveHand,
     Request,
@@ -146,7 +154,7 @@ class UseHand:
     :param request: of some hand, whose name is replaced by that of the page's own
     """
 
-    request: Dragging
+    request: HandRequest
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

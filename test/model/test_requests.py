@@ -18,18 +18,14 @@ from dataclasses import fields, FrozenInstanceError
 import math
 
 from physsim_ros.model.body_properties import Properties
-from physsim_ros.model.checks import FASTEST, HEAVIEST
+from physsim_ros.model.checks import check_point, check_pose, FARTHEST, FASTEST, HEAVIEST, LONGEST
 from physsim_ros.model.errors import BadProperty, Malformed, Refusal
 from physsim_ros.model.requests import (
     Anchor,
-    check_point,
-    check_pose,
     Command,
     Configure,
     Delete,
     DeleteAll,
-    FARTHEST,
-    LONGEST,
     Release,
     Spawn,
 )

@@ -22,6 +22,7 @@ import subprocess
 import sys
 
 import numpy as np
+from physsim_ros.model.checks import FARTHEST
 from physsim_ros.model.colors import color_of
 from physsim_ros.model.errors import (
     Anchored,
@@ -39,7 +40,6 @@ from physsim_ros.model.requests import (
     Configure,
     Delete,
     DeleteAll,
-    FARTHEST,
     Release,
     Request,
     Restore,

@@ -28,8 +28,8 @@ import numpy as np
 from physsim_ros.drawing.strokes.cleaning import clean_samples
 from physsim_ros.drawing.strokes.polyline import angles, COUNT, spaced
 from physsim_ros.model.arrays import Floats
+from physsim_ros.model.checks import FARTHEST
 from physsim_ros.model.errors import BadSize, Malformed
-from physsim_ros.model.requests import FARTHEST
 from physsim_ros.model.shapes import SMALLEST
 
 # Factor of the finer resampling, for the ends of narrow outlines, and its number of points.

@@ -1,0 +1,141 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Requests that add, change and remove joints by their names."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+import math
+from typing import Any
+
+from physsim_ros.model.checks import check_key, check_point, shown
+from physsim_ros.model.errors import BadProperty, BadSize, Malformed
+from physsim_ros.model.joints import (
+    JOINT_KEYS,
+    joint_properties_from,
+    JointKind,
+    JointProperties,
+    kind_from,
+)
+from physsim_ros.model.names import check_name, WORLD
+from physsim_ros.model.transform import Point
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Join:
+    """
+    Join two bodies, or a body and the background; or change the joint of that name in place.
+
+    A change replaces the bodies, the points and the properties that are set. The other properties
+    are kept if the kind is the same.
+
+    :param name: of the joint
+    :param kind: of joint
+    :param points: anchor points, one or two as the kind requires [m]
+    :param frame: of the points: '' for the world, or a body's name
+    :param a: name of a body; '' is the topmost one at the first point
+    :param b: name of a body, or 'world' for the background; '' is the next body at the point, or
+        the topmost one at the second point, or the background if there is none
+    :param properties: of the kind
+    :raises Malformed: a number is not finite, the name has no id, or the number of points is wrong
+    :raises BadProperty: a body would be joined to itself, or a point is too far away
+    :raises BadSize: the points are closer than the kind allows
+    :raises UnknownProperty: the kind of joint does not have a property
+    """
+
+    name: str
+    kind: JointKind
+    points: tuple[Point, ...]
+    frame: str = ''
+    a: str = ''
+    b: str = ''
+    properties: JointProperties = field(default_factory=JointProperties)
+
+    def __post_init__(self) -> None:
+        check_name(self.name)
+        count = self.kind.points
+        if len(self.points) != count:
+            raise Malformed(
+                f'a {self.kind} has {count} point{"s" * (count - 1)}, not {len(self.points)}',
+                field='points',
+            )
+        for point in self.points:
+            check_point(point, 'points')
+        if self.a == WORLD:
+            raise BadProperty('a is a body; the background can only be b', field='a')
+        if self.a and self.a == self.b:
+            raise BadProperty(f'{self.a} cannot be joined to itself', field='b')
+        self.properties.check_kind(self.kind)
+        least = self.kind.schema.least_distance
+        if least and math.dist(*self.points) < least:
+            raise BadSize(f'the points of a {self.kind} must be {least:g} m apart', field='points')
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Unjoin:
+    """Remove the joint of that name."""
+
+    name: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class UnjoinAll:
+    """
+    Remove all joints, or all of a namespace.
+
+    :param namespace: of their names, the part before the last slash; None is every joint
+    """
+
+    namespace: str | None = None
+
+
+def join_from(
+    mapping: Mapping[Any, Any], *, name: str, points: tuple[Point, ...], frame: str = ''
+) -> Join:
+    """
+    Return the request for a joint of a YAML mapping: `kind`, `a`, `b` and properties.
+
+    Without `b`, a mapping with `a` means the background; without both it means the bodies at the
+    points.
+
+    :param name: of the joint
+    :param points: in the frame [m]
+    :param frame: '' for the world, or a body's name
+    :raises Refusal: a key is unknown, or a value is out of range
+    """
+    kind, a, b, properties = joined_from(mapping)
+    return Join(name=name, kind=kind, points=points, frame=frame, a=a, b=b, properties=properties)
+
+
+def joined_from(mapping: Mapping[Any, Any]) -> tuple[JointKind, str, str, JointProperties]:
+    """
+    Return kind, names of the bodies a and b, and properties of a YAML mapping.
+
+    :raises Refusal: a key is unknown, or a value is out of range
+    """
+    for key in mapping:
+        check_key(key, JOINT_KEYS)
+    properties = {key: mapping[key] for key in mapping if key not in {'kind', 'a', 'b'}}
+    a, b = _body_name(mapping, 'a'), _body_name(mapping, 'b')
+    kind = kind_from(mapping.get('kind'))
+    return kind, a, WORLD if a and not b else b, joint_properties_from(properties)
+
+
+def _body_name(mapping: Mapping[Any, Any], key: str) -> str:
+    name = mapping.get(key, '')
+    if not isinstance(name, str):
+        raise BadProperty(f'{key} must be the name of a body, not {shown(name)}', field=key)
+    return name
