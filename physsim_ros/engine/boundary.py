@@ -45,6 +45,9 @@ class Boundary:
     def rebuild(self, settings: WorldSettings) -> None:
         """Replace the walls by those of other settings."""
         self._shapes.remove(self._walls)
+        for wall in self._walls:
+            # Pymunk 7.3: Body.shapes lists shapes that are not in the space any more, too.
+            wall.body = None
         self._walls = []
         if settings.bounds is None:
             return

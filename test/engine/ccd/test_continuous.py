@@ -20,7 +20,7 @@ import numpy as np
 from physsim_ros.engine import body as rigid_body
 from physsim_ros.engine.ccd import continuous
 from physsim_ros.engine.ccd.time_of_impact import SLOP
-from physsim_ros.model.requests import Spawn
+from physsim_ros.model.requests import Configure, Spawn
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon
 from physsim_ros.simulation.world import World
@@ -407,3 +407,17 @@ def test_sticks_that_spin_through_each_other_end_each_step_after_a_bounded_numbe
         sim.world.step(1)
         assert len(asked) <= continuous.ROUNDS
     assert np.isfinite(sim.world.snapshot().poses).all()
+
+
+def test_a_fast_body_passes_where_walls_were_taken_down():
+    sim = simulation(gravity=NOWHERE)
+    walls(sim, -5.0, -5.0, 5.0, 5.0)
+    row = spawn(sim, 'a/0', SHAPES['disc'], velocity=(80.0, 0.0))
+    walls(sim, -5.0, -5.0, 12.0, 5.0)
+    reached = run(sim, 0.1).poses[row, 0]
+    sim.perform(Configure(changes={'bounds': None}))
+
+    left = run(sim, 0.1)
+
+    assert reached == pytest.approx(8.0, abs=1e-9)
+    assert left.poses[row, 0] == pytest.approx(16.0, abs=1e-9)
