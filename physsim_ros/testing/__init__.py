@@ -1,0 +1,61 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+A pytest plugin: a world in the process of a test, which advances its time.
+
+pytest loads it wherever the package is installed (entry point `pytest11`), in other projects too;
+from a source tree alone, `pytest -p physsim_ros.testing` does. The fixture is `physsim`, a
+`PhysSim`; names and types are for `from physsim_ros.testing import PhysSim, Refused`. Start with
+`world`.
+
+Laws: ROS is not imported before a test names `PhysSim` or requests the fixture; simulation time
+does not depend on the wall clock, which only bounds the wait for an answer; messages that other
+nodes send in reaction to a frame have arrived before the next frame, so that every run gives the
+same bits; no node of another process hears the world or is heard by it.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import Any, TYPE_CHECKING
+
+from physsim_ros.testing.plugin import physsim, pytest_runtest_makereport
+from physsim_ros.testing.values import Contact, Pose, Refused, Twist, UnknownName
+
+if TYPE_CHECKING:
+    from physsim_ros.testing.context import own_context
+    from physsim_ros.testing.world import PhysSim
+else:
+    # The modules that import ROS, by the name that each is imported for.
+    _WITH_ROS = {'PhysSim': 'world', 'own_context': 'context'}
+
+    def __getattr__(name: str) -> Any:
+        """Import a name when it is first used (PEP 562)."""
+        if name not in _WITH_ROS:
+            raise AttributeError(f'module {__name__!r} has no attribute {name!r}')
+        return getattr(import_module(f'{__name__}.{_WITH_ROS[name]}'), name)
+
+
+__all__ = [
+    'Contact',
+    'PhysSim',
+    'Pose',
+    'Refused',
+    'Twist',
+    'UnknownName',
+    'own_context',
+    'physsim',
+    'pytest_runtest_makereport',
+]

@@ -1,0 +1,53 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""A context of ROS for one test, which no other process discovers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+import itertools
+import os
+
+import pytest
+import rclpy
+from rclpy.context import Context
+
+# Domains whose ports lie below the ephemeral range of Linux:
+# https://docs.ros.org/en/jazzy/Concepts/Intermediate/About-Domain-ID.html
+_DOMAINS = range(1, 102)
+# Each process begins at another domain: every participant takes ports of its domain, of which
+# discovery on one machine tries the first 32 only.
+_BEGINNINGS = itertools.count(os.getpid())
+# Environment variables that name peers in spite of the discovery range.
+_PEERS = ('ROS_DISCOVERY_SERVER', 'ROS_STATIC_PEERS')
+
+
+@contextmanager
+def own_context(monkeypatch: pytest.MonkeyPatch) -> Iterator[Context]:
+    """Give a context whose nodes find each other and no others, whatever their domain is."""
+    # Endpoints of one participant are matched without discovery.
+    monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'OFF')
+    for name in _PEERS:
+        monkeypatch.delenv(name, raising=False)
+    # Shared memory remains after a killed process, with the locks that it owned.
+    monkeypatch.setenv('FASTDDS_BUILTIN_TRANSPORTS', 'UDPv4')
+    context = Context()
+    domain = _DOMAINS[next(_BEGINNINGS) % len(_DOMAINS)]
+    rclpy.init(context=context, domain_id=domain, args=[])
+    try:
+        yield context
+    finally:
+        context.try_shutdown()

@@ -1,0 +1,90 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The executor of a test: it spins until all messages have arrived."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+import time
+
+from rclpy.context import Context
+from rclpy.experimental import EventsExecutor
+from rclpy.node import Node
+
+# Timeout for events that take milliseconds in this process, in wall time [s].
+TIMEOUT = 10.0
+# The greatest number of rounds of messages in reaction to messages: two nodes that answer each
+# other never end.
+_MOST_ROUNDS = 100
+
+
+class SettlingExecutor:
+    """
+    An events executor that spins until messages have arrived.
+
+    :param context: of the nodes
+    """
+
+    def __init__(self, context: Context) -> None:
+        self._executor = EventsExecutor(context=context)
+        self._nodes: list[Node] = []
+
+    def add_node(self, node: Node) -> None:
+        """Spin a node from now on."""
+        self._nodes.append(node)
+        self._executor.add_node(node)
+
+    def shutdown(self) -> None:
+        """Spin no more nodes."""
+        for node in self._nodes:
+            self._executor.remove_node(node)
+        self._executor.shutdown()
+
+    def settle(self) -> None:
+        """
+        Spin until all messages have arrived, those in reaction to them too.
+
+        :raises TimeoutError: nodes answer each other without end
+        """
+        for _ in range(_MOST_ROUNDS):
+            if self._spin_to_barrier() <= 1:
+                return
+        raise TimeoutError('nodes answer each other without end while time stands still')
+
+    def spin_until(
+        self, predicate: Callable[[], object], otherwise: str, timeout: float = TIMEOUT
+    ) -> None:
+        """
+        Spin until a predicate is true.
+
+        :param otherwise: message of the error
+        :param timeout: wall time [s]
+        :raises TimeoutError: it is not true in time
+        """
+        deadline = time.monotonic() + timeout
+        while not predicate():
+            if time.monotonic() > deadline:
+                raise TimeoutError(otherwise)
+            self._executor.spin_once(timeout_sec=0.01)
+
+    def _spin_to_barrier(self) -> int:
+        """Spin until all events queued now are handled, and return the number of spins."""
+        reached: list[bool] = []
+        self._executor.create_task(lambda: reached.append(True))
+        spins = 0
+        while not reached:
+            self._executor.spin_once(timeout_sec=0)
+            spins += 1
+        return spins

@@ -1,0 +1,254 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""A world whose time a test advances."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+import math
+from pathlib import Path
+from typing import Any, Self
+
+from geometry_msgs.msg import PointStamped
+from physsim_ros.ros.node import PhysSimNode
+from physsim_ros.testing.client import RequestClient
+from physsim_ros.testing.executor import SettlingExecutor
+from physsim_ros.testing.observed_world import ObservedWorld
+from physsim_ros.testing.values import refusals_as_refused, Refused
+from rclpy.context import Context
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from sensor_msgs.msg import MultiDOFJointState
+from visualization_msgs.msg import Marker, MarkerArray
+
+
+class PhysSim(ObservedWorld):
+    """
+    A world whose time a test advances, and a client that publishes requests to it.
+
+    :param context: of ROS
+    :param directory: in which `load` looks for files first, as that of the test
+    :param parameters: of the node, as name -> value
+
+    :ivar recording: the file that frames are recorded in; None if they are not
+    """
+
+    def __init__(
+        self, context: Context, *, directory: Path | None = None, **parameters: Any
+    ) -> None:
+        values = {'viewer': 'none', 'publish_rate': 60.0} | parameters
+        overrides = [Parameter(name, value=value) for name, value in values.items()]
+        super().__init__(PhysSimNode(context=context, parameter_overrides=overrides))
+        self.context = context
+        self.recording: Path | None = None
+        self._directories = [*filter(None, [directory]), Path()]
+        self._executor = SettlingExecutor(context)
+        self._executor.add_node(self.node)
+        self._client = RequestClient(context, self.node, self._executor)
+
+    # Time
+
+    def load(self, world: str | Path) -> None:
+        """
+        Replace the world by that of a file.
+
+        :param world: a path, relative to the test's own file or to the working directory, where
+            `.yaml` may be left out; or the name of a shipped world
+        :raises Refused: there is no such file, or it is not a world
+        """
+        given = Path(world) if Path(world).suffix else Path(f'{world}.yaml')
+        paths = [directory.absolute() / given for directory in self._directories]
+        path = next((path for path in paths if path.is_file()), None)
+        self.node.set_parameters([Parameter('world_file', value=str(path or world))])
+        try:
+            with refusals_as_refused():
+                self.node.world_files.load(confined=False)
+        except Refused as refused:
+            if path is None:
+                looked = ' and '.join(str(each) for each in paths)
+                refused.add_note(f'There is neither {looked}, nor a shipped world of that name.')
+            raise
+        self.node.apply_requests()
+        self.settle()
+
+    def add(self, node: Node) -> None:
+        """Spin a node together with the world, on simulation time."""
+        node.set_parameters([Parameter('use_sim_time', value=True)])
+        self._executor.add_node(node)
+        self.settle()
+
+    def step(self, frames: int = 1) -> None:
+        """
+        Advance by frames of one publish period each.
+
+        :raises ValueError: the count is below 0
+        """
+        if frames < 0:
+            raise ValueError(f'time goes on by 0 frames or more, not by {frames}; seek goes back')
+        # Messages of the test's own publishers come first.
+        self.settle()
+        for _ in range(frames):
+            self.node.advance_frame()
+            self.settle()
+
+    def run(self, seconds: float) -> None:
+        """
+        Advance by simulated seconds, to the nearest frame.
+
+        :raises ValueError: they are below 0, not finite, or less than half a frame
+        """
+        frames = self._frames(seconds)
+        if seconds and not frames:
+            period = self.node.frame_period
+            raise ValueError(f'{seconds:g} s are not half a frame, which lasts {period:g} s')
+        self.step(frames)
+
+    def until(self, predicate: Callable[[], object], *, timeout: float = 10.0) -> None:
+        """
+        Advance by single frames until a predicate is true.
+
+        :param timeout: simulation time after which it must be true [s]
+        :raises TimeoutError: it is not
+        :raises ValueError: the timeout is below 0, or not finite
+        """
+        for _ in range(self._frames(timeout)):
+            if predicate():
+                return
+            self.step()
+        if not predicate():
+            raise TimeoutError(
+                f'not so within {timeout:g} simulated seconds\n{self.describe_state()}'
+            )
+
+    def _frames(self, seconds: float) -> int:
+        frames = seconds / self.node.frame_period
+        if not 0.0 <= frames < math.inf:
+            raise ValueError(f'time goes on by 0 s or more, not for ever; so not by {seconds:g} s')
+        return round(frames)
+
+    def seek(self, seconds: float) -> None:
+        """
+        Go to an earlier simulation time [s]; advancing from there repeats the same bits.
+
+        :raises Refused: the time is no longer in the history, or in the future
+        """
+        self.settle()
+        with refusals_as_refused():
+            self.node.simulation.seek(round(seconds * 1e9))
+        self.node.apply_requests()
+        self.settle()
+
+    def settle(self) -> None:
+        """Spin until all messages have arrived, those in reaction to them too."""
+        self._executor.settle()
+
+    # Requests
+
+    def spawn(self, marker: Marker | MarkerArray) -> str:
+        """
+        Publish a marker, or an array of them, and return the name of the (last) body.
+
+        :raises Refused: with the code; of an array, the first refusal
+        """
+        if isinstance(marker, MarkerArray):
+            # An empty array has an answer, too.
+            return self._client.request('spawn_array', marker, max(1, len(marker.markers)))
+        return self._client.request('spawn', marker)
+
+    def anchor(self, point: PointStamped | tuple[float, float]) -> str:
+        """
+        Anchor the topmost body under a point [m], and return its name.
+
+        :raises Refused: with the code
+        """
+        return self._client.request('anchor', _stamped(point))
+
+    def release(self, point: PointStamped | tuple[float, float]) -> str:
+        """
+        Release the topmost body under a point [m], and return its name.
+
+        :raises Refused: with the code
+        """
+        return self._client.request('release', _stamped(point))
+
+    def join(self, marker: Marker) -> str:
+        """
+        Join two bodies by a marker, and return the joint's name.
+
+        :raises Refused: with the code
+        """
+        return self._client.request('join', marker)
+
+    def pin(self, point: PointStamped | tuple[float, float]) -> str:
+        """
+        Weld the bodies under a point [m] together, and return the joint's name.
+
+        :raises Refused: with the code
+        """
+        return self._client.request('pin', _stamped(point))
+
+    def axle(self, point: PointStamped | tuple[float, float]) -> str:
+        """
+        Join the bodies under a point [m] by an axle, and return the joint's name.
+
+        :raises Refused: with the code
+        """
+        return self._client.request('axle', _stamped(point))
+
+    def command(self, command: MultiDOFJointState) -> str:
+        """
+        Set poses, twists or wrenches, and return the name of the body where it is only one.
+
+        :raises Refused: with the code
+        """
+        return self._client.request('command', command)
+
+    # Recording
+
+    def record(self, path: str | Path) -> None:
+        """Record all frames from now on in a `.rrd` file, which is complete after the test."""
+        self.recording = Path(path)
+        self.node.record(self.recording)
+
+    def record_past(self, path: Path) -> None:
+        """
+        Record all frames of the history in a `.rrd` file; nothing but this can be done after it.
+
+        Other nodes hear nothing of it: the past is repeated from the log of requests.
+        """
+        simulation = self.node.simulation
+        status = simulation.status
+        simulation.seek(round(status.oldest * 1e9))
+        self.node.apply_requests()
+        self.record(path)
+        for _ in range(self._frames(status.newest - status.oldest)):
+            self.node.advance_frame()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        # Before its nodes, whose waitables it holds.
+        self._executor.shutdown()
+        self._client.node.destroy_node()
+        self.node.destroy_node()
+
+
+def _stamped(point: PointStamped | tuple[float, float]) -> PointStamped:
+    if not isinstance(point, tuple):
+        return point
+    message = PointStamped()
+    message.point.x, message.point.y = map(float, point)
+    return message

@@ -1,0 +1,106 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""A request returns the answer that is its own, or raises it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from physsim_ros.testing import PhysSim, Refused
+import pytest
+from rclpy.node import Node
+from sensor_msgs.msg import MultiDOFJointState
+from visualization_msgs.msg import MarkerArray
+
+from ..messages import box, command, delete, disc, point
+
+
+def test_requests_return_the_name_of_the_body(physsim: PhysSim) -> None:
+    assert physsim.spawn(box('a/0')) == 'a/0'
+    assert physsim.spawn(MarkerArray(markers=[box('a/1', at=(3, 0)), box('a/2', at=(6, 0))])) == (
+        'a/2'
+    )
+    assert physsim.spawn(MarkerArray()) == ''
+    assert physsim.anchor((0.0, 0.0)) == 'a/0'
+    assert physsim.anchor((3, 0)) == 'a/1'
+    assert physsim.release(point(0.0, 0.0, 'a/1')) == 'a/1'
+    assert physsim.command(command('a/2', twists=[(1, 0, 0)])) == 'a/2'
+
+
+def test_a_refusal_is_raised_with_its_code_and_field(physsim: PhysSim) -> None:
+    with pytest.raises(Refused) as caught:
+        physsim.spawn(box(size=(-1.0, 1.0)))
+    assert (caught.value.code, caught.value.field) == ('bad_size', 'scale.x')
+    assert str(caught.value).startswith('bad_size: ')
+    for ask, code in (
+        (lambda: physsim.anchor((0.0, 0.0)), 'nothing_there'),
+        (lambda: physsim.release(point(0.0, 0.0, 'map')), 'unknown_frame'),
+        (lambda: physsim.command(command('a/9')), 'unknown_body'),
+    ):
+        with pytest.raises(Refused) as caught:
+            ask()
+        assert caught.value.code == code
+
+
+def test_the_first_refusal_of_an_array_is_raised_and_the_rest_is_done(physsim: PhysSim) -> None:
+    markers = [
+        box('a/0'),
+        delete('z/1'),
+        box('a/1', size=(0.0, 1.0)),
+        box('a/2', at=(5.0, 0.0)),
+    ]
+    with pytest.raises(Refused) as caught:
+        physsim.spawn(MarkerArray(markers=markers))
+    assert caught.value.code == 'unknown_body'
+    assert physsim.names == ('a/0', 'a/2')
+
+
+def test_a_large_array_is_answered_whole(physsim: PhysSim) -> None:
+    markers = [disc(f'a/{number}', at=(2.0 * number, 0.0)) for number in range(2000)]
+    assert physsim.spawn(MarkerArray(markers=markers)) == 'a/1999'
+    assert len(physsim.names) == 2000
+
+
+class Chatterbox(Node):
+    """Asks for something with every frame that it sees."""
+
+    def __init__(self, context: Any, name: str) -> None:
+        super().__init__('chatterbox', context=context)
+        self._name = name
+        self._publisher = self.create_publisher(MultiDOFJointState, '/physsim/command', 10)
+        self.create_subscription(MultiDOFJointState, '/physsim/states', self._see, 10)
+
+    def _see(self, _: MultiDOFJointState) -> None:
+        self._publisher.publish(command(self._name, twists=[(0.0, 0.0, 0.0)]))
+
+
+def test_the_answer_is_the_tests_own_whatever_other_nodes_ask(physsim: PhysSim) -> None:
+    physsim.spawn(box('a/0'))
+    physsim.spawn(box('a/1', at=(5.0, 0.0)))
+    physsim.add(Chatterbox(physsim.context, 'nobody/0'))
+    for number in range(10):
+        physsim.step()
+        # Theirs is refused each time, and waits to be when this is asked.
+        assert physsim.command(command('a/1', poses=[(5.0, float(number), 0.0)])) == 'a/1'
+        assert physsim.pose('a/1').y == number
+
+
+def test_the_refusal_is_the_tests_own_whatever_other_nodes_ask(physsim: PhysSim) -> None:
+    physsim.spawn(box('a/0'))
+    physsim.add(Chatterbox(physsim.context, 'a/0'))
+    for _ in range(10):
+        physsim.step()
+        with pytest.raises(Refused):
+            physsim.command(command('nobody/0', twists=[(0.0, 0.0, 0.0)]))

@@ -1,0 +1,230 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The pytest plugin, as other people's tests use it: their own node, no waiting, the same bits."""
+
+from __future__ import annotations
+
+from importlib.metadata import entry_points
+import os
+from pathlib import Path
+import re
+import subprocess
+import sys
+
+from physsim_ros.testing import own_context, PhysSim
+import pytest
+from rerun import chunk
+
+from ..messages import disc
+
+pytest_plugins = ['pytester']
+
+ROBOT = """
+import pytest
+from geometry_msgs.msg import Wrench
+from physsim_ros.testing import Refused
+from rclpy.node import Node
+from sensor_msgs.msg import MultiDOFJointState
+from visualization_msgs.msg import Marker
+
+
+class Robot(Node):
+    'Sees where its box is, and pushes it to x = 3.'
+
+    def __init__(self, context):
+        super().__init__('robot', context=context)
+        self.publisher = self.create_publisher(MultiDOFJointState, '/physsim/command', 10)
+        self.create_subscription(MultiDOFJointState, '/physsim/states', self.see, 10)
+        self.create_timer(0.1, self.tick)
+        self.seen = self.ticks = 0
+
+    def see(self, states):
+        self.seen += 1
+        index = list(states.joint_names).index('box/0')
+        x = states.transforms[index].translation.x
+        v = states.twist[index].linear.x
+        message = MultiDOFJointState(joint_names=['box/0'], wrench=[Wrench()])
+        message.wrench[0].force.x = 40.0 * (3.0 - x) - 12.0 * v
+        self.publisher.publish(message)
+
+    def tick(self):
+        self.ticks += 1
+
+
+def box(namespace, x, y, width=1.0, text=''):
+    marker = Marker(ns=namespace, type=Marker.CUBE, text=text)
+    marker.pose.position.x, marker.pose.position.y = x, y
+    marker.scale.x, marker.scale.y = width, 1.0
+    return marker
+
+
+def test_robot_pushes_the_box(physsim):
+    physsim.spawn(box('floor', 0.0, -0.5, 50.0, '{anchored: true, friction: 0.1}'))
+    physsim.spawn(box('box', 0.0, 0.5))
+    physsim.spawn(box('other', 1.5, 0.5))
+    robot = Robot(context=physsim.context)
+    physsim.add(robot)
+    physsim.until(lambda: physsim.pose('box/0').x > 2.0, timeout=30.0)
+    physsim.run(1.0)
+    assert robot.seen >= 60
+    assert robot.ticks >= 9
+    assert physsim.pose('other/0').x > 2.9
+    print('DIGEST', physsim.digest(), robot.seen, robot.ticks)
+
+
+def test_another_world_is_empty(physsim):
+    assert physsim.names == ()
+    with pytest.raises(Refused) as caught:
+        physsim.anchor((0.0, 0.0))
+    assert caught.value.code == 'nothing_there'
+"""
+# Says what is imported where nobody asks for a world.
+WITHOUT = """
+import sys
+
+
+def test_nothing_of_ros_is_imported():
+    heads = {name.partition('.')[0] for name in sys.modules}
+    assert 'physsim_ros.testing' in sys.modules
+    ros = {each for each in heads if each.startswith(('rclpy', 'rosidl', 'rpyutils', 'ament'))}
+    messages = {each for each in heads if each.endswith(('_msgs', '_interfaces', '_srvs'))}
+    assert ros | messages | (heads & {'pymunk', 'numpy', 'rerun', 'yaml'}) == set()
+    assert not {'physsim_ros.testing.world', 'physsim_ros.ros'} & set(sys.modules)
+"""
+
+
+def run_pytest(directory: Path, *words: str, **environment: str) -> str:
+    """Run the tests of somebody else's project, and return what was printed."""
+    # Where the package is installed the plugin comes by itself, as for everybody.
+    found = entry_points(group='pytest11', name='physsim')
+    plugin = [] if found else ['-p', 'physsim_ros.testing']
+    # colcon hands its arguments on by this variable, which is inherited.
+    inherited = {name: value for name, value in os.environ.items() if name != 'PYTEST_ADDOPTS'}
+    done = subprocess.run(
+        [sys.executable, '-m', 'pytest', '-s', '-p', 'no:cacheprovider', *plugin, *words],
+        cwd=directory,
+        env=inherited | environment,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        timeout=200,
+        check=False,
+    )
+    assert done.returncode == 0, done.stdout
+    return done.stdout
+
+
+def test_a_robot_of_others_is_tested_with_the_same_bits_every_time(tmp_path: Path) -> None:
+    (tmp_path / 'test_robot.py').write_text(ROBOT)
+    digests = []
+    for _ in range(2):
+        printed = run_pytest(tmp_path)
+        assert '2 passed' in printed
+        digests += re.findall(r'DIGEST .*', printed)
+    print(digests[0])  # noqa: T201 - for who reads the log
+    assert len(digests) == 2
+    assert digests[0] == digests[1]
+
+
+def test_without_the_fixture_nothing_of_ros_is_imported(tmp_path: Path) -> None:
+    (tmp_path / 'test_without.py').write_text(WITHOUT)
+    # Other plugins of this environment import what they like.
+    printed = run_pytest(tmp_path, '-p', 'physsim_ros.testing', PYTEST_DISABLE_PLUGIN_AUTOLOAD='1')
+    assert '1 passed' in printed
+
+
+def test_the_plugin_is_installed_with_the_package() -> None:
+    (found,) = entry_points(group='pytest11', name='physsim')
+    assert found.value == 'physsim_ros.testing'
+
+
+FAILS = """
+import pytest
+from physsim_ros.testing import PhysSim
+from visualization_msgs.msg import Marker
+
+
+@pytest.fixture
+def falling(physsim: PhysSim) -> PhysSim:
+    physsim.load('ball')
+    return physsim
+
+
+def test_it_rises(falling: PhysSim) -> None:
+    falling.run(1.0)
+    falling.anchor((0.0, falling.pose('ball/0').y))
+    falling.until(lambda: falling.pose('ball/0').y > 9.0, timeout=0.5)
+
+
+def test_it_falls(falling: PhysSim) -> None:
+    falling.run(0.5)
+"""
+BALL = 'format: 1\nbodies: [{name: ball/0, circle: {radius: 1}, at: [0, 5]}]\n'
+
+
+def test_a_failed_test_tells_where_things_are_and_keeps_its_recording(
+    pytester: pytest.Pytester,
+) -> None:
+    # The file beside the test is found from any working directory.
+    directory = pytester.mkdir('elsewhere')
+    (directory / 'test_it.py').write_text(FAILS)
+    (directory / 'ball.yaml').write_text(BALL)
+    done = pytester.runpytest_subprocess('elsewhere', '--basetemp', 'kept')
+    done.assert_outcomes(passed=1, failed=1)
+    printed = done.stdout.str()
+    assert 'not so within 0.5 simulated seconds' in printed
+    assert re.search(r'ball/0 +0\.000 +0\.0\d\d ', printed)
+    (path,) = re.findall(r'^recording: (.*)$', printed, re.MULTILINE)
+    # Only the failed one, from its first frame to its last.
+    assert [str(each) for each in pytester.path.rglob('*.rrd')] == [path]
+    steps = recorded_steps(Path(path))
+    assert steps[0] <= 4
+    assert steps == list(range(steps[0], 4 * 90 + 1, 4))
+
+
+def test_a_recording_of_the_past_holds_what_happened(physsim: PhysSim, tmp_path: Path) -> None:
+    physsim.load('demo')
+    physsim.run(0.5)
+    physsim.spawn(disc('late/0', at=(0.0, 20.0)))
+    physsim.run(0.5)
+    expected = physsim.digest()
+    physsim.record_past(tmp_path / 'past.rrd')
+    assert physsim.digest() == expected
+
+
+def recorded_steps(path: Path) -> list[int]:
+    steps: set[int] = set()
+    for each in chunk.RrdReader(path).stream():
+        table = each.to_record_batch()
+        if 'sim_time' in table.schema.names:
+            stamps = table.column('sim_time').cast('int64').to_pylist()
+            # ns, at 240 Hz
+            steps |= {round(stamp * 240e-9) for stamp in stamps}
+    return sorted(steps)
+
+
+def test_a_recording_holds_every_frame_since_it_began(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    path = tmp_path / 'failed.rrd'
+    with own_context(monkeypatch) as context, PhysSim(context, world_dir=str(tmp_path)) as world:
+        world.spawn(disc('a/0', at=(0.0, 5.0)))
+        world.step(10)
+        world.record(path)
+        world.run(2.0)
+        ended = world.node.simulation.world.step_count
+    assert ended == 4 * 130
+    # It begins with the frame that is shown at that time.
+    assert recorded_steps(path) == list(range(4 * 10, ended + 1, 4))
