@@ -103,9 +103,10 @@ def ellipse(outline: Floats, sides: int) -> Floats:
     _, axes = np.linalg.eigh(away.T @ away)
     local = away @ axes
     angles = np.arange(sides) * 2.0 * math.pi / sides
-    # The half axes that fit best: those by which the outline is a unit circle, least squares.
+    # The half axes by which the outline is a unit circle (least squares), at most its reach.
     inverse = np.linalg.lstsq(local**2, np.ones(len(local)), rcond=None)[0]
-    half = 1.0 / np.sqrt(np.maximum(inverse, 1.0 / (local**2).max(axis=0)))
+    reach = np.abs(local).max(axis=0)
+    half = reach / np.sqrt(np.maximum(inverse * reach**2, 1.0))
     corners: Floats = center + (np.column_stack((np.cos(angles), np.sin(angles))) * half) @ axes.T
     return corners
 
