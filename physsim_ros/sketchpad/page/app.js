@@ -11,6 +11,7 @@ import {Connection} from './connection.js';
 import {Cursor} from './cursor.js';
 import {find, iconButton, make} from './dom.js';
 import {Gallery} from './gallery.js';
+import {Hints} from './hints.js';
 import {Keyboard} from './keyboard.js';
 import {Notes} from './notes.js';
 import {Pointers} from './pointer.js';
@@ -18,6 +19,7 @@ import {Readings} from './readings.js';
 import {SceneView} from './scene_view.js';
 import {switchTheme} from './theme.js';
 import {TimeBar} from './time_bar.js';
+import {Tips} from './tips.js';
 import {Toolbar} from './toolbar.js';
 import {WorldState} from './world_state.js';
 
@@ -25,8 +27,8 @@ import {WorldState} from './world_state.js';
 /**
  * @typedef {{down(touch: Touch): void, move(touch: Touch): void, up(touch: Touch): void, cancel(): void,
  *   draw(view: SceneView): void, turns?: boolean, turn?(angle: number): void, clicks?: number,
- *   finish?(): void}} Tool
- *   clicks: of a gesture, where it is made by clicks
+ *   finish?(): void, aims?: 'accent' | 'warn'}} Tool
+ *   clicks: of a gesture, where it is made by clicks; aims: colour of the body that it is pointed at
  */
 
 const GAP = 24; // px between the bars and a world that is framed
@@ -63,10 +65,12 @@ export class App {
     this.gallery = new Gallery(this);
     /** @type {Tool} */
     this.tool = {down() {}, move() {}, up() {}, cancel() {}, draw() {}};
+    this.hints = new Hints(this);
     this.toolbar = new Toolbar(this);
     this.pointers = new Pointers(this);
     this.keyboard = new Keyboard(this);
     this.#fillTop();
+    this.tips = new Tips(this.camera);
     this.#listen();
     this.connection.connect();
     setInterval(() => this.#listBodies(), LIST_EVERY);
@@ -89,8 +93,8 @@ export class App {
     this.recording = make('a', {target: '_blank', rel: 'noopener', hidden: true, className: 'button',
       textContent: 'Rerun', title: 'The recording'});
     find('looks', HTMLElement).append(
-      toggle('velocities', 'Show velocities', 'velocity', 'Velocities as arrows: 1 m is 1 m/s'),
-      toggle('contacts', 'Show forces', 'arrows', 'Forces of contact as arrows: 1 m is 10 N'),
+      toggle('velocities', 'Show velocities', 'velocities', 'Velocities as arrows: 1 m is 1 m/s'),
+      toggle('contacts', 'Show forces', 'forces', 'Forces of contact as arrows: 1 m is 10 N'),
       iconButton('Material', 'material', () => this.panel.showMaterial(), 'What is drawn next; gravity'),
       iconButton('Frame the world', 'fit', () => this.frame(), 'Frame the world (F)'),
       iconButton('Light or dark', 'theme', switchTheme),
@@ -134,9 +138,11 @@ export class App {
 
   /** Frame the world. */
   frame() {
-    const {view, camera} = this, wide = camera.width > 700;
+    const {view, camera} = this, wide = !camera.narrow;
+    const box = (/** @type {string} */ id) => find(id, HTMLElement).getBoundingClientRect();
     view.insets = this.viewOnly ? {left: 0, top: 0, right: 0, bottom: 0} :
-      {left: wide ? 108 : 0, top: 64, right: 0, bottom: wide ? 76 : 168};
+      {left: wide ? box('tools').right : 0, top: box('top').bottom, right: 0,
+        bottom: camera.height - box(wide ? 'bar' : 'tools').top};
     const {left, top, right, bottom} = view.insets;
     camera.fit(this.world.extent(),
       {left: left + GAP + (wide ? LABEL : 0), top: top + GAP, right: right + GAP, bottom: bottom + GAP});
@@ -195,10 +201,6 @@ export class App {
     this.hoveredAt = touch?.page;
   }
 
-  endHint() {
-    find('hint', HTMLElement).classList.add('faded');
-  }
-
   /** @param {SceneView} view */
   #drawChosen(view) {
     const {ctx, palette} = view;
@@ -208,6 +210,7 @@ export class App {
     }
     this.tool.draw(view);
     if (!this.hovered || !this.hoveredAt) return;
+    if (this.tool.aims) view.outline(this.world.row(this.hovered), palette[this.tool.aims]);
     const [x, y] = this.hoveredAt;
     ctx.font = '13px system-ui, sans-serif';
     ctx.textAlign = 'left';

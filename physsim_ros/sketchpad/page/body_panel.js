@@ -11,6 +11,7 @@ import {ARROW_GAP} from './tools/hand.js';
 const RANGES = [['density', 'Density [kg/m²]', 0.1, 10, 0.1], ['friction', 'Friction', 0, 2, 0.05],
   ['elasticity', 'Bounciness', 0, 1, 0.05]];
 const GRIP = 14; // px around the tip of the velocity arrow
+const COVERED = 80; // px: nearer to the sheet's edge, or beneath it, a body is covered
 const BESIDE = 0.5; // m: where a copy is put
 
 export class BodyPanel {
@@ -52,6 +53,17 @@ export class BodyPanel {
       this.plots.element,
     ]);
     this.plots.watch(name);
+    this.#uncover(row);
+  }
+
+  /**
+   * Move the view where the sheet of a narrow page covers what is chosen.
+   * @param {number} row
+   */
+  #uncover(row) {
+    const {camera, world} = this.app, lowest = this.element.getBoundingClientRect().top - COVERED;
+    const [, y] = camera.toPage(...world.place(row, world.scene.bodies[row].centroid));
+    if (camera.narrow && y > lowest) camera.pan(0, lowest - y);
   }
 
   /** @param {string[]} names of several bodies */
@@ -91,7 +103,12 @@ export class BodyPanel {
    * @param {Node[]} content
    */
   #show(title, content) {
-    this.element.replaceChildren(make('header', {}, make('h2', {textContent: title}),
+    const size = iconButton('Larger', 'sheet', () => {
+      const tall = this.element.classList.toggle('tall');
+      size.setAttribute('aria-expanded', String(tall));
+    });
+    size.setAttribute('aria-expanded', String(this.element.classList.contains('tall')));
+    this.element.replaceChildren(make('header', {}, make('h2', {textContent: title}), size,
       iconButton('Close', 'close', () => this.app.choose([]))), ...content);
     this.element.hidden = false;
   }

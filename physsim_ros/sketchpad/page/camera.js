@@ -2,6 +2,7 @@
 /** The part of the world that is shown: metres, y up, to pixels of the page, y down. */
 
 const LEAST_SCALE = 0.5, GREATEST_SCALE = 5000; // px/m
+const NARROW = 700; // px: a page of that width or less has its tools below, as in style.css
 const LEAST_SPAN = 4; // m; nothing smaller fills the page at first
 
 export class Camera {
@@ -9,6 +10,11 @@ export class Camera {
     this.x = this.y = 0; // the middle of the page [m]
     this.scale = 60; // px/m
     this.width = this.height = 1; // of the page [px]
+  }
+
+  /** @returns {boolean} whether tools and panel lie below */
+  get narrow() {
+    return this.width <= NARROW;
   }
 
   /**

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Worlds: a gallery to open from, saving by name, files, a link that holds the world, a picture. */
 
-import {download, find, make} from './dom.js';
+import {download, find, iconButton, make} from './dom.js';
 import {packText, unpackText} from './link.js';
 
 const LONGEST_LINK = 16000; // characters
@@ -26,8 +26,8 @@ export class Gallery {
    */
   show(title, ...content) {
     this.dialog.setAttribute('aria-label', title);
-    this.dialog.replaceChildren(make('header', {}, make('h2', {textContent: title}), make('button',
-      {type: 'button', 'aria-label': 'Close', textContent: '×', onclick: () => this.dialog.close()})),
+    this.dialog.replaceChildren(make('header', {}, make('h2', {textContent: title}),
+      iconButton('Close', 'close', () => this.dialog.close(), '')),
     ...content);
     if (!this.dialog.open) this.dialog.showModal();
   }
@@ -39,12 +39,12 @@ export class Gallery {
       make('strong', {textContent: name.replaceAll('_', ' ')}), make('small', {textContent: title})));
     const file = make('input', {type: 'file', accept: '.yaml,.yml',
       onchange: async () => file.files?.[0] && this.#upload(await file.files[0].text())});
-    this.show('Worlds', make('div', {className: 'cards'}, ...cards), make('div', {className: 'row'},
+    this.show('Worlds', make('div', {className: 'row'},
       make('button', {type: 'button', textContent: 'Empty world', onclick: () => {
         this.app.time.call('clear');
         this.dialog.close();
       }}),
-      make('label', {className: 'file'}, 'Open a file', file)));
+      make('label', {className: 'file'}, 'Open a file', file)), make('div', {className: 'cards'}, ...cards));
   }
 
   showSave() {

@@ -34,7 +34,7 @@ export class Keyboard {
       j: call('rewind'), J: call('fast_rewind'), k: call('pause'), l: call('play'), L: call('fast_forward'),
       '.': call('step'), 0: call('reset'),
     };
-    for (const [id, , key] of TOOLS.flat()) this.keys[key] = () => app.toolbar.choose(id);
+    for (const [id, , key] of TOOLS.flat()) this.keys[key] = () => app.toolbar.take(id);
   }
 
   show() {

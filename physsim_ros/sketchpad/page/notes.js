@@ -3,7 +3,7 @@
 
 import {find, make} from './dom.js';
 
-const SHOWN = 4000, READ = 6000; // ms
+const SHOWN = 4000, READ = 6000; // ms: an answer, a note
 
 export class Notes {
   /** @param {import('./app.js').App} app */
@@ -44,10 +44,10 @@ export class Notes {
   /**
    * @param {import('./wire.js').Point} at [m]
    * @param {(Node | string)[]} content
-   * @param {{kind?: string, stays?: boolean}} how
+   * @param {{kind?: string, shown?: number}} how  shown: for how long [ms]; 0 is until it is taken away
    * @returns {() => void} takes it away
    */
-  pin(at, content, {kind = '', stays = false} = {}) {
+  pin(at, content, {kind = '', shown = READ} = {}) {
     const note = make('div', {className: `note ${kind}`}, ...content);
     const remove = () => {
       note.remove();
@@ -56,7 +56,7 @@ export class Notes {
     this.places.append(note);
     this.pinned.set(note, at);
     this.#place();
-    if (!stays) setTimeout(remove, READ);
+    if (shown) setTimeout(remove, shown);
     return remove;
   }
 

@@ -23,6 +23,7 @@ export class Plots {
     this.canvases = ['Height [m]', 'Speed [m/s]', 'Energy [J]'].map((label) =>
       make('canvas', {role: 'img', 'aria-label': label, width: 2 * WIDTH, height: 2 * HEIGHT}));
     this.element = make('section', {className: 'plots', 'aria-label': 'Plots'}, ...this.canvases,
+      make('p', {textContent: 'Broad: free flight, by its formula'}),
       make('button', {type: 'button', textContent: 'Table (CSV)', onclick: () => this.#save()}));
     app.connection.on('frame', () => this.#record());
     app.connection.on('timeline', ({course, now}) => {
@@ -161,7 +162,11 @@ function plot(canvas, {start, end, now, label, curve, exact, palette}) {
   ctx.fillStyle = palette.ink;
   ctx.fillText(label, 0, 10);
   ctx.fillStyle = palette.faint;
-  for (const value of [least + margin, most - margin]) ctx.fillText(value.toPrecision(3), 0, atY(value) + 4);
+  const marks = most - least > 4 * margin ? [least + margin, most - margin] : [(least + most) / 2];
+  for (const value of marks) {
+    const rounded = Math.abs(value) < margin / 100 ? 0 : Number(value.toPrecision(3));
+    ctx.fillText(String(rounded), 0, atY(value) + 4);
+  }
   ctx.fillText(`${start.toFixed(1)} s`, LEFT, HEIGHT - 2);
   ctx.fillText(`${end.toFixed(1)} s`, WIDTH - 34, HEIGHT - 2);
   ctx.save();

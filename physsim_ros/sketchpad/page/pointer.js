@@ -53,7 +53,6 @@ export class Pointers {
       (this.stylus && event.pointerType === 'touch');
     if (this.down.size === 1 && !moves) {
       this.working = event.pointerId;
-      app.endHint();
       app.lastAt = this.#touch(event).at;
       app.tool.down(this.#touch(event));
     } else if (this.down.size > 1 && this.working >= 0 && !app.tool.turns) {

@@ -6,6 +6,7 @@ import {make} from './dom.js';
 /** @typedef {import('./wire.js').Point} Point */
 
 const LIKELY = 0.05; // the least confidence of a runner-up that is offered
+const GLANCED = 2500; // ms: a reading without one
 
 export class Readings {
   /** @param {import('./app.js').App} app */
@@ -44,14 +45,15 @@ export class Readings {
       this.#forget(request);
       const other = runner_up && runner_up_confidence > LIKELY ?
         [this.#choice(`or ${runner_up}`, runner_up_confidence, request, '')] : [];
-      this.dismiss = this.app.notes.pin(at, [say(meaning, confidence), ...other]);
+      this.dismiss = this.app.notes.pin(at, [say(meaning, confidence), ...other],
+        other.length ? {} : {shown: GLANCED});
       return;
     }
     const choices = guesses.map(([guess, sure]) => this.#choice(guess, sure, request, guess));
     const close = make('button', {type: 'button', 'aria-label': 'Forget the stroke', textContent: '×',
       onclick: () => this.dismiss()});
     const words = choices.length ? 'Not sure. Is it' : 'Not recognised';
-    const remove = this.app.notes.pin(at, [words, ...choices, close], {stays: true});
+    const remove = this.app.notes.pin(at, [words, ...choices, close], {shown: 0});
     this.dismiss = () => {
       remove();
       this.#forget(request);

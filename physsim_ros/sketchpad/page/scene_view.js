@@ -28,7 +28,8 @@ export class SceneView {
     this.palette = readPalette();
     /** @type {CanvasPattern[]} */
     this.hatches = [];
-    /** @type {WeakMap<Body, {path: Path2D, radius: number, dark: boolean, fill: string, line: string}>} */
+    /** @type {WeakMap<Body, {path: Path2D, radius: number, dark: boolean, fill: string, line: string,
+     *   tiny: string}>} */
     this.looks = new WeakMap();
     /** @type {((view: SceneView) => void)[]} */
     this.overlays = [];
@@ -121,8 +122,10 @@ export class SceneView {
       const points = spanOf(body.shape), [x, y] = body.centroid;
       const radius = Math.max(...points.map(([px, py]) => Math.hypot(px - x, py - y)));
       const night = document.documentElement.dataset.theme === 'dark';
-      look = {path: pathOf(body.shape), radius, fill: css(body.color),
-        dark: Math.max(...body.color.slice(0, 3)) < 0.45, line: css(body.color, night ? 0.45 : -0.4)};
+      const dark = Math.max(...body.color.slice(0, 3)) < 0.45, fill = css(body.color);
+      const line = css(body.color, night ? 0.45 : -0.4);
+      // Without its outline a dark body could not be told from a dark paper.
+      look = {path: pathOf(body.shape), radius, fill, dark, line, tiny: night && dark ? line : fill};
       this.looks.set(body, look);
     }
     return look;
@@ -147,7 +150,7 @@ export class SceneView {
     // Filled last, so that pieces of one body have one outline.
     if (!small) ctx.stroke(look.path);
     ctx.setLineDash([]);
-    ctx.fillStyle = look.fill;
+    ctx.fillStyle = small ? look.tiny : look.fill;
     ctx.globalAlpha = body.sensor ? 0.35 : 1;
     ctx.fill(look.path, 'nonzero');
     ctx.globalAlpha = 1;

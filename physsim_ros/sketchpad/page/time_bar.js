@@ -31,6 +31,7 @@ export class TimeBar {
     }
     this.on = ''; // the button that is pressed
     this.shown = NaN; // speed
+    this.rate = 1; // of playing, as this page has chosen it
     this.held = false; // by a finger or the mouse
     this.busy = false; // a seek is on its way
     /** @type {?number} */
@@ -47,7 +48,8 @@ export class TimeBar {
   /** @param {string} service */
   call(service) {
     if (service === 'step' && !this.app.world.paused) this.call('pause');
-    this.app.connection.send('service', {name: service});
+    if (service === 'play' && this.rate !== 1) this.app.connection.send('speed', {speed: this.rate});
+    else this.app.connection.send('service', {name: service});
   }
 
   toggle() {
@@ -71,8 +73,16 @@ export class TimeBar {
   }
 
   #slower() {
-    const next = SPEEDS[(SPEEDS.indexOf(this.app.world.frame.speed) + 1) % SPEEDS.length];
-    this.app.connection.send('speed', {speed: next});
+    const {speed} = this.app.world.frame, now = speed > 0 ? speed : this.rate;
+    this.rate = SPEEDS[(SPEEDS.indexOf(now) + 1) % SPEEDS.length];
+    if (speed > 0) this.app.connection.send('speed', {speed: this.rate});
+    else this.#showSpeed(this.rate);
+  }
+
+  /** @param {number} speed */
+  #showSpeed(speed) {
+    this.speed.textContent = `${Number(speed.toFixed(2))}×`.replace('-', '−');
+    this.speed.setAttribute('aria-label', `Speed ${this.speed.textContent}`);
   }
 
   #showTime() {
@@ -92,8 +102,7 @@ export class TimeBar {
     for (const [, service] of TIME.slice(0, 5)) {
       this.buttons.get(service)?.setAttribute('aria-pressed', String(service === on));
     }
-    this.speed.textContent = `${Number(speed.toFixed(2))}×`.replace('-', '−');
-    this.speed.setAttribute('aria-label', `Speed ${this.speed.textContent}`);
+    this.#showSpeed(speed || this.rate);
   }
 
   #showTimeline() {

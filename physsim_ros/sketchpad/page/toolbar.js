@@ -45,13 +45,23 @@ export class Toolbar {
     for (const group of TOOLS) {
       const box = make('div', {role: 'group'});
       for (const [id, name, key, hint] of group) {
-        const button = iconButton(name, id, () => this.choose(id), `${name} (${key.toUpperCase()}): ${hint}`);
+        const button = iconButton(name, id, () => this.take(id), `${name} (${key.toUpperCase()}): ${hint}`);
         this.tools.set(id, {tool: OWN[id] ? new OWN[id](app) : new ClickTool(app, id), button});
         box.append(button);
       }
       bar.append(box);
     }
     this.choose('pen');
+  }
+
+  /**
+   * Choose a tool, and say how it is used.
+   * @param {string} id
+   */
+  take(id) {
+    this.choose(id);
+    const [, name, , hint] = TOOLS.flat().find(([each]) => each === id) ?? ['', '', '', ''];
+    this.app.hints.showTool(`${name}: ${hint[0].toLowerCase()}${hint.slice(1)}.`);
   }
 
   /** @param {string} id */

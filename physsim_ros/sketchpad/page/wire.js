@@ -16,6 +16,7 @@
 /** @typedef {{state: string, oldest: number, now: number, newest: number, course: number,
  *   undo: string, redo: string, speed: number, courses?: Course[]}} Timeline */
 /** @typedef {{request: string, ok: boolean, code: string, message: string, subject: string,
+ *   topic: string,
  *   values: Record<string, string>, at?: Point}} Answer */
 /** @typedef {{request: string, meaning: string, confidence: number, runner_up: string,
  *   runner_up_confidence: number, guesses: [string, number][], outline: Point[],

@@ -22,6 +22,8 @@ export class ClickTool {
     this.app = app;
     this.id = id;
     this.clicks = CLICKS[id] ?? 2;
+    /** @type {'accent' | 'warn' | undefined} */
+    this.aims = id === 'delete' ? 'warn' : this.clicks === 1 || id === 'velocity' ? 'accent' : undefined;
     /** @type {Touch[]} */
     this.points = [];
     /** @type {?Touch} */

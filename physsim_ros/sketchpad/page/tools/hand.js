@@ -72,6 +72,7 @@ export class Hand {
     if (state === 'holding') {
       this.#sendMove();
       app.connection.send('let_go');
+      app.hints.done('throw');
     } else if (state === 'aiming') app.panel.setAim();
     else if (!this.moved) app.chooseAt(touch);
     else if (state === 'carrying' && start) {

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+/**
+ * One line of help: how the tool in hand is used, and for somebody new the way from a first body to a
+ * changed past. A step that was done does not come again in this browser.
+ */
+
+import {find} from './dom.js';
+
+/** Id, text, and the button that is pointed at. @type {[string, string, string][]} */
+const STEPS = [
+  ['draw', 'Draw a circle, a box, a line: it comes to life.', ''],
+  ['throw', 'Now take the hand, and throw it.', 'Hand'],
+  ['rewind', 'Nothing is lost: rewind, or drag the time line.', 'Rewind'],
+  ['change', 'This is the past. Draw or move something here, and it goes otherwise.', ''],
+  ['ghost', 'Dashed is how it went before. The ring on the time line goes back there.', 'Play'],
+];
+const KEY = 'physsim-hints';
+const TOOL_SHOWN = 7000, LAST_SHOWN = 12000; // ms
+
+export class Hints {
+  /** @param {import('./app.js').App} app */
+  constructor(app) {
+    this.app = app;
+    this.line = find('hint', HTMLElement);
+    this.step = Number(localStorage.getItem(KEY) ?? 0);
+    this.timer = 0;
+    const {connection} = app;
+    connection.on('reading', ({built}) => built && this.done('draw'));
+    connection.on('answer', ({request, ok, topic, subject}) => {
+      if (request && ok && topic === 'clicked_point' && subject) this.done('draw');
+    });
+    connection.on('timeline', ({state, courses = []}) => {
+      if (state === 'rewinding' || state === 'in the past') this.done('rewind');
+      if (courses.length && this.step > 2) this.done('change');
+    });
+    this.#showStep();
+  }
+
+  /** @param {string} id of the step that was done; those before are known then too */
+  done(id) {
+    const next = STEPS.findIndex(([each]) => each === id) + 1;
+    if (next <= this.step) return;
+    this.step = next;
+    localStorage.setItem(KEY, String(next));
+    this.#showStep();
+  }
+
+  /** @param {string} text how the tool in hand is used */
+  showTool(text) {
+    this.#show(text);
+    this.timer = setTimeout(() => this.#showStep(), TOOL_SHOWN);
+  }
+
+  #showStep() {
+    const [id, text, button] = STEPS[this.step] ?? ['', '', ''];
+    this.#show(text);
+    for (const each of document.querySelectorAll('.next')) each.classList.remove('next');
+    if (button) document.querySelector(`button[aria-label="${button}"]`)?.classList.add('next');
+    if (id === 'ghost') this.timer = setTimeout(() => this.done('ghost'), LAST_SHOWN);
+  }
+
+  /** @param {string} text '' hides the line */
+  #show(text) {
+    clearTimeout(this.timer);
+    if (text) this.line.textContent = text;
+    this.line.classList.toggle('faded', !text);
+  }
+}
