@@ -1,0 +1,112 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+The declaration of the parameters on a node, and the check of their values.
+
+Law: a value outside its range is refused with a reason and changes nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+import math
+from typing import Any
+
+from physsim_ros.model.errors import BadProperty, Malformed
+from physsim_ros.ros.parameters.settings import drawing_settings, world_settings
+from physsim_ros.ros.parameters.spec import Spec, Type
+from physsim_ros.ros.parameters.table import SPECS
+from rcl_interfaces.msg import ParameterDescriptor
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+
+
+def declare(node: Node) -> dict[str, Any]:
+    """
+    Declare every parameter on a node and return their values.
+
+    :raises PhysSimError: an initial value is out of range
+    """
+    values = {}
+    for name, spec in SPECS.items():
+        default = Parameter(name, spec.kind, spec.default).value
+        # Declared without type and range: initial values are converted and checked here, so that
+        # all refusals are alike.
+        node.declare_parameter(name, default, ParameterDescriptor(dynamic_typing=True))
+        given = node.get_parameter(name)
+        if given.type_ == Type.NOT_SET:
+            # rcl passes an empty list of the command line, or of a file, as NOT_SET.
+            given = Parameter(name, Type.BYTE_ARRAY, [])
+        parameter = _converted(given)
+        check(parameter)
+        node.set_parameters([parameter])
+        node.set_descriptor(name, spec.descriptor)
+        values[name] = _plain(parameter.value, spec)
+    world_settings(values)
+    drawing_settings(values)
+    node.add_pre_set_parameters_callback(_all_converted)
+    return values
+
+
+def check(parameter: Parameter) -> None:
+    """
+    Check type and range of a parameter.
+
+    :raises BadProperty: the type is wrong, or the value is out of range
+    :raises Malformed: a number is not finite
+    """
+    spec = SPECS.get(parameter.name)
+    if spec is None:
+        return
+    name, value = parameter.name, parameter.value
+    if parameter.type_ != spec.kind:
+        raise BadProperty(
+            f'{name} must be of type {spec.kind.name.lower()}, not {parameter.type_.name.lower()}',
+            field=name,
+        )
+    numbers = value if isinstance(value, list) else [value]
+    if any(isinstance(each, float) and not math.isfinite(each) for each in numbers):
+        raise Malformed(f'{name} is not finite', field=name)
+    if spec.low is not None and spec.high is not None and not spec.low <= value <= spec.high:
+        raise BadProperty(
+            f'{name} is {value:g}; it must lie between {spec.low:g} and {spec.high:g}', field=name
+        )
+    if spec.choices and value not in spec.choices:
+        raise BadProperty(f'{name} must be one of {", ".join(spec.choices)}', field=name)
+
+
+def _all_converted(parameters: Iterable[Parameter]) -> list[Parameter]:
+    return [_converted(parameter) for parameter in parameters]
+
+
+def _converted(parameter: Parameter) -> Parameter:
+    """Return a parameter with an integer or an empty list converted to the declared type."""
+    spec = SPECS.get(parameter.name)
+    if spec is None:
+        return parameter
+    value = parameter.value
+    if spec.kind == Type.DOUBLE and parameter.type_ == Type.INTEGER:
+        return Parameter(parameter.name, Type.DOUBLE, float(value))
+    # An empty list has no type: rclpy sends it as bytes, ros2cli as booleans.
+    empty = parameter.type_.name.endswith('_ARRAY') and len(value) == 0
+    numbers = parameter.type_ in (Type.DOUBLE_ARRAY, Type.INTEGER_ARRAY)
+    if spec.kind == Type.DOUBLE_ARRAY and (empty or numbers):
+        # A message holds an array.array; the value is always a list.
+        return Parameter(parameter.name, Type.DOUBLE_ARRAY, [float(each) for each in value])
+    return parameter
+
+
+def _plain(value: Any, spec: Spec) -> Any:
+    return list(value) if isinstance(spec.default, list) else value

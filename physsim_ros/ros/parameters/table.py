@@ -1,0 +1,160 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The table of the parameters."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+
+from physsim_ros.drawing import DRAWING_RANGES, DrawingSettings, Tool
+from physsim_ros.model.checks import FASTEST
+from physsim_ros.model.settings import RANGES as WORLD_RANGES
+from physsim_ros.model.settings import STRONGEST, WorldSettings
+from physsim_ros.model.shapes import LARGEST
+from physsim_ros.ros.parameters.spec import Spec
+from physsim_ros.view import ViewerMode
+
+# Value of draw_color with which each body has another colour.
+AUTO = 'auto'
+
+_OF_NODE = {
+    'frame_id': Spec(default='world', meaning='name of the world frame', read_only=True),
+    'world_file': Spec(
+        default='',
+        meaning='world loaded at start and by ~/load_world, written by ~/save_world: a path, or '
+        'the name of one in config/worlds',
+    ),
+    'world_dir': Spec(
+        default='',
+        meaning='after start, worlds are read and written only below this directory; empty is '
+        'physsim_ros/worlds in $XDG_DATA_HOME (~/.local/share), made when first needed',
+        read_only=True,
+    ),
+    'physics_rate': Spec(
+        default=240.0,
+        meaning='fixed step of the physics [Hz]',
+        low=60.0,
+        high=10000.0,
+        read_only=True,
+    ),
+    'publish_rate': Spec(
+        default=60.0,
+        meaning='frames out [Hz]; divides physics_rate',
+        low=1.0,
+        high=10000.0,
+        read_only=True,
+    ),
+    'speed': Spec(
+        default=1.0,
+        meaning='simulation seconds a second; 0 is paused, negative goes back',
+        low=-64.0,
+        high=64.0,
+    ),
+    'fast_speed': Spec(
+        default=4.0, meaning='speed of ~/fast_forward and ~/fast_rewind', low=0.0, high=64.0
+    ),
+    'tool': Spec(
+        default='none',
+        meaning='what a click on clicked_point does; another one drops what is half drawn',
+        choices=tuple(Tool),
+    ),
+    'history': Spec(
+        default=600.0,
+        meaning='how far back the world can be rewound [s]; older steps are dropped',
+        low=0.0,
+        high=86400.0,
+    ),
+    'publish_clock': Spec(default=True, meaning='whether the clock is published'),
+    'publish_tf': Spec(
+        default=False,
+        meaning='whether the pose of every body is published on /tf, too; needs tf2_msgs',
+        read_only=True,
+    ),
+    'viewer': Spec(
+        default='auto',
+        meaning='none, spawn (native Rerun), web (served on localhost), connect (to viewer_url), '
+        'auto (spawn where there is a display, else web); set again, it begins a recording '
+        'that has failed anew, in a file beside it',
+        choices=tuple(mode.value for mode in ViewerMode),
+    ),
+    'trace': Spec(
+        default='',
+        meaning='names of bodies, separated by commas, whose way and flight the viewer shows',
+    ),
+    'viewer_url': Spec(default='', meaning='Rerun server to connect to', read_only=True),
+    'record_file': Spec(default='', meaning='.rrd file written beside any viewer', read_only=True),
+    'sketchpad': Spec(
+        default='none',
+        meaning='none, or serve: the page in the browser, to draw on',
+        choices=('none', 'serve'),
+    ),
+    'sketchpad_address': Spec(
+        default='127.0.0.1',
+        meaning='address that the page is served on; another one than of loopback shows it to '
+        'the network',
+        read_only=True,
+    ),
+    'sketchpad_port': Spec(
+        default=8765,
+        meaning='port of the page; where it is taken, one of the next 20; 0 is any',
+        low=0,
+        high=65535,
+        read_only=True,
+    ),
+}
+# Parameters of the world and of drawing, whose defaults and ranges are those of the settings.
+_MEANINGS = {
+    'iterations': 'solver iterations',
+    'gravity': f'of a length up to {STRONGEST:g} [m/s²]',
+    'damping': 'share of velocity lost to the air each second',
+    'bounds': '[xmin, ymin, xmax, ymax] of walls around the world, each '
+    f'{-LARGEST:g} .. {LARGEST:g} [m]; [] is none',
+    'density': 'of what is made next without saying [kg/m²]',
+    'friction': 'of what is made next without saying',
+    'elasticity': 'of what is made next without saying',
+    'draw_velocity': f'of what is drawn next, of a length up to {FASTEST:g} [m/s]',
+    'draw_color': f"of what is drawn next: '#rrggbb', '#rrggbbaa', or {AUTO}, one for each",
+    'snap': 'what is drawn as near as this to something is meant to meet it [m]',
+    'sketch_confidence': 'least confidence with which a stroke is taken for something',
+    'regroup': 'strokes that follow one another within this time are read together [s]; 0: none',
+    'beautify': 'how far a stroke may be from regular and still be meant so: angles [rad], '
+    'lengths as a share; 0 keeps it as it was drawn',
+    'wall_thickness': 'of walls that are drawn [m]',
+    'drag_force': 'greatest force of a hand, in weights of the body',
+    'command_timeout': 'of a wrench [s of simulation time]; 0 means no limit',
+    'max_bodies': 'a spawn past it is refused',
+    'max_shapes': 'convex pieces of all bodies; a request past it is refused',
+    'max_overlaps': 'pairs of pieces that would overlap at once; a request past it is refused',
+}
+
+
+def _of_settings() -> dict[str, Spec]:
+    defaults = asdict(WorldSettings()) | asdict(DrawingSettings())
+    # ROS parameters have no None.
+    defaults |= {'bounds': [], 'draw_color': AUTO}
+    ranges = WORLD_RANGES | DRAWING_RANGES
+    specs = {}
+    for name, meaning in _MEANINGS.items():
+        default, span = defaults[name], ranges.get(name)
+        specs[name] = Spec(
+            default=list(default) if isinstance(default, tuple) else default,
+            meaning=meaning,
+            low=None if span is None else span.low,
+            high=None if span is None else span.high,
+        )
+    return specs
+
+
+SPECS: dict[str, Spec] = _OF_NODE | _of_settings()
