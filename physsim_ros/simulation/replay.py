@@ -253,16 +253,6 @@ class Timeline(Replay):
         self.world.clear_contacts()
         self.replay_to(step, serial)
 
-    def renew(self) -> None:
-        """
-        Make a checkpoint now, so that a world that is loaded from it continues alike.
-
-        Not in the past: how it went on from there is settled.
-        """
-        if self.world.step_count < self.history.head or self._resumed == self.moment:
-            return
-        self._add_checkpoint()
-
     def undo(self) -> Tail:
         """
         Go back to the moment before the last gesture.
@@ -360,9 +350,10 @@ class Timeline(Replay):
         if self.history.checkpoint_at(*self.moment) is None and (
             changed or self.history.is_checkpoint_due(step)
         ):
-            self._add_checkpoint()
+            self.add_checkpoint()
 
-    def _add_checkpoint(self) -> None:
+    def add_checkpoint(self) -> None:
+        """Make a checkpoint now, the last of the history, and go on from it."""
         mark = Mark(*self.moment, self.world.renew(), self.world.digest())
         self.history.add_checkpoint(mark)
         self._resumed = mark.moment

@@ -269,15 +269,14 @@ class Simulation:
 
     def save(self) -> WorldState:
         """
-        Return the world as it is; whoever goes on from that goes on as it does itself.
+        Return the world as it is, to the bit; how it goes on is not changed.
 
-        In the past the state is the same to the bit, but what went on from there may go on
-        otherwise from what is saved, and after a collision very much so: the order in which the
-        engine has found contacts cannot be read, and how the past goes on is settled.
+        All worlds that begin with that state go on alike. This world goes on as they do up to the
+        next impact; there the order in which the engine found contacts counts, which a state
+        cannot have.
         """
         self._apply_waiting()
         self._seek_shown()
-        self.timeline.renew()
         return self.timeline.world.save()
 
     def reset(self) -> str:

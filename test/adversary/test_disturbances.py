@@ -135,7 +135,13 @@ class Disturbances(RuleBasedStateMachine):
     @rule()
     def read(self) -> None:
         self.disturbed.world.snapshot()
-        self.disturbed.world.save()
+
+    @rule()
+    def save(self) -> None:
+        state = self.disturbed.save()
+        elsewhere = Simulation()
+        elsewhere.begin(state)
+        assert elsewhere.world.save() == state
 
     def stamp_at(self, share: float) -> int:
         """Return a time between the oldest step and this one [ns]."""

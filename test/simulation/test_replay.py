@@ -682,19 +682,18 @@ def test_saving_in_the_past_drops_nothing(driven: Driven) -> None:
 
 
 @pytest.mark.parametrize('frames', [1, 37, 200])
-def test_who_goes_on_from_what_was_saved_goes_on_alike(driven: Driven, frames: int) -> None:
+def test_all_that_go_on_from_what_was_saved_go_on_alike(driven: Driven, frames: int) -> None:
     for _ in range(frames):
         driven.simulation.advance_frame()
-    elsewhere = Driven()
+    elsewhere, restored = Driven(), Driven()
     elsewhere.simulation.begin(driven.simulation.save())
-    restored = Driven()
     restored.simulation.perform(Restore(state=driven.simulation.save()))
+    assert elsewhere.simulation.world.save() == driven.simulation.world.save()
     for _ in range(200):
-        expected = driven.simulation.advance_frame().snapshot
-        for other in (elsewhere, restored):
-            snapshot = other.simulation.advance_frame().snapshot
-            np.testing.assert_array_equal(snapshot.poses, expected.poses)
-            np.testing.assert_array_equal(snapshot.twists, expected.twists)
+        expected = elsewhere.simulation.advance_frame().snapshot
+        snapshot = restored.simulation.advance_frame().snapshot
+        np.testing.assert_array_equal(snapshot.poses, expected.poses)
+        np.testing.assert_array_equal(snapshot.twists, expected.twists)
 
 
 # Where requests meet checkpoints
@@ -724,14 +723,14 @@ def test_a_request_at_the_step_of_a_checkpoint_is_made_again_where_it_was() -> N
         assert told([frame], 'divergence') == []
 
 
-def test_a_request_where_the_past_was_saved_is_made_again_where_it_was() -> None:
+def test_a_request_at_a_checkpoint_of_the_past_is_made_again_where_it_was() -> None:
     sim = Simulation(settings=FLOOR)
     # A seek comes from the frame before, for its contacts.
     sim.watch_contacts(True)
     # Deep in the floor, so that it goes on otherwise in a space that is built anew.
     sim.perform(spawning('a/0', DISC, (2.4, 0.1, 3.0), velocity=(1.8, 2.7)))
     sim.advance_frame()
-    sim.save()
+    sim.timeline.add_checkpoint()
     for _ in range(14):
         sim.advance_frame()
     sim.seek(round(FRAME * SECOND / 240))

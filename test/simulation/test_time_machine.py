@@ -310,17 +310,15 @@ class TimeMachine(RuleBasedStateMachine):
         self.look(simulation.settle())
         # Hands are not saved.
         self.look(simulation.advance_frame())
-        other = self.new()
-        other.begin(simulation.save())
-        first = simulation.step
+        others = self.new(), self.new()
+        for other in others:
+            other.begin(simulation.save())
+            assert other.world.save() == simulation.world.save()
         for _ in range(frames):
-            frame = simulation.advance_frame()
-            self.look(frame)
-            # Its steps are counted from another beginning.
-            other.timeline.advance(simulation.step - first - other.step)
-            there = other.world.snapshot()
-            np.testing.assert_array_equal(frame.snapshot.poses, there.poses)
-            np.testing.assert_array_equal(frame.snapshot.twists, there.twists)
+            self.look(simulation.advance_frame())
+            one, two = (other.advance_frame().snapshot for other in others)
+            np.testing.assert_array_equal(one.poses, two.poses)
+            np.testing.assert_array_equal(one.twists, two.twists)
 
     # What must hold
 
