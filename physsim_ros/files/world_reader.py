@@ -26,6 +26,7 @@ from dataclasses import replace
 import operator
 from typing import Any
 
+import numpy as np
 from physsim_ros.engine.body import lead_of, offset_of, REST
 from physsim_ros.engine.body_table import LOST
 from physsim_ros.files.entries import count_from, entries_of, naming, ROUNDING
@@ -129,8 +130,9 @@ def _body_state(
     if 'wrench' in entry:
         command = _wrench(spawn.name, entry['wrench'])
         check_command(body, command)
-        if any(command.wrenches[0]):
-            wrench = command.wrenches[0]
+        if command.wrenches.any():
+            fx, fy, torque = command.wrenches[0].tolist()
+            wrench = fx, fy, torque
             wrench_steps = _wrench_steps(entry['wrench'], physics_rate)
     state = BodyState(
         body=body, pose=spawn.pose, twist=twist, wrench=wrench, wrench_steps=wrench_steps
@@ -194,7 +196,7 @@ def _color(value: object) -> Color:
 def _wrench(name: str, value: object) -> Command:
     wrench = known_mapping(value, 'wrench', ['force', 'torque', 'seconds', 'steps'])
     force, torque = pair(wrench.get('force'), 'force'), number(wrench.get('torque'), 'torque')
-    return Command(names=(name,), wrenches=((*force, torque),))
+    return Command(names=(name,), wrenches=np.array(((*force, torque),)))
 
 
 def _wrench_steps(wrench: Mapping[Any, Any], physics_rate: float) -> int | None:

@@ -21,11 +21,15 @@ stamps are ignored.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+import itertools
 import math
 from typing import Any, TypeVar
 
 from geometry_msgs.msg import PointStamped, Quaternion
+import numpy as np
 from physsim_ros.files import load_mapping
+from physsim_ros.model.arrays import Floats
 from physsim_ros.model.body_properties import properties_from
 from physsim_ros.model.colors import Color
 from physsim_ros.model.errors import (
@@ -49,6 +53,7 @@ from physsim_ros.model.requests import (
     Unjoin,
     UnjoinAll,
 )
+from physsim_ros.model.transform import Pose
 from physsim_ros.ros.marker_shapes import points_from, shape_from
 from sensor_msgs.msg import MultiDOFJointState
 from visualization_msgs.msg import InteractiveMarkerFeedback, Marker
@@ -182,14 +187,19 @@ def command_request(message: MultiDOFJointState, *, frame_id: str) -> Command:
     """
     return Command(
         names=tuple(message.joint_names),
-        poses=tuple(
+        poses=_rows(
             (each.translation.x, each.translation.y, _yaw(each.rotation, 'transforms'))
             for each in message.transforms
         ),
-        twists=tuple((each.linear.x, each.linear.y, each.angular.z) for each in message.twist),
-        wrenches=tuple((each.force.x, each.force.y, each.torque.z) for each in message.wrench),
+        twists=_rows((each.linear.x, each.linear.y, each.angular.z) for each in message.twist),
+        wrenches=_rows((each.force.x, each.force.y, each.torque.z) for each in message.wrench),
         frame=_frame(message.header.frame_id, frame_id),
     )
+
+
+def _rows(rows: Iterable[Pose]) -> Floats:
+    """Return rows of three numbers as an array."""
+    return np.fromiter(itertools.chain.from_iterable(rows), np.float64).reshape(-1, 3)
 
 
 def point_in_frame(message: PointStamped, *, frame_id: str) -> tuple[tuple[float, float], str]:

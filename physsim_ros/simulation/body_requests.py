@@ -20,11 +20,13 @@ Law: all is checked before anything is changed.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
 from physsim_ros.engine.body import REST, RigidBody
 from physsim_ros.engine.space import Space
+from physsim_ros.model.arrays import Floats
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checks import check_pose, HEAVIEST, LIGHTEST
 from physsim_ros.model.colors import color_of
@@ -142,12 +144,12 @@ def command_bodies(space: Space, request: Command, until: int | None, capacity: 
         check_command(rigid.body, request)
     # Twists and wrenches are of the world, but a frame that there is not is a mistake.
     pose_in_world(space, REST, request.frame)
-    poses = [pose_in_world(space, pose, request.frame) for pose in request.poses]
+    poses = [pose_in_world(space, pose, request.frame) for pose in _tuples(request.poses)]
     capacity.check_poses(space, rigids, poses)
     _set_poses(space, rigids, poses)
-    for rigid, twist in zip(rigids, request.twists, strict=False):
+    for rigid, twist in zip(rigids, _tuples(request.twists), strict=False):
         space.set_twist(rigid, twist)
-    for rigid, wrench in zip(rigids, request.wrenches, strict=False):
+    for rigid, wrench in zip(rigids, _tuples(request.wrenches), strict=False):
         space.set_wrench(rigid, wrench, until)
     return _told('commanded', request.names)
 
@@ -159,9 +161,9 @@ def check_command(body: Body, request: Command) -> None:
     :raises Anchored: it is anchored, and takes a pose only
     :raises BadProperty: it is kinematic, and forces do not move it
     """
-    if body.anchored and (request.twists or request.wrenches):
+    if body.anchored and (request.twists.size or request.wrenches.size):
         raise Anchored(f'{body.name} is anchored; it takes a pose only', field='joint_names')
-    if body.kinematic and request.wrenches:
+    if body.kinematic and request.wrenches.size:
         raise BadProperty(f'{body.name} is kinematic; forces do not move it', field='wrench')
 
 
@@ -210,6 +212,11 @@ def delete_all(space: Space, namespace: str | None) -> Done:
     ]
     delete_bodies(space, tuple(names))
     return '', f'deleted {len(names)} bodies'
+
+
+def _tuples(rows: Floats) -> Iterator[Pose]:
+    """Return rows of three numbers as tuples."""
+    return ((x, y, z) for x, y, z in rows.tolist())
 
 
 def _told(verb: str, names: tuple[str, ...]) -> Done:

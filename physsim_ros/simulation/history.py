@@ -23,11 +23,15 @@ from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import NamedTuple
 
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
 from physsim_ros.model.errors import OutOfHistory
-from physsim_ros.model.requests import Request, Restore
+from physsim_ros.model.requests import Command, Request, Restore
+
+# Number of tuples of names that commands of the log share: one a publisher.
+_SHARED_NAMES = 16
 
 # A step, and the number of requests made until then.
 Moment = tuple[int, int]
@@ -118,6 +122,9 @@ class History:
         self._marks = [first]
         # The last step that was reached.
         self.head = first.step
+        # Returns the names of an earlier command that are equal: publishers command the same
+        # bodies again and again.
+        self._shared_names = lru_cache(maxsize=_SHARED_NAMES)(_same_names)
 
     # Reading
 
@@ -237,6 +244,8 @@ class History:
 
     def add_entry(self, entry: Entry) -> None:
         """Add a request that changed the world, as the last."""
+        if isinstance(entry.request, Command):
+            entry.request.share_names(self._shared_names(entry.request.names))
         self._gestures.setdefault(entry.gesture, self._dropped + len(self._entries))
         self._entries.append(entry)
         if isinstance(entry.request, Restore):
@@ -329,3 +338,7 @@ class History:
         self._gestures.clear()
         for place, entry in enumerate(self._entries):
             self._gestures.setdefault(entry.gesture, self._dropped + place)
+
+
+def _same_names(names: tuple[str, ...]) -> tuple[str, ...]:
+    return names

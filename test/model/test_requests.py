@@ -17,6 +17,7 @@
 from dataclasses import fields, FrozenInstanceError
 import math
 
+import numpy as np
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checks import check_point, check_pose, FARTHEST, FASTEST, HEAVIEST, LONGEST
 from physsim_ros.model.errors import BadProperty, Malformed, Refusal
@@ -136,11 +137,21 @@ def test_a_command_may_leave_any_array_empty() -> None:
         for twists in ((), (REST,)):
             for wrenches in ((), (REST,)):
                 command = Command(names=('a/0',), poses=poses, twists=twists, wrenches=wrenches)
-                assert (command.poses, command.twists, command.wrenches) == (
-                    poses,
-                    twists,
-                    wrenches,
-                )
+                assert command.poses.tolist() == list(map(list, poses))
+                assert command.twists.tolist() == list(map(list, twists))
+                assert command.wrenches.tolist() == list(map(list, wrenches))
+
+
+def test_a_command_does_not_change_with_the_arrays_that_it_was_made_of() -> None:
+    poses = np.zeros((1, 3))
+    command = Command(names=('a/0',), poses=poses)
+
+    poses[:] = 7.0
+
+    assert command == Command(names=('a/0',), poses=np.zeros((1, 3)))
+    assert command != Command(names=('a/0',), poses=poses)
+    with pytest.raises(ValueError, match='read-only'):
+        command.poses[0] = 7.0
 
 
 def test_a_command_names_bodies_each_once() -> None:
@@ -195,7 +206,7 @@ def test_a_wrench_is_taken_up_to_the_strongest(place: int) -> None:
     strong, stronger = [0.0] * 3, [0.0] * 3
     strong[place], stronger[place] = -HEAVIEST, -1.1 * HEAVIEST
 
-    assert Command(names=('a/0',), wrenches=(tuple(strong),)).wrenches == (tuple(strong),)
+    assert Command(names=('a/0',), wrenches=(tuple(strong),)).wrenches.tolist() == [strong]
     with pytest.raises(BadProperty) as refused:
         Command(names=('a/0',), wrenches=(tuple(stronger),))
     assert refused.value.field == 'wrench'

@@ -601,17 +601,17 @@ def test_a_command_takes_what_lies_in_the_plane() -> None:
     message.wrench[0].force.z = message.wrench[0].torque.y = NAN
     request = command_request(message, frame_id='map')
     assert request.names == ('a/0', 'a/1')
-    assert request.poses == ()
-    assert request.twists == ((1, 2, 3), (4, 5, 6))
-    assert request.wrenches == ((7, 8, 9), (0, 0, 0))
+    assert request.poses.tolist() == []
+    assert request.twists.tolist() == [[1, 2, 3], [4, 5, 6]]
+    assert request.wrenches.tolist() == [[7, 8, 9], [0, 0, 0]]
 
 
 def test_a_commanded_pose_is_read_as_a_markers_pose_is() -> None:
     message = command('a/0', poses=[(1, 2, 0.7)])
-    (pose,) = command_request(message, frame_id='map').poses
-    assert pose == spawn_of(box(at=(1, 2, 0.7))).pose
+    (pose,) = command_request(message, frame_id='map').poses.tolist()
+    assert tuple(pose) == spawn_of(box(at=(1, 2, 0.7))).pose
     message.transforms[0].rotation = Quaternion(x=0.0, y=0.0, z=0.0, w=0.0)
-    assert command_request(message, frame_id='map').poses == ((1.0, 2.0, 0.0),)
+    assert command_request(message, frame_id='map').poses.tolist() == [[1.0, 2.0, 0.0]]
     message.transforms[0].rotation = Quaternion(x=1.0)
     with pytest.raises(NotPlanar) as caught:
         command_request(message, frame_id='map')

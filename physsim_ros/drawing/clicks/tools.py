@@ -26,6 +26,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 import math
 
+import numpy as np
 from physsim_ros.drawing import body_requests
 from physsim_ros.drawing.clicks.click import (
     checked_distance,
@@ -200,7 +201,7 @@ def velocity(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettin
     checked_distance(tail, tip, settings, 'the arrow')
     spin = scene.twist(name)[2]
     twist = (tip[0] - tail[0], tip[1] - tail[1], spin)
-    return _finished(Command(names=(name,), twists=(twist,)))
+    return _finished(Command(names=(name,), twists=np.array((twist,))))
 
 
 def gravity(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings) -> ClickResult:

@@ -16,23 +16,34 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-import math
+from dataclasses import dataclass, field
+from typing import Any
 
-from physsim_ros.model.checks import check_finite, check_pose, FASTEST, HEAVIEST
+import numpy as np
+from physsim_ros.model.arrays import Floats, greatest
+from physsim_ros.model.checks import FARTHEST, FASTEST, HEAVIEST
 from physsim_ros.model.errors import BadProperty, Malformed
-from physsim_ros.model.transform import Pose
+
+# The array of all commands that leave it out.
+_NO_ROWS: Floats = np.empty((0, 3))
+_NO_ROWS.flags.writeable = False
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+def _no_rows() -> Floats:
+    return _NO_ROWS
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Command:
     """
     Set poses, twists or wrenches of named bodies: all of them, or none if one is refused.
 
+    Each array is copied and is read-only afterwards; n is the number of names.
+
     :param names: the bodies, each once
-    :param poses: (x, y, yaw) for each, or empty
-    :param twists: (vx, vy, spin) for each, world axes [m/s, rad/s], or empty
-    :param wrenches: (fx, fy, torque) for each, world axes [N, N m], or empty; they act at
+    :param poses: (n, 3) float64: x, y [m], yaw [rad] of each, or empty
+    :param twists: (n, 3) float64: vx, vy [m/s], spin [rad/s], world axes, or empty
+    :param wrenches: (n, 3) float64: fx, fy [N], torque [N m], world axes, or empty; they act at
         the centre of mass until the next one, at most for the world's `command_timeout`
     :param frame: of the poses: '' for the world, or a body's name
     :raises Malformed: lengths do not fit, a name comes twice, a number is not finite
@@ -40,9 +51,9 @@ class Command:
     """
 
     names: tuple[str, ...]
-    poses: tuple[Pose, ...] = ()
-    twists: tuple[Pose, ...] = ()
-    wrenches: tuple[Pose, ...] = ()
+    poses: Floats = field(default_factory=_no_rows)
+    twists: Floats = field(default_factory=_no_rows)
+    wrenches: Floats = field(default_factory=_no_rows)
     frame: str = ''
 
     def __post_init__(self) -> None:
@@ -50,22 +61,60 @@ class Command:
             raise Malformed('the command names no body', field='joint_names')
         if len(set(self.names)) != len(self.names):
             raise Malformed('the command names a body twice', field='joint_names')
-        for name, rows in (
-            ('transforms', self.poses),
-            ('twist', self.twists),
-            ('wrench', self.wrenches),
-        ):
-            if rows and len(rows) != len(self.names):
-                raise Malformed(
-                    f'{name} has {len(rows)} entries for {len(self.names)} bodies', field=name
-                )
-        for pose in self.poses:
-            check_pose(pose, 'transforms')
-        for twist in self.twists:
-            check_finite(twist, 3, 'twist')
-            if math.hypot(*twist[:2]) > FASTEST or abs(twist[2]) > FASTEST:
-                raise BadProperty(f'twist is faster than {FASTEST:g} m/s or rad/s', field='twist')
-        for wrench in self.wrenches:
-            check_finite(wrench, 3, 'wrench')
-            if max(map(abs, wrench)) > HEAVIEST:
-                raise BadProperty(f'wrench exceeds {HEAVIEST:g} N or N m', field='wrench')
+        for array, name in (('poses', 'transforms'), ('twists', 'twist'), ('wrenches', 'wrench')):
+            rows = _checked_rows(getattr(self, array), len(self.names), name)
+            object.__setattr__(self, array, rows)
+        if greatest(self.poses[:, :2]) > FARTHEST:
+            raise BadProperty(
+                f'transforms is further away than {FARTHEST:g} m', field='transforms'
+            )
+        if greatest(self.poses[:, 2]) > FARTHEST:
+            raise BadProperty('the yaw of transforms is too large', field='transforms')
+        # The coordinates first, so that no square of them overflows.
+        if greatest(self.twists) > FASTEST or greatest(np.hypot(*self.twists.T[:2])) > FASTEST:
+            raise BadProperty(f'twist is faster than {FASTEST:g} m/s or rad/s', field='twist')
+        if greatest(self.wrenches) > HEAVIEST:
+            raise BadProperty(f'wrench exceeds {HEAVIEST:g} N or N m', field='wrench')
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Command):
+            return NotImplemented
+        return (self.names, self.frame) == (other.names, other.frame) and all(
+            np.array_equal(one, two) for one, two in zip(self._arrays, other._arrays, strict=True)
+        )
+
+    def __hash__(self) -> int:
+        return hash((self.names, self.frame))
+
+    @property
+    def nbytes(self) -> int:
+        """Memory of its arrays [bytes]."""
+        return sum(array.nbytes for array in self._arrays)
+
+    @property
+    def _arrays(self) -> tuple[Floats, ...]:
+        return self.poses, self.twists, self.wrenches
+
+    def share_names(self, names: tuple[str, ...]) -> None:
+        """Have the names in memory once for many commands: `names` are equal to its own."""
+        object.__setattr__(self, 'names', names)
+
+
+def _checked_rows(values: Any, count: int, name: str) -> Floats:
+    """
+    Return a read-only copy of as many rows of three finite numbers, or none.
+
+    :param name: of the field, for the refusal
+    :raises Malformed: they are something else
+    """
+    if len(values) == 0:
+        return _NO_ROWS
+    if len(values) != count:
+        raise Malformed(f'{name} has {len(values)} entries for {count} bodies', field=name)
+    if any(len(row) != 3 for row in values):
+        raise Malformed(f'each {name} needs 3 numbers', field=name)
+    rows = np.array(values, dtype=np.float64)
+    if not np.isfinite(rows).all():
+        raise Malformed(f'{name} is not finite', field=name)
+    rows.flags.writeable = False
+    return rows

@@ -125,7 +125,7 @@ def _set_velocity(name: str, points: Floats, context: Context) -> Outcome:
     x, y = (points[1] - points[0]).tolist()
     twist = x, y, context.scene.twist(name)[2]
     return Outcome(
-        requests=(Command(names=(name,), twists=(twist,)),),
+        requests=(Command(names=(name,), twists=np.array((twist,))),),
         subject=name,
         message=f'{name} moves with ({x:.3g}, {y:.3g}) m/s',
         outline=context.drawn.points,
