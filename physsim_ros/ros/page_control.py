@@ -29,6 +29,7 @@ from physsim_ros.model.errors import BadWorldFile, PhysSimError
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.ros import parameters
 from physsim_ros.ros.services import Action
+from physsim_ros.ros.time_control import TimeControl
 from physsim_ros.simulation.simulation import Simulation
 from rclpy.parameter import Parameter
 
@@ -41,6 +42,7 @@ class PageControl:
 
     :param simulation: of the node
     :param values: of the parameters, by name, always up to date
+    :param time_control: of the node
     :param actions: of the services, by name
     :param set_parameters: sets parameters of the node
     :param current_snapshot: applies the waiting requests, and returns the snapshot that is shown
@@ -51,6 +53,7 @@ class PageControl:
         *,
         simulation: Simulation,
         values: Mapping[str, Any],
+        time_control: TimeControl,
         actions: Mapping[str, Action],
         set_parameters: SetParameters,
         current_snapshot: Callable[[], Snapshot],
@@ -58,6 +61,7 @@ class PageControl:
         self.simulation = simulation
         self.current_snapshot = current_snapshot
         self._values = values
+        self._time_control = time_control
         self._actions = actions
         self._set_parameters = set_parameters
 
@@ -104,11 +108,7 @@ class PageControl:
 
         :raises Refusal: it is out of range
         """
-        # + 0.0 removes the sign of a negative zero.
-        parameter = Parameter('speed', value=float(speed) + 0.0)
-        parameters.check(parameter)
-        self._set_parameters([parameter])
-        return f'speed {parameter.value:g}'
+        return self._time_control.set_speed(speed)
 
     def seek(self, stamp: int) -> str:
         """
@@ -116,4 +116,4 @@ class PageControl:
 
         :raises Refusal: it is not in the history
         """
-        return self.simulation.seek(stamp)
+        return self._time_control.seek(stamp)

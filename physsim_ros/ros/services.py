@@ -13,7 +13,7 @@
 # limitations under the License.
 
 """
-The services of the world, all std_srvs/Trigger, and the world files that two of them use.
+The services of the world, all std_srvs/Trigger.
 
 Laws: a service that is refused changes nothing, and its message says why; what it did, or why not,
 is told on `~/events`, too.
@@ -22,165 +22,38 @@ is told on `~/events`, too.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from pathlib import Path
-import time
-from typing import Any
 
-from physsim_ros.files import find_world, hides_shipped, load_world, save_world, user_worlds
-from physsim_ros.model.checkpoint import WorldState
-from physsim_ros.model.errors import BadWorldFile, Refusal, Running
-from physsim_ros.model.requests import DeleteAll
-from physsim_ros.model.snapshot import Answer, run_state
+from physsim_ros.model.errors import Refusal
+from physsim_ros.model.snapshot import Answer
 from physsim_ros.ros.reply_pacer import ReplyPacer, SERVICE_QOS
 from physsim_ros.simulation.simulation import Simulation
 from rclpy.node import Node
 from std_srvs.srv import Trigger
 
+# Does what a service is for, and returns a message about it; raises a Refusal where it cannot.
 Action = Callable[[], str]
-# Time between two reports of progress [s].
-_REPORTS = 0.5
-
-
-class WorldFiles:
-    """
-    Reads and writes the world file that parameter `world_file` names.
-
-    :param simulation: of the world
-    :param values: of the parameters of the node, by name, always up to date
-    :param report: told of the progress of loading
-    """
-
-    def __init__(
-        self, simulation: Simulation, values: Mapping[str, Any], report: Callable[[str], object]
-    ) -> None:
-        self._simulation = simulation
-        self._values = values
-        self._report = report
-        # Absolute, whatever the working directory will be.
-        self._directory = Path(values['world_dir'] or user_worlds()).absolute()
-
-    @property
-    def directory(self) -> Path:
-        """Return the directory of the user's worlds."""
-        return self._directory
-
-    def begin_with(self) -> None:
-        """
-        Start the simulation with the file, from any directory.
-
-        :raises BadWorldFile: there is no such file, or it is refused
-        """
-        self._simulation.begin(self._read(confined=False)[0])
-
-    def load(self, *, confined: bool) -> str:
-        """
-        Replace the world by the file, and return a message about it.
-
-        :param confined: whether only files below `world_dir` and the shipped worlds may be read
-        :raises BadWorldFile: there is no such file, or it is refused
-        """
-        try:
-            state, path = self._read(confined=confined)
-        except BadWorldFile as refusal:
-            if not confined:
-                raise
-            # Peers on the graph, who may name any file here, are not told what it holds.
-            raise BadWorldFile(refusal.brief, field='world_file') from refusal
-        return f'{self._simulation.load(state)} from {path.name}'
-
-    def save(self) -> str:
-        """
-        Write the world to the file, and return a message about it.
-
-        :raises BadWorldFile: it cannot be written, or lies outside `world_dir`
-        """
-        state = self._simulation.save()
-        path = save_world(
-            state,
-            self._values['world_file'],
-            world_dir=self._directory,
-            physics_rate=self._simulation.physics_rate,
-        )
-        message = f'saved {len(state.bodies)} bodies to {path.name}'
-        if hides_shipped(path, world_dir=self._directory):
-            message += '; from now on it comes before the shipped world of that name'
-        return message
-
-    def _read(self, *, confined: bool) -> tuple[WorldState, Path]:
-        path = find_world(self._values['world_file'], world_dir=self._directory, confined=confined)
-        simulation = self._simulation
-        told = time.monotonic()
-
-        def report(count: int, bodies: int) -> None:
-            nonlocal told
-            if time.monotonic() - told >= _REPORTS:
-                told = time.monotonic()
-                self._report(f'loading {path.name}: {count} of {bodies} bodies')
-
-        state = load_world(
-            path,
-            settings=simulation.settings,
-            physics_rate=simulation.physics_rate,
-            progress=report,
-        )
-        return state, path
 
 
 def create_services(
     node: Node,
+    actions: Mapping[str, Action],
     simulation: Simulation,
-    files: WorldFiles,
     pacer: ReplyPacer,
     *,
-    fast_speed: Callable[[], float],
-    set_speed: Callable[[float], object],
-    advance_frame: Callable[[], None],
-    read_instead: Callable[[], str],
     on_success: Callable[[], None],
-) -> Mapping[str, Action]:
+) -> None:
     """
-    Create the services of the world; return what each does, by name.
+    Create a service for each action.
 
     :param node: that offers them
-    :param simulation: of the world
-    :param files: for `~/load_world` and `~/save_world`
+    :param actions: by the names of the services
+    :param simulation: to which the answers are told
     :param pacer: of their replies
-    :param fast_speed: returns the speed of `~/fast_forward`, simulation seconds a second
-    :param set_speed: sets the speed, simulation seconds a second
-    :param advance_frame: advances the world by one frame and publishes it
-    :param read_instead: builds the runner-up of the last stroke, and returns a message
     :param on_success: called after each service that was not refused
     """
-
-    def run_at(speed: float) -> str:
-        set_speed(speed)
-        return run_state(speed)
-
-    def step() -> str:
-        if simulation.speed != 0:
-            raise Running('time is running; pause first')
-        advance_frame()
-        return f'at {simulation.world.stamp * 1e-9:.6f} s'
-
-    actions: dict[str, Action] = {
-        'play': lambda: run_at(1.0),
-        'pause': lambda: run_at(0.0),
-        'rewind': lambda: run_at(-1.0),
-        'fast_forward': lambda: run_at(fast_speed()),
-        'fast_rewind': lambda: run_at(-fast_speed()),
-        'step': step,
-        'undo': simulation.undo,
-        'redo': simulation.redo,
-        'reset': simulation.reset,
-        'instead': read_instead,
-        'clear': lambda: simulation.perform(DeleteAll()),
-        'load_world': lambda: files.load(confined=True),
-        'save_world': files.save,
-    }
     for name, action in actions.items():
         callback = _callback(action, f'~/{name}', simulation, on_success)
         pacer.add(node.create_service(Trigger, f'~/{name}', callback, qos_profile=SERVICE_QOS))
-    return actions
 
 
 def _callback(

@@ -220,7 +220,7 @@ class PhysSim(ObservedWorld):
     def record(self, path: str | Path) -> None:
         """Record all frames from now on in a `.rrd` file, which is complete after the test."""
         self.recording = Path(path)
-        self.node.record(self.recording)
+        self.node.outputs.viewer.record(self.recording)
 
     def record_past(self, path: Path) -> None:
         """

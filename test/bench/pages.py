@@ -92,9 +92,9 @@ class Clients:
     """
 
     def __init__(self, node: PhysSimNode, count: int, strokes: int = 0) -> None:
-        assert node.sketchpad is not None
+        assert node.outputs.sketchpad is not None
         self._process = subprocess.Popen(
-            [sys.executable, '-c', CLIENT, node.sketchpad.url(), str(count), str(strokes)],
+            [sys.executable, '-c', CLIENT, node.outputs.sketchpad.url(), str(count), str(strokes)],
             stdout=subprocess.PIPE,
             text=True,
         )

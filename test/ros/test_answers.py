@@ -19,15 +19,15 @@ from __future__ import annotations
 from typing import Any
 
 from physsim_ros.model.snapshot import Answer
-from physsim_ros.ros import publishers
-from physsim_ros.ros.publishers import (
+from physsim_ros.ros import event_publisher
+from physsim_ros.ros.event_publisher import (
     ACK_TIMEOUT,
     EVENTS_DEPTH,
     MOST_WAITING,
     PACE,
     PACED,
-    Publishers,
 )
+from physsim_ros.ros.publishers import Publishers
 from physsim_ros.testing import PhysSim
 import pytest
 
@@ -67,8 +67,8 @@ class Bench:
 
 @pytest.fixture
 def bench(physsim: PhysSim, monkeypatch: pytest.MonkeyPatch) -> Bench:
-    bench = Bench(physsim.node._world_publishers)  # noqa: SLF001
-    monkeypatch.setattr(publishers.time, 'monotonic', lambda: bench.now)
+    bench = Bench(physsim.node.outputs.topics)
+    monkeypatch.setattr(event_publisher.time, 'monotonic', lambda: bench.now)
     return bench
 
 

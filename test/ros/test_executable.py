@@ -39,7 +39,7 @@ THOUSAND = 'format: 1\nbodies:\n' + ''.join(
 # The program with a bug, which shows when there is a viewer.
 BUG = """
 import psutil
-from physsim_ros.ros.node import PhysSimNode
+from physsim_ros.ros.frame_outputs import FrameOutputs
 from physsim_ros.ros.program import main
 
 
@@ -48,7 +48,7 @@ def fail(*_):
     raise ZeroDivisionError
 
 
-PhysSimNode._report_answer = fail
+FrameOutputs.report_answer = fail
 main()
 """
 

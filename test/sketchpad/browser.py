@@ -132,7 +132,7 @@ class Browser:
 
     def __init__(self, physsim: PhysSim) -> None:
         self.physsim = physsim
-        sketchpad = physsim.node.sketchpad
+        sketchpad = physsim.node.outputs.sketchpad
         assert sketchpad is not None
         self.login = sketchpad.url()
         self.view_login = sketchpad.url(Role.VIEW)

@@ -1,0 +1,110 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Clicks and strokes: `clicked_point`, `~/stroke`, and the reading that `~/instead` builds.
+
+Law: a click or stroke refers to the snapshot that is shown when it arrives.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+import time
+
+from geometry_msgs.msg import PointStamped
+from nav_msgs.msg import Path
+from physsim_ros.drawing import DrawingSession, Reading, submit_reading
+from physsim_ros.model.errors import Refusal
+from physsim_ros.model.snapshot import Answer, Snapshot
+from physsim_ros.ros import conversions, stroke_reader
+from physsim_ros.ros.subscriptions import RequestSubscriptions
+from physsim_ros.simulation.simulation import Simulation
+
+
+class DrawingTopics:
+    """
+    The topics on which a person draws.
+
+    :param subscriptions: of the node
+    :param simulation: to which requests are submitted
+    :param session: of the person
+    :param frame_id: name of the world frame
+    :param current_snapshot: applies the waiting requests, and returns the snapshot that is shown
+    :param publish_preview: publishes the preview of the session
+    """
+
+    def __init__(
+        self,
+        subscriptions: RequestSubscriptions,
+        simulation: Simulation,
+        session: DrawingSession,
+        *,
+        frame_id: str,
+        current_snapshot: Callable[[], Snapshot],
+        publish_preview: Callable[[], None],
+    ) -> None:
+        self._simulation = simulation
+        self._session = session
+        self._frame_id = frame_id
+        self._current_snapshot = current_snapshot
+        self._publish_preview = publish_preview
+        subscriptions.add(PointStamped, 'clicked_point', self._click)
+        subscriptions.add_raw(Path, '~/stroke', self._stroke)
+
+    def read_instead(self) -> str:
+        """
+        Build the next guess about the last stroke, and return a message about it.
+
+        :raises Refusal: there is none, or the world cannot have it
+        """
+        self._current_snapshot()
+        reading = self._session.instead()
+        self._submit_reading(reading, '~/instead')
+        self._publish_preview()
+        return reading.message
+
+    def _click(self, message: PointStamped) -> None:
+        topic, field = 'clicked_point', 'point'
+        with self._drawing_on_snapshot(topic, field) as snapshot:
+            point, frame = conversions.point_in_frame(message, frame_id=self._frame_id)
+            result = self._session.click(point, frame, snapshot)
+            if result.message:
+                self._simulation.tell(Answer(topic=topic, message=result.message))
+            for number, request in enumerate(result.requests):
+                self._simulation.submit(request, topic=topic, joined=number > 0, field=field)
+
+    def _stroke(self, message: bytes) -> None:
+        with self._drawing_on_snapshot('~/stroke', 'poses') as snapshot:
+            samples, frame, stamp = stroke_reader.stroke_from(message, frame_id=self._frame_id)
+            began = time.monotonic() if stamp is None else stamp
+            reading = self._session.stroke(samples, frame, snapshot, began=began)
+            self._submit_reading(reading, '~/stroke')
+
+    def _submit_reading(self, reading: Reading, topic: str) -> None:
+        submit_reading(self._simulation, self._session, reading, topic=topic, field='poses')
+
+    @contextmanager
+    def _drawing_on_snapshot(self, topic: str, field: str) -> Iterator[Snapshot]:
+        """
+        Give the snapshot that a click or stroke refers to, and refuse one that cannot be drawn.
+
+        :param field: of the message, for the refusal
+        """
+        try:
+            yield self._current_snapshot()
+        except Refusal as refusal:
+            self._simulation.refuse(refusal, topic=topic, subject='', field=field)
+        self._publish_preview()

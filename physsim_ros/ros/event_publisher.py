@@ -1,0 +1,107 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""`~/events`: diagnostic_msgs/DiagnosticStatus, the answers to requests, none of them lost."""
+
+from __future__ import annotations
+
+from collections import deque
+import time
+
+from physsim_ros.model.snapshot import Answer
+from physsim_ros.ros import encoders
+from rclpy.duration import Duration
+from rclpy.publisher import Publisher
+
+# Depth of `~/events`: a message that is not yet acknowledged is lost when the history is full, so
+# that in a longer burst answers wait until those before have been acknowledged.
+EVENTS_DEPTH = 1000
+# The longest wait for an acknowledgement [s]. Fast DDS repeats a heartbeat every 3 s by default.
+ACK_TIMEOUT = 5.0
+# While a subscriber has stopped, half a history each period [s]: to a subscriber that reads, ten
+# times the answers that the node gives, and five periods of the heartbeat to repeat what was lost.
+PACE, PACED = 0.05, EVENTS_DEPTH // 2
+# Answers that wait for acknowledgements [1], of some 300 bytes each: five seconds of a flood.
+MOST_WAITING = 50_000
+
+
+class EventPublisher:
+    """
+    Publishes answers, at most `EVENTS_DEPTH` ahead of what subscribers have acknowledged.
+
+    A subscriber that has not acknowledged for `ACK_TIMEOUT` while answers wait, or for which more
+    than `MOST_WAITING` wait, has stopped: until it acknowledges, the others' answers do not wait
+    for it, and it loses those that leave the history. DDS reports only whether all subscribers
+    have acknowledged, not which of them.
+
+    :param publisher: of `~/events`
+    :ivar stopped: whether a subscriber has stopped
+    """
+
+    def __init__(self, publisher: Publisher) -> None:
+        self.stopped = False
+        self._publisher = publisher
+        self._waiting: deque[bytes] = deque()
+        # Answers since all before were acknowledged, and the steady time of the first of them [s].
+        self._unacknowledged = 0
+        self._since = 0.0
+        # While a subscriber has stopped: answers of this period, and the steady time of its end.
+        self._paced = 0
+        self._period_end = 0.0
+
+    @property
+    def waiting(self) -> int:
+        """Return the number of answers that wait for acknowledgements."""
+        return len(self._waiting)
+
+    def publish(self, answer: Answer) -> None:
+        """Publish an answer, after those that wait."""
+        if self._publisher.get_subscription_count():
+            self._waiting.append(encoders.encode_event(answer))
+            # While others wait, acknowledgements are looked up once a tick.
+            if len(self._waiting) == 1:
+                self._publish_waiting()
+
+    def flush(self) -> None:
+        """Publish the answers that need not wait any longer; called at each tick."""
+        if self._unacknowledged:
+            self._look_up_acknowledgements()
+        self._publish_waiting()
+
+    def _publish_waiting(self) -> None:
+        while self._waiting and self._has_room():
+            if not self._unacknowledged:
+                self._since = time.monotonic()
+            self._publisher.publish(self._waiting.popleft())
+            self._unacknowledged += 1
+
+    def _look_up_acknowledgements(self) -> None:
+        if self._publisher.wait_for_all_acked(Duration()):
+            self._unacknowledged, self.stopped = 0, False
+
+    def _has_room(self) -> bool:
+        """Return whether one more answer displaces none that a subscriber may still ask for."""
+        if self._unacknowledged < EVENTS_DEPTH:
+            return True
+        self._look_up_acknowledgements()
+        if not self._unacknowledged:
+            return True
+        now = time.monotonic()
+        self.stopped |= now > self._since + ACK_TIMEOUT or len(self._waiting) > MOST_WAITING
+        if not self.stopped:
+            return False
+        if now > self._period_end:
+            self._paced, self._period_end = 0, now + PACE
+        self._paced += 1
+        return self._paced <= PACED

@@ -1,0 +1,190 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+The outputs of the node: the topics, the viewer and the sketchpad, each with frames and answers.
+
+Law: an answer that a frame carries is published with it, every other one by `report_answer`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from pathlib import Path
+import sys
+from typing import Any
+
+from physsim_ros.drawing import DrawingSession
+from physsim_ros.model.snapshot import Answer, Frame
+from physsim_ros.model.timeline import TimelineStatus
+from physsim_ros.ros import parameters
+from physsim_ros.ros.diagnostics import FrameStatistics
+from physsim_ros.ros.page_control import PageControl
+from physsim_ros.ros.publishers import Publishers
+from physsim_ros.sketchpad import Role, Sketchpad
+from physsim_ros.view import FrameContext, Viewer, ViewerMode
+from rclpy.node import Node
+
+
+class FrameOutputs:
+    """
+    The outputs of the node.
+
+    :param node: that owns the publishers
+    :param values: of the parameters of the node, by name, always up to date
+    :param session: whose preview frames have
+
+    :ivar topics: the publishers of the world
+    :ivar viewer: of the world
+    :ivar sketchpad: of the world; None where it is not served
+    :ivar statistics: cost of the frames
+    :ivar frame: the last frame that was shown; None before the first
+    """
+
+    def __init__(self, node: Node, values: Mapping[str, Any], session: DrawingSession) -> None:
+        self.topics = Publishers(
+            node,
+            frame_id=values['frame_id'],
+            publish_clock=values['publish_clock'],
+            publish_tf=values['publish_tf'],
+        )
+        self.viewer = Viewer()
+        self.sketchpad: Sketchpad | None = None
+        self.statistics = FrameStatistics()
+        self.frame: Frame | None = None
+        self._node = node
+        self._values = values
+        self._session = session
+
+    @property
+    def wants_contacts(self) -> bool:
+        """Whether contacts have a subscriber, a viewer or a page."""
+        return (
+            self.topics.wants_contacts
+            or self.viewer.is_open
+            or (self.sketchpad is not None and self.sketchpad.wants_contacts)
+        )
+
+    def publish_frame(self, frame: Frame, status: TimelineStatus) -> None:
+        """
+        Publish a new frame.
+
+        :param status: of the timeline at the frame
+        """
+        for answer in frame.answers:
+            self._log_answer(answer)
+        self.topics.publish_frame(frame)
+        self.topics.publish_timeline(status, moving=frame.moved)
+        self._show(frame)
+
+    def publish_nothing_new(self) -> None:
+        """Publish the last frame to who has not got it; called at ticks without a frame."""
+        if self.frame is not None and self.frame.preview != self._session.preview:
+            # Only the preview has changed: an unfinished gesture was dropped.
+            self._show(replace(self.frame, answers=(), moved=False))
+        self.topics.publish_to_late_subscribers()
+
+    def publish_preview(self) -> None:
+        """Publish the preview of the session if it has changed."""
+        self.topics.publish_preview(self._session.preview)
+
+    def report_answer(self, answer: Answer) -> None:
+        """Publish and log an answer that no frame carries."""
+        self.topics.publish_answer(answer)
+        if self.sketchpad is not None:
+            self.sketchpad.report(answer)
+        self._log_answer(answer)
+
+    def update_clock(self) -> None:
+        """Publish simulation time on `clock`, or not, as parameter `publish_clock` says."""
+        self.topics.publish_clock = self._values['publish_clock']
+
+    def open_viewer(self) -> None:
+        """Open the viewer of parameter `viewer`, in place of the one before."""
+        self.viewer.open_viewer(ViewerMode(self._values['viewer']), self._values['viewer_url'])
+
+    def open_sketchpad(
+        self, control: PageControl, *, world_dir: Path, wake: Callable[[], None]
+    ) -> None:
+        """
+        Serve the sketchpad.
+
+        :param control: of the node, for its pages
+        :param world_dir: directory of the user's worlds
+        :param wake: called on another thread when a message of a page has come
+        :raises PhysSimError: it cannot listen there
+        """
+        self.sketchpad = Sketchpad(
+            control,
+            welcome={
+                'version': 1,
+                'frame_id': self._values['frame_id'],
+                'rate': self._values['publish_rate'],
+            },
+            recording_address=lambda: self.viewer.page_address,
+            address=self._values['sketchpad_address'],
+            port=self._values['sketchpad_port'],
+            world_dir=world_dir,
+            wake=wake,
+        )
+        if self.frame is not None:
+            self.sketchpad.show(replace(self.frame, answers=()))
+
+    def close_sketchpad(self) -> None:
+        """Close the sketchpad, if it is served."""
+        if self.sketchpad is not None:
+            self.sketchpad.close()
+            self.sketchpad = None
+
+    def print_addresses(self) -> None:
+        """Print the addresses of the page, for the person at the terminal."""
+        if self.sketchpad is not None:
+            sys.stdout.write(
+                '\n'
+                '  The page is at\n\n'
+                f'      {self.sketchpad.url()}\n\n'
+                f'  and for those who only watch: {self.sketchpad.url(Role.VIEW)}\n\n'
+            )
+            sys.stdout.flush()
+
+    def close(self) -> None:
+        """Close the sketchpad and the viewer."""
+        self.close_sketchpad()
+        self.viewer.close()
+
+    def _show(self, frame: Frame) -> None:
+        """Send a frame, with the current preview, to viewer and sketchpad."""
+        if self._session.preview != frame.preview:
+            frame = replace(frame, preview=self._session.preview)
+        self.frame = frame
+        context = FrameContext(
+            real_time_factor=self.statistics.real_time_factor,
+            cost=self.statistics.frame_cost,
+            traced=parameters.traced_names(self._values['trace']),
+        )
+        self.viewer.show(frame, context=context)
+        if self.sketchpad is not None:
+            self.sketchpad.show(frame)
+
+    def _log_answer(self, answer: Answer) -> None:
+        if answer.code:
+            # The topic of an event without a request is its code, which is named once.
+            names = dict.fromkeys((answer.topic, answer.code))
+            self._node.get_logger().warning(
+                f'{": ".join(names)}: {answer.message}', throttle_duration_sec=1.0
+            )
+        elif answer.topic == 'viewer':
+            # The address of the viewer, for the person at the terminal.
+            self._node.get_logger().info(answer.message)

@@ -1,0 +1,111 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+The parameters of a running node.
+
+Laws: a parameter that is set has its effect before the next frame; after a frame, parameters and
+settings of the world are equal, whichever of them was changed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from typing import Any
+
+from physsim_ros.drawing import DrawingSession, Tool
+from physsim_ros.model.errors import Refusal
+from physsim_ros.model.requests import Configure
+from physsim_ros.model.settings import WorldSettings
+from physsim_ros.ros import parameters
+from physsim_ros.simulation.simulation import Simulation
+from rcl_interfaces.msg import SetParametersResult
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+
+
+class LiveParameters:
+    """
+    The parameters of a running node.
+
+    :param node: that has declared them
+    :param values: of the parameters, by name; updated when one is set
+    :param simulation: whose settings, speed and history they are
+    :param session: whose settings and tool they are
+    :param effects: called when a parameter has been set, by its name
+    :param on_change: called when any parameter has been set
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        values: dict[str, Any],
+        simulation: Simulation,
+        session: DrawingSession,
+        *,
+        effects: Mapping[str, Callable[[], None]],
+        on_change: Callable[[], None],
+    ) -> None:
+        self._node = node
+        self._values = values
+        self._simulation = simulation
+        self._session = session
+        self._effects = effects
+        self._on_change = on_change
+        # The settings of the world that the parameters have; None where they may differ.
+        self._mirrored: WorldSettings | None = simulation.settings
+        self._services = parameters.ParameterServices(node, simulation.tell)
+        node.add_on_set_parameters_callback(self._check)
+        node.add_post_set_parameters_callback(self._apply)
+
+    def mirror_settings(self) -> None:
+        """Set the parameters to the settings and speed of the world."""
+        if self._simulation.settings is not self._mirrored:
+            self._mirrored = settings = self._simulation.settings
+            self._node.set_parameters(parameters.world_parameters(settings))
+        if self._simulation.speed != self._values['speed']:
+            self._node.set_parameters([Parameter('speed', value=self._simulation.speed)])
+
+    def _check(self, changed: list[Parameter]) -> SetParametersResult:
+        try:
+            for parameter in changed:
+                parameters.check(parameter)
+            replace(self._simulation.settings, **parameters.world_changes(changed))
+            values = {parameter.name: parameter.value for parameter in changed}
+            parameters.drawing_settings(self._values | values)
+        except Refusal as refusal:
+            return SetParametersResult(successful=False, reason=f'{refusal.code}: {refusal}')
+        return SetParametersResult(successful=True)
+
+    def _apply(self, changed: list[Parameter]) -> None:
+        for parameter in changed:
+            self._values[parameter.name] = parameter.value
+        changes = parameters.world_changes(changed)
+        settings = self._simulation.settings
+        if replace(settings, **changes) != settings:
+            self._simulation.perform(Configure(changes=changes))
+            # Requests that waited before may have changed other settings.
+            self._mirrored = None
+        self._session.settings = parameters.drawing_settings(self._values)
+        self._session.tool = Tool(self._values['tool'])
+        names = {parameter.name for parameter in changed}
+        if 'speed' in names:
+            self._simulation.speed = self._values['speed']
+        if 'history' in names:
+            self._simulation.history = self._values['history']
+        for name, effect in self._effects.items():
+            if name in names:
+                effect()
+        self._on_change()

@@ -1,0 +1,100 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+The topics of requests.
+
+Law: a callback converts a message and submits the request, or reports the refusal; all decisions
+are taken by the simulation.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
+from geometry_msgs.msg import PointStamped
+from physsim_ros.model.errors import Refusal
+from physsim_ros.model.requests import Anchor, Axle, Pin, Release, Request
+from physsim_ros.model.snapshot import Answer
+from physsim_ros.ros import conversions
+from physsim_ros.ros.subscriptions import RequestSubscriptions
+from physsim_ros.simulation.simulation import Simulation
+from sensor_msgs.msg import MultiDOFJointState
+from visualization_msgs.msg import InteractiveMarkerFeedback, Marker, MarkerArray
+
+# Converts a message, with keyword `frame_id`.
+_Conversion = Callable[..., Request]
+_TOPICS: dict[str, tuple[type, _Conversion]] = {
+    '~/spawn': (Marker, conversions.body_request),
+    '~/join': (Marker, conversions.joint_request),
+    '~/pin': (PointStamped, partial(conversions.point_request, Pin)),
+    '~/axle': (PointStamped, partial(conversions.point_request, Axle)),
+    '~/anchor': (PointStamped, partial(conversions.point_request, Anchor)),
+    '~/release': (PointStamped, partial(conversions.point_request, Release)),
+    '~/command': (MultiDOFJointState, conversions.command_request),
+    '~/drag/feedback': (InteractiveMarkerFeedback, conversions.hand_request),
+}
+
+
+class RequestTopics:
+    """
+    The topics of which each message is a request; of `~/spawn_array`, several.
+
+    :param subscriptions: of the node
+    :param simulation: to which requests are submitted
+    :param frame_id: name of the world frame
+    """
+
+    def __init__(
+        self, subscriptions: RequestSubscriptions, simulation: Simulation, frame_id: str
+    ) -> None:
+        self._simulation = simulation
+        self._frame_id = frame_id
+        for topic, (kind, convert) in _TOPICS.items():
+            field = 'point' if kind is PointStamped else ''
+            callback = partial(self._submit, topic=topic, convert=convert, field=field)
+            subscriptions.add(kind, topic, callback)
+        subscriptions.add(MarkerArray, '~/spawn_array', self._spawn_array)
+
+    def _spawn_array(self, message: MarkerArray) -> None:
+        topic = '~/spawn_array'
+        if not message.markers:
+            self._simulation.tell(Answer(topic=topic, message='the array is empty'))
+        for number, marker in enumerate(message.markers):
+            self._submit(marker, topic=topic, convert=conversions.body_request, joined=number > 0)
+
+    def _submit(
+        self,
+        message: Any,
+        *,
+        topic: str,
+        convert: _Conversion,
+        joined: bool = False,
+        field: str = '',
+    ) -> None:
+        """
+        Submit the request of a message.
+
+        :param joined: whether it is undone together with the one before
+        :param field: the one field of the message, to be named by a refusal; '' is several
+        """
+        try:
+            request = convert(message, frame_id=self._frame_id)
+        except Refusal as refusal:
+            subject = conversions.subject_of(message, joint=topic == '~/join')
+            self._simulation.refuse(refusal, topic=topic, subject=subject, joined=joined)
+            return
+        self._simulation.submit(request, topic=topic, joined=joined, field=field)

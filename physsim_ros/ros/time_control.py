@@ -1,0 +1,136 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The control of time, the same by topic, service and page: speed, time, single frames."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from physsim_ros.model.errors import Refusal, Running
+from physsim_ros.model.snapshot import Answer, run_state
+from physsim_ros.ros import parameters
+from physsim_ros.ros.subscriptions import RequestSubscriptions
+from physsim_ros.simulation.simulation import Simulation
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from rosgraph_msgs.msg import Clock
+from std_msgs.msg import Float64
+
+
+class TimeControl:
+    """
+    The control of time.
+
+    Each method returns a message about what was done.
+
+    :param node: whose parameter `speed` is the speed
+    :param simulation: of the node
+    :param values: of the parameters of the node, by name, always up to date
+    :param advance_frame: advances the world by one frame, and publishes it
+    :param on_seek: called after time has jumped
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        simulation: Simulation,
+        values: Mapping[str, Any],
+        *,
+        advance_frame: Callable[[], None],
+        on_seek: Callable[[], None],
+    ) -> None:
+        self._node = node
+        self._simulation = simulation
+        self._values = values
+        self._advance_frame = advance_frame
+        self._on_seek = on_seek
+
+    @property
+    def services(self) -> Mapping[str, Callable[[], str]]:
+        """Return what services do, by name."""
+        return {
+            'play': lambda: self._run_at(1.0),
+            'pause': lambda: self._run_at(0.0),
+            'rewind': lambda: self._run_at(-1.0),
+            'fast_forward': lambda: self._run_at(self._values['fast_speed']),
+            'fast_rewind': lambda: self._run_at(-self._values['fast_speed']),
+            'step': self.step,
+        }
+
+    def subscribe(
+        self, subscriptions: RequestSubscriptions, refuse: Callable[[Refusal, str], None]
+    ) -> None:
+        """
+        Subscribe to `~/speed` and `~/seek`.
+
+        :param refuse: answers a refused message, by refusal and topic
+        """
+
+        def perform(topic: str, action: Callable[[], str]) -> None:
+            try:
+                message = action()
+            except Refusal as refusal:
+                refuse(refusal, topic)
+            else:
+                self._simulation.tell(Answer(topic=topic, message=message))
+
+        def set_speed(message: Float64) -> None:
+            perform('~/speed', lambda: self.set_speed(message.data))
+
+        def seek(message: Clock) -> None:
+            stamp = message.clock.sec * 10**9 + message.clock.nanosec
+            perform('~/seek', lambda: self.seek(stamp))
+
+        subscriptions.add(Float64, '~/speed', set_speed)
+        subscriptions.add(Clock, '~/seek', seek)
+
+    def set_speed(self, speed: float) -> str:
+        """
+        Set the speed, simulation seconds a second.
+
+        :raises Refusal: it is out of range
+        """
+        # + 0.0 removes the sign of a negative zero.
+        parameter = Parameter('speed', value=float(speed) + 0.0)
+        # Checked here as well: a refusal by rclpy has no code.
+        parameters.check(parameter)
+        self._node.set_parameters([parameter])
+        return f'speed {parameter.value:g}'
+
+    def seek(self, stamp: int) -> str:
+        """
+        Go to a simulation time [ns].
+
+        :raises Refusal: it is not in the history
+        """
+        message = self._simulation.seek(stamp)
+        self._on_seek()
+        return message
+
+    def step(self) -> str:
+        """
+        Advance a paused world by one frame.
+
+        :raises Running: time is running
+        """
+        if self._simulation.speed != 0:
+            raise Running('time is running; pause first')
+        self._advance_frame()
+        return f'at {self._simulation.world.stamp * 1e-9:.6f} s'
+
+    def _run_at(self, speed: float) -> str:
+        self.set_speed(speed)
+        return run_state(speed)

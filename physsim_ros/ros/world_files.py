@@ -1,0 +1,115 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The world file of the node, which two services and the parameter `world_file` use."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+import time
+from typing import Any
+
+from physsim_ros.files import find_world, hides_shipped, load_world, save_world, user_worlds
+from physsim_ros.model.checkpoint import WorldState
+from physsim_ros.model.errors import BadWorldFile
+from physsim_ros.simulation.simulation import Simulation
+
+# Time between two reports of progress [s].
+_REPORTS = 0.5
+
+
+class WorldFiles:
+    """
+    Reads and writes the world file that parameter `world_file` names.
+
+    :param simulation: of the world
+    :param values: of the parameters of the node, by name, always up to date
+    :param report: told of the progress of loading
+    """
+
+    def __init__(
+        self, simulation: Simulation, values: Mapping[str, Any], report: Callable[[str], object]
+    ) -> None:
+        self._simulation = simulation
+        self._values = values
+        self._report = report
+        # Absolute, whatever the working directory will be.
+        self._directory = Path(values['world_dir'] or user_worlds()).absolute()
+
+    @property
+    def directory(self) -> Path:
+        """Return the directory of the user's worlds."""
+        return self._directory
+
+    def begin_with(self) -> None:
+        """
+        Start the simulation with the file, from any directory.
+
+        :raises BadWorldFile: there is no such file, or it is refused
+        """
+        self._simulation.begin(self._read(confined=False)[0])
+
+    def load(self, *, confined: bool) -> str:
+        """
+        Replace the world by the file, and return a message about it.
+
+        :param confined: whether only files below `world_dir` and the shipped worlds may be read
+        :raises BadWorldFile: there is no such file, or it is refused
+        """
+        try:
+            state, path = self._read(confined=confined)
+        except BadWorldFile as refusal:
+            if not confined:
+                raise
+            # Peers on the graph, who may name any file here, are not told what it holds.
+            raise BadWorldFile(refusal.brief, field='world_file') from refusal
+        return f'{self._simulation.load(state)} from {path.name}'
+
+    def save(self) -> str:
+        """
+        Write the world to the file, and return a message about it.
+
+        :raises BadWorldFile: it cannot be written, or lies outside `world_dir`
+        """
+        state = self._simulation.save()
+        path = save_world(
+            state,
+            self._values['world_file'],
+            world_dir=self._directory,
+            physics_rate=self._simulation.physics_rate,
+        )
+        message = f'saved {len(state.bodies)} bodies to {path.name}'
+        if hides_shipped(path, world_dir=self._directory):
+            message += '; from now on it comes before the shipped world of that name'
+        return message
+
+    def _read(self, *, confined: bool) -> tuple[WorldState, Path]:
+        path = find_world(self._values['world_file'], world_dir=self._directory, confined=confined)
+        simulation = self._simulation
+        told = time.monotonic()
+
+        def report(count: int, bodies: int) -> None:
+            nonlocal told
+            if time.monotonic() - told >= _REPORTS:
+                told = time.monotonic()
+                self._report(f'loading {path.name}: {count} of {bodies} bodies')
+
+        state = load_world(
+            path,
+            settings=simulation.settings,
+            physics_rate=simulation.physics_rate,
+            progress=report,
+        )
+        return state, path
