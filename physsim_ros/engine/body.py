@@ -25,9 +25,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 import math
+import operator
 
-from physsim_ros.model.checkpoint import Motion
+from physsim_ros.model.checkpoint import BodyState, Motion
 from physsim_ros.model.scene import Body
+from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Capsule, Circle, Convex, Piece
 from physsim_ros.model.transform import Point, Pose, rotated
 import pymunk
@@ -101,15 +103,6 @@ class RigidBody:
         self.engine.angular_velocity = twist[2] + ahead[2]
         self.free = True
 
-    def go_on_from(self, motion: Motion) -> None:
-        """Take over the engine's own numbers."""
-        self.engine.angle = motion.yaw
-        self.engine.position = motion.x, motion.y
-        self.engine.velocity = motion.vx, motion.vy
-        self.engine.angular_velocity = motion.spin
-        self.free = motion.free
-        self._reindex()
-
     def _reindex(self) -> None:
         """Let queries and contacts find the body where it is now."""
         if self.engine.space is not None:
@@ -132,6 +125,15 @@ def lead_of(body: Body, wrench: Pose, gravity: Point, dt: float) -> Pose:
         (gravity[1] + fy / mass) * half,
         torque / (mass * body.shape.form.gyration) * half,
     )
+
+
+def engine_motion(state: BodyState, settings: WorldSettings, dt: float) -> Motion:
+    """Return the engine's state of a body whose pose and twist a person wrote; it flies freely."""
+    body, (x, y, yaw) = state.body, state.pose
+    offset_x, offset_y = rotated(offset_of(body), yaw)
+    ahead = lead_of(body, state.wrench, settings.gravity, dt)
+    vx, vy, spin = map(operator.add, state.twist, ahead)
+    return Motion(x + offset_x, y + offset_y, yaw, vx, vy, spin, free=True)
 
 
 def build(body: Body, serial: int) -> RigidBody:

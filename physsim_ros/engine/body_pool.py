@@ -73,7 +73,9 @@ def _clear_contacts(space: Space) -> None:
     rigids = space.bodies.by_name.values()
     wake_bodies(rigid.engine for rigid in rigids)
     state = np.zeros((len(rigids), 6))
-    state[:, 0] = np.arange(1, len(rigids) + 1) * 1e6
+    # In an order at random, since those in ascending order make the engine's tree as deep as there
+    # are bodies: 20,000 took 4 s.
+    state[:, 0] = np.random.default_rng(0).permutation(len(rigids)) * 1e6
     space.table.write_state(state)
     space.engine.step(space.dt)
 

@@ -24,14 +24,16 @@ each checkpoint that is taken.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 from physsim_ros.engine import body as rigid_body
-from physsim_ros.engine.body import RigidBody
+from physsim_ros.engine.body import engine_motion, REST, RigidBody
+from physsim_ros.engine.boundary import wall_count
 from physsim_ros.engine.space import Space
 from physsim_ros.engine.warm_start import read_impulses, shape_numbers, write_impulses
-from physsim_ros.model.checkpoint import Checkpoint
-from physsim_ros.model.scene import Body
+from physsim_ros.model.checkpoint import Checkpoint, ImpulseCache, WorldState
+from physsim_ros.model.scene import Body, Scene
 
 
 def take_checkpoint(space: Space, step: int) -> Checkpoint:
@@ -62,6 +64,52 @@ def take_checkpoint(space: Space, step: int) -> Checkpoint:
             joints=space.joints.impulses(),
         ),
         grips=space.pipeline.mouse_joints.grips(),
+    )
+
+
+def checkpoint_of(state: WorldState, step: int, dt: float) -> Checkpoint:
+    """
+    Return the checkpoint at which a world begins with a state.
+
+    :param step: steps that the world has made
+    :param dt: of a step [s]
+    """
+    motions = [saved.motion or engine_motion(saved, state.settings, dt) for saved in state.bodies]
+    bodies = (saved.body for saved in state.bodies)
+    return Checkpoint(
+        step=step,
+        scene=Scene(
+            bodies=tuple(
+                body if body.expires is None else replace(body, expires=body.expires + step)
+                for body in bodies
+            ),
+            settings=state.settings,
+            joints=state.joints,
+        ),
+        state=np.array([motion[:6] for motion in motions], np.float64).reshape(-1, 6),
+        free=np.array([motion.free for motion in motions], np.bool_),
+        wrenches=tuple(
+            (row, saved.wrench, None if steps is None else step + steps)
+            for row, saved in enumerate(state.bodies)
+            for steps in (saved.wrench_steps,)
+            if saved.wrench != REST
+        ),
+        memory=state.memory or _no_impulses(state),
+    )
+
+
+def _no_impulses(state: WorldState) -> ImpulseCache:
+    """Return the impulse cache of a space that has not stepped."""
+    counts = [len(saved.body.shape.form.pieces) for saved in state.bodies]
+    ends = np.cumsum([wall_count(state.settings), *counts], dtype=np.int64)
+    return ImpulseCache(
+        ids=ends[:-1],
+        walls=0,
+        following=int(ends[-1]),
+        pairs=np.empty((0, 2), np.int64),
+        hashes=np.empty(0, np.uint64),
+        impulses=np.empty((0, 2)),
+        joints=np.empty((0, 2)),
     )
 
 

@@ -24,6 +24,7 @@ from __future__ import annotations
 from dataclasses import fields
 
 import numpy as np
+from physsim_ros.engine.boundary import wall_count
 from physsim_ros.files.base64_array import pack, unpack
 from physsim_ros.files.entries import count_from
 from physsim_ros.model.checkpoint import ImpulseCache, WorldState
@@ -31,8 +32,6 @@ from physsim_ros.model.checks import known_mapping
 from physsim_ros.model.errors import BadProperty
 
 _KEYS = [each.name for each in fields(ImpulseCache)]
-# Shapes of the engine that `bounds` consists of.
-_WALLS = 4
 
 
 def cache_entry(cache: ImpulseCache) -> dict[str, object]:
@@ -68,7 +67,7 @@ def cache_from(entry: object, state: WorldState) -> ImpulseCache | None:
     counts = [len(each.body.shape.form.pieces) for each in state.bodies]
     runs = [*zip(ids.tolist(), counts, strict=True), (following, 0)]
     if state.settings.bounds is not None:
-        runs.append((walls, _WALLS))
+        runs.append((walls, wall_count(state.settings)))
     end = 0
     for first, count in sorted(runs):
         if first < end:

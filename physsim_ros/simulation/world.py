@@ -26,9 +26,8 @@ import hashlib
 import math
 from typing import NamedTuple
 
-from physsim_ros.engine.body import REST
 from physsim_ros.engine.body_pool import BodyPool
-from physsim_ros.engine.checkpoint import restore_checkpoint, take_checkpoint
+from physsim_ros.engine.checkpoint import checkpoint_of, restore_checkpoint, take_checkpoint
 from physsim_ros.engine.observation import digest_parts, observe_bodies
 from physsim_ros.engine.space import Space
 from physsim_ros.model.checkpoint import BodyState, Checkpoint, Motion, WorldState
@@ -370,29 +369,14 @@ class World:
     def _restore(self, state: WorldState) -> None:
         self._capacity.check_state(state)
         # A space of its own for every state: what was in the old one leaves no trace.
-        space = Space(state.settings, self.dt)
-        now = self.step_count
-        for serial, saved in enumerate(state.bodies):
-            body, steps = saved.body, saved.wrench_steps
-            if body.expires is not None:
-                body = replace(body, expires=body.expires + now)
-            rigid = space.add(body, serial, saved.pose, saved.twist)
-            if saved.wrench != REST:
-                space.set_wrench(rigid, saved.wrench, None if steps is None else now + steps)
-            if saved.motion is not None:
-                rigid.go_on_from(saved.motion)
-        for joint in state.joints:
-            space.join(joint)
+        key = checkpoint_of(state, self.step_count, self.dt)
+        space = restore_checkpoint(key, self.dt)
         space.joints.check_springs(
             {name: rigid.body for name, rigid in space.bodies.by_name.items()}
         )
-        if state.memory is not None:
-            key = replace(take_checkpoint(space, now), memory=state.memory)
-            space = restore_checkpoint(key, self.dt)
         self._settings = state.settings
         self._replace_space(space, BodyPool())
-        if state.memory is not None:
-            self._fresh = _Fresh(key, space, space.changes)
+        self._fresh = _Fresh(key, space, space.changes)
 
     def _step_after(self, seconds: float) -> int:
         return self.step_count + steps_in(seconds, self.physics_rate)
