@@ -33,6 +33,7 @@ from physsim_ros.engine.boundary import wall_count
 from physsim_ros.engine.space import Space
 from physsim_ros.engine.warm_start import read_impulses, shape_numbers, write_impulses
 from physsim_ros.model.checkpoint import Checkpoint, ImpulseCache, WorldState
+from physsim_ros.model.garbage_collection import suspended_collection
 from physsim_ros.model.scene import Body, Scene
 
 
@@ -113,6 +114,7 @@ def _no_impulses(state: WorldState) -> ImpulseCache:
     )
 
 
+@suspended_collection()
 def restore_checkpoint(
     key: Checkpoint, dt: float, *, pool: Mapping[str, RigidBody] | None = None
 ) -> Space:

@@ -38,7 +38,7 @@ from physsim_ros.engine.ccd.broad_phase import pairs_in_parts
 from physsim_ros.engine.ccd.time_of_impact import SLOP
 from physsim_ros.model.arrays import Flags, Floats, Ints
 from physsim_ros.model.shapes import Capsule, Circle, Convex, Piece, Shape
-from physsim_ros.model.transform import Pose, rotated, turned
+from physsim_ros.model.transform import next_vertices, Pose, rotated, turned
 
 # Candidates compared at once: some 30 MB.
 _PART = 200_000
@@ -88,7 +88,7 @@ def _core(piece: Piece) -> tuple[tuple[float, float], tuple[float, float], float
             return middle, halves, math.atan2(dy, dx)
         case Convex(vertices):
             corners = np.array(vertices)
-            edges = np.roll(corners, -1, axis=0) - corners
+            edges = next_vertices(corners) - corners
             longest = edges[np.argmax(np.hypot(edges[:, 0], edges[:, 1]))]
             yaw = math.atan2(longest[1], longest[0])
             along = turned(corners, np.full(len(corners), -yaw))
@@ -164,6 +164,8 @@ def count_overlaps(layout: Layout, first: Flags, fixed: Flags, *, most: int) -> 
 @lru_cache(maxsize=4096)
 def count_inside(shape: Shape) -> int:
     """Count the pairs of pieces of one shape that overlap, of which the engine has a list too."""
+    if len(shape.form.pieces) == 1:
+        return 0
     layout = laid_out([shape], np.zeros((1, 3)))
     # As if each piece were a body.
     pieces = np.arange(len(layout.bodies))

@@ -37,6 +37,7 @@ from physsim_ros.files.world_writer import text_of
 from physsim_ros.files.yaml12 import first_value
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import BadWorldFile, Malformed, Refusal, UnknownProperty
+from physsim_ros.model.garbage_collection import suspended_collection
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.texts import nearest_name
 
@@ -109,6 +110,7 @@ def worlds_in(directory: Path) -> dict[str, Path]:
     return files_by_name(directory, _SUFFIX)
 
 
+@suspended_collection()
 def load_world(
     path: Path,
     *,

@@ -56,3 +56,12 @@ def cross(a: Floats, b: Floats) -> Floats:
     """Return (...) float64: the z component of the cross product of plane vectors (..., 2)."""
     product: Floats = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
     return product
+
+
+def next_vertices(vertices: Floats) -> Floats:
+    """
+    Return the vertex after each of a polygon, (n, 2) float64; the first follows the last.
+
+    `np.roll` takes 20 times as long for a few.
+    """
+    return np.concatenate((vertices[1:], vertices[:1]))

@@ -15,6 +15,7 @@
 """The world carries out requests; a refusal changes nothing; the same requests, the same bits."""
 
 from collections.abc import Callable
+from dataclasses import replace
 import math
 import os
 from pathlib import Path
@@ -22,6 +23,7 @@ import subprocess
 import sys
 
 import numpy as np
+from physsim_ros.engine import body as rigid_body
 from physsim_ros.model.checks import FARTHEST
 from physsim_ros.model.colors import color_of
 from physsim_ros.model.errors import (
@@ -47,6 +49,7 @@ from physsim_ros.model.requests import (
 from physsim_ros.model.scene import Body
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Disc, Shape, Triangles
+from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
 import pytest
 
@@ -639,6 +642,27 @@ def test_a_state_is_restored_into_the_same_digest(steps: int) -> None:
 
     assert world.digest() == before
     assert world.save() == state
+
+
+def test_a_restored_world_is_built_once_and_is_its_first_checkpoint(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    world = World()
+    stack(world, 8)
+    state, built = replace(world.save(), memory=None), list[str]()
+    build = rigid_body.build
+    monkeypatch.setattr(
+        rigid_body, 'build', lambda body, serial: built.append(body.name) or build(body, serial)
+    )
+
+    simulation = Simulation()
+    simulation.begin(state)
+
+    assert built == [each.body.name for each in state.bodies]
+    digest = simulation.world.digest()
+    simulation.advance_frame()
+    simulation.seek(0)
+    assert simulation.world.digest() == digest
 
 
 def test_two_worlds_restored_from_one_state_go_on_alike_at_any_step() -> None:

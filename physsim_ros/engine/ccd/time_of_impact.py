@@ -29,7 +29,7 @@ from typing import cast, NamedTuple
 
 import numpy as np
 from physsim_ros.model.arrays import Flags, Floats, Ints
-from physsim_ros.model.transform import turned
+from physsim_ros.model.transform import next_vertices, turned
 import pymunk
 
 # Overlap that the engine leaves standing [m]; its own 0.1 is 10 cm in a metre world.
@@ -70,7 +70,7 @@ def hull(shape: pymunk.Shape) -> Hull:
         polygon = cast('pymunk.Poly', shape)
         points, radius = polygon.get_vertices(), polygon.radius
     corners = np.array(points, dtype=np.float64)
-    edges = np.roll(corners, -1, axis=0) - corners
+    edges = next_vertices(corners) - corners
     lengths = np.hypot(edges[:, 0], edges[:, 1])[:, None]
     normals = np.column_stack((edges[:, 1], -edges[:, 0])) / np.where(lengths, lengths, 1.0)
     return Hull(corners, normals, radius, float(np.hypot(*corners.T).max()))

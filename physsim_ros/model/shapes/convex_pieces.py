@@ -26,6 +26,7 @@ from physsim_ros.model.shapes.mass_properties import half_width
 from physsim_ros.model.shapes.pieces import Convex
 from physsim_ros.model.shapes.polygon_geometry import crosses_itself, is_convex, signed_area
 from physsim_ros.model.shapes.validation import as_tuples, SMALLEST
+from physsim_ros.model.transform import next_vertices
 
 # Area by length [m], or by length squared, at or below which a polygon is degenerate.
 DEGENERATE = 1e-9
@@ -42,7 +43,7 @@ def convex_piece(vertices: Floats) -> Convex:
     :raises BadSize: it is thinner than SMALLEST
     """
     piece = Convex(as_tuples(vertices))
-    edges = np.roll(vertices, -1, axis=0) - vertices
+    edges = next_vertices(vertices) - vertices
     longest = float(np.hypot(edges[:, 0], edges[:, 1]).max())
     if signed_area(vertices) <= longest * DEGENERATE:
         raise BadOutline('an outline encloses no area', field='points')

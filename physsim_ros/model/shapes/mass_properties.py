@@ -21,15 +21,18 @@ Box2D calls the first three mass data. Here they are at a density of 1 kg/m².
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 import math
 
 import numpy as np
 from physsim_ros.model.shapes.pieces import Capsule, Circle, Convex, Piece
-from physsim_ros.model.transform import cross, Point
+from physsim_ros.model.transform import cross, next_vertices, Point
 
 # A centroid closer to the origin than this share of the extent lies at the origin: a symmetric
 # shape is balanced to the bit, however its sums round.
 _CENTERED = 1e-12
+# Forms that are kept for shapes to come: at most 100 MB, if each had 1,000 pieces.
+MOST_FORMS = 256
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,6 +56,8 @@ class Form:
     inner: float
 
 
+# Bodies of equal shapes share its form; those of the last shapes are kept.
+@lru_cache(maxsize=MOST_FORMS)
 def form_of(pieces: tuple[Piece, ...], *, whole: tuple[Piece, ...] | None = None) -> Form:
     """
     Return pieces with their mass properties and extent.
@@ -93,7 +98,7 @@ def half_width(piece: Piece) -> float:
             return radius
         case Convex(vertices):
             corners = np.array(vertices)
-            edges = np.roll(corners, -1, axis=0) - corners
+            edges = next_vertices(corners) - corners
             normals = np.column_stack((edges[:, 1], -edges[:, 0]))
             normals /= np.hypot(edges[:, 0], edges[:, 1])[:, None]
             widths = np.ptp(corners @ normals.T, axis=0)
@@ -120,7 +125,7 @@ def _mass_properties(piece: Piece) -> tuple[float, Point, float]:
             # its vertices, so that coordinates far from the origin lose no digits.
             origin = np.array(corners[0])
             vertices = np.array(corners) - origin
-            following = np.roll(vertices, -1, axis=0)
+            following = next_vertices(vertices)
             doubled = cross(vertices, following)
             area = float(doubled.sum()) / 2
             center = ((vertices + following) * doubled[:, None]).sum(axis=0) / (6 * area)

@@ -17,13 +17,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import ClassVar, Self
 
 import numpy as np
 from physsim_ros.model.checks import point_list
 from physsim_ros.model.errors import BadOutline
 from physsim_ros.model.shapes.convex_pieces import convex_pieces, DEGENERATE
-from physsim_ros.model.shapes.mass_properties import Form, form_of
+from physsim_ros.model.shapes.mass_properties import Form, form_of, MOST_FORMS
 from physsim_ros.model.shapes.pieces import Convex
 from physsim_ros.model.shapes.polygon_geometry import (
     crosses_itself,
@@ -53,21 +54,7 @@ class Polygon:
     def __post_init__(self) -> None:
         outline = distinct_points(checked_points(self.outline, 'outline'), closed=True)
         object.__setattr__(self, 'outline', as_tuples(outline))
-        if len(outline) < 3:
-            raise BadOutline('an outline needs three different corners', field='points')
-        area = signed_area(outline)
-        if area < 0:
-            outline = outline[::-1]
-        least = float(np.ptp(outline, axis=0).max()) ** 2 * DEGENERATE
-        if abs(area) <= least:
-            # The areas of two loops of opposite orientation cancel.
-            looped = unsigned_fan_area(outline) > least and crosses_itself(outline)
-            reason = 'crosses or touches itself' if looped else 'encloses no area'
-            raise BadOutline(f'the outline {reason}', field='points')
-        pieces = convex_pieces(outline)
-        # Mass and extent are those of the outline, slivers included.
-        whole = Convex(as_tuples(outline))
-        object.__setattr__(self, 'form', form_of(pieces, whole=(whole,)))
+        object.__setattr__(self, 'form', _form_of_outline(self.outline))
 
     @classmethod
     def from_entry(cls, entry: object) -> Self:
@@ -77,3 +64,29 @@ class Polygon:
     def entry(self) -> object:
         """Return the entry of a world file."""
         return [list(point) for point in self.outline]
+
+
+@lru_cache(maxsize=MOST_FORMS)
+def _form_of_outline(points: tuple[Point, ...]) -> Form:
+    """
+    Return the form of a polygon.
+
+    :raises BadOutline: it crosses or touches itself, or encloses no area
+    :raises BadSize: it is too thin
+    """
+    outline = np.array(points)
+    if len(outline) < 3:
+        raise BadOutline('an outline needs three different corners', field='points')
+    area = signed_area(outline)
+    if area < 0:
+        outline = outline[::-1]
+    least = float(np.ptp(outline, axis=0).max()) ** 2 * DEGENERATE
+    if abs(area) <= least:
+        # The areas of two loops of opposite orientation cancel.
+        looped = unsigned_fan_area(outline) > least and crosses_itself(outline)
+        reason = 'crosses or touches itself' if looped else 'encloses no area'
+        raise BadOutline(f'the outline {reason}', field='points')
+    pieces = convex_pieces(outline)
+    # Mass and extent are those of the outline, slivers included.
+    whole = Convex(as_tuples(outline))
+    return form_of(pieces, whole=(whole,))

@@ -22,33 +22,33 @@ from __future__ import annotations
 
 import numpy as np
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.transform import cross
+from physsim_ros.model.transform import cross, next_vertices
 
 
 def signed_area(polygon: Floats) -> float:
     """Return the area of a polygon [m²], positive where it runs counter-clockwise."""
     # Relative to one of its vertices, so that coordinates far from the origin lose no digits.
     vertices = polygon - polygon[0]
-    return float(cross(vertices, np.roll(vertices, -1, axis=0)).sum()) / 2
+    return float(cross(vertices, next_vertices(vertices)).sum()) / 2
 
 
 def unsigned_fan_area(polygon: Floats) -> float:
     """Return the sum of the unsigned areas of the triangles of a fan at the first vertex [m²]."""
     vertices = polygon - polygon[0]
-    return float(np.abs(cross(vertices, np.roll(vertices, -1, axis=0))).sum()) / 2
+    return float(np.abs(cross(vertices, next_vertices(vertices))).sum()) / 2
 
 
 def is_convex(polygon: Floats) -> bool:
     """Tell whether a simple polygon that runs counter-clockwise has no reflex vertex."""
-    edges = np.roll(polygon, -1, axis=0) - polygon
-    return bool((cross(np.roll(edges, 1, axis=0), edges) >= 0).all())
+    edges = next_vertices(polygon) - polygon
+    return bool((cross(edges, next_vertices(edges)) >= 0).all())
 
 
 def crosses_itself(polygon: Floats) -> bool:
     """Tell whether a polygon is not simple: two edges meet elsewhere than in a common vertex."""
-    start, end = polygon, np.roll(polygon, -1, axis=0)
+    start, end = polygon, next_vertices(polygon)
     edge = end - start
-    following = np.roll(edge, -1, axis=0)
+    following = next_vertices(edge)
     folded = (cross(edge, following) == 0) & ((edge * following).sum(axis=1) < 0)
     if folded.any():
         return True

@@ -78,7 +78,8 @@ def checked_points(points: Sequence[Point], name: str) -> Floats:
         raise BadOutline(f'{name} holds more than {MOST_POINTS} points', field=name)
     if len(array) and np.abs(array).max() > LARGEST:
         raise BadSize(f'{name} reaches further than {LARGEST:g} m', field=name)
-    return array
+    # Without negative zeros: equal shapes share one form, and have the same bits.
+    return array + 0.0
 
 
 def distinct_points(points: Floats, *, closed: bool) -> Floats:
@@ -89,10 +90,11 @@ def distinct_points(points: Floats, *, closed: bool) -> Floats:
     :param closed: whether the first point follows the last one
     """
     kept: list[int] = []
-    for at, (x, y) in enumerate(points.tolist()):
-        if not kept or math.dist((x, y), points[kept[-1]]) > COINCIDENT:
+    pairs = points.tolist()
+    for at, pair in enumerate(pairs):
+        if not kept or math.dist(pair, pairs[kept[-1]]) > COINCIDENT:
             kept.append(at)
-    while closed and len(kept) > 1 and math.dist(points[kept[0]], points[kept[-1]]) <= COINCIDENT:
+    while closed and len(kept) > 1 and math.dist(pairs[kept[0]], pairs[kept[-1]]) <= COINCIDENT:
         kept.pop()
     return points[kept]
 

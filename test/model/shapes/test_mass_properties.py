@@ -189,3 +189,13 @@ def test_equal_shapes_are_equal_and_hash_alike(shape: Shape) -> None:
 
     assert twin == shape
     assert hash(twin) == hash(shape)
+
+
+@pytest.mark.parametrize('zero', [0.0, -0.0])
+def test_equal_shapes_share_a_form_whatever_the_sign_of_their_zeros(zero: float) -> None:
+    outline = ((zero, zero), (7.0, zero), (zero, 3.0))
+
+    polygon = Polygon(outline=outline)
+
+    assert polygon.form is Polygon(outline=((0.0, 0.0), (7.0, 0.0), (0.0, 3.0))).form
+    assert '-0.0' not in repr((polygon.outline, polygon.form.pieces))
