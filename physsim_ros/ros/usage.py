@@ -12,21 +12,15 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""The help of the programs: what is shipped with the package, and all parameters of the node."""
+"""The help of `physsim`: the worlds there are, and all parameters of the node."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from pathlib import Path
-import shutil
-import textwrap
-
-from physsim_ros.files import shipped_worlds, title_of, user_worlds, worlds_in
+from physsim_ros.files import shipped_worlds, user_worlds, worlds_in
+from physsim_ros.ros.help_tables import files_table, table
 from physsim_ros.ros.parameters import Spec, SPECS
 
 # Width of the column of names, and the least width of the column of meanings [characters].
-_NAMES, _MEANINGS = 22, 40
-
 _ELSEWHERE = """\
 config/physsim.yaml sets all of them (--params-file). A running world describes
 its parameters (`ros2 param describe /physsim NAME`), and its topics and
@@ -44,24 +38,6 @@ def physsim_help() -> str:
         table('parameters, after --ros-args, each as -p name:=value:', parameters),
     )
     return '\n'.join(('', *filter(None, tables), _ELSEWHERE))
-
-
-def files_table(title: str, files: Mapping[str, Path]) -> str:
-    """Return a table of files, each with the sentence that it begins with; '' if there is none."""
-    return table(title, {name: title_of(path) for name, path in files.items()})
-
-
-def table(title: str, meanings: Mapping[str, str]) -> str:
-    """Return names with their meanings below a title, as wide as the terminal; '' if none."""
-    if not meanings:
-        return ''
-    width = max(_MEANINGS, shutil.get_terminal_size().columns - _NAMES - 2)
-    lines = [title]
-    for name, meaning in meanings.items():
-        first, *others = textwrap.wrap(meaning, width, break_on_hyphens=False)
-        lines.append(f'  {name:{_NAMES - 2}}  {first}')
-        lines += [' ' * (_NAMES + 2) + other for other in others]
-    return '\n'.join(lines) + '\n'
 
 
 def _meaning(spec: Spec) -> str:
