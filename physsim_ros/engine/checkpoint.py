@@ -139,8 +139,8 @@ def restore_checkpoint(
     write_impulses(space.engine, space.shapes, key.memory, dt)
     table.write_state(key.state)
     for joint in key.scene.joints:
-        space.joints.put(joint)
-    space.joints.go_on_from(key.memory.joints)
+        space.joints.add(joint)
+    space.joints.set_impulses(key.memory.joints)
     for grip in key.grips:
         space.pipeline.mouse_joints.set_grip(grip)
     return space

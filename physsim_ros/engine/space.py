@@ -130,7 +130,7 @@ class Space:
 
         :raises BadProperty: springs on it would be too stiff; nothing is changed
         """
-        if self.joints.has(body.name):
+        if self.joints.has_joints(body.name):
             self.joints.check_springs({body.name: body})
         if same_in_engine(old.body, body):
             self._drop_table()
@@ -158,7 +158,7 @@ class Space:
         """Remove a body and its joints for good."""
         rigid = self.bodies.by_name[name]
         touching = self.bodies.touching(rigid.engine)
-        for joint in self.joints.of(name):
+        for joint in self.joints.names_on(name):
             self.unjoin(joint)
         self._take_out(rigid)
         self.pipeline.mouse_joints.forget_body(name)
@@ -217,7 +217,7 @@ class Space:
         """Add a joint; it replaces one of that name in its place."""
         self._drop_table()
         self.changes += 1
-        self.joints.put(joint)
+        self.joints.add(joint)
 
     def unjoin(self, name: str) -> None:
         """Remove a joint."""

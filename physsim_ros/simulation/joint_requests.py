@@ -126,7 +126,7 @@ def loosen(space: Space, body: str, point: Point) -> list[str]:
     reach = max(_NEAR, _NEAR_SHARE * space.bodies.by_name[body].body.shape.form.inner)
     names = [
         name
-        for name in space.joints.of(body)
+        for name in space.joints.names_on(body)
         if (joint := space.joints.by_name[name].joint).kind in (JointKind.PIN, JointKind.AXLE)
         and math.dist(_drawn(space, joint)[0], point) <= reach
     ]

@@ -29,7 +29,7 @@ import numpy as np
 from physsim_ros.engine import body_table, checkpoint, pipeline, space, warm_start
 from physsim_ros.engine.body import REST, RigidBody
 from physsim_ros.engine.ccd.continuous import ContinuousCollision
-from physsim_ros.engine.joints import joint_set
+from physsim_ros.engine.joints import joint_table
 from physsim_ros.engine.joints.joint_set import JointSet
 from physsim_ros.engine.stages import half_step
 from physsim_ros.engine.stages.half_step import HalfStep
@@ -71,7 +71,7 @@ def _columns_without_lead(scene: Any, dt: float, _columns: Any = body_table._col
 
 
 def _motion_without_turn(
-    a: Any, b: Any, pull: Any, dt: float, _kind: Any = joint_set.Motion
+    a: Any, b: Any, pull: Any, dt: float, _kind: Any = joint_table.Motion
 ) -> Any:
     """Return the motion of bodies that have poses only, so that the centripetal term is zero."""
     a, b = (np.concatenate((each[:, :3], np.zeros((len(each), 3))), axis=1) for each in (a, b))
@@ -119,7 +119,7 @@ STAGES = (
     ),
     Stage(
         'joint targets',
-        (((joint_set, 'Motion'), _motion_without_turn),),
+        (((joint_table, 'Motion'), _motion_without_turn),),
         ((JointSet, 'set_targets'),),
     ),
     Stage(

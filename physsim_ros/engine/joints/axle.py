@@ -63,7 +63,7 @@ def _rows(batch: Batch, a: Floats, b: Floats) -> tuple[Floats, Floats]:
     return rows.both(point, rows.angle(batch, a, b)) if batch.lower.shape[1] > 2 else point
 
 
-def aim(batch: Batch, motion: Motion) -> None:
+def set_targets(batch: Batch, motion: Motion) -> None:
     """
     Have each `PivotJoint` solve for v_b - v_a = dt / 2 (w_b^2 r_b - w_a^2 r_a) at the anchors.
 
@@ -77,4 +77,4 @@ def aim(batch: Batch, motion: Motion) -> None:
         lib.cpPivotJointSetAnchorB(pointer, (x, y))
 
 
-KIND = Kind(_constraints, _bounds, _rows, aim)
+KIND = Kind(_constraints, _bounds, _rows, set_targets)

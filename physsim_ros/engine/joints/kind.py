@@ -129,18 +129,18 @@ class Kind(NamedTuple):
     """
     What one kind of joint consists of.
 
-    :ivar constraints: makes the Pymunk constraints, the one that `aim` writes to first
+    :ivar constraints: makes the Pymunk constraints, the one that `set_targets` writes to first
     :ivar bounds: returns (lower, upper) of each constraint row of a joint [m, rad]
     :ivar rows: returns the (k, r) values x and the (k, r, 6) Jacobian J at the (k, 3) poses of the
         first and the second bodies; None where positions are not corrected
-    :ivar aim: sets the velocity J v that the first constraint of each is solved for to the
+    :ivar set_targets: sets the velocity J v that the first constraint of each is solved for to the
         centripetal term - dt / 2 (dJ/dt v); None where there is no such term
     """
 
     constraints: Callable[[Joint, Ends], list[pymunk.Constraint]]
     bounds: Callable[[Joint], Sequence[tuple[float, float]]] = lambda _: ()
     rows: Callable[[Batch, Floats, Floats], tuple[Floats, Floats]] | None = None
-    aim: Callable[[Batch, Motion], None] | None = None
+    set_targets: Callable[[Batch, Motion], None] | None = None
 
 
 Bools = Flags

@@ -53,7 +53,7 @@ def lengths(batch: Batch, motion: Motion) -> tuple[Floats, Floats]:
     return length, rate - swing / np.maximum(length, _NEAR) / (2.0 * motion.dt)
 
 
-def _aim(batch: Batch, motion: Motion) -> None:
+def _set_targets(batch: Batch, motion: Motion) -> None:
     """Have each `PinJoint` solve for its rate: Chipmunk solves for `(distance - |d|) / dt`."""
     length, rate = lengths(batch, motion)
     for pointer, aimed in zip(
@@ -63,5 +63,8 @@ def _aim(batch: Batch, motion: Motion) -> None:
 
 
 KIND = Kind(
-    _constraints, lambda joint: [(joint.seat.length, joint.seat.length)], rows.distance, _aim
+    _constraints,
+    lambda joint: [(joint.seat.length, joint.seat.length)],
+    rows.distance,
+    _set_targets,
 )

@@ -34,7 +34,7 @@ def _constraints(joint: Joint, ends: Ends) -> list[pymunk.Constraint]:
     return [rope]
 
 
-def _aim(batch: Batch, motion: Motion) -> None:
+def _set_targets(batch: Batch, motion: Motion) -> None:
     """
     Have each taut `SlideJoint` solve for its rate: Chipmunk solves for `(max - |d|) / dt`.
 
@@ -48,4 +48,4 @@ def _aim(batch: Batch, motion: Motion) -> None:
         lib.cpSlideJointSetMax(pointer, most)
 
 
-KIND = Kind(_constraints, lambda joint: [(0.0, joint.rest_length)], rows.distance, _aim)
+KIND = Kind(_constraints, lambda joint: [(0.0, joint.rest_length)], rows.distance, _set_targets)

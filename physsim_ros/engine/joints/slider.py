@@ -85,7 +85,7 @@ def _rows(batch: Batch, a: Floats, b: Floats) -> tuple[Floats, Floats]:
     return rows.both(rows.track(batch, a, b), rows.angle(batch, a, b))
 
 
-def _aim(batch: Batch, motion: Motion) -> None:
+def _set_targets(batch: Batch, motion: Motion) -> None:
     """
     Have each `PinJoint` solve for its centripetal term.
 
@@ -109,4 +109,4 @@ def _aim(batch: Batch, motion: Motion) -> None:
         lib.cpPinJointSetDist(pointer, length)
 
 
-KIND = Kind(_constraints, _bounds, _rows, _aim)
+KIND = Kind(_constraints, _bounds, _rows, _set_targets)

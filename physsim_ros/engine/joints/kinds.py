@@ -1,0 +1,77 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The kinds of joints in the engine, and a joint made of its kind."""
+
+from __future__ import annotations
+
+from physsim_ros.engine.body import RigidBody
+from physsim_ros.engine.joints import axle, gear, motor, pin, rod, rope, slider, spring
+from physsim_ros.engine.joints.kind import Ends, EngineJoint, Kind
+from physsim_ros.model.joints import JointKind
+from physsim_ros.model.scene import Joint
+import pymunk
+
+KINDS: dict[JointKind, Kind] = {
+    JointKind.PIN: pin.KIND,
+    JointKind.AXLE: axle.KIND,
+    JointKind.MOTOR: motor.KIND,
+    JointKind.SPRING: spring.KIND,
+    JointKind.ROD: rod.KIND,
+    JointKind.ROPE: rope.KIND,
+    JointKind.SLIDER: slider.KIND,
+    JointKind.GEAR: gear.KIND,
+}
+
+
+def kind_of(joint: Joint) -> Kind:
+    """Return the kind of a joint; a slider whose limits are one point is welded there."""
+    if joint.kind is JointKind.SLIDER and slider.has_no_way(joint):
+        return pin.KIND
+    return KINDS[joint.kind]
+
+
+def build_joint(
+    joint: Joint, a: RigidBody, b: RigidBody | None, background: pymunk.Body
+) -> EngineJoint:
+    """
+    Make the constraints of a joint, outside any space.
+
+    Pymunk divides by the sum of inverse masses, so that of two bodies neither of which is dynamic
+    there are none; such a joint waits until one of them is.
+
+    :param a: the first body
+    :param b: the second one; None is the background
+    :param background: the engine's own
+    """
+    seat = joint.seat
+    at_b = (seat.bx, seat.by) if b is None else (seat.bx - b.offset[0], seat.by - b.offset[1])
+    if joint.kind is JointKind.SLIDER and slider.has_no_way(joint):
+        at_b = slider.stop(joint, at_b)
+    ends = Ends(
+        a=a.engine,
+        b=background if b is None else b.engine,
+        at_a=(seat.ax - a.offset[0], seat.ay - a.offset[1]),
+        at_b=at_b,
+    )
+    if a.body.fixed and (b is None or b.body.fixed):
+        return EngineJoint(joint, ends, ())
+    constraints = tuple(kind_of(joint).constraints(joint, ends))
+    for constraint in constraints:
+        most = joint.properties.max_force
+        if most is not None and not isinstance(constraint, pymunk.SimpleMotor):
+            constraint.max_force = most
+        # With the background, which is the walls of `bounds` too, a body always collides.
+        constraint.collide_bodies = joint.collide or b is None
+    return EngineJoint(joint, ends, constraints)
