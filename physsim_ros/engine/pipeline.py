@@ -36,7 +36,7 @@ import numpy as np
 from physsim_ros.engine.batch_io import BatchIO
 from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.ccd.continuous import ContinuousCollision
-from physsim_ros.engine.contact_report import ContactReport
+from physsim_ros.engine.contacts.contact_report import ContactReport
 from physsim_ros.engine.joints.joint_set import JointSet
 from physsim_ros.engine.stages.contact_projection import project_contact
 from physsim_ros.engine.stages.half_step import HalfStep

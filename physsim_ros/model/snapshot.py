@@ -174,6 +174,14 @@ class Contacts:
         return 4 * self.pairs.nbytes
 
 
+NO_CONTACTS = Contacts(
+    pairs=np.empty((0, 2), dtype=np.int64),
+    points=np.empty((0, 2)),
+    normals=np.empty((0, 2)),
+    impulses=np.empty((0, 2)),
+)
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Answer:
     """

@@ -24,7 +24,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 import itertools
 
-from physsim_ros.engine.contact_report import NO_CONTACTS
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import BadProperty, Refusal
 from physsim_ros.model.requests import (
@@ -37,7 +36,7 @@ from physsim_ros.model.requests import (
     Restore,
 )
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.snapshot import Answer, Frame, Snapshot
+from physsim_ros.model.snapshot import Answer, Frame, NO_CONTACTS, Snapshot
 from physsim_ros.model.timeline import CourseSpan, TimelineStatus
 from physsim_ros.simulation.clock import Clock
 from physsim_ros.simulation.frame_cache import CachedFrame, FrameCache

@@ -26,7 +26,7 @@ from physsim_ros.model.snapshot import Contacts
 from physsim_ros.simulation.world import World
 import pytest
 
-from ..building import BOX, DISC, DT, G, NOWHERE, spawn, stack, twist
+from ...building import BOX, DISC, DT, G, NOWHERE, spawn, stack, twist
 
 # Steps in a frame of 60 Hz.
 FRAME = 4

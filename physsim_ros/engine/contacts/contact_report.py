@@ -20,8 +20,6 @@ impulses in batch, and the last one of a frame their manifolds. A pair that has 
 frame ends has its manifold of the frame before, or of its first touch. The engine does not list
 the contacts of sleeping bodies: while a pair sleeps, the impulses of its last step awake and its
 last manifold are repeated.
-
-A manifold is a column of five numbers: normal, count of points, mean point.
 """
 
 from __future__ import annotations
@@ -29,16 +27,18 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 from physsim_ros.engine.batch_io import BatchIO, Ids
 from physsim_ros.engine.body_table import BodyTable
-from physsim_ros.engine.contact_listing import (
+from physsim_ros.engine.contacts.contact_listing import (
     list_pairs,
     PairListing,
     set_overlap_manifolds,
 )
-from physsim_ros.model.arrays import Flags, Floats
-from physsim_ros.model.snapshot import Contacts
+from physsim_ros.engine.contacts.manifolds import LastManifolds
+from physsim_ros.engine.contacts.pair_ids import find_pairs, NO_PAIRS, oriented, Renaming
+from physsim_ros.engine.contacts.sleeping_pairs import read_sleeping_pairs, SleepingPairs
+from physsim_ros.model.arrays import Floats
+from physsim_ros.model.snapshot import Contacts, NO_CONTACTS
 import pymunk
 from pymunk import batch
 
@@ -49,9 +49,6 @@ _MANIFOLDS = _F.BODY_A_ID | _F.NORMAL | _F.CONTACT_COUNT
 _MANIFOLDS |= _F.POINT_A_1 | _F.POINT_B_1 | _F.POINT_A_2 | _F.POINT_B_2
 # Greatest count of steps whose parted pairs are kept apart before they are merged.
 _MOST_STEPS = 16
-# Multiplier of Fibonacci hashing, 2^64 over the golden ratio (Knuth, The Art of Computer
-# Programming 3, 6.4): makes one key of two ids.
-_SPREAD = np.uint64(0x9E3779B97F4A7C15)
 
 
 class ContactReport:
@@ -66,7 +63,7 @@ class ContactReport:
         self._io = io
         # The pairs of the last step, in the engine's order, sleeping ones last: ids, the lesser
         # one first; sums of impulses in the frame; impulses of the step [N s].
-        self._ids: Ids = np.empty((0, 2), np.uint64)
+        self._ids: Ids = NO_PAIRS
         self._sums: Floats = np.empty((0, 2))
         self._impulses: Floats = np.empty((0, 2))
         # The body that the engine has first in each listed pair, and the sign of its impulses.
@@ -74,8 +71,7 @@ class ContactReport:
         self._signs: Floats = np.empty((0, 1))
         # Manifolds of the pairs, (5, m), where another space has made the last step.
         self._copied_manifolds: Floats | None = None
-        # Sleeping pairs: ids, impulses of their last step awake, manifolds.
-        self._sleeping = NO_SLEEPERS
+        self._sleeping = SleepingPairs()
         self._slot_changes = 0
         # Whether the contacts of the step before were not read.
         self._unwatched = True
@@ -84,9 +80,7 @@ class ContactReport:
         # Pairs that touched at the end of an earlier step of the frame and not of the next: ids
         # and sums of impulses.
         self._parted: list[tuple[Ids, Floats]] = []
-        # Pairs and (5, k) manifolds at the end of the last frame, and first touches since then.
-        self._last: tuple[Ids, Floats] = (self._ids, np.empty((5, 0)))
-        self._first_touches: dict[tuple[int, int], tuple[int, pymunk.ContactPointSet]] = {}
+        self._last = LastManifolds()
         self._listing: PairListing | None = None
         # Whether no pair has begun to touch since the ids were read: as many pairs are the same.
         self.settled = False
@@ -95,7 +89,7 @@ class ContactReport:
         """Store the manifold of two shapes that begin to touch: they may part within the frame."""
         self.settled = False
         a, b = (body.id for body in arbiter.bodies)
-        self._first_touches[min(a, b), max(a, b)] = (1 if a < b else -1, contact)
+        self._last.add_first_touch(a, b, contact)
 
     def add_step(self, table: BodyTable) -> None:
         """
@@ -107,7 +101,7 @@ class ContactReport:
         self._copied_manifolds = None
         if table.slot_changes != self._slot_changes:
             self._slot_changes, self.settled = table.slot_changes, False
-        sleeping = len(self._sleeping[0])
+        sleeping = len(self._sleeping.ids)
         if self.settled:
             firsts, impulses = self._io.read_contacts(_FIRSTS_AND_IMPULSES)
             if len(firsts) == len(self._ids) - sleeping:
@@ -119,30 +113,30 @@ class ContactReport:
         ints, impulses = self._io.read_contacts(_PAIRS_AND_IMPULSES)
         self._first_ids = ints[::2].copy()
         impulses = impulses.reshape(-1, 2).copy()
-        ids, self._signs = _oriented(ints.reshape(-1, 2))
+        ids, self._signs = oriented(ints.reshape(-1, 2))
         self._sleeping = self._find_sleeping(table, ids)
         self._unwatched = False
-        ids = np.concatenate((ids, self._sleeping[0]))
+        ids = np.concatenate((ids, self._sleeping.ids))
         if not np.array_equal(ids, self._ids):
             self._begin_listing(ids)
         self._add_impulses(impulses)
         self.settled = True
 
-    def _find_sleeping(self, table: BodyTable, listed: Ids) -> tuple[Ids, Floats, Floats]:
-        """Return pairs of the step before that sleep now, their impulses and manifolds then."""
+    def _find_sleeping(self, table: BodyTable, listed: Ids) -> SleepingPairs:
+        """Return the pairs of the step before that sleep now."""
         if not table.asleep.any():
-            return NO_SLEEPERS
+            return SleepingPairs()
         if self._unwatched:
-            return _read_sleeping(table)
+            return read_sleeping_pairs(table)
         asleep = np.append(table.asleep, False)[table.rows_of(self._ids)].any(axis=1)
-        asleep &= ~_find(self._ids, listed)[1]
-        ids, manifolds = self._ids[asleep], self._last
-        if np.array_equal(manifolds[0], self._ids):
-            return ids, self._impulses[asleep], manifolds[1][:, asleep]
-        return ids, self._impulses[asleep], self._last_manifolds(ids)
+        asleep &= ~find_pairs(self._ids, listed)[1]
+        ids, last = self._ids[asleep], self._last
+        same = np.array_equal(last.ids, self._ids)
+        manifolds = last.manifolds[:, asleep] if same else last.of_pairs(ids)
+        return SleepingPairs(ids, self._impulses[asleep], manifolds)
 
     def _add_impulses(self, impulses: Floats) -> None:
-        self._impulses = np.concatenate((impulses * self._signs, self._sleeping[1]))
+        self._impulses = np.concatenate((impulses * self._signs, self._sleeping.impulses))
         self._sums += self._impulses
 
     def _signs_of(self, firsts: Ids) -> Floats:
@@ -165,10 +159,10 @@ class ContactReport:
         :return: ids and sums of impulses of the pairs that have parted
         """
         if not self._parted:
-            return NO_PAIRS
+            return NO_PAIRS, np.empty((0, 2))
         ids, sums = (np.concatenate(each) for each in zip(*self._parted, strict=True))
         self._parted = []
-        rows, found = _find(ids, self._ids)
+        rows, found = find_pairs(ids, self._ids)
         for column in (0, 1):
             again = np.bincount(rows[found], sums[found, column], len(self._ids))
             self._sums[:, column] += again
@@ -189,17 +183,15 @@ class ContactReport:
             self._copied_manifolds = self._copied_manifolds[:, stays]
         self._ids, self._sums = self._ids[stays], self._sums[stays]
         self._impulses = self._impulses[stays]
-        ids, given, manifolds = self._sleeping
-        stays = (ids != body).all(axis=1)
-        self._sleeping = ids[stays], given[stays], manifolds[:, stays]
+        self._sleeping = self._sleeping.without_body(body)
         for number, (ids, sums) in enumerate(self._parted):
             stays = (ids != body).all(axis=1)
             self._parted[number] = ids[stays], sums[stays]
 
     def skip_step(self) -> None:
         """Drop all contacts: those of the step that has just been made are not read."""
-        self._sleeping, self._unwatched = NO_SLEEPERS, True
-        self._ids, self._sums = NO_PAIRS
+        self._sleeping, self._unwatched = SleepingPairs(), True
+        self._ids, self._sums = NO_PAIRS, np.empty((0, 2))
         self._impulses = self._sums
         self.clear()
         self.settled = False
@@ -209,7 +201,7 @@ class ContactReport:
         self._parted = []
         self._sums = np.zeros_like(self._sums)
         self._steps = 0
-        self._first_touches.clear()
+        self._last.drop_first_touches()
 
     def copy_sums(self, old: ContactReport, old_ids: Ids, ids: Ids) -> None:
         """
@@ -218,32 +210,15 @@ class ContactReport:
         :param old_ids: (n,) uint64: the engine's ids of the bodies there
         :param ids: (n,) uint64: their ids here
         """
-        ascending = np.argsort(old_ids)
-
-        def renamed(pairs: Ids, values: Floats) -> tuple[Ids, Floats]:
-            # A body that was removed since the last step has no other id.
-            known = np.isin(pairs, old_ids).all(axis=1)
-            manifolds = np.searchsorted(old_ids[ascending], pairs[known])
-            pairs, signs = _oriented(ids[ascending[manifolds]])
-            values = values[known]
-            # Impulses and normals have a direction; the other numbers of a manifold have none.
-            values[:, :2] *= signs
-            return pairs, values
-
+        renaming = Renaming(old_ids, ids)
         self._steps = old._steps
-        self._ids, self._sums = renamed(old._ids, old._sums)
+        self._ids, self._sums = renaming.rename_pairs(old._ids, old._sums)
         self._impulses = np.zeros_like(self._sums)
         if old._steps:
-            self._copied_manifolds = renamed(old._ids, old._read_manifolds().T)[1].T
-        self._parted = [renamed(pairs, sums) for pairs, sums in old._parted]
-        pairs, manifolds = old._last
-        pairs, rows = renamed(pairs, manifolds.T)
-        self._last = pairs, rows.T
-        names = dict(zip(old_ids.tolist(), ids.tolist(), strict=True))
-        for (first, second), (sign, contact) in old._first_touches.items():
-            if first in names and second in names:
-                a, b = names[first], names[second]
-                self._first_touches[min(a, b), max(a, b)] = (sign if a < b else -sign, contact)
+            rows = renaming.rename_pairs(old._ids, old._read_manifolds().T)[1]
+            self._copied_manifolds = rows.T
+        self._parted = [renaming.rename_pairs(*each) for each in old._parted]
+        self._last.copy(old._last, renaming)
 
     def take_contacts(self, table: BodyTable, centers: Callable[[], Floats]) -> Contacts:
         """
@@ -262,11 +237,10 @@ class ContactReport:
                 np.concatenate((touching, parted)),
                 np.concatenate((sums, parted_sums)),
             )
-            manifolds = np.concatenate((manifolds, self._last_manifolds(parted)), axis=1)
-        self._last = (self._ids, manifolds[:, : len(self._ids)])
+            manifolds = np.concatenate((manifolds, self._last.of_pairs(parted)), axis=1)
+        self._last.end_frame(self._ids, manifolds[:, : len(self._ids)])
         self._sums = np.zeros_like(self._sums)
         self._steps = 0
-        self._first_touches.clear()
         if len(table.bodies) == 0 or len(touching) == 0:
             return NO_CONTACTS
         if self._listing is None or not self._listing.is_of(touching, table):
@@ -276,20 +250,6 @@ class ContactReport:
         if len(overlaps):
             set_overlap_manifolds(contacts, overlaps, centers())
         return contacts
-
-    def _last_manifolds(self, pairs: Ids) -> Floats:
-        """Return (5, m) float64: the last known manifolds of pairs that have parted."""
-        ids, known = self._last
-        manifolds = np.zeros((5, len(pairs)))
-        manifolds[0] = 1.0
-        rows, found = _find(pairs, ids)
-        manifolds[:, found] = known[:, rows[found]]
-        for row, pair in enumerate(map(tuple, pairs.tolist())):
-            if pair in self._first_touches:
-                sign, contact = self._first_touches[pair]
-                mean = _mean_point(contact)
-                manifolds[:, row] = *(sign * contact.normal), len(contact.points), *mean
-        return manifolds
 
     def _read_manifolds(self) -> Floats:
         """
@@ -303,7 +263,7 @@ class ContactReport:
         ints, floats = self._io.read_contacts(_MANIFOLDS)
         firsts, counts = ints.reshape(-1, 2).T
         if not np.array_equal(firsts, self._first_ids):
-            return self._last_manifolds(self._ids)
+            return self._last.of_pairs(self._ids)
         # Columns, because numpy adds them up five times as fast as pairs.
         columns = np.ascontiguousarray(floats.reshape(-1, 10).T)
         manifolds = np.empty((5, len(counts)))
@@ -313,64 +273,4 @@ class ContactReport:
         first, second = columns[2:4] + columns[4:6], columns[6:8] + columns[8:10]
         np.add(first, second, out=manifolds[3:])
         manifolds[3:] *= 0.5 / np.maximum(counts, 1)
-        return np.concatenate((manifolds, self._sleeping[2]), axis=1)
-
-
-NO_PAIRS = np.empty((0, 2), np.uint64), np.empty((0, 2))
-NO_SLEEPERS = *NO_PAIRS, np.empty((5, 0))
-NO_CONTACTS = Contacts(
-    pairs=np.empty((0, 2), dtype=np.int64),
-    points=np.empty((0, 2)),
-    normals=np.empty((0, 2)),
-    impulses=np.empty((0, 2)),
-)
-
-
-def _read_sleeping(table: BodyTable) -> tuple[Ids, Floats, Floats]:
-    """Return sleeping pairs with the impulses and manifolds that the engine keeps of each."""
-    found: dict[object, tuple[tuple[int, int], tuple[float, float], tuple[float, ...]]] = {}
-
-    def add_arbiter(arbiter: pymunk.Arbiter) -> None:
-        a, b = (body.id for body in arbiter.bodies)
-        sign, contact = (1 if a < b else -1), arbiter.contact_point_set
-        impulse = sign * arbiter.total_impulse
-        place = (*(sign * contact.normal), len(contact.points), *_mean_point(contact))
-        key = arbiter._arbiter  # noqa: SLF001 - identifies a pair of shapes
-        found[key] = (min(a, b), max(a, b)), (impulse.x, impulse.y), place
-
-    for row in np.flatnonzero(table.asleep).tolist():
-        table.bodies[row].engine.each_arbiter(add_arbiter)
-    ids, impulses, manifolds = zip(*found.values(), strict=True) if found else ((), (), ())
-    return (
-        np.array(ids, np.uint64).reshape(-1, 2),
-        np.array(impulses, np.float64).reshape(-1, 2),
-        np.array(manifolds, np.float64).reshape(-1, 5).T,
-    )
-
-
-def _mean_point(contact: pymunk.ContactPointSet) -> pymunk.Vec2d:
-    """Return the mean of the points of a contact, between the two bodies [m]."""
-    points = [(each.point_a + each.point_b) / 2 for each in contact.points]
-    return sum(points, pymunk.Vec2d(0, 0)) / max(1, len(points))
-
-
-def _oriented(pairs: Ids) -> tuple[Ids, Floats]:
-    """Return pairs with the lesser id first, and (k, 1) float64: -1 where that swaps one."""
-    # Column by column: numpy sorts pairs ten times as slowly.
-    first, second = pairs.T
-    signs = np.where(first > second, -1.0, 1.0)[:, None]
-    return np.column_stack((np.minimum(first, second), np.maximum(first, second))), signs
-
-
-def _find(pairs: Ids, listing: Ids) -> tuple[NDArray[np.intp], Flags]:
-    """Return a row of each pair in a listing, and whether it is the pair's."""
-    if len(listing) == 0:
-        return np.zeros(len(pairs), np.intp), np.zeros(len(pairs), np.bool_)
-    wanted, keys = (each[:, 0] * _SPREAD + each[:, 1] for each in (pairs, listing))
-    order = np.argsort(keys)
-    place = np.minimum(np.searchsorted(keys, wanted, sorter=order), len(keys) - 1)
-    rows = order[place]
-    # Another pair may have the same key: then this one counts as not found.
-    # Column by column: numpy compares pairs six times as slowly.
-    (a, b), (first, second) = listing.T, pairs.T
-    return rows, (a[rows] == first) & (b[rows] == second)
+        return np.concatenate((manifolds, self._sleeping.manifolds), axis=1)
