@@ -13,137 +13,33 @@
 # limitations under the License.
 
 """
-The receivers of frames: a `.rrd` file, a Rerun server elsewhere, one here with its viewer program.
+The Rerun servers that frames are sent to: one elsewhere, and one here with its viewer program.
 
 Law: whatever is opened or started here is closed and ended here.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-import errno
 import importlib.util
-from itertools import count
 import os
 from pathlib import Path
 import shutil
 import socket
 import subprocess
-import sys
 import threading
 import time
-from typing import TYPE_CHECKING
 from urllib.parse import quote, urlsplit
 
-from physsim_ros.model.snapshot import Frame
 from physsim_ros.view.child_process import end_child, start_child
-from physsim_ros.view.frame_context import FrameContext
-from physsim_ros.view.sink_worker import Endpoint, FLUSH_TIMEOUT, Report, Sink
+from physsim_ros.view.rerun_sink import RerunSink
+from physsim_ros.view.sink import Endpoint, Report, Sink
+from physsim_ros.view.sink_worker import FLUSH_TIMEOUT
 
-if TYPE_CHECKING:
-    import rerun as rr
-
-# Application id of the recordings in Rerun.
-NAME = 'physsim'
 DEFAULT_URL = 'rerun+http://127.0.0.1:9876/proxy'
 # Memory of a server for late viewers.
 SERVER_MEMORY = '256MiB'
-# Period of Rerun's batcher [s]: at its default of 8 ms a software-rendered web viewer falls 18 s
-# behind within 30 s.
-TICK = 0.1
 # Time after its start within which a program that ends was never up [s].
 SETTLING = 10.0
-
-
-class RerunSink:
-    """A recording stream of Rerun, and the recorder of frames on it."""
-
-    def __init__(self, *sinks: rr.GrpcSink | rr.GrpcServerSink | rr.FileSink) -> None:
-        # The first import takes a second, so it happens in the thread of the worker.
-        from physsim_ros.view.recording import FrameRecorder
-        import rerun as rr
-
-        batching = rr.ChunkBatcherConfig(flush_tick=TICK)
-        self._recording = rr.RecordingStream(NAME, batcher_config=batching)
-        try:
-            self._recording.set_sinks(*sinks)
-        except RuntimeError as error:
-            raise ConnectionError(error) from error
-        self._recorder = FrameRecorder(self._recording)
-
-    def draw(self, frames: Sequence[Frame], *, context: FrameContext) -> None:
-        """Log frames in order."""
-        self._recorder.draw(frames, context=context)
-
-    def flush(self, timeout: float) -> None:
-        """
-        Wait until all logged frames have been sent.
-
-        :raises TimeoutError: they have not been sent yet
-        :raises ConnectionError: they cannot be sent any more
-        """
-        try:
-            self._recording.flush(timeout_sec=timeout)
-        except RuntimeError as error:
-            # Rerun (0.41) raises RuntimeError for both.
-            if 'timed out' in str(error):
-                raise TimeoutError(error) from error
-            raise ConnectionError(error) from error
-
-    def close(self) -> None:
-        """Close the stream; waits for a receiver that takes nothing, until that ends."""
-        from rerun_bindings import flush_and_cleanup_orphaned_recordings
-
-        self._recording.disconnect()
-        # Rerun (0.41) ends the two threads of a recording only here (rerun-io/rerun#2116).
-        del self._recorder, self._recording
-        flush_and_cleanup_orphaned_recordings()
-
-
-class FileEndpoint(Endpoint):
-    """
-    A `.rrd` file, for which no frame is dropped.
-
-    :param path: of the file
-    :param overwrite: whether a file of that name is replaced; else another name is taken
-    """
-
-    kind = 'record'
-    code = 'record_failed'
-    # Long batches take less room. Below CHECK_PERIOD: with a full disk, a flush right after the
-    # first frames let `close` wait for ever (Rerun 0.41).
-    period, capacity, closing, reopens = 0.9, sys.maxsize, 10.0, False
-
-    def __init__(self, path: Path, *, overwrite: bool) -> None:
-        self.where = str(path)
-        self._path = path
-        self._overwrite = overwrite
-        # Device and inode of the open file.
-        self._identity = (0, 0)
-
-    def open_sink(self) -> Sink:
-        """Create the file, and return a recording to it."""
-        import rerun as rr
-
-        # Rerun (0.41) keeps the global interpreter lock while it opens a file: where that blocks,
-        # as with a FIFO, all threads would wait.
-        try:
-            if not self._overwrite:
-                self._path = _without_content(self._path)
-                self.where = str(self._path)
-            self._identity = _create_regular_file(self._path)
-        except OSError as error:
-            raise ConnectionError(error.strerror) from error
-        return RerunSink(rr.FileSink(self._path))
-
-    def check(self) -> None:
-        """Look whether the file is still there: a deleted one would be written on."""
-        try:
-            found = self._path.stat()
-        except OSError as error:
-            raise ConnectionError(f'the file is gone ({error.strerror})') from error
-        if (found.st_dev, found.st_ino) != self._identity:
-            raise ConnectionError('the file was replaced by another')
 
 
 class ClientEndpoint(Endpoint):
@@ -293,24 +189,3 @@ def _program() -> str:
         if program.exists():
             return str(program)
     return shutil.which('rerun') or 'rerun'
-
-
-def _create_regular_file(path: Path) -> tuple[int, int]:
-    """
-    Create a file, or open it, to see that it can be written; return device and inode.
-
-    :raises OSError: it cannot be written, or is no regular file
-    """
-    if path.exists() and not path.is_file():
-        raise OSError(errno.EINVAL, 'it is no regular file')
-    with path.open('ab') as file:
-        found = os.fstat(file.fileno())
-    return found.st_dev, found.st_ino
-
-
-def _without_content(path: Path) -> Path:
-    """Return a path, or the first of `name-2.rrd`, `name-3.rrd`, ... that has no content."""
-    others = (path.with_stem(f'{path.stem}-{number}') for number in count(2))
-    while path.exists() and path.stat().st_size > 0:
-        path = next(others)
-    return path

@@ -1,0 +1,94 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The `.rrd` file that frames are recorded in."""
+
+from __future__ import annotations
+
+import errno
+from itertools import count
+import os
+from pathlib import Path
+import sys
+
+from physsim_ros.view.rerun_sink import RerunSink
+from physsim_ros.view.sink import Endpoint, Sink
+
+
+class FileEndpoint(Endpoint):
+    """
+    A `.rrd` file, for which no frame is dropped.
+
+    :param path: of the file
+    :param overwrite: whether a file of that name is replaced; else another name is taken
+    """
+
+    kind = 'record'
+    code = 'record_failed'
+    # Long batches take less room.
+    period, capacity, closing, reopens = 1.0, sys.maxsize, 10.0, False
+    # A busy disk blocks for seconds; with a full one, Rerun (0.41) may time out for ever.
+    patience = 10.0
+
+    def __init__(self, path: Path, *, overwrite: bool) -> None:
+        self.where = str(path)
+        self._path = path
+        self._overwrite = overwrite
+        # Device and inode of the open file.
+        self._identity = (0, 0)
+
+    def open_sink(self) -> Sink:
+        """Create the file, and return a recording to it."""
+        import rerun as rr
+
+        # Rerun (0.41) keeps the global interpreter lock while it opens a file: where that blocks,
+        # as with a FIFO, all threads would wait.
+        try:
+            if not self._overwrite:
+                self._path = _without_content(self._path)
+                self.where = str(self._path)
+            self._identity = _create_regular_file(self._path)
+        except OSError as error:
+            raise ConnectionError(error.strerror) from error
+        return RerunSink(rr.FileSink(self._path))
+
+    def check(self) -> None:
+        """Look whether the file is still there: a deleted one would be written on."""
+        try:
+            found = self._path.stat()
+        except OSError as error:
+            raise ConnectionError(f'the file is gone ({error.strerror})') from error
+        if (found.st_dev, found.st_ino) != self._identity:
+            raise ConnectionError('the file was replaced by another')
+
+
+def _create_regular_file(path: Path) -> tuple[int, int]:
+    """
+    Create a file, or open it, to see that it can be written; return device and inode.
+
+    :raises OSError: it cannot be written, or is no regular file
+    """
+    if path.exists() and not path.is_file():
+        raise OSError(errno.EINVAL, 'it is no regular file')
+    with path.open('ab') as file:
+        found = os.fstat(file.fileno())
+    return found.st_dev, found.st_ino
+
+
+def _without_content(path: Path) -> Path:
+    """Return a path, or the first of `name-2.rrd`, `name-3.rrd`, ... that has no content."""
+    others = (path.with_stem(f'{path.stem}-{number}') for number in count(2))
+    while path.exists() and path.stat().st_size > 0:
+        path = next(others)
+    return path
