@@ -102,6 +102,7 @@ class FrameStatistics:
         speed: float,
         late_frames: int,
         viewer: str,
+        viewer_failure: str = '',
         backlog: Backlog = Backlog(),  # noqa: B008 - immutable
     ) -> DiagnosticArray:
         """
@@ -111,6 +112,7 @@ class FrameStatistics:
         :param speed: simulation seconds a second
         :param late_frames: since the node started
         :param viewer: state of the viewer, in one sentence
+        :param viewer_failure: why a viewer or recording that was asked for has no frames
         :param backlog: what waits in the node
         """
         late, self._late_reported = late_frames - self._late_reported, late_frames
@@ -155,6 +157,8 @@ class FrameStatistics:
             concerns.append(f'{undecodable} messages cannot be decoded: check their publishers')
         if backlog.stopped_listener:
             concerns.append('a subscriber of ~/events has stopped and loses answers: end it')
+        if viewer_failure:
+            concerns.append(f'{viewer_failure}: set parameter viewer to open it again')
         if concerns:
             level = max(level, DiagnosticStatus.WARN)
         status = DiagnosticStatus(

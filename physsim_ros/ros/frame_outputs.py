@@ -133,7 +133,7 @@ class FrameOutputs:
                 'frame_id': self._values['frame_id'],
                 'rate': self._values['publish_rate'],
             },
-            recording_address=lambda: self.viewer.page_address,
+            recordings=self.viewer,
             address=self._values['sketchpad_address'],
             port=self._values['sketchpad_port'],
             world_dir=world_dir,

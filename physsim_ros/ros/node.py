@@ -355,6 +355,7 @@ class PhysSimNode(NodeWithoutQosEvents):
                 speed=self.simulation.speed,
                 late_frames=self.simulation.late_frames,
                 viewer=self.outputs.viewer.state,
+                viewer_failure=self.outputs.viewer.failure,
                 backlog=Backlog(
                     message_delay=self.message_delay,
                     undecodable=self.requests.undecodable,

@@ -21,7 +21,6 @@ Law: every request passes `Guarded.prepare` before it is answered.
 from __future__ import annotations
 
 from http import HTTPStatus
-from ipaddress import ip_address
 from pathlib import Path
 from typing import Any, NoReturn, TYPE_CHECKING
 
@@ -31,14 +30,15 @@ from tornado.web import HTTPError, RequestHandler, StaticFileHandler
 if TYPE_CHECKING:
     from physsim_ros.sketchpad.server import Server
 
-# Of the files of the page; the machine's own table may lack some, and nothing is guessed.
-_TYPES = {
+# Of the files that are served; the machine's own table may lack some, and nothing is guessed.
+TYPES = {
     '.css': 'text/css; charset=utf-8',
     '.html': 'text/html; charset=utf-8',
     '.js': 'text/javascript; charset=utf-8',
     '.json': 'application/json',
     '.png': 'image/png',
     '.svg': 'image/svg+xml',
+    '.wasm': 'application/wasm',
     '.webmanifest': 'application/manifest+json',
 }
 
@@ -121,7 +121,7 @@ class Page(Guarded):
 
     async def get(self) -> None:
         """Answer with the page."""
-        self.set_header('Content-Type', _TYPES['.html'])
+        self.set_header('Content-Type', TYPES['.html'])
         self.finish((self.server.page_directory / 'index.html').read_bytes())
 
 
@@ -131,17 +131,6 @@ class Session(Guarded):
     async def get(self) -> None:
         """Answer with the rights of the page."""
         self.finish({'ok': True, 'view_only': self.role is not Role.DRAW})
-
-
-class Recording(Guarded):
-    """The web page of the viewer, which is served on loopback only."""
-
-    async def get(self) -> None:
-        """Redirect to it."""
-        address = self.server.recording_address()
-        if not address or not ip_address(self.request.remote_ip or '::').is_loopback:
-            self.refuse(404, 'the recording is shown on the machine of the node, if anywhere')
-        self.redirect(address)
 
 
 class Missing(Guarded):
@@ -165,4 +154,4 @@ class Files(Guarded, StaticFileHandler):
     def get_content_type(self) -> str:
         """Return the type of a file of the page; other files are bytes."""
         path = Path(self.absolute_path or '')
-        return _TYPES.get(path.suffix, 'application/octet-stream')
+        return TYPES.get(path.suffix, 'application/octet-stream')

@@ -24,6 +24,7 @@ from __future__ import annotations
 import asyncio
 from collections import deque
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import replace
 import errno
 from ipaddress import ip_address
@@ -40,10 +41,11 @@ from physsim_ros.sketchpad.access import Access, Role
 from physsim_ros.sketchpad.answers import answer_content, asker_of
 from physsim_ros.sketchpad.frame_codec import encode_frame, Show
 from physsim_ros.sketchpad.gallery import gallery_content
-from physsim_ros.sketchpad.handlers import Files, Login, Missing, Page, Recording, Session
+from physsim_ros.sketchpad.handlers import Files, Login, Missing, Page, Session
 from physsim_ros.sketchpad.inbox import Inbox, Incoming, SERVER
 from physsim_ros.sketchpad.messages import Message
 from physsim_ros.sketchpad.page_socket import PageSocket
+from physsim_ros.sketchpad.recording_handlers import recording_routes, Recordings
 from physsim_ros.sketchpad.scene_codec import compact, SceneCodec
 from physsim_ros.sketchpad.world_handlers import Download, UploadWorld
 from tornado.httpserver import HTTPServer
@@ -81,7 +83,7 @@ class Server:
     :param address: to listen on
     :param port: to listen on; where it is taken, one of the next; 0 is any
     :param world_dir: directory of the user's worlds
-    :param recording_address: returns the address of the viewer's web page; '' where there is none
+    :param recordings: the viewer
     :param inbox: takes the messages of the pages
     :param wake: called on the server's thread after a message has come
     :raises PhysSimError: it cannot listen there
@@ -97,14 +99,14 @@ class Server:
         address: str,
         port: int,
         world_dir: Path,
-        recording_address: Callable[[], str],
+        recordings: Recordings,
         inbox: Inbox,
         wake: Callable[[], None],
     ) -> None:
         self.access = Access(address)
         self.page_directory = PAGE
         self.world_dir = world_dir
-        self.recording_address = recording_address
+        self._recordings = recordings
         self._address = address
         self._inbox = inbox
         self._wake = wake
@@ -179,9 +181,14 @@ class Server:
         self._outbox.append(answers)
         self._schedule()
 
+    def call_soon(self, callback: Callable[[], None]) -> None:
+        """Have the server's thread call something; it does not where it has ended."""
+        with suppress(RuntimeError):
+            self._loop.call_soon_threadsafe(callback)
+
     def list_worlds(self) -> None:
         """Have all pages told which worlds there are now."""
-        self._loop.call_soon_threadsafe(self._send_worlds)
+        self.call_soon(self._send_worlds)
 
     def close(self) -> None:
         """Close all pages, and end the thread."""
@@ -295,7 +302,7 @@ class Server:
                 ('/', Page, own),
                 ('/login', Login, own),
                 ('/session', Session, own),
-                ('/rerun/', Recording, own),
+                *recording_routes(self, self._recordings),
                 ('/ws', PageSocket, own),
                 ('/page/(.*)', Files, own | {'path': self.page_directory}),
                 ('/gallery/(.*)', Files, own | {'path': shipped_pictures()}),

@@ -30,6 +30,7 @@ from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.sketchpad.access import Role
 from physsim_ros.sketchpad.inbox import Closed, Inbox, Incoming, Opened, SERVER
 from physsim_ros.sketchpad.page_session import PageSession
+from physsim_ros.sketchpad.recording_handlers import Recordings
 from physsim_ros.sketchpad.server import Server
 from physsim_ros.sketchpad.timeline_report import timeline_content, TimelineReport
 from physsim_ros.sketchpad.world_control import WorldControl
@@ -48,7 +49,7 @@ class Sketchpad:
     :param address: to listen on
     :param port: to listen on, or the first free one after it
     :param world_dir: directory of the user's worlds
-    :param recording_address: returns the address of the viewer's web page; '' where there is none
+    :param recordings: the viewer
     :param wake: called on the server's thread when a message has come
     :raises PhysSimError: it cannot listen there
     """
@@ -61,24 +62,25 @@ class Sketchpad:
         address: str,
         port: int,
         world_dir: Path,
-        recording_address: Callable[[], str],
+        recordings: Recordings,
         wake: Callable[[], None],
     ) -> None:
         self._world = world
         self._welcome = welcome
-        self._recording_address = recording_address
+        self._recordings = recordings
         self._inbox = Inbox()
         self._timeline = TimelineReport(world.simulation)
         self._server = Server(
             address=address,
             port=port,
             world_dir=world_dir,
-            recording_address=recording_address,
+            recordings=recordings,
             inbox=self._inbox,
             wake=wake,
         )
         self._sessions: dict[int, PageSession] = {}
         self._server_session = self._session(SERVER)
+        self._told_recording = self._recording_path()
 
     def url(self, role: Role = Role.DRAW) -> str:
         """Return the address of a page with its token."""
@@ -91,6 +93,9 @@ class Sketchpad:
 
     def handle_messages(self) -> None:
         """Handle the messages of pages, as many as there is time for."""
+        if self._recording_path() != self._told_recording:
+            self._told_recording = self._recording_path()
+            self._server.send({'type': 'recording', 'rerun': self._told_recording})
         now = time.monotonic()
         for session in self._sessions.values():
             session.keep_hand(now)
@@ -142,7 +147,7 @@ class Sketchpad:
                 'type': 'welcome',
                 'client': str(number),
                 **self._welcome,
-                'rerun': '/rerun/' if self._recording_address() else '',
+                'rerun': self._recording_path(),
                 'view_only': role is not Role.DRAW,
                 'settings': {
                     'density': settings.density,
@@ -157,6 +162,10 @@ class Sketchpad:
             page=number,
         )
         self._server.send(timeline_content(self._world.simulation.status), page=number)
+
+    def _recording_path(self) -> str:
+        """Return where the recording is shown; '' where no viewer serves browsers."""
+        return '/rerun/' if self._recordings.page_address else ''
 
     def _session(self, number: int) -> PageSession:
         def send(content: dict[str, Any]) -> None:

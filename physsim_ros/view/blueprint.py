@@ -22,12 +22,12 @@ a user's pan and zoom persist.
 from __future__ import annotations
 
 from physsim_ros.view import event_log, plots, run_state_track, traces, velocities
+from physsim_ros.view.colors import PAPER
 from physsim_ros.view.frame_batch import RECORDED
 import rerun.blueprint as rrb
 
 # Size of the view of the world [pixels]: of the shape that it has in a window of 16 : 9.
 WIDTH, HEIGHT = 1600, 640
-PAPER = (250, 250, 247)
 # Time span of the traces of bodies [s].
 _TRACED = 5.0
 

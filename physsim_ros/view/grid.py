@@ -19,6 +19,7 @@ from __future__ import annotations
 import math
 
 from physsim_ros.model.settings import Bounds
+from physsim_ros.view.colors import INK
 from physsim_ros.view.round_numbers import nice_number
 import rerun as rr
 
@@ -29,7 +30,7 @@ _LEAST = 0.8
 _LABELLED = 5
 # Half the width and height of the grid [units]: twice what the camera shows, in narrow views too.
 _ACROSS, _UP = 32.0, 26.0
-_FAINT, _CLEAR, _INK = (228, 229, 224), (203, 205, 200), (250, 250, 247)
+_FAINT, _CLEAR = (228, 229, 224), (203, 205, 200)
 # Distance of the labels from the lower edge of the area: they hang below their points [units].
 _ABOVE = 0.7
 
@@ -79,9 +80,7 @@ def grid_columns(
 
 def send_style(recording: rr.RecordingStream) -> None:
     """Log the style of the labels."""
-    style = rr.Points3D.from_fields(
-        colors=[_INK], radii=rr.Radius.ui_points(0.0), show_labels=True
-    )
+    style = rr.Points3D.from_fields(colors=[INK], radii=rr.Radius.ui_points(0.0), show_labels=True)
     recording.log(LABELS, style, static=True)
 
 

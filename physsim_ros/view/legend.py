@@ -20,6 +20,7 @@ import itertools
 
 import numpy as np
 from physsim_ros.view.camera import PIXELS
+from physsim_ros.view.colors import INK
 from physsim_ros.view.contact_arrows import COLOR, ForceScale
 from physsim_ros.view.frame_batch import FrameBatch
 from physsim_ros.view.joint_glyphs import full_scale_force, PULL, PUSH, SLATE
@@ -33,7 +34,6 @@ _ARROW_AT, _BAR_AT = (300.0, 14.0), (620.0, 14.0)
 _HALF, _COLORS = 100.0, 11
 # Distance of labels from the arrow and the bar [pixels].
 _BELOW = 6.0
-_INK = (250, 250, 247)
 
 
 class Legend:
@@ -46,7 +46,7 @@ class Legend:
     def __init__(self, recording: rr.RecordingStream) -> None:
         self._recording = recording
         style = rr.Points2D.from_fields(
-            colors=[_INK], radii=rr.Radius.ui_points(0.0), show_labels=True
+            colors=[INK], radii=rr.Radius.ui_points(0.0), show_labels=True
         )
         recording.log(_LABELS, style, static=True)
         arrow = rr.Arrows2D.from_fields(colors=[COLOR], radii=rr.Radius.ui_points(1.2))

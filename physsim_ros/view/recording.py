@@ -126,13 +126,10 @@ class FrameRecorder:
 
     def _draw_batch(self, batch: FrameBatch, context: FrameContext) -> None:
         bodies = self._geometry
-        repeat = batch.numbers.start >= self._due
+        repeat = due = batch.numbers.start >= self._due
         if bodies is None or batch.scene is not bodies.scene:
-            bodies = self._change_scene(batch)
-            self._send_geometry(batch, bodies, everything=repeat)
-            moved = np.ones(len(batch.scene.bodies), dtype=bool)
-        elif repeat:
-            self._send_geometry(batch, bodies, everything=True)
+            bodies, due = self._change_scene(batch), True
+        if due:
             moved = np.ones(len(batch.scene.bodies), dtype=bool)
         else:
             moved = (batch.poses != self._poses).any(axis=(0, 2))
@@ -140,7 +137,10 @@ class FrameRecorder:
             self._due = batch.numbers.start + REPEAT
         self._poses = batch.poses[-1]
         unit = bodies.unit
+        # Before the meshes: a viewer that draws in between shows no body at the origin.
         self._bodies.send_poses(bodies.groups, batch.poses, batch.times, moved)
+        if due:
+            self._send_geometry(batch, bodies, everything=repeat)
         self._joints.send(batch, moved)
         self._contacts.send(batch, height=_ARROWS * unit)
         send_velocities(self._recording, batch, _ARROWS * unit)

@@ -17,6 +17,7 @@
 from __future__ import annotations
 
 from physsim_ros.model.snapshot import Frame
+from physsim_ros.view.colors import INK
 from physsim_ros.view.frame_batch import FrameBatch
 import rerun as rr
 
@@ -26,7 +27,6 @@ PATH = 'world/camera/status'
 SAMPLE = 6
 # Middle of the upper edge of the words [pixels].
 _AT = (110.0, 6.0)
-_INK = (250, 250, 247)
 
 
 class Status:
@@ -40,7 +40,7 @@ class Status:
         self._recording = recording
         self._words = ''
         style = rr.Points2D.from_fields(
-            positions=[_AT], colors=[_INK], radii=rr.Radius.ui_points(0.0), show_labels=True
+            positions=[_AT], colors=[INK], radii=rr.Radius.ui_points(0.0), show_labels=True
         )
         recording.log(PATH, style, static=True)
 

@@ -25,18 +25,17 @@ from collections import deque
 from enum import Enum
 from pathlib import Path
 import sys
+import threading
 import time
 
 from physsim_ros.model.snapshot import Answer, Frame
-from physsim_ros.view.endpoints import (
-    ClientEndpoint,
-    DEFAULT_URL,
-    FileEndpoint,
-    has_display,
-    ServerEndpoint,
-)
+from physsim_ros.view.endpoints import ClientEndpoint, DEFAULT_URL, has_display, ServerEndpoint
+from physsim_ros.view.file_endpoint import FileEndpoint
 from physsim_ros.view.frame_context import FrameContext
-from physsim_ros.view.sink_worker import ANSWERS, Endpoint, SinkWorker
+from physsim_ros.view.frame_queue import ANSWERS
+from physsim_ros.view.page_endpoint import PageEndpoint, Send
+from physsim_ros.view.sink import Endpoint
+from physsim_ros.view.sink_worker import SinkWorker
 
 # Least time between two openings [s]: each may start a program.
 CHANGE_PERIOD = 1.0
@@ -62,6 +61,9 @@ class Viewer:
         self._window: SinkWorker | None = None
         # Viewers before, which are closing; a frozen one never ends.
         self._closing: list[SinkWorker] = []
+        # Replaced whole, since pages come and go on another thread than frames.
+        self._pages: dict[PageEndpoint, SinkWorker] = {}
+        self._pages_lock = threading.Lock()
         # Mode and URL of the viewer to open next; None where it is open.
         self._wanted: tuple[ViewerMode, str] | None = None
         # Steady time before which nothing is opened [s].
@@ -74,8 +76,13 @@ class Viewer:
         return '; '.join(worker.state for worker in self._workers) or 'none'
 
     @property
+    def failure(self) -> str:
+        """Return why a viewer or file that was asked for has no frames; '' where none is."""
+        return '; '.join(filter(None, (worker.failure for worker in self._workers)))
+
+    @property
     def is_open(self) -> bool:
-        """Whether there is a viewer or a file."""
+        """Whether there is a viewer, a page or a file."""
         return any(worker.is_open for worker in self._workers)
 
     @property
@@ -85,7 +92,8 @@ class Viewer:
 
     @property
     def _workers(self) -> list[SinkWorker]:
-        return [worker for worker in (self._file, self._window) if worker is not None]
+        known = (self._file, self._window, *self._pages.values())
+        return [worker for worker in known if worker is not None]
 
     def open_viewer(self, mode: ViewerMode, url: str = '') -> None:
         """
@@ -110,6 +118,24 @@ class Viewer:
             self._file.end()
         self._file_path = path
         self._file = self._open_sink(FileEndpoint(path, overwrite=True), after=self._file)
+
+    def open_page(self, send: Send) -> PageEndpoint:
+        """
+        Begin a recording for a page in a browser; called on any thread.
+
+        :param send: takes a batch as bytes of an `.rrd` file and the time of its last frame [ns]
+        :return: the page: its `note_shown` asks for the next batch
+        """
+        page = PageEndpoint(send)
+        with self._pages_lock:
+            self._pages = {**self._pages, page: self._open_sink(page)}
+        return page
+
+    def close_page(self, page: PageEndpoint) -> None:
+        """End the recording of a page; called on any thread."""
+        with self._pages_lock:
+            self._pages[page].end()
+            self._pages = {key: each for key, each in self._pages.items() if key is not page}
 
     def show(self, frame: Frame, *, context: FrameContext) -> None:
         """

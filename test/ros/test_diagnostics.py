@@ -160,3 +160,18 @@ def test_what_waits_is_a_warning_that_says_what_to_do(backlog: Backlog, word: st
     (status,) = array.status
     assert status.level == DiagnosticStatus.WARN
     assert word in status.message
+
+
+def test_a_recording_that_has_failed_is_a_warning_until_it_is_opened_again() -> None:
+    meter = FrameStatistics()
+    reports = [
+        meter.report(
+            snapshot_of(), speed=1.0, late_frames=0, viewer='', viewer_failure=why, node='/it'
+        )
+        for why in ('record: failed (no space)', '')
+    ]
+
+    (failed,), (well,) = (each.status for each in reports)
+    assert failed.level == DiagnosticStatus.WARN
+    assert 'no space' in failed.message
+    assert well.level == DiagnosticStatus.OK

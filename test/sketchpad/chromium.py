@@ -36,15 +36,23 @@ bodies:
   - {name: shelf/0, box: {width: 2, height: 0.4}, at: [-4, 3], anchored: true, color: '#2040d0'}
 """
 ARGUMENTS = ['--no-sandbox', '--disable-gpu', '--disable-background-networking']
+# For WebGL without a graphics card.
+SOFTWARE_GL = [
+    '--no-sandbox',
+    '--use-gl=angle',
+    '--use-angle=swiftshader',
+    '--enable-unsafe-swiftshader',
+    '--ignore-gpu-blocklist',
+]
 MILLISECONDS = 1000.0 * PATIENCE
 
 
-def launched_chromium(playwright: Any) -> Any:
+def launched_chromium(playwright: Any, arguments: Sequence[str] = ARGUMENTS) -> Any:
     """Return a browser; where there is none, the test is skipped with that reason."""
     path = shutil.which('chromium') or shutil.which('chromium-browser')
     if path is None:
         pytest.skip('chromium is not installed')
-    return playwright.chromium.launch(executable_path=path, args=ARGUMENTS)
+    return playwright.chromium.launch(executable_path=path, args=list(arguments))
 
 
 def started_world(outside: Outside, **parameters: object) -> tuple[Program, str]:

@@ -20,7 +20,6 @@ import math
 import numpy as np
 from physsim_ros.model.grips import Grip
 from physsim_ros.testing import PhysSim
-from physsim_ros.view import Viewer
 import pytest
 from rclpy.parameter import Parameter
 
@@ -145,19 +144,6 @@ def test_worlds_are_listed_saved_opened_shared_and_uploaded(browser: Browser) ->
     response = browser.fetch('/world', method='POST', body=empty, headers={'Origin': browser.base})
     assert json.loads(response.body)['ok']
     assert physsim.names == ()
-
-
-def test_the_recording_is_a_redirect_where_a_page_shows_it(
-    browser: Browser, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    assert browser.fetch('/rerun/').code == 404
-    address = 'http://127.0.0.1:9090/?url=x'
-    monkeypatch.setattr(Viewer, 'page_address', address)
-    page = browser.open_page()
-    page.until(lambda: page.of_type('welcome'))
-    assert page.of_type('welcome')[0]['rerun'] == '/rerun/'
-    response = browser.fetch('/rerun/')
-    assert (response.code, response.headers['Location']) == (302, address)
 
 
 def test_the_past_of_a_body_is_told(browser: Browser) -> None:

@@ -35,8 +35,9 @@ from physsim_ros.model.scene import Body, Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box
 from physsim_ros.model.snapshot import Answer, Frame, Snapshot
-from physsim_ros.view import endpoints, FrameContext, Viewer, ViewerMode
-from physsim_ros.view.sink_worker import Endpoint, SinkWorker
+from physsim_ros.view import endpoints, file_endpoint, FrameContext, Viewer, ViewerMode
+from physsim_ros.view.sink import Endpoint
+from physsim_ros.view.sink_worker import SinkWorker
 import pytest
 
 from ..rerun_program import free_port, is_open, rerun
@@ -240,13 +241,13 @@ def test_a_file_that_is_no_regular_one_is_refused_and_blocks_nothing(viewers, tm
 def test_a_share_that_does_not_answer_is_told_and_delays_nothing(viewers, tmp_path, monkeypatch):
     monkeypatch.setattr('physsim_ros.view.sink_worker.SILENT_AFTER', 0.1)
     go_on = threading.Event()
-    create = endpoints._create_regular_file  # noqa: SLF001  it stands for the share
+    create = file_endpoint._create_regular_file  # noqa: SLF001  it stands for the share
 
     def late(path):
         assert go_on.wait(PATIENCE)
         return create(path)
 
-    monkeypatch.setattr(endpoints, '_create_regular_file', late)
+    monkeypatch.setattr(file_endpoint, '_create_regular_file', late)
     viewer = viewers(record_file=tmp_path / 'it.rrd')
     events = Events(viewer)
 
@@ -267,10 +268,12 @@ def test_a_recording_that_was_deleted_is_told_once_and_begun_again(viewers, tmp_
     path.unlink()
     assert 'gone' in events.wait_for('record_failed').message
     until(lambda: not viewer.is_open)
+    assert 'the file is gone' in viewer.failure
     viewer.show(frame(10, 'before'), context=CONTEXT)
     assert 'failed (the file is gone' in viewer.state
     viewer.open_viewer(ViewerMode.NONE)
     events.wait_for('')
+    assert viewer.failure == ''
     viewer.show(frame(20, 'after'), context=CONTEXT)
     viewer.close()
 
@@ -536,6 +539,42 @@ def test_where_no_window_can_be_opened_it_becomes_a_page(viewers, monkeypatch):
     viewer = viewers(mode=ViewerMode.AUTO)
 
     assert 'no window could be opened' in Events(viewer).wait_for('viewer_lost').message
+
+
+# Pages
+
+
+def test_a_page_is_sent_the_next_batch_when_it_shows_the_one_before(viewers):
+    viewer, sent = viewers(), []
+    page = viewer.open_page(lambda batch, recorded: sent.append((batch, recorded)))
+    show(viewer, 10)
+    until(lambda: sent)
+
+    # As many as a page of two seconds a frame leaves out.
+    show(viewer, 120, first=10)
+    until(lambda: ' dropped' in viewer.state and ', 0 dropped' not in viewer.state)
+    assert len(sent) == 1
+    page.note_shown(sent[0][1] - 1)
+    assert Events(viewer).wait_for('frames_dropped').code == 'frames_dropped'
+    assert len(sent) == 1
+    page.note_shown(sent[0][1])
+    until(lambda: len(sent) == 2)
+
+    assert sent[1][1] > sent[0][1]
+    viewer.close_page(page)
+    until(lambda: not viewer.is_open)
+
+
+def test_a_page_begins_with_what_is_shown_last(viewers, tmp_path):
+    viewer, sent = viewers(), []
+    show(viewer, 100)
+    page = viewer.open_page(lambda batch, _: sent.append(batch))
+    until(lambda: sent)
+    viewer.close_page(page)
+
+    path = tmp_path / 'page.rrd'
+    path.write_bytes(sent[0])
+    assert rows(path)['/plots/energy'] == 1
 
 
 # Connecting

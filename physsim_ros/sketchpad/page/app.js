@@ -103,11 +103,12 @@ export class App {
 
   #listen() {
     const {connection} = this, gone = find('gone', HTMLElement);
+    connection.on('recording', ({rerun}) => this.#linkRecording(rerun));
     connection.on('welcome', ({settings = {}, rerun, view_only: viewOnly}) => {
       this.viewOnly ||= Boolean(viewOnly);
       document.body.classList.toggle('view', this.viewOnly);
       Object.assign(this.material, settings, {color: settings.draw_color ?? null});
-      Object.assign(this.recording ?? {}, {href: rerun, hidden: !rerun});
+      this.#linkRecording(rerun);
       this.askForParts();
     });
     connection.on('open', () => { gone.hidden = true; });
@@ -126,6 +127,11 @@ export class App {
         if (!this.world.scene.bodies.some((body) => body.name === name)) this.chosen.delete(name);
       }
     });
+  }
+
+  /** @param {string} address of the recording; '' where no viewer serves browsers */
+  #linkRecording(address) {
+    Object.assign(this.recording ?? {}, {href: address, hidden: !address});
   }
 
   /** Ask for the parts of frames that are shown. */

@@ -1,0 +1,186 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+The recording beside the page: the web viewer of Rerun, and the stream that it shows.
+
+Laws: a browser calls no other origin: the viewer's files come through this server, from the
+program that serves them on loopback, and the policy of its page forbids all other hosts. A page is
+sent the next batch of its stream when it shows the one before.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, Protocol, TYPE_CHECKING
+from urllib.parse import urlsplit
+
+from physsim_ros.sketchpad.access import headers_for
+from physsim_ros.sketchpad.handlers import Guarded, TYPES
+from physsim_ros.sketchpad.scene_codec import compact
+from tornado.httpclient import AsyncHTTPClient, HTTPClientError
+from tornado.iostream import StreamClosedError
+from tornado.websocket import WebSocketClosedError, WebSocketHandler
+
+if TYPE_CHECKING:
+    from physsim_ros.sketchpad.server import Server
+
+# Recordings that are watched at once: each has a thread, and logs every frame.
+MOST_RECORDINGS = 4
+# For a file of the viewer, of some 40 MB [s].
+_FILE_TIMEOUT = 60.0
+# Code of closing, RFC 6455, section 7.4.1.
+_POLICY_VIOLATION = 1008
+
+
+class Recordings(Protocol):
+    """The viewer, as this server needs it; pages are what `open_page` returns."""
+
+    @property
+    def page_address(self) -> str:
+        """Return the address of the viewer's own web page on loopback; '' where there is none."""
+
+    def open_page(self, send: Callable[[bytes, int], None]) -> Any:
+        """
+        Begin a recording for a page.
+
+        :param send: takes a batch, and the time of its last frame [ns]; called on any thread
+        :return: the page; its `note_shown` takes the time that the page shows [ns]
+        """
+
+    def close_page(self, page: Any) -> None:
+        """End the recording of a page."""
+
+
+def recording_routes(server: Server, recordings: Recordings) -> list[tuple[str, type, Any]]:
+    """Return the routes below `/rerun/`."""
+    own = {'server': server, 'recordings': recordings}
+    return [
+        ('/rerun/', RecordingPage, own),
+        # Nothing else of the viewer's own server is passed on.
+        (r'/rerun/(re_viewer\.js|re_viewer_bg\.wasm)', ViewerFile, own),
+        ('/rerun/ws', RecordingSocket, own | {'sockets': set()}),
+    ]
+
+
+class _OfRecording(Guarded):
+    """A handler that needs the viewer's web page."""
+
+    def initialize(self, server: Server, recordings: Recordings) -> None:  # type: ignore[override]
+        """Set server and viewer."""
+        super().initialize(server)
+        self.recordings = recordings
+
+    async def prepare(self) -> None:
+        """Refuse a request where the viewer is none for browsers."""
+        await super().prepare()
+        if not self.recordings.page_address:
+            self.refuse(404, 'there is no recording in a browser: set viewer to web')
+
+
+class RecordingPage(_OfRecording):
+    """The page that the viewer runs in."""
+
+    async def get(self) -> None:
+        """Answer with the page, which may compile the viewer's WebAssembly."""
+        policy = headers_for(self.request.host)['Content-Security-Policy']
+        policy = policy.replace("script-src 'self'", "script-src 'self' 'wasm-unsafe-eval'")
+        self.set_header('Content-Security-Policy', policy)
+        self.set_header('Content-Type', TYPES['.html'])
+        self.finish((self.server.page_directory / 'recording.html').read_bytes())
+
+
+class ViewerFile(_OfRecording):
+    """A file of the web viewer, from the program that serves it on this machine."""
+
+    async def get(self, name: str) -> None:
+        """Pass it on, as fast as the browser reads."""
+        port = urlsplit(self.recordings.page_address).port
+        self._found = False
+        self.set_header('Content-Type', TYPES[f'.{name.rpartition(".")[2]}'])
+        try:
+            await AsyncHTTPClient().fetch(
+                f'http://127.0.0.1:{port}/{name}',
+                header_callback=self._note_status,
+                streaming_callback=self._pass_on,
+                request_timeout=_FILE_TIMEOUT,
+            )
+        except StreamClosedError:
+            # The browser has left.
+            return
+        except (HTTPClientError, OSError):
+            self.refuse(502, 'the viewer does not answer; it may be starting')
+        self.finish()
+
+    def _note_status(self, line: str) -> None:
+        if line.startswith('HTTP/'):
+            self._found = line.split()[1] == '200'
+
+    async def _pass_on(self, chunk: bytes) -> None:
+        if self._found:
+            self.write(chunk)
+            await self.flush()
+
+
+class RecordingSocket(_OfRecording, WebSocketHandler):
+    """The stream of a recording to one page, and what that has shown of it."""
+
+    def initialize(  # type: ignore[override]
+        self, server: Server, recordings: Recordings, sockets: set[RecordingSocket]
+    ) -> None:
+        """Set server, viewer and all that are open."""
+        super().initialize(server, recordings)
+        self._sockets = sockets
+        self._page: Any = None
+
+    def check_origin(self, origin: str) -> bool:
+        """Accept the pages of this server."""
+        return self.server.access.allows_origin(origin, self.request.host)
+
+    async def prepare(self) -> None:
+        """Refuse a foreign page, or one too many."""
+        await super().prepare()
+        self.require_origin()
+        if len(self._sockets) >= MOST_RECORDINGS:
+            self.refuse(503, 'there are as many recordings open as there may be')
+
+    def open(self) -> None:  # noqa: A003 - tornado's name
+        """Begin the recording."""
+        self.set_nodelay(True)
+        self._sockets.add(self)
+        self._page = self.recordings.open_page(self._send_soon)
+
+    def on_message(self, message: str | bytes) -> None:
+        """Note which frame the page shows: its time [ns], as digits."""
+        try:
+            self._page.note_shown(int(message[:20]))
+        except ValueError:
+            self.close(_POLICY_VIOLATION, 'not a time')
+
+    def on_close(self) -> None:
+        """End the recording."""
+        if self._page is not None:
+            self._sockets.discard(self)
+            self.recordings.close_page(self._page)
+
+    def _send_soon(self, batch: bytes, recorded: int) -> None:
+        """Send a batch; called on the thread of the recording."""
+        self.server.call_soon(lambda: self._send(batch, recorded))
+
+    def _send(self, batch: bytes, recorded: int) -> None:
+        try:
+            self.write_message(compact({'recorded': recorded}))
+            self.write_message(batch, binary=True)
+        except WebSocketClosedError:
+            return

@@ -1,0 +1,20 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Colours of the picture that more than one of its parts has."""
+
+PAPER = (250, 250, 247)
+# Of words: Rerun draws them on a plate that is light in its light theme and dark in its dark one;
+# the luminance is the geometric mean of both, a contrast of 3.4 on either.
+INK = (60, 116, 186)

@@ -1,0 +1,228 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The recording beside the page: one origin, one batch at a time."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
+import io
+import json
+from pathlib import Path
+import threading
+import time
+from typing import Any
+
+import numpy as np
+from physsim_ros.sketchpad.recording_handlers import MOST_RECORDINGS
+from physsim_ros.view import Viewer
+import pytest
+from tornado.httpclient import HTTPClientError, HTTPRequest
+from tornado.websocket import websocket_connect, WebSocketClientConnection
+
+from .browser import Browser
+from .chromium import launched_chromium, MILLISECONDS, SOFTWARE_GL, started_world
+from ..outside import Outside, PATIENCE
+
+pytest.importorskip('rerun')
+Image = pytest.importorskip('PIL.Image')
+
+# Of two bodies of `started_world`; the tolerance is of levels 0 .. 255.
+COLORS, COLOR_TOLERANCE = ((0xD0, 0x20, 0x20), (0x20, 0xA0, 0x40)), 3
+# Fewer than a body of 1 m has in a small picture.
+SOME_PIXELS = 20
+SCRIPT = 'let wasm_bindgen;\n' * 20_000
+
+
+@pytest.fixture
+def viewer_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Serve a directory as Rerun's own server would."""
+    (tmp_path / 're_viewer.js').write_text(SCRIPT)
+    (tmp_path / 'secret.txt').write_text('secret')
+    handler = partial(SimpleHTTPRequestHandler, directory=str(tmp_path))
+    server = ThreadingHTTPServer(('127.0.0.1', 0), handler)
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    address = f'http://127.0.0.1:{server.server_port}/?url=x'
+    monkeypatch.setattr(Viewer, 'page_address', address)
+    yield
+    server.shutdown()
+    server.server_close()
+
+
+def opened(browser: Browser, **changed: str) -> WebSocketClientConnection:
+    """Open the socket of a recording as its page does."""
+    headers = {'Cookie': browser.cookie, 'Origin': browser.base} | changed
+
+    async def connect() -> WebSocketClientConnection:
+        url = browser.base.replace('http', 'ws') + '/rerun/ws'
+        return await websocket_connect(HTTPRequest(url, headers=headers))
+
+    socket: WebSocketClientConnection = browser.run(connect())
+    return socket
+
+
+def read(browser: Browser, socket: WebSocketClientConnection) -> Any:
+    """Return the next message; None where the socket is closed."""
+
+    async def message() -> str | bytes | None:
+        return await socket.read_message()
+
+    return browser.run(message())
+
+
+def write(browser: Browser, socket: WebSocketClientConnection, text: str) -> None:
+    async def message() -> None:
+        await socket.write_message(text)
+
+    browser.run(message())
+
+
+def test_pages_are_told_when_there_is_a_recording_and_before_there_is_none(
+    browser: Browser, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert browser.fetch('/rerun/').code == 404
+    with pytest.raises(HTTPClientError, match='404'):
+        opened(browser)
+    page = browser.open_page()
+    page.until(lambda: page.of_type('welcome'))
+    assert page.of_type('welcome')[0]['rerun'] == ''
+    monkeypatch.setattr(Viewer, 'page_address', 'http://127.0.0.1:9090/')
+    browser.physsim.run(0.1)
+    page.until(lambda: page.of_type('recording'))
+    assert page.of_type('recording')[0]['rerun'] == '/rerun/'
+
+
+@pytest.mark.usefixtures('viewer_files')
+def test_the_files_of_the_viewer_come_through_this_server_and_none_else(browser: Browser) -> None:
+    page = browser.open_page()
+    page.until(lambda: page.of_type('welcome'))
+    assert page.of_type('welcome')[0]['rerun'] == '/rerun/'
+
+    script = browser.fetch('/rerun/re_viewer.js')
+    assert (script.code, script.body.decode()) == (200, SCRIPT)
+    assert script.headers['Content-Type'].startswith('text/javascript')
+    assert browser.fetch('/rerun/re_viewer_bg.wasm').code == 502
+    for path in ('/rerun/secret.txt', '/rerun/..%2fsecret.txt', '/rerun/re_viewer.js/'):
+        assert browser.fetch(path).code == 404
+
+
+@pytest.mark.usefixtures('viewer_files')
+def test_the_page_of_the_recording_may_call_this_server_only(browser: Browser) -> None:
+    host = browser.base.removeprefix('http://')
+    response = browser.fetch('/rerun/')
+    policy = dict(
+        each.split(' ', 1) for each in response.headers['Content-Security-Policy'].split('; ')
+    )
+    assert response.code == 200
+    assert policy['default-src'] == "'none'"
+    assert policy['connect-src'] == f"'self' ws://{host}"
+    assert policy['script-src'] == "'self' 'wasm-unsafe-eval'"
+    assert 'wasm' not in browser.fetch('/').headers['Content-Security-Policy']
+
+
+@pytest.mark.usefixtures('viewer_files')
+def test_a_recording_is_for_those_who_have_the_token(browser: Browser) -> None:
+    for path in ('/rerun/', '/rerun/re_viewer.js'):
+        assert browser.fetch(path, cookie='').code == 403
+        assert browser.fetch(path, headers={'Host': 'evil.example'}).code == 403
+    for changed in ({'Cookie': ''}, {'Origin': 'http://evil.example'}):
+        with pytest.raises(HTTPClientError, match='403'):
+            opened(browser, **changed)
+    watcher = browser.login_cookie(browser.view_login)
+    assert browser.fetch('/rerun/', cookie=watcher).code == 200
+    opened(browser, Cookie=watcher).close()
+
+
+@pytest.mark.usefixtures('viewer_files')
+def test_a_page_gets_a_recording_of_its_own_batch_by_batch(browser: Browser) -> None:
+    page = browser.open_page()
+    page.ask('spawn', body={'circle': {'radius': 0.5}, 'at': [0, 100]})
+    sockets = [opened(browser) for _ in range(2)]
+    times: list[list[int]] = [[], []]
+    for _ in range(3):
+        browser.physsim.run(0.5)
+        for socket, known in zip(sockets, times, strict=True):
+            known.append(json.loads(read(browser, socket))['recorded'])
+            # An `.rrd` file, or a part of one.
+            assert len(read(browser, socket)) > 100
+            write(browser, socket, str(known[-1]))
+    for known in times:
+        assert known == sorted(set(known))
+    for socket in sockets:
+        socket.close()
+
+
+@pytest.mark.usefixtures('viewer_files')
+def test_recordings_are_few_and_a_page_that_writes_nonsense_is_closed(browser: Browser) -> None:
+    browser.physsim.run(0.1)
+    sockets = [opened(browser) for _ in range(MOST_RECORDINGS)]
+    with pytest.raises(HTTPClientError, match='503'):
+        opened(browser)
+
+    write(browser, sockets[0], 'nonsense')
+    while read(browser, sockets[0]) is not None:
+        # The batch that was on its way.
+        pass
+    assert sockets[0].close_code == 1008
+    sockets[0] = opened(browser)
+
+    for socket in sockets:
+        socket.close()
+
+
+@pytest.fixture(scope='module')
+def chromium() -> Iterator[Any]:
+    """Give a browser that draws without a graphics card."""
+    sync_api = pytest.importorskip('playwright.sync_api', reason='playwright is not installed')
+    with sync_api.sync_playwright() as playwright:
+        browser = launched_chromium(playwright, SOFTWARE_GL)
+        yield browser
+        browser.close()
+
+
+def shows_bodies(page: Any) -> bool:
+    """Return whether the colours of the world's bodies are on a page."""
+    png = page.screenshot(timeout=MILLISECONDS)
+    picture = np.asarray(Image.open(io.BytesIO(png)).convert('RGB')).astype(int)
+    return all(
+        (np.abs(picture - color).max(axis=2) <= COLOR_TOLERANCE).sum() > SOME_PIXELS
+        for color in COLORS
+    )
+
+
+def test_chromium_shows_the_recording_and_calls_no_other_origin(
+    chromium: Any, outside: Outside
+) -> None:
+    _, address = started_world(outside, viewer='web')
+    origin = address.partition('/login')[0]
+    # Few pixels: without a graphics card, they are what takes the time.
+    context = chromium.new_context(viewport={'width': 480, 'height': 360})
+    called: set[str] = set()
+    context.on('request', lambda request: called.add(request.url))
+    sketch = context.new_page()
+    sketch.goto(address)
+    link = sketch.get_by_role('link', name='Rerun')
+    with context.expect_page() as opening:
+        link.click(timeout=MILLISECONDS)
+    recording = opening.value
+
+    deadline = time.monotonic() + PATIENCE
+    while not shows_bodies(recording):
+        assert time.monotonic() < deadline, recording.locator('#status').text_content()
+    # All but what data and blobs hold is asked of this server.
+    foreign = {url for url in called if not url.startswith((origin, 'data:', 'blob:'))}
+    assert foreign == set()
+    context.close()
