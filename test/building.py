@@ -68,6 +68,22 @@ INSIDE = {
     'boxes': (1.0, 0.05),
 }
 
+# A red box of 1 m, as scenes describe bodies.
+PLAIN_BODY = Body(
+    name='box/0',
+    shape=BOX,
+    color=(1.0, 0.0, 0.0, 1.0),
+    mass=None,
+    density=1.0,
+    friction=0.5,
+    elasticity=0.5,
+    anchored=False,
+    kinematic=False,
+    group=0,
+    sensor=False,
+    expires=None,
+)
+
 
 def spawning(
     name: str,

@@ -33,7 +33,20 @@ from physsim_ros.model.requests import Delete
 from physsim_ros.model.shapes import Box, Disc, Shape
 import pymunk
 
-from ..laws.scenes import DT, energy, floor, G, join, NOWHERE, run, simulation, spawn, steps
+from ..laws.scenes import (
+    bar_among_discs,
+    chain,
+    DT,
+    energy,
+    floor,
+    G,
+    join,
+    NOWHERE,
+    run,
+    simulation,
+    spawn,
+    steps,
+)
 from ..worlds import film
 
 # Bodies at rest in the scene of sleeping, how many of them in a column, and steps that are timed.
@@ -81,13 +94,7 @@ def _thin_wall() -> float:
 
 def _fast_bar() -> float:
     """Turn a bar of 4 m at 300 rad/s through 40 discs; return how many it misses."""
-    sim = simulation(gravity=NOWHERE, friction=0.0)
-    spawn(sim, 'bar/0', Box(width=4.0, height=0.05), kinematic=True, spin=300.0)
-    discs = []
-    for number in range(40):
-        angle, far = 0.2 + 2.7 * number / 40, 0.4 + 1.5 * (number * 7 % 40) / 40
-        place = (far * math.cos(angle), far * math.sin(angle), 0.0)
-        discs.append(spawn(sim, f'disc/{number}', Disc(radius=0.03), place))
+    sim, discs = bar_among_discs(300.0)
     hit = np.zeros(40, np.bool_)
     for now in steps(sim, 8):
         hit |= np.hypot(*now.twists[discs, :2].T) > 60.0
@@ -178,12 +185,7 @@ def _pendulum() -> float:
 def _chain() -> float:
     """Let a chain of 50 axles swing for 5 s; return by which share it stretches."""
     sim, count, link = simulation(), 50, 0.2
-    for number in range(count):
-        place = (link * (number + 0.5), 0.0, 0.0)
-        spawn(sim, f'link/{number}', Box(width=link, height=0.05), place, mass=0.1)
-        other = f'link/{number - 1}' if number else 'world'
-        points = [(link * number, 0.0)]
-        join(sim, f'joint/{number}', 'axle', points, a=f'link/{number}', b=other)
+    chain(sim, count, link)
     ends = (now.ends[:, 0] - now.ends[:, 1] for now in steps(sim, 1200))
     return max(float(np.hypot(*gaps.T).sum()) for gaps in ends) / (count * link)
 

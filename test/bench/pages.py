@@ -124,8 +124,8 @@ def ticks(node: PhysSimNode, frames: int) -> list[float]:
     return times
 
 
-def measure(bodies: int) -> None:
-    """Print the rows of a count of bodies."""
+def served_world(bodies: int) -> PhysSimNode:
+    """Return a node that serves its page, with a settled pile of bodies."""
     values = {'viewer': 'none', 'sketchpad': 'serve', 'sketchpad_port': 0, 'speed': 0.0}
     node = PhysSimNode(
         parameter_overrides=[Parameter(name, value=value) for name, value in values.items()]
@@ -133,6 +133,12 @@ def measure(bodies: int) -> None:
     node.get_logger().set_level(LoggingSeverity.WARN)
     fill(node.simulation.world, bodies, settle=SETTLE)
     node.simulation.speed = 1.0
+    return node
+
+
+def measure(bodies: int) -> None:
+    """Print the rows of a count of bodies."""
+    node = served_world(bodies)
     times: dict[int, list[float]] = {count: [] for count in COUNTS}
     cpu: dict[int, float] = dict.fromkeys(COUNTS, 0.0)
     try:
@@ -161,13 +167,7 @@ def measure(bodies: int) -> None:
 
 def measure_strokes(bodies: int) -> None:
     """Print how long it takes from a stroke to its body, and the size of a frame."""
-    values = {'viewer': 'none', 'sketchpad': 'serve', 'sketchpad_port': 0, 'speed': 0.0}
-    node = PhysSimNode(
-        parameter_overrides=[Parameter(name, value=value) for name, value in values.items()]
-    )
-    node.get_logger().set_level(LoggingSeverity.WARN)
-    fill(node.simulation.world, bodies, settle=SETTLE)
-    node.simulation.speed = 1.0
+    node = served_world(bodies)
     clients = Clients(node, 1, STROKES)
     try:
         # A tick a frame; the client is done long before them.

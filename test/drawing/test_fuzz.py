@@ -16,6 +16,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from contextlib import suppress
 import math
 
 from hypothesis import given, settings
@@ -25,7 +27,7 @@ from physsim_ros.drawing.clicks.tools import Tool
 from physsim_ros.drawing.session import DrawingSession
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.model.errors import Refusal
-from physsim_ros.model.requests import Spawn
+from physsim_ros.model.requests import Request, Spawn
 from physsim_ros.model.shapes import Box, Disc
 from physsim_ros.simulation.world import World
 
@@ -37,6 +39,14 @@ frame = st.sampled_from(['', '', '', 'a/0', 'a/1', 'drawn/0', 'nobody/0'])
 action = st.one_of(
     st.tuples(st.sampled_from(Tool), st.none(), st.none()), st.tuples(st.none(), point, frame)
 )
+
+
+def apply_all(world: World, requests: Iterable[Request]) -> None:
+    """Apply requests, of which the world may refuse some, and go on a frame."""
+    for request in requests:
+        with suppress(Refusal):
+            world.apply(request)
+    world.step(4)
 
 
 @settings(max_examples=300, deadline=None)
@@ -64,12 +74,7 @@ def test_any_stroke_is_read_or_refused_and_leaves_the_world_sound(
         return
     assert 0.0 <= reading.confidence <= 1.0
     assert np.isfinite(reading.outline).all()
-    for request in reading.requests:
-        try:
-            world.apply(request)
-        except Refusal:
-            continue
-    world.step(4)
+    apply_all(world, reading.requests)
     assert np.isfinite(world.snapshot().poses).all()
 
 
@@ -93,11 +98,6 @@ def test_any_clicks_are_drawn_or_refused_and_leave_the_world_sound(
             assert world.digest() == before
             continue
         assert bool(step.message) != bool(step.requests)
-        for request in step.requests:
-            try:
-                world.apply(request)
-            except Refusal:
-                continue
-        world.step(4)
+        apply_all(world, step.requests)
     assert np.isfinite(world.snapshot().poses).all()
     assert all(math.isfinite(x) for line in pen.preview.lines for place in line for x in place)

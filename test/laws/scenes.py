@@ -21,7 +21,7 @@ from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.joints import JointKind, JointProperties
 from physsim_ros.model.requests import Configure, Join, Spawn
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Box
+from physsim_ros.model.shapes import Box, Disc
 from physsim_ros.simulation.simulation import Simulation
 
 G = 9.81
@@ -104,6 +104,28 @@ def join(sim, name, kind, points, *, a='', b='', **properties):
     said = JointProperties(**properties)
     kind = JointKind(kind)
     sim.perform(Join(name=name, kind=kind, points=tuple(points), a=a, b=b, properties=said))
+
+
+def chain(sim, count, link):
+    """Hang links of 0.1 kg by axles on each other, the first on the background."""
+    for number in range(count):
+        place = (link * (number + 0.5), 0.0, 0.0)
+        spawn(sim, f'link/{number}', Box(width=link, height=0.05), place, mass=0.1)
+        other = f'link/{number - 1}' if number else 'world'
+        points = [(link * number, 0.0)]
+        join(sim, f'joint/{number}', 'axle', points, a=f'link/{number}', b=other)
+
+
+def bar_among_discs(spin):
+    """Return a world with a bar of 4 m that spins among 40 discs, and their rows."""
+    sim = simulation(gravity=NOWHERE, friction=0.0)
+    spawn(sim, 'bar/0', Box(width=4.0, height=0.05), kinematic=True, spin=spin)
+    discs = []
+    for number in range(40):
+        angle, far = 0.2 + 2.7 * number / 40, 0.4 + 1.5 * (number * 7 % 40) / 40
+        place = (far * math.cos(angle), far * math.sin(angle), 0.0)
+        discs.append(spawn(sim, f'disc/{number}', Disc(radius=0.03), place))
+    return sim, discs
 
 
 def energy(snapshot):

@@ -20,7 +20,7 @@ import numpy as np
 from physsim_ros.model.shapes import Box, Disc
 import pytest
 
-from .scenes import DT, energy, G, join, run, simulation, spawn, steps
+from .scenes import chain, DT, energy, G, join, run, simulation, spawn, steps
 
 AXLE = (0.0, 0.0)
 
@@ -119,12 +119,7 @@ def test_as_many_balls_leave_the_cradle_as_came(report, swung, gap):
 
 def test_a_chain_does_not_stretch(report):
     sim, count, link = simulation(), 50, 0.2
-    for number in range(count):
-        place = (link * (number + 0.5), 0.0, 0.0)
-        spawn(sim, f'link/{number}', Box(width=link, height=0.05), place, mass=0.1)
-        other = f'link/{number - 1}' if number else 'world'
-        points = [(link * number, 0.0)]
-        join(sim, f'joint/{number}', 'axle', points, a=f'link/{number}', b=other)
+    chain(sim, count, link)
 
     for now in steps(sim, 1200):
         gaps = now.ends[:, 0] - now.ends[:, 1]

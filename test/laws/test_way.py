@@ -20,7 +20,7 @@ import numpy as np
 from physsim_ros.model.shapes import Box, Disc
 import pytest
 
-from .scenes import DT, join, NOWHERE, simulation, spawn, steps
+from .scenes import bar_among_discs, DT, join, NOWHERE, simulation, spawn, steps
 
 SECOND = round(1.0 / DT)
 
@@ -113,13 +113,7 @@ def test_the_turn_of_a_wrecking_ball_on_an_axle(report):
 
 @pytest.mark.parametrize('spin', [20.0, 100.0, 300.0])
 def test_a_fast_bar_hits_all_discs(report, spin):
-    sim = simulation(gravity=NOWHERE, friction=0.0)
-    spawn(sim, 'bar/0', Box(width=4.0, height=0.05), kinematic=True, spin=spin)
-    discs = []
-    for number in range(40):
-        angle, far = 0.2 + 2.7 * number / 40, 0.4 + 1.5 * (number * 7 % 40) / 40
-        place = (far * math.cos(angle), far * math.sin(angle), 0.0)
-        discs.append(spawn(sim, f'disc/{number}', Disc(radius=0.03), place))
+    sim, discs = bar_among_discs(spin)
 
     hit = np.zeros(40, np.bool_)
     for snapshot in steps(sim, math.ceil(2 * math.pi / spin / DT) + 2):

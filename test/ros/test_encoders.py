@@ -33,7 +33,7 @@ from geometry_msgs.msg import (
 from hypothesis import given, settings
 from hypothesis import strategies as st
 import numpy as np
-from physsim_ros.model.scene import Body, Scene
+from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon, Triangles
 from physsim_ros.model.snapshot import Answer, Contacts, Frame, Snapshot
@@ -47,6 +47,8 @@ from sensor_msgs.msg import MultiDOFJointState
 from std_msgs.msg import ColorRGBA, Header
 from visualization_msgs.msg import Marker, MarkerArray
 import yaml
+
+from ..building import PLAIN_BODY
 
 # Every shape, and the type, scale and points of the marker that spawns it.
 CORNERS = ((0.0, 0.0), (2.0, 0.0), (0.5, 0.5), (0.0, 2.0))
@@ -69,19 +71,12 @@ SHAPES = (
         CORNERS[1:2],
     ),
 )
-PLAIN = Body(
+PLAIN = replace(
+    PLAIN_BODY,
     name='body/0',
     shape=SHAPES[0][0],
     color=(0.3, 0.5, 0.7, 1.0),
-    mass=None,
-    density=1.0,
-    friction=0.5,
     elasticity=0.25,
-    anchored=False,
-    kinematic=False,
-    group=0,
-    sensor=False,
-    expires=None,
 )
 PLAIN_TEXT = '{density: 1.0, friction: 0.5, elasticity: 0.25}'
 

@@ -23,9 +23,8 @@ import time
 from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import PoseArray
 import numpy as np
-from physsim_ros.model.scene import Body, Scene
+from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Disc
 from physsim_ros.model.snapshot import Answer, Contacts, Frame, Snapshot
 from physsim_ros.ros import encoders
 from physsim_ros.ros.publishers import Publishers
@@ -39,6 +38,8 @@ from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import MultiDOFJointState
 from visualization_msgs.msg import Marker, MarkerArray
+
+from ..building import DISC, PLAIN_BODY
 
 ALL = {
     '/physsim/poses': PoseArray,
@@ -109,23 +110,7 @@ def bench():
 
 
 def scene_of(*names):
-    bodies = tuple(
-        Body(
-            name=name,
-            shape=Disc(radius=0.5),
-            color=(1.0, 0.0, 0.0, 1.0),
-            mass=None,
-            density=1.0,
-            friction=0.5,
-            elasticity=0.5,
-            anchored=False,
-            kinematic=False,
-            group=0,
-            sensor=False,
-            expires=None,
-        )
-        for name in names
-    )
+    bodies = tuple(replace(PLAIN_BODY, name=name, shape=DISC) for name in names)
     return Scene(bodies=bodies, settings=WorldSettings())
 
 

@@ -21,7 +21,7 @@ import math
 
 import numpy as np
 from physsim_ros.model.preview import NO_PREVIEW, Preview
-from physsim_ros.model.scene import Body, Scene
+from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon, Triangles
 from physsim_ros.model.snapshot import Answer, Contacts, Frame, Snapshot
@@ -30,6 +30,8 @@ from physsim_ros.view.frame_context import FrameContext
 from physsim_ros.view.preview_lines import LINGER
 from physsim_ros.view.recording import FrameRecorder, REPEAT
 import pytest
+
+from ..building import PLAIN_BODY
 
 rr = pytest.importorskip('rerun')
 chunk = pytest.importorskip('rerun.chunk')
@@ -44,21 +46,8 @@ TOLERANCE = 2e-6
 
 
 def body(name='box/0', shape=None, color=RED, **changes):
-    plain = Body(
-        name=name,
-        shape=shape or Box(width=2.0, height=1.0),
-        color=color,
-        mass=None,
-        density=1.0,
-        friction=0.5,
-        elasticity=0.5,
-        anchored=False,
-        kinematic=False,
-        group=0,
-        sensor=False,
-        expires=None,
-    )
-    return replace(plain, **changes)
+    shape = shape or Box(width=2.0, height=1.0)
+    return replace(PLAIN_BODY, name=name, shape=shape, color=color, **changes)
 
 
 def scene(*bodies, **settings):

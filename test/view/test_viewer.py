@@ -31,15 +31,15 @@ from urllib.request import urlopen
 import weakref
 
 import numpy as np
-from physsim_ros.model.scene import Body, Scene
+from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Box
 from physsim_ros.model.snapshot import Answer, Frame, Snapshot
 from physsim_ros.view import endpoints, file_endpoint, FrameContext, Viewer, ViewerMode
 from physsim_ros.view.sink import Endpoint
 from physsim_ros.view.sink_worker import SinkWorker
 import pytest
 
+from ..building import PLAIN_BODY
 from ..rerun_program import free_port, is_open, rerun
 
 psutil = pytest.importorskip('psutil')
@@ -52,21 +52,7 @@ pytestmark = pytest.mark.filterwarnings('ignore:RRD file has no footer')
 PATIENCE = 20.0
 
 CONTEXT = FrameContext(real_time_factor=1.0)
-BOX = Body(
-    name='box/0',
-    shape=Box(width=1.0, height=1.0),
-    color=(1.0, 0.0, 0.0, 1.0),
-    mass=None,
-    density=1.0,
-    friction=0.5,
-    elasticity=0.5,
-    anchored=False,
-    kinematic=False,
-    group=0,
-    sensor=False,
-    expires=None,
-)
-SCENE = Scene(bodies=(BOX,), settings=WorldSettings())
+SCENE = Scene(bodies=(PLAIN_BODY,), settings=WorldSettings())
 
 
 def frame(step, *messages):

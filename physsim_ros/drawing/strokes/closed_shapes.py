@@ -21,7 +21,7 @@ polygon along the stroke; one that crosses itself is its outer boundary.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import partial
 import math
@@ -32,6 +32,7 @@ from physsim_ros.drawing.strokes.context import (
     Context,
     DISC,
     Interpretation,
+    Outcome,
     POLYGON,
     RECTANGLE,
 )
@@ -43,7 +44,7 @@ from physsim_ros.drawing.strokes.outer_boundary import outer_boundary
 from physsim_ros.drawing.strokes.polyline import angles, point_of, smoothed, turns, widened
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.shapes import crosses_itself, is_convex, signed_area
-from physsim_ros.model.transform import cross
+from physsim_ros.model.transform import cross, Point
 
 # Of the forms, only this is no meaning too.
 OVAL = 'oval'
@@ -93,20 +94,20 @@ def _shapes(outline: Floats, gap: float) -> Iterator[Hypothesis]:
     sharpness = float(np.sort(np.abs(bend))[-8:].mean() / np.abs(bend).mean())
     ratio = math.log(max(residual, 1e-6) / max(error, 1e-6) / 0.19)
     evidence = ratio + 1.5 * math.log(2.25 / sharpness)
-    round_ = rises(evidence, 0.0, 0.3)
+    circle = rises(evidence, 0.0, 0.3)
     if len(at) >= MANY and is_convex(_counterclockwise(found)):
         # Corners that many and that equal are the samples of a circle that was drawn quickly.
-        round_ = max(round_, falls(error, 0.04, 0.004))
-    edgeless = round_
+        circle = max(circle, falls(error, 0.04, 0.004))
+    edgeless = circle
     sided = (1.0 - edgeless) * falls(residual, 0.022, 0.003)
-    round_ *= _winds_once(outline - center) * falls(error, 0.085, 0.015)
+    circle *= _winds_once(outline - center) * falls(error, 0.085, 0.015)
     circular = rises(aspect, _CIRCULAR, 0.02)
     rim = center + np.array((radius, 0.0))
-    yield Hypothesis(primitive=DISC, weight=round_ * circular, points=np.array((center, rim)))
+    yield Hypothesis(primitive=DISC, weight=circle * circular, points=np.array((center, rim)))
     # A thinner outline is a line, drawn to and fro.
     broad = rises(aspect, 0.02, 0.003)
     ellipse = fitting.ellipse(outline, _OVAL_SIDES)
-    yield Hypothesis(primitive=OVAL, weight=broad * round_ * (1.0 - circular), points=ellipse)
+    yield Hypothesis(primitive=OVAL, weight=broad * circle * (1.0 - circular), points=ellipse)
     # Whatever corners were found: a bent side or a round corner leaves it a rectangle.
     corners, off = fitting.rectangle_of(wide)
     off /= size
@@ -122,7 +123,7 @@ def _shapes(outline: Floats, gap: float) -> Iterator[Hypothesis]:
         found = found if boundary is None else boundary
     sided *= 1.0 - square
     yield Hypothesis(primitive=POLYGON, weight=broad * sided, points=found)
-    free = BLOB * max(1.0 - max(square, round_) - sided, 0.0)
+    free = BLOB * max(1.0 - max(square, circle) - sided, 0.0)
     if free < LEAST:
         return
     along: Floats | None = traced(outline)
@@ -136,27 +137,37 @@ def _shapes(outline: Floats, gap: float) -> Iterator[Hypothesis]:
 def disc_interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[Interpretation]:
     """Yield axle and disc."""
     points = hypothesis.points
-    center, radius = point_of(points[0]), math.dist(*points)
-    share = axle.share_of(center, radius, context)
-    yield axle.interpretation(center, radius, context, weight=hypothesis.weight * share)
-    yield Interpretation(
-        meaning=DISC,
-        weight=hypothesis.weight * (1.0 - share),
-        build=partial(request_builder.disc, points, context),
-    )
+    build = partial(request_builder.disc, points, context)
+    circle = point_of(points[0]), math.dist(*points)
+    yield from _axle_or_body(hypothesis, context, *circle, meaning=DISC, build=build)
 
 
 def oval_interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[Interpretation]:
     """Yield axle and polygon, which is not regularised."""
     points = hypothesis.points
-    center, radius = point_of(points.mean(axis=0)), float(np.hypot(*np.ptp(points, axis=0))) / 3
+    build = partial(request_builder.smooth_polygon, points, context)
+    circle = point_of(points.mean(axis=0)), float(np.hypot(*np.ptp(points, axis=0))) / 3
+    yield from _axle_or_body(hypothesis, context, *circle, meaning=POLYGON, build=build)
+
+
+def _axle_or_body(
+    hypothesis: Hypothesis,
+    context: Context,
+    center: Point,
+    radius: float,
+    *,
+    meaning: str,
+    build: Callable[[], Outcome],
+) -> Iterator[Interpretation]:
+    """
+    Yield an axle and a body, which share the weight of a round outline.
+
+    :param meaning: of the body
+    :param build: returns its outcome
+    """
     share = axle.share_of(center, radius, context)
     yield axle.interpretation(center, radius, context, weight=hypothesis.weight * share)
-    yield Interpretation(
-        meaning=POLYGON,
-        weight=hypothesis.weight * (1.0 - share),
-        build=partial(request_builder.smooth_polygon, points, context),
-    )
+    yield Interpretation(meaning=meaning, weight=hypothesis.weight * (1.0 - share), build=build)
 
 
 def rectangle_interpretations(
