@@ -29,7 +29,7 @@ from typing import NamedTuple
 import numpy as np
 from physsim_ros.engine.batch_io import BatchIO, Ids
 from physsim_ros.engine.body import REST, RigidBody
-from physsim_ros.engine.ccd.safe_moves import safe_depths, turning_radius
+from physsim_ros.engine.ccd.safe_moves import corner_count, safe_depths, turning_radius
 from physsim_ros.engine.islands import flood, Rows
 from physsim_ros.model.arrays import Flags, Floats, Ints
 from physsim_ros.model.joints import JointKind
@@ -57,6 +57,8 @@ class SceneColumns(NamedTuple):
     :ivar solid: (n,) bool: neither anchored nor a sensor
     :ivar safe_depths: (n,) float64: how far it may be entered in a step unseen [m]
     :ivar turning_radii: (n,) float64: how far out its turning counts for continuous collision [m]
+    :ivar corners: (n,) float64: of its pieces, the cost of continuous collision
+    :ivar half_widths: (n,) float64: of the thinnest piece of each body [m]
     :ivar groups: (n,) int64: bodies of one group pass through each other; 0 is none
     :ivar joined: (j, 2) intp: rows of the two bodies of each joint
     :ivar not_colliding: (k, 2) intp: rows of bodies that a joint keeps from colliding
@@ -76,6 +78,8 @@ class SceneColumns(NamedTuple):
     solid: Flags
     safe_depths: Floats
     turning_radii: Floats
+    corners: Floats
+    half_widths: Floats
     groups: Ints
     joined: Rows
     not_colliding: Rows
@@ -231,6 +235,8 @@ def _columns_of(scene: Scene, dt: float) -> SceneColumns:
         solid=~anchored[:-1] & ~sensor,
         safe_depths=safe_depths(bodies),
         turning_radii=np.array([turning_radius(body) for body in bodies]),
+        corners=np.array([corner_count(body) for body in bodies], np.float64),
+        half_widths=np.array([body.shape.form.inner for body in bodies]),
         groups=np.array([body.group for body in bodies], np.int64),
         joined=joined,
         not_colliding=joined[~collide],

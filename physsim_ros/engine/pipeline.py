@@ -20,12 +20,13 @@ The pipeline: one step of the engine, stage by stage in this order.
 3. Mouse joints: the forces of hands are added.
 4. Resting damping: the solver's error is removed from what friction locks in place.
 5. Continuous collision: fast bodies are advanced to where they first touch something.
-6. Joints: the target velocity of constraints is set to the centripetal term.
-7. Pymunk's step: positions, narrow phase, solver, sleeping. In the middle of it: contact
+6. Tight boxes: the engine's broad phase is told where fast bodies will be.
+7. Joints: the target velocity of constraints is set to the centripetal term.
+8. Pymunk's step: positions, narrow phase, solver, sleeping. In the middle of it: contact
    projection as two shapes begin to touch, and impact propagation before the solver runs.
-8. Joints: gaps are closed in positions.
-9. Half-step velocity: free flight is found, and does not fall asleep.
-10. Contact report: impulses are added up.
+9. Joints: gaps are closed in positions.
+10. Half-step velocity: free flight is found, and does not fall asleep.
+11. Contact report: impulses are added up.
 """
 
 from __future__ import annotations
@@ -44,6 +45,7 @@ from physsim_ros.engine.stages.impact_propagation import ImpactPropagation
 from physsim_ros.engine.stages.mouse_joints import MouseJoints
 from physsim_ros.engine.stages.resting_damping import RestingDamping
 from physsim_ros.engine.stages.sleeping import keep_flying_awake
+from physsim_ros.engine.stages.tight_boxes import tighten_boxes
 from physsim_ros.engine.stages.wrenches import Wrenches
 from physsim_ros.engine.step_context import StepContext
 from physsim_ros.engine.warm_start import clear_impulses, ShapeIds
@@ -98,6 +100,7 @@ class Pipeline:
         self.mouse_joints.apply_forces(context)
         self.resting_damping.damp_resting(context)
         self.continuous_collision.clamp_moves(context)
+        tighten_boxes(context)
         self._joints.set_targets(context)
         self._context, self.impact_propagation.table = context, table
         self._engine.step(context.dt)

@@ -256,8 +256,9 @@ class Space:
         self._drop_table()
         self.changes += 1
         rigid.pose = pose
-        rigid.set_twist(twist, self._settings.gravity, self.dt)
+        # At rest: see `stages.tight_boxes`.
         self.bodies.add(rigid)
+        rigid.set_twist(twist, self._settings.gravity, self.dt)
 
     def _take_out(self, rigid: RigidBody) -> None:
         self._drop_table()

@@ -108,6 +108,11 @@ STAGES = (
         ((ContinuousCollision, 'clamp_moves'),),
     ),
     Stage(
+        'tight boxes',
+        (((pipeline, 'tighten_boxes'), _nothing),),
+        ((pipeline, 'tighten_boxes'),),
+    ),
+    Stage(
         'contact projection',
         (((pipeline, 'project_contact'), _nothing),),
         ((pipeline, 'project_contact'),),

@@ -74,12 +74,7 @@ def pairs_in_parts(
         once = (one < other) | ~first[other]
         yield _overlapping(boxes, one[once], other[once])
         return
-    sizes = (boxes[:, 2:] - boxes[:, :2]).max(axis=1, initial=0.0)
-    levels = np.maximum(np.frexp(sizes)[1], _FINEST)
-    centers = (boxes[:, :2] + boxes[:, 2:]) / 2
-    for level in np.unique(levels).tolist():
-        here, finer = levels == level, levels < level
-        cells = np.floor(np.ldexp(centers, -level)).astype(np.int64)
+    for here, finer, cells in _levels(boxes):
         for one, other in _neighbours(cells, np.flatnonzero(first & (here | finer)), here, most):
             # Two of these in one level find each other.
             once = (one < other) | ~(first & here)[other] | ~here[one]
@@ -88,6 +83,38 @@ def pairs_in_parts(
             queries = np.flatnonzero(~first & finer)
             for one, other in _neighbours(cells, queries, first & here, most):
                 yield _overlapping(boxes, other, one)
+
+
+def count_candidates(boxes: Floats, first: Flags, weights: Floats) -> Floats:
+    """
+    Return the summed weights of the boxes near each box, of which some overlap it.
+
+    `pairs_in_parts` compares each box with these; here no pair is listed.
+
+    :param boxes: (n, 4) float64: left, bottom, right, top [m]
+    :param first: (n,) bool: boxes for which it is counted
+    :param weights: (n,) float64
+    :return: (n,) float64; 0 for others
+    """
+    sums = np.zeros(len(boxes))
+    for here, finer, cells in _levels(boxes):
+        for queries, members in ((first & (here | finer), here), (first & here, finer)):
+            asking = np.flatnonzero(queries)
+            rows, ranges_near = _rows_near(cells, asking, members)
+            running = np.append(0.0, np.cumsum(weights[rows]))
+            for start, count in ranges_near:
+                sums[asking] += running[start + count] - running[start]
+    return sums
+
+
+def _levels(boxes: Floats) -> Iterator[tuple[Flags, Flags, Ints]]:
+    """Return (n,) bool the boxes of each level, those of finer levels, and (n, 2) the cells."""
+    sizes = (boxes[:, 2:] - boxes[:, :2]).max(axis=1, initial=0.0)
+    levels = np.maximum(np.frexp(sizes)[1], _FINEST)
+    centers = (boxes[:, :2] + boxes[:, 2:]) / 2
+    for level in np.unique(levels).tolist():
+        cells = np.floor(np.ldexp(centers, -level)).astype(np.int64)
+        yield levels == level, levels < level, cells
 
 
 def _overlapping(boxes: Floats, one: Ints, other: Ints) -> tuple[Ints, Ints]:
@@ -105,15 +132,8 @@ def _neighbours(
 
     :param most: pairs of a part, but for those of one query; None is all
     """
-    keys = cells[:, 1] * _HASH + cells[:, 0]
-    rows = np.flatnonzero(members)
-    rows = rows[np.argsort(keys[rows], kind='stable')]
-    ranked = keys[rows]
-    starts, counts = [], []
-    for side in (-1, 0, 1):
-        middle = (cells[queries, 1] + side) * _HASH + cells[queries, 0]
-        starts.append(np.searchsorted(ranked, middle - 1, 'left'))
-        counts.append(np.searchsorted(ranked, middle + 1, 'right') - starts[-1])
+    rows, near = _rows_near(cells, queries, members)
+    starts, counts = zip(*near, strict=True)
     cuts: list[int] = []
     if most is not None:
         parts = np.cumsum(np.sum(counts, axis=0)) // most
@@ -126,3 +146,22 @@ def _neighbours(
             for start, count in zip(starts, counts, strict=True)
         ]
         yield np.concatenate(ones), np.concatenate(others)
+
+
+def _rows_near(cells: Ints, queries: Ints, members: Flags) -> tuple[Ints, list[tuple[Ints, Ints]]]:
+    """
+    Return the members in the cell of each query and in the eight around it.
+
+    :return: rows of the members by cell; and of each row of three cells, (q,) and (q,) the first
+        place among these and their count
+    """
+    keys = cells[:, 1] * _HASH + cells[:, 0]
+    rows = np.flatnonzero(members)
+    rows = rows[np.argsort(keys[rows], kind='stable')]
+    ranked = keys[rows]
+    near = []
+    for side in (-1, 0, 1):
+        middle = (cells[queries, 1] + side) * _HASH + cells[queries, 0]
+        starts = np.searchsorted(ranked, middle - 1, 'left')
+        near.append((starts, np.searchsorted(ranked, middle + 1, 'right') - starts))
+    return rows, near

@@ -19,10 +19,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from physsim_ros.engine.ccd.time_of_impact import SAFE_SHARE, SLOP
+from physsim_ros.engine.ccd.time_of_impact import ROUND, SAFE_SHARE, SLOP
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.scene import Body
-from physsim_ros.model.shapes import Chain
+from physsim_ros.model.shapes import Chain, Convex
 
 
 def safe_depths(bodies: Sequence[Body]) -> Floats:
@@ -41,3 +41,13 @@ def turning_radius(body: Body) -> float:
     """Return how far out a body's turning counts [m]: a disc covers the same ground anyway."""
     form = body.shape.form
     return 0.0 if form.inner >= form.outer else form.outer
+
+
+def corner_count(body: Body) -> float:
+    """Return the corners of a body's pieces; a round one costs as much as one of `ROUND`."""
+    return float(
+        sum(
+            len(piece.vertices) if isinstance(piece, Convex) else ROUND
+            for piece in body.shape.form.pieces
+        )
+    )

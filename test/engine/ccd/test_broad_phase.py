@@ -21,7 +21,7 @@ import math
 from typing import Any
 
 import numpy as np
-from physsim_ros.engine.ccd import broad_phase, continuous
+from physsim_ros.engine.ccd import broad_phase, impact_islands
 from physsim_ros.model.joints import JointKind, JointProperties
 from physsim_ros.model.requests import Join
 from physsim_ros.model.settings import WorldSettings
@@ -61,13 +61,13 @@ def test_every_pair_of_boxes_that_overlap_is_found_once(
 def swept(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     """Return how many pairs of shapes were advanced, each time that some were."""
     counts: list[int] = []
-    first_impacts = continuous.first_impacts
+    first_impacts = impact_islands.first_impacts
 
     def spy(motions: Any, pairs: Any) -> Any:
         counts.append(len(pairs.skin))
         return first_impacts(motions, pairs)
 
-    monkeypatch.setattr(continuous, 'first_impacts', spy)
+    monkeypatch.setattr(impact_islands, 'first_impacts', spy)
     return counts
 
 

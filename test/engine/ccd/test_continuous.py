@@ -18,8 +18,9 @@ import math
 
 import numpy as np
 from physsim_ros.engine import body as rigid_body
-from physsim_ros.engine.ccd import continuous
-from physsim_ros.engine.ccd.time_of_impact import SLOP
+from physsim_ros.engine.ccd import continuous, impact_islands
+from physsim_ros.engine.ccd.time_of_impact import Motions, Pairs, SLOP
+from physsim_ros.model.arrays import Floats
 from physsim_ros.model.requests import Configure, Spawn
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon
@@ -352,7 +353,7 @@ def test_what_rests_is_not_swept(monkeypatch):
         spawn(sim, f'body/{number}', Box(width=0.9, height=0.9), place)
     run(sim, 1.0)
     swept = []
-    monkeypatch.setattr(continuous, 'overlapping_pairs', lambda *_: swept.append(1))
+    monkeypatch.setattr(continuous, 'ImpactIslands', lambda *_: swept.append(1))
 
     run(sim, 1.0)
 
@@ -394,10 +395,13 @@ def test_sticks_that_spin_through_each_other_end_each_step_after_a_bounded_numbe
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     asked = []
-    first_impacts = continuous.first_impacts
-    monkeypatch.setattr(
-        continuous, 'first_impacts', lambda *given: asked.append(given) or first_impacts(*given)
-    )
+    first_impacts = impact_islands.first_impacts
+
+    def spy(motions: Motions, pairs: Pairs) -> Floats:
+        asked.append(pairs)
+        return first_impacts(motions, pairs)
+
+    monkeypatch.setattr(impact_islands, 'first_impacts', spy)
     sim = simulation(gravity=NOWHERE)
     for number in range(12):
         place = (0.51 * (number % 4), 0.51 * (number // 4), 0.0)
@@ -405,7 +409,7 @@ def test_sticks_that_spin_through_each_other_end_each_step_after_a_bounded_numbe
     for _ in range(8):
         asked.clear()
         sim.world.step(1)
-        assert len(asked) <= continuous.ROUNDS
+        assert len(asked) <= impact_islands.ROUNDS
     assert np.isfinite(sim.world.snapshot().poses).all()
 
 

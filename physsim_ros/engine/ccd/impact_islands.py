@@ -1,0 +1,263 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Islands of bodies that have met in the coming step, and move on as one.
+
+Each round finds the impacts to come, and joins those that meet before anything near them does. The
+two go on with their common momentum and angular momentum, or as the anchored or kinematic body
+that they have met.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+import itertools
+from typing import NamedTuple
+
+import numpy as np
+from physsim_ros.engine.body_table import BodyTable
+from physsim_ros.engine.ccd.broad_phase import boxes_overlap
+from physsim_ros.engine.ccd.standing import Standing
+from physsim_ros.engine.ccd.swept_boxes import SweptBoxes
+from physsim_ros.engine.ccd.time_of_impact import first_impacts, Hull, Motions, Pairs, SLOP
+from physsim_ros.engine.islands import ranges
+from physsim_ros.model.arrays import Flags, Floats, Ints
+import pymunk
+
+# Impacts one after the other in a step that a body takes part in, at most: so many may touch in a
+# row before a wall. The engine's own result holds for what is left.
+ROUNDS = 10
+
+
+class Impact(NamedTuple):
+    """Two rows that meet, and at which share of the step."""
+
+    share: float
+    one: int
+    other: int
+
+
+class ImpactIslands:
+    """
+    Motions of all bodies in one step, from impact to impact.
+
+    A row is a row of the table, then come shapes that never move. Bodies that have
+    met move on as one island: the rows of an island are `members` of its first row. An island that
+    has met an anchored or kinematic body moves as that does, its `leader`.
+    """
+
+    def __init__(
+        self,
+        table: BodyTable,
+        standing: Standing,
+        moves: Floats,
+        hulls_of: Callable[[pymunk.Body], list[Hull]],
+    ) -> None:
+        self._engines = [rigid.engine for rigid in table.bodies]
+        self._columns = columns = table.columns
+        poses = table.state[:, :3]
+        self._standing = standing
+        self._hulls_of = hulls_of
+        count, more = len(poses), len(standing.hulls)
+        self._count = count
+        ending, none = (0, more), (0, 0)
+        self._collides = np.pad(columns.solid, ending, constant_values=True)
+        self._turning = np.pad(columns.turning_radii, ending)
+        self._movable = np.pad(columns.dynamic[:-1], ending)
+        self._places = np.concatenate((np.arange(count), standing.places))
+        # The background, in place -1, is in no group.
+        self._depths = np.append(columns.safe_depths, np.inf)[self._places]
+        self._groups = np.append(columns.groups, 0)[self._places]
+        poses = np.pad(poses, (ending, none))
+        rates = np.pad(np.where(columns.solid[:, None], moves, 0.0), (ending, none))
+        # A turning disc covers the same ground.
+        rates[self._turning == 0.0, 2] = 0.0
+        self._motions = Motions(np.zeros(count + more), poses, poses[:, :2].copy(), rates)
+        self._ends = poses + rates
+        corners = np.concatenate((columns.corners, standing.corners))
+        self._swept = SweptBoxes(self._motions, columns.reach, standing.boxes, corners)
+        self._islands = np.arange(count + more)
+        self._members: dict[int, list[int]] = {}
+        self._leaders: dict[int, int] = {}
+
+    def shifts(self, fast: Flags) -> Iterable[tuple[int, Floats]]:
+        """
+        Return the places of bodies that end elsewhere than in the engine, and by how far.
+
+        :param fast: (m,) bool: bodies that could meet others unseen by the engine
+        :return: rows, and (3,) float64 shifts [m, rad]
+        """
+        impacts: list[Impact] = []
+        changed = np.flatnonzero(fast)
+        for _ in range(ROUNDS):
+            known = set(changed.tolist())
+            impacts = [it for it in impacts if known.isdisjoint((it.one, it.other))]
+            impacts += self._impacts(changed)
+            if not impacts:
+                break
+            changed = self._resolve(sorted(impacts))
+        rows = np.array(sorted(itertools.chain.from_iterable(self._members.values())), np.int64)
+        ends, _ = self._motions.poses_at(rows, np.ones(len(rows)))
+        shifts = ends - self._ends[rows]
+        shifts[self._turning[rows] == 0.0, 2] = 0.0
+        return zip(rows.tolist(), shifts, strict=True)
+
+    def _impacts(self, changed: Ints) -> list[Impact]:
+        """Return the impacts to come of rows whose motions have changed."""
+        found = [self._approaching(*part) for part in self._swept.candidates(changed)]
+        one, other, depth = (np.concatenate(column) for column in zip(*found, strict=True))
+        if not len(one):
+            return []
+        rows, places = np.unique(np.stack((one, other)), return_inverse=True)
+        hulls = [self._hulls(row) for row in rows.tolist()]
+        counts = np.array([len(each) for each in hulls])
+        firsts, (a, b) = np.cumsum(counts) - counts, places.reshape(2, -1)
+        # Each shape of one with each of the other.
+        products = counts[a] * counts[b]
+        pairs, number = np.repeat(np.arange(len(one)), products), ranges(0 * products, products)
+        a, b = a[pairs], b[pairs]
+        shapes = firsts[a] + number // counts[b], firsts[b] + number % counts[b]
+        flat = list(itertools.chain.from_iterable(hulls))
+        radii = np.array([each.radius for each in flat])
+        radii = radii[shapes[0]] + radii[shapes[1]]
+        skin = np.minimum(SLOP, depth[pairs])
+        skin = np.where(radii > 0.0, np.minimum(skin, radii / 2), skin)
+        shares = first_impacts(
+            self._motions, Pairs((one[pairs], other[pairs]), flat, shapes, skin, depth[pairs])
+        )
+        earliest = np.full(len(one), np.inf)
+        np.minimum.at(earliest, pairs, shares)
+        return [
+            Impact(float(earliest[pair]), int(one[pair]), int(other[pair]))
+            for pair in np.flatnonzero(np.isfinite(earliest)).tolist()
+        ]
+
+    def _approaching(self, one: Ints, other: Ints) -> tuple[Ints, Ints, Floats]:
+        """Return the pairs that come near by more than their safe depth, and that depth [m]."""
+        keep = self._collide(one, other)
+        one, other = one[keep], other[keep]
+        depth = np.minimum(self._depths[one], self._depths[other])
+        keep = self._approach(one, other) > depth
+        one, other, depth = one[keep], other[keep], depth[keep]
+        keep = self._swept.come_near(one, other)
+        return one[keep], other[keep], depth[keep]
+
+    def _hulls(self, row: int) -> list[Hull]:
+        if row >= self._count:
+            return [self._standing.hulls[row - self._count]]
+        return self._hulls_of(self._engines[row])
+
+    def _collide(self, one: Ints, other: Ints) -> Flags:
+        """Tell which pairs do not pass through each other, and are not one island yet."""
+        groups = self._groups
+        found: Flags = self._collides[one] & self._collides[other]
+        found &= self._movable[one] | self._movable[other]
+        found &= self._islands[one] != self._islands[other]
+        found &= (groups[one] == 0) | (groups[one] != groups[other])
+        left = np.flatnonzero(found)
+        apart = self._columns.not_colliding
+        if len(apart) and len(left):
+            keys = np.concatenate((apart, apart[:, ::-1])) @ (self._count, 1)
+            places = self._places[one[left]], self._places[other[left]]
+            found[left] = ~np.isin(places[0] * self._count + places[1], keys)
+        return found
+
+    def _approach(self, one: Ints, other: Ints) -> Floats:
+        """Return (p,) by how far two bodies approach in the rest of the step, at most [m]."""
+        length = np.hypot(*(self._velocities(one) - self._velocities(other)).T)
+        turns = np.abs(self._motions.rates[:, 2])
+        length += turns[one] * self._turning[one] + turns[other] * self._turning[other]
+        since = np.maximum(self._motions.since[one], self._motions.since[other])
+        approach: Floats = length * (1.0 - since)
+        return approach
+
+    def _velocities(self, rows: Ints) -> Floats:
+        """Return (k, 2) the velocities of centres of mass where motions begin [m a step]."""
+        rates = self._motions.rates[rows]
+        arms = self._motions.poses[rows, :2] - self._motions.pivots[rows]
+        return rates[:, :2] + rates[:, 2:] * np.column_stack((-arms[:, 1], arms[:, 0]))
+
+    def _resolve(self, impacts: list[Impact]) -> Ints:
+        """Join those that meet before anything near them does; return rows that move otherwise."""
+        changed: list[int] = []
+        boxes = self._swept.boxes
+        passed, count = np.empty_like(boxes), 0
+        for impact in impacts:
+            rows = [
+                member
+                for row in impact[1:]
+                if self._movable[row]
+                for member in self._members.get(int(self._islands[row]), [row])
+            ]
+            # After an earlier impact nearby this one may not take place.
+            if not boxes_overlap(boxes[rows][:, None], passed[:count]).any():
+                passed[count : count + len(rows)] = boxes[rows]
+                count += len(rows)
+                changed += self._join(impact)
+        return np.array(changed, np.int64)
+
+    def _join(self, impact: Impact) -> list[int]:
+        """Let the islands of two rows go on as one; return the rows whose motions change."""
+        rows: list[int] = []
+        leaders: list[int] = []
+        for row in impact[1:]:
+            island = int(self._islands[row])
+            if self._movable[row]:
+                rows += self._members.pop(island, [row])
+                if island in self._leaders:
+                    leaders.append(self._leaders.pop(island))
+            else:
+                leaders.append(row)
+        members = np.array(rows, np.int64)
+        shares = np.full(len(rows), impact.share)
+        motions = self._motions
+        poses, pivots = motions.poses_at(members, shares)
+        if leaders:
+            # Anchored bodies come last, and hold what a kinematic one pushes against them.
+            leader = max(leaders)
+            _, (pivot,) = motions.poses_at(np.array([leader]), shares[:1])
+            rate = motions.rates[leader]
+            self._leaders[rows[0]] = leader
+        else:
+            pivot, rate = self._common_motion(members, poses, pivots)
+        motions.since[members] = impact.share
+        motions.poses[members] = poses
+        motions.pivots[members] = pivot
+        motions.rates[members] = rate
+        self._members[rows[0]] = rows
+        self._islands[members] = rows[0]
+        self._swept.fit_boxes(members)
+        return rows
+
+    def _common_motion(self, rows: Ints, poses: Floats, pivots: Floats) -> tuple[Floats, Floats]:
+        """
+        Return how bodies go on as one, with the momentum and angular momentum that they have.
+
+        :return: (2,) their centre of mass [m], and (3,) its way and their turn in a step [m, rad]
+        """
+        engines = [self._engines[row] for row in rows.tolist()]
+        mass = np.array([engine.mass for engine in engines])
+        moment = np.array([engine.moment for engine in engines])
+        moment[self._turning[rows] == 0.0] = 0.0
+        rates = self._motions.rates[rows]
+        arms = poses[:, :2] - pivots
+        ways = rates[:, :2] + rates[:, 2:] * np.column_stack((-arms[:, 1], arms[:, 0]))
+        center, way = mass @ poses[:, :2] / mass.sum(), mass @ ways / mass.sum()
+        arms = poses[:, :2] - center
+        momentum = mass[:, None] * (ways - way)
+        angular = moment @ rates[:, 2]
+        angular += (arms[:, 0] * momentum[:, 1] - arms[:, 1] * momentum[:, 0]).sum()
+        total = moment.sum() + mass @ (arms**2).sum(axis=1)
+        return center, np.array([*way, angular / total if total > 0.0 else 0.0])

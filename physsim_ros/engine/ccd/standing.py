@@ -1,0 +1,64 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Shapes that never move, as continuous collision sees them."""
+
+from __future__ import annotations
+
+from typing import cast, NamedTuple
+
+import numpy as np
+from physsim_ros.engine.body_table import BodyTable
+from physsim_ros.engine.ccd.time_of_impact import Hull, hull, ROUND
+from physsim_ros.model.arrays import Floats, Ints
+from physsim_ros.model.transform import turned
+import pymunk
+
+
+class Standing(NamedTuple):
+    """
+    Shapes that never move.
+
+    :ivar hulls: in the world
+    :ivar boxes: (s, 4) float64: left, bottom, right, top [m]
+    :ivar places: (s,) int64: of their bodies in the listing; -1 is the background
+    """
+
+    hulls: list[Hull]
+    boxes: Floats
+    places: Ints
+
+    @property
+    def corners(self) -> Floats:
+        """Return (s,) float64: corners of each, the cost of continuous collision."""
+        return np.array([max(len(each.corners), ROUND) for each in self.hulls], np.float64)
+
+
+def standing_shapes(space: pymunk.Space, table: BodyTable) -> Standing:
+    """Return all shapes that never move, but sensors."""
+    shapes = [(shape, -1) for shape in space.static_body.shapes]
+    for row, rigid in enumerate(table.bodies):
+        if rigid.body.anchored and not rigid.body.sensor:
+            shapes += [(shape, row) for shape in rigid.engine.shapes]
+    hulls = []
+    for shape, _ in shapes:
+        body, local = cast('pymunk.Body', shape.body), hull(shape)
+        corners = turned(local.corners, np.array(body.angle)) + np.array(body.position)
+        normals = turned(local.normals, np.array(body.angle))
+        hulls.append(Hull(corners, normals, local.radius, 0.0))
+    return Standing(
+        hulls=hulls,
+        boxes=np.array([tuple(shape.bb) for shape, _ in shapes], np.float64).reshape(-1, 4),
+        places=np.array([place for _, place in shapes], np.int64),
+    )

@@ -1,0 +1,51 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Fast bodies take no more memory of the engine's broad phase than slow ones."""
+
+from __future__ import annotations
+
+from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.shapes import Disc
+from physsim_ros.simulation.world import World
+import pytest
+
+from ...building import spawn
+
+psutil = pytest.importorskip('psutil')
+
+NOWHERE = WorldSettings(gravity=(0.0, 0.0))
+
+
+def test_a_crowd_of_fast_bodies_is_not_paired_with_all_of_itself() -> None:
+    world = World(settings=NOWHERE)
+    process = psutil.Process()
+    before = process.memory_info().rss
+    for number in range(3000):
+        place = (float(number % 55), float(number // 55), 0.0)
+        # 20 km/s in all directions; sensors have no continuous collision.
+        velocity = (2e4 * (-1) ** number, 1e4 * (number % 7 - 3))
+        spawn(world, f'body/{number}', Disc(radius=0.1), place, velocity=velocity, sensor=True)
+    world.step(2)
+    # All pairs of them take 140 MB.
+    assert process.memory_info().rss - before < 60e6
+
+
+def test_what_is_indexed_ahead_moves_to_the_bit_as_if_it_were_not() -> None:
+    world = World(settings=NOWHERE)
+    spawn(world, 'body/0', Disc(radius=0.1), (0.1, 0.2, 0.3), velocity=(1e3, 333.3), spin=7.7)
+    world.step(1)
+    state = world.save().bodies[0].motion
+    assert state is not None
+    assert state[:3] == (0.1 + 1e3 * world.dt, 0.2 + 333.3 * world.dt, 0.3 + 7.7 * world.dt)
