@@ -203,8 +203,8 @@ class ImpactIslands:
             ]
             # After an earlier impact nearby this one may not take place.
             if not boxes_overlap(boxes[rows][:, None], passed[:count]).any():
-                passed[count : count + len(rows)] = boxes[rows]
-                count += len(rows)
+                end = count + len(rows)
+                passed[count:end], count = boxes[rows], end
                 changed += self._join(impact)
         return np.array(changed, np.int64)
 

@@ -63,7 +63,7 @@ class SweptBoxes:
         self._reach = reach
         self._corners = corners
         self._horizons = np.ones(len(corners))
-        self.boxes = np.concatenate((np.empty((count, 4)), standing))
+        self.boxes = np.concatenate((np.zeros((count, 4)), standing))
         # (n + s, 2) float64: centres at the beginning of a motion and at its horizon, and how far
         # a body is from the straight line between them at most.
         self._starts = (self.boxes[:, :2] + self.boxes[:, 2:]) / 2
