@@ -39,7 +39,7 @@ from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.ccd.continuous import ContinuousCollision
 from physsim_ros.engine.contacts.contact_report import ContactReport
 from physsim_ros.engine.joints.joint_set import JointSet
-from physsim_ros.engine.stages.contact_projection import project_contact
+from physsim_ros.engine.stages.contact_projection import contact_at_impact, project_contact
 from physsim_ros.engine.stages.half_step import HalfStep
 from physsim_ros.engine.stages.impact_propagation import ImpactPropagation
 from physsim_ros.engine.stages.mouse_joints import MouseJoints
@@ -96,7 +96,7 @@ class Pipeline:
         if unsupported.any():
             rows = np.flatnonzero(unsupported).tolist()
             clear_impulses(self._shapes, [table.bodies[row] for row in rows])
-        context.twists = table.state[:, 3:].copy()
+        context.poses, context.twists = np.split(table.state.copy(), [3], axis=1)
         self.mouse_joints.apply_forces(context)
         self.resting_damping.damp_resting(context)
         self.continuous_collision.clamp_moves(context)
@@ -122,7 +122,7 @@ class Pipeline:
         """Handle two shapes that begin to touch, before the solver runs."""
         if self._context is None:
             return
-        contact = arbiter.contact_point_set
+        contact = contact_at_impact(arbiter, self._context)
         project_contact(arbiter, contact, space)
         if self._context.watching:
             self.contact_report.add_first_touch(arbiter, contact)

@@ -88,6 +88,33 @@ def test_bodies_that_meet_head_on_keep_momentum_and_energy(
     report.check(3, f'{what}, energy', end.kinetic_energy, start.kinetic_energy - lost, 1e-6, 'J')
 
 
+@pytest.mark.parametrize('elasticity', ELASTICITIES)
+@pytest.mark.parametrize('speed', [0.7, 3.0, 9.0])
+@pytest.mark.parametrize('cut', [-60, -20, 0, 30, 45])
+def test_discs_part_along_their_line_of_centres(report, cut, speed, elasticity):
+    radii, masses = (0.03, 0.05), (0.2, 0.3)
+    normal = turned((1.0, 0.0), math.radians(cut))
+    drift = np.array((0.3, -0.2))
+    # The impact comes after 0.2 s and a share of a step, wherever in it.
+    for share in (0.1, 0.4, 0.9):
+        sim = simulation(gravity=NOWHERE, elasticity=elasticity, friction=0.0)
+        start = -normal * sum(radii) - np.array((speed, 0.0)) * (0.2 + share * DT)
+        velocities = drift + np.array((speed, 0.0)), drift
+        for name, radius, mass, place, velocity in zip(
+            'ab', radii, masses, (start, np.zeros(2)), velocities, strict=True
+        ):
+            pose = (*place.tolist(), 0.0)
+            spawn(sim, f'{name}/0', Disc(radius=radius), pose, mass=mass, velocity=tuple(velocity))
+
+        end = run(sim, 0.5)
+
+        impulse = (1 + elasticity) * speed * normal[0] / sum(1 / mass for mass in masses) * normal
+        exact = velocities[0] - impulse / masses[0], velocities[1] + impulse / masses[1]
+        for twist, velocity in zip(end.twists, exact, strict=True):
+            off = math.dist(twist[:2], velocity) / speed
+            report.check(6, 'discs, oblique, velocity', off, 0.0, 1e-6, 'speeds')
+
+
 @pytest.mark.parametrize('side', HEADINGS)
 @pytest.mark.parametrize('elasticity', ELASTICITIES)
 @pytest.mark.parametrize('angle', [0, 15, 30, 45, 60, 75, -45])
