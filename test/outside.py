@@ -172,6 +172,7 @@ class Outside:
             'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
             'FASTRTPS_DEFAULT_PROFILES_FILE': str(profiles),
             'ROS_LOG_DIR': str(directory),
+            'XDG_STATE_HOME': str(directory),
             'PYTHONUNBUFFERED': '1',
         }
 

@@ -29,8 +29,14 @@ import secrets
 import socket
 from urllib.parse import urlsplit
 
+from physsim_ros.sketchpad.cookie_key import cookie_key
+from tornado.web import create_signed_value, decode_signed_value
+
 # Random bytes of a token: not to be guessed.
 _TOKEN_BYTES = 24
+# For which a page stays logged in after its last visit [days]: a class of one day need not type
+# the address again.
+_SESSION = 1.0
 # Of every answer. The sources of `connect-src` are those of this server; browsers before 2022 do
 # not count web sockets as such.
 _POLICY = (
@@ -52,9 +58,15 @@ class Access:
     The tokens of one server, and the checks of its requests.
 
     :param address: that the server listens on
+    :param port: that the server listens on
+
+    :ivar tokens: of this run, by role
+    :ivar cookie: name of the cookie, with the port: a host's cookies are shared by all its ports
     """
 
-    def __init__(self, address: str) -> None:
+    def __init__(self, address: str, port: int) -> None:
+        self.cookie = f'physsim_{port}'
+        self._key = cookie_key()
         self.tokens = {role: secrets.token_urlsafe(_TOKEN_BYTES) for role in Role}
         name = socket.gethostname().lower()
         # A name of this machine, as its owner spells it; a foreign page cannot have it as host.
@@ -68,6 +80,15 @@ class Access:
             if hmac.compare_digest(given, known.encode()):
                 return role
         return None
+
+    def session(self, role: Role) -> bytes:
+        """Return the value of the cookie for a role, signed."""
+        return create_signed_value(self._key, self.cookie, role.value)
+
+    def role_of_session(self, value: str) -> Role | None:
+        """Return the role of a cookie's value; None where it is forged, or too old."""
+        role = decode_signed_value(self._key, self.cookie, value, max_age_days=_SESSION)
+        return None if role is None else Role(role.decode())
 
     def allows_host(self, host: str) -> bool:
         """Tell whether a Host header names this machine: by an address, or by its own name."""

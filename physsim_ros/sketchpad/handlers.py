@@ -71,9 +71,21 @@ class Guarded(RequestHandler):
         """Refuse a foreign host, and a request without the cookie."""
         if not self.server.access.allows_host(self.request.host):
             self.refuse(403, 'this name is not one of this machine')
-        self.role = self.server.access.role_of(self.get_cookie(self.server.cookie) or '')
+        access = self.server.access
+        self.role = access.role_of_session(self.get_cookie(access.cookie) or '')
         if self.needs_cookie and self.role is None:
             self.refuse(403, 'open the address that the node has printed: it holds the token')
+
+    def set_session(self, role: Role) -> None:
+        """Set the cookie of a role."""
+        access = self.server.access
+        self.set_cookie(
+            access.cookie,
+            access.session(role),
+            expires_days=None,
+            httponly=True,
+            samesite='Strict',
+        )
 
     def require_origin(self) -> None:
         """Refuse a request that no page of this server has made."""
@@ -109,9 +121,7 @@ class Login(Guarded):
         role = self.server.access.role_of(token)
         if role is None:
             self.refuse(403, 'this token is wrong, or of a world that has ended')
-        self.set_cookie(
-            self.server.cookie, token, expires_days=None, httponly=True, samesite='Strict'
-        )
+        self.set_session(role)
         shows_only = role is Role.VIEW or 'view' in self.request.arguments
         self.redirect('/?view' if shows_only else '/')
 
@@ -121,6 +131,9 @@ class Page(Guarded):
 
     async def get(self) -> None:
         """Answer with the page."""
+        if self.role is not None:
+            # Visited again, so that its time begins anew.
+            self.set_session(self.role)
         self.set_header('Content-Type', TYPES['.html'])
         self.finish((self.server.page_directory / 'index.html').read_bytes())
 

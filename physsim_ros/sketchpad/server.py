@@ -103,7 +103,6 @@ class Server:
         inbox: Inbox,
         wake: Callable[[], None],
     ) -> None:
-        self.access = Access(address)
         self.page_directory = PAGE
         self.world_dir = world_dir
         self._recordings = recordings
@@ -112,8 +111,7 @@ class Server:
         self._wake = wake
         self._sockets = _listening_sockets(address, port)
         self.port: int = self._sockets[0].getsockname()[1]
-        # Cookies are shared by all ports of a host, so their name tells two worlds apart.
-        self.cookie = f'physsim_{self.port}'
+        self.access = Access(address, self.port)
         self._pages: dict[int, PageSocket] = {}
         self.wants_contacts = False
         self._last_number = 0

@@ -24,6 +24,7 @@ from .browser import Browser
 @pytest.fixture
 def browser(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Browser]:
     """Give clients of the page of a world, whose time the test advances."""
+    monkeypatch.setenv('XDG_STATE_HOME', str(tmp_path))
     values = {'world_dir': str(tmp_path), 'sketchpad': 'serve', 'sketchpad_port': 0}
     with own_context(monkeypatch) as context, PhysSim(context, **values) as physsim:
         browser = Browser(physsim)

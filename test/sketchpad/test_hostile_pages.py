@@ -90,7 +90,7 @@ def test_a_foreign_name_of_this_machine_is_refused(browser: Browser) -> None:
     ],
 )
 def test_only_addresses_and_names_of_this_machine_are_hosts(host: str, *, allowed: bool) -> None:
-    assert Access('127.0.0.1').allows_host(host) is allowed
+    assert Access('127.0.0.1', 8765).allows_host(host) is allowed
 
 
 def test_a_foreign_origin_opens_no_socket_and_uploads_nothing(browser: Browser) -> None:
@@ -287,7 +287,7 @@ def test_one_page_too_many_is_refused(browser: Browser) -> None:
 
 
 def test_roles_have_tokens_of_their_own() -> None:
-    access = Access('127.0.0.1')
+    access = Access('127.0.0.1', 8765)
     assert [access.role_of(access.tokens[role]) for role in Role] == list(Role)
     assert access.role_of('') is None
     assert access.role_of('ü\ud800') is None

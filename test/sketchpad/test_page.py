@@ -371,7 +371,7 @@ def test_the_page_comes_back_when_its_socket_was_cut(chromium: Any, address: str
     sheet.close()
 
 
-def test_the_page_says_that_the_server_is_gone_and_that_another_has_another_token(
+def test_the_page_says_that_the_server_is_gone_and_comes_back_with_it(
     chromium: Any, outside: Outside
 ) -> None:
     world, first = started_world(outside, sketchpad_port=8790)
@@ -380,7 +380,19 @@ def test_the_page_says_that_the_server_is_gone_and_that_another_has_another_toke
     world.interrupt()
     alert = sheet.page.get_by_role('alert')
     alert.get_by_text('gone').wait_for()
+    # What is drawn meanwhile is not lost in silence.
+    sheet.drag(*circle(1.0, 5.0, 0.8))
+    sheet.page.locator('.note.refusal').get_by_text('Not done').wait_for()
     port = re.search(r':(\d+)/', first)[1]
+    world, _ = started_world(outside, sketchpad_port=port)
+    alert.wait_for(state='hidden')
+    assert sheet.page.get_by_role('status').inner_text() == 'Connected again'
+    before = sheet.names()
+    sheet.drag(*circle(1.0, 5.0, 0.8))
+    sheet.wait_for_new(before)
+    world.interrupt()
+    # Of another user, or a year ago.
+    (outside.directory / 'physsim_ros' / 'cookie_key').unlink()
     started_world(outside, sketchpad_port=port)
     alert.get_by_text('Wrong token').wait_for()
     sheet.context.close()

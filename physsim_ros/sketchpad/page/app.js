@@ -111,12 +111,16 @@ export class App {
       this.#linkRecording(rerun);
       this.askForParts();
     });
-    connection.on('open', () => { gone.hidden = true; });
+    connection.on('open', () => {
+      if (!gone.hidden) this.notes.say('Connected again');
+      gone.hidden = true;
+    });
     connection.on('closed', (status) => {
       gone.hidden = false;
       gone.textContent = status === 401 || status === 403 ?
         'Wrong token: open the address that the node printed.' :
-        status ? 'The server refused this page; trying again …' : 'The server is gone; trying again …';
+        status ? 'The server refused this page; trying again …' :
+          'The server is gone. This page comes back with it.';
       this.tool.cancel();
     });
     connection.on('frame', () => {

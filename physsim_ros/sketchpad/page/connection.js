@@ -18,7 +18,7 @@ export class Connection {
   }
 
   /**
-   * @param {string} type of messages: one of the protocol, or frame, open, closed
+   * @param {string} type of messages: one of the protocol, or frame, open, closed, unsent
    * @param {(message: any) => void} listener
    */
   on(type, listener) {
@@ -43,7 +43,10 @@ export class Connection {
    * @returns {string} the id of the request; '' where nobody hears it
    */
   send(type, fields = {}) {
-    if (this.socket?.readyState !== WebSocket.OPEN) return '';
+    if (this.socket?.readyState !== WebSocket.OPEN) {
+      this.#emit('unsent', type);
+      return '';
+    }
     const id = String(++this.number);
     this.socket.send(JSON.stringify({id, type, ...fields}));
     return id;

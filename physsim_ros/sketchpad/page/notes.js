@@ -4,6 +4,7 @@
 import {find, make} from './dom.js';
 
 const SHOWN = 4000, READ = 6000; // ms: an answer, a note
+const QUIET = ['show', 'watch', 'move', 'let_go', 'drop']; // messages that are no deed of the reader
 
 export class Notes {
   /** @param {import('./app.js').App} app */
@@ -14,19 +15,29 @@ export class Notes {
     /** @type {Map<HTMLElement, import('./wire.js').Point>} */
     this.pinned = new Map();
     this.timer = 0;
+    this.dismiss = () => {}; // the last refusal
     this.until = 0; // [ms] until then an answer to this page stays
     app.view.overlays.push(() => this.#place());
     app.connection.on('answer', (answer) => this.#tell(answer));
+    app.connection.on('unsent', (type) => QUIET.includes(type) || this.#refuse('Not done: the server is gone'));
   }
 
   /** @param {import('./wire.js').Answer} answer */
   #tell({request, ok, code, message, at}) {
     const own = request !== '';
     if (!own && performance.now() < this.until) return;
-    this.say(message, {ok, quiet: !own});
-    if (own && !ok && code !== 'not_recognised') {
-      this.pin(at ?? this.app.lastAt, [message], {kind: 'refusal'});
-    }
+    if (own && !ok && code !== 'not_recognised') this.#refuse(message, at);
+    else this.say(message, {ok, quiet: !own});
+  }
+
+  /**
+   * @param {string} reason
+   * @param {import('./wire.js').Point} at [m]
+   */
+  #refuse(reason, at = this.app.lastAt) {
+    this.say(reason, {ok: false});
+    this.dismiss();
+    this.dismiss = this.pin(at, [reason], {kind: 'refusal'});
   }
 
   /**

@@ -23,6 +23,11 @@ export class WorldState {
     this.rate = 60; // frames a second of simulation
     this.version = 0; // of all that is drawn
     connection.on('welcome', (welcome) => { this.rate = welcome.rate; });
+    connection.on('open', () => {
+      // Another server counts anew.
+      this.ghostScene = {epoch: 0, bodies: []};
+      this.ghost = null;
+    });
     connection.on('scene', (scene) => { this.scene = scene; this.version++; });
     connection.on('timeline', (timeline) => { this.timeline = timeline; this.version++; });
     connection.on('ghost', (ghost) => {

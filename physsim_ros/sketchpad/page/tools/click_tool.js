@@ -73,7 +73,8 @@ export class ClickTool {
       Math.hypot(touch.page[0] - points[0].page[0], touch.page[1] - points[0].page[1]) < CLOSE;
     this.request = app.connection.send('click',
       {tool: this.id, point: closing ? points[0].at : touch.at});
-    points.push(touch);
+    if (this.request) points.push(touch);
+    else this.points = [];
     if (closing || touch === points[0] && points.length > 1 || points.length >= this.clicks) {
       this.points = [];
     }

@@ -1,0 +1,82 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+The key that signs the cookies of pages: kept in the user's state directory.
+
+Law: a page that was logged in is still so after a restart of the node, without its token; tokens
+themselves are kept nowhere.
+"""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+import secrets
+import stat
+
+# Of the key [bytes], as long as the digest of SHA-256, by which tornado signs.
+_LENGTH = 32
+_NAME = 'cookie_key'
+
+
+def cookie_key() -> bytes:
+    """Return the user's key, made where there is none; a passing one where it cannot be kept."""
+    directory = _state_directory()
+    try:
+        directory.mkdir(mode=0o700, parents=True, exist_ok=True)
+        return _read(directory / _NAME) or _make(directory / _NAME)
+    except OSError:
+        # Without the file, pages log in again after a restart.
+        return secrets.token_bytes(_LENGTH)
+
+
+def _state_directory() -> Path:
+    """Return the package's directory after the XDG Base Directory Specification."""
+    base = os.environ.get('XDG_STATE_HOME', '')
+    # A relative path there is invalid, and to be ignored.
+    home = Path(base) if Path(base).is_absolute() else Path.home() / '.local' / 'state'
+    return home / 'physsim_ros'
+
+
+def _read(path: Path) -> bytes:
+    """
+    Return the key of a file; empty where another user could know it, or where it is none.
+
+    :raises OSError: it cannot be read
+    """
+    try:
+        descriptor = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC)
+    except FileNotFoundError:
+        return b''
+    with os.fdopen(descriptor, 'rb') as file:
+        status = os.fstat(file.fileno())
+        private = status.st_uid == os.getuid() and not stat.S_IMODE(status.st_mode) & 0o077
+        key = file.read(_LENGTH + 1) if stat.S_ISREG(status.st_mode) and private else b''
+    return key if len(key) == _LENGTH else b''
+
+
+def _make(path: Path) -> bytes:
+    """
+    Write a new key, whole or not at all, in place of what is there.
+
+    :raises OSError: it cannot be written
+    """
+    key = secrets.token_bytes(_LENGTH)
+    temporary = path.with_name(f'.{secrets.token_hex(8)}.tmp')
+    descriptor = os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, 0o600)
+    with os.fdopen(descriptor, 'wb') as file:
+        file.write(key)
+    temporary.replace(path)
+    return key
