@@ -41,16 +41,23 @@ class Refusal(PhysSimError):
     :param message: one sentence: the refused value and the reason
     :param field: the offending field of the request, '' if it is the whole request
     :param values: further pairs of key and value for the event
+    :param body: name of the body for which it is refused, where the request does not name it
     """
 
     code = 'refused'
 
     def __init__(
-        self, message: str, *, field: str = '', values: tuple[tuple[str, str], ...] = ()
+        self,
+        message: str,
+        *,
+        field: str = '',
+        values: tuple[tuple[str, str], ...] = (),
+        body: str = '',
     ) -> None:
         super().__init__(message)
         self.field = abbreviated(field)
         self.values = values
+        self.body = body
 
 
 class Malformed(Refusal):

@@ -220,13 +220,14 @@ class Answer:
         :param field: the only field of the request; '' if it has several
         :param asker: key of the message that asked
         """
+        body = [('body', shown_name(refusal.body))] if refusal.body else []
         return cls(
             topic=topic,
             subject=shown_name(subject),
             message=str(refusal),
             code=refusal.code,
             field=refusal.field if refusal.field == _FRAME or not field else field,
-            values=refusal.values,
+            values=(*refusal.values, *body),
             asker=asker,
         )
 

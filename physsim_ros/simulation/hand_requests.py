@@ -42,7 +42,8 @@ def grab_body(space: Space, request: Grab, point: Point) -> tuple[str, str]:
     if not names:
         x, y = point
         why = 'the body there cannot be moved' if under else 'there is no body'
-        raise NothingThere(f'{why} at ({x:g}, {y:g})', field='mouse_point')
+        message = f'{why} at ({x:g}, {y:g})'
+        raise NothingThere(message, field='mouse_point', body=under[0] if under else '')
     name = names[0]
     x, y, yaw = space.bodies.by_name[name].pose
     anchor = rotated((point[0] - x, point[1] - y), -yaw)

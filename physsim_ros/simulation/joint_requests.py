@@ -181,14 +181,15 @@ def _members(
 def _check_members(space: Space, kind: JointKind, a: str, b: str) -> None:
     """Refuse a joint of a body with itself, or of two that forces do not move."""
     if a == b:
-        raise BadProperty(f'{a} cannot be joined to itself', field='b')
+        raise BadProperty(f'{a} cannot be joined to itself', field='b', body=a)
     bodies = [space.bodies.by_name[name].body for name in (a, b) if name != WORLD]
     if all(body.fixed for body in bodies):
         fixed = ' and '.join(
             f'{body.name} is {"anchored" if body.anchored else "kinematic"}' for body in bodies
         )
         other = '' if len(bodies) == 2 else ', and so is the background'
-        raise Anchored(f'{fixed}{other}; there is nothing for the {kind} to hold', field='a')
+        message = f'{fixed}{other}; there is nothing for the {kind} to hold'
+        raise Anchored(message, field='a', body=bodies[0].name if bodies else '')
 
 
 def _seat(

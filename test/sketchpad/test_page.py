@@ -235,6 +235,18 @@ def test_a_refusal_stands_at_its_place(sheet: Sheet) -> None:
     assert abs(box['x'] + box['width'] / 2 - x) < 5
     assert 0 < y - box['y'] - box['height'] < 40
     assert sheet.page.get_by_role('status').inner_text() == note.inner_text()
+    # A rod from the shelf to the background begins at the shelf, whose fault it is.
+    sheet.press('Rod')
+    sheet.drag((-4.0, 3.0), (4.0, 7.0))
+    note.get_by_text('shelf/0 is anchored').wait_for()
+    box = note.bounding_box()
+    x, y = sheet.place(-4.0, 3.2)
+    assert abs(box['x'] + box['width'] / 2 - x) < 5
+    assert 0 < y - box['y'] - box['height'] < 40
+    # What has no place is said, and no more.
+    sheet.press('Redo')
+    sheet.page.get_by_role('status').get_by_text('nothing to redo').wait_for()
+    assert note.count() == 0
 
 
 def test_a_world_is_saved_and_opened_from_the_gallery(sheet: Sheet) -> None:

@@ -194,7 +194,7 @@ def velocity(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettin
     """Set the velocity of a body: the body, then the tip of an arrow from there, 1 m for 1 m/s."""
     name = clicks[0].hit_body(scene)
     if scene.body(name).anchored:
-        raise Anchored(f'{name} is anchored; it has no velocity', field='point')
+        raise Anchored(f'{name} is anchored; it has no velocity', field='point', body=name)
     if len(clicks) < 2:
         return _next_click(f'the arrow begins on {name}', 'its tip, 1 m for 1 m/s')
     tail, tip = _points(clicks)

@@ -16,6 +16,7 @@ import {Keyboard} from './keyboard.js';
 import {Notes} from './notes.js';
 import {Pointers} from './pointer.js';
 import {Readings} from './readings.js';
+import {Refusals} from './refusals.js';
 import {SceneView} from './scene_view.js';
 import {switchTheme} from './theme.js';
 import {TimeBar} from './time_bar.js';
@@ -44,8 +45,6 @@ export class App {
     this.chosen = new Set();
     /** @type {Record<string, any>} of what is drawn next */
     this.material = {density: 1, friction: 0.5, elasticity: 0.5};
-    /** @type {import('./wire.js').Point} where the tool was used last */
-    this.lastAt = [0, 0];
     this.arrows = {velocities: false, contacts: false, forces: true};
     /** @type {Map<string, () => void>} what is to be sent with the next frame of the page */
     this.soon = new Map();
@@ -59,6 +58,7 @@ export class App {
     this.view.overlays.push((view) => this.#drawChosen(view));
     this.cursor = new Cursor(this);
     this.notes = new Notes(this);
+    this.refusals = new Refusals(this);
     this.readings = new Readings(this);
     this.panel = new BodyPanel(this);
     this.time = new TimeBar(this);

@@ -18,7 +18,7 @@ export class Connection {
   }
 
   /**
-   * @param {string} type of messages: one of the protocol, or frame, open, closed, unsent
+   * @param {string} type of messages: one of the protocol, or frame, open, closed, sent, unsent
    * @param {(message: any) => void} listener
    */
   on(type, listener) {
@@ -44,12 +44,13 @@ export class Connection {
    */
   send(type, fields = {}) {
     if (this.socket?.readyState !== WebSocket.OPEN) {
-      this.#emit('unsent', type);
+      this.#emit('unsent', {type, ...fields});
       return '';
     }
-    const id = String(++this.number);
-    this.socket.send(JSON.stringify({id, type, ...fields}));
-    return id;
+    const message = {id: String(++this.number), type, ...fields};
+    this.socket.send(JSON.stringify(message));
+    this.#emit('sent', message);
+    return message.id;
   }
 
   /**

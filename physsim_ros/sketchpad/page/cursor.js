@@ -49,7 +49,6 @@ export class Cursor {
       this.move(0, 0, false);
       return;
     }
-    app.lastAt = this.touch.at;
     if (!this.pressed) app.tool.down(this.touch);
     if (this.pressed || app.tool.clicks) app.tool.up(this.touch);
     this.pressed = !this.pressed && !app.tool.clicks;

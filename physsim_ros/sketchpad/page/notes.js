@@ -4,7 +4,6 @@
 import {find, make} from './dom.js';
 
 const SHOWN = 4000, READ = 6000; // ms: an answer, a note
-const QUIET = ['show', 'watch', 'move', 'let_go', 'drop']; // messages that are no deed of the reader
 
 export class Notes {
   /** @param {import('./app.js').App} app */
@@ -12,32 +11,19 @@ export class Notes {
     this.app = app;
     this.status = find('status', HTMLElement);
     this.places = find('places', HTMLElement);
-    /** @type {Map<HTMLElement, import('./wire.js').Point>} */
+    /** @type {Map<HTMLElement, () => ?import('./wire.js').Point>} */
     this.pinned = new Map();
     this.timer = 0;
-    this.dismiss = () => {}; // the last refusal
     this.until = 0; // [ms] until then an answer to this page stays
     app.view.overlays.push(() => this.#place());
     app.connection.on('answer', (answer) => this.#tell(answer));
-    app.connection.on('unsent', (type) => QUIET.includes(type) || this.#refuse('Not done: the server is gone'));
   }
 
   /** @param {import('./wire.js').Answer} answer */
-  #tell({request, ok, code, message, at}) {
+  #tell({request, ok, message}) {
     const own = request !== '';
     if (!own && performance.now() < this.until) return;
-    if (own && !ok && code !== 'not_recognised') this.#refuse(message, at);
-    else this.say(message, {ok, quiet: !own});
-  }
-
-  /**
-   * @param {string} reason
-   * @param {import('./wire.js').Point} at [m]
-   */
-  #refuse(reason, at = this.app.lastAt) {
-    this.say(reason, {ok: false});
-    this.dismiss();
-    this.dismiss = this.pin(at, [reason], {kind: 'refusal'});
+    this.say(message, {ok, quiet: !own});
   }
 
   /**
@@ -53,7 +39,7 @@ export class Notes {
   }
 
   /**
-   * @param {import('./wire.js').Point} at [m]
+   * @param {() => ?import('./wire.js').Point} at [m], or null where that is gone
    * @param {(Node | string)[]} content
    * @param {{kind?: string, shown?: number}} how  shown: for how long [ms]; 0 is until it is taken away
    * @returns {() => void} takes it away
@@ -74,7 +60,9 @@ export class Notes {
   #place() {
     const {camera} = this.app;
     for (const [note, at] of this.pinned) {
-      const [x, y] = camera.toPage(...at), half = note.offsetWidth / 2 + 8;
+      const place = at();
+      if (!place) continue;
+      const [x, y] = camera.toPage(...place), half = note.offsetWidth / 2 + 8;
       const left = Math.min(Math.max(x, half), Math.max(camera.width - half, half));
       const top = Math.min(Math.max(y, note.offsetHeight + 70), camera.height - 120);
       note.style.transform = `translate(${left}px, ${top}px) translate(-50%, calc(-100% - 14px))`;

@@ -53,7 +53,6 @@ export class Pointers {
       (this.stylus && event.pointerType === 'touch');
     if (this.down.size === 1 && !moves) {
       this.working = event.pointerId;
-      app.lastAt = this.#touch(event).at;
       app.tool.down(this.#touch(event));
     } else if (this.down.size > 1 && this.working >= 0 && !app.tool.turns) {
       app.tool.cancel();
@@ -68,7 +67,6 @@ export class Pointers {
     if (event.pointerId === this.working) {
       const parts = event.getCoalescedEvents?.() ?? [];
       for (const part of parts.length ? parts : [event]) app.tool.move(this.#touch(part));
-      app.lastAt = this.#touch(event).at;
     } else if (before) this.#moveView(event, before);
     else {
       app.tool.move(this.#touch(event));

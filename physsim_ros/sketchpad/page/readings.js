@@ -45,7 +45,7 @@ export class Readings {
       this.#forget(request);
       const other = runner_up && runner_up_confidence > LIKELY ?
         [this.#choice(`or ${runner_up}`, runner_up_confidence, request, '')] : [];
-      this.dismiss = this.app.notes.pin(at, [say(meaning, confidence), ...other],
+      this.dismiss = this.app.notes.pin(() => at, [say(meaning, confidence), ...other],
         other.length ? {} : {shown: GLANCED});
       return;
     }
@@ -53,7 +53,7 @@ export class Readings {
     const close = make('button', {type: 'button', 'aria-label': 'Forget the stroke', textContent: '×',
       onclick: () => this.dismiss()});
     const words = choices.length ? 'Not sure. Is it' : 'Not recognised';
-    const remove = this.app.notes.pin(at, [words, ...choices, close], {shown: 0});
+    const remove = this.app.notes.pin(() => at, [words, ...choices, close], {shown: 0});
     this.dismiss = () => {
       remove();
       this.#forget(request);

@@ -17,7 +17,7 @@
  *   undo: string, redo: string, speed: number, courses?: Course[]}} Timeline */
 /** @typedef {{request: string, ok: boolean, code: string, message: string, subject: string,
  *   topic: string,
- *   values: Record<string, string>, at?: Point}} Answer */
+ *   values: Record<string, string>}} Answer */
 /** @typedef {{request: string, meaning: string, confidence: number, runner_up: string,
  *   runner_up_confidence: number, guesses: [string, number][], outline: Point[],
  *   built: boolean}} Reading of a stroke */

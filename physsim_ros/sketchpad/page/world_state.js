@@ -73,6 +73,17 @@ export class WorldState {
   }
 
   /**
+   * @param {string} name of a body
+   * @returns {?Point} its highest point [m]; null where there is none of that name
+   */
+  topOf(name) {
+    const row = this.row(name);
+    if (row < 0) return null;
+    const [x, y] = this.place(row, this.scene.bodies[row].centroid);
+    return [x, Math.max(y, ...spanOf(this.scene.bodies[row].shape).map((point) => this.place(row, point)[1]))];
+  }
+
+  /**
    * @param {Point} point [m]
    * @param {number} slop how far beside a body counts [m]
    * @returns {number} the row of the topmost body there; -1 where there is none

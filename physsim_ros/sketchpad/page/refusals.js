@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+/** Refusals at their places: at the body that the answer names, or where the request was made. */
+
+/** @typedef {import('./wire.js').Point} Point */
+/** @typedef {{point: ?Point, names: string[]}} Place of a request: a point [m], or bodies */
+
+const KEPT = 50; // requests whose places are known
+const SHAKEN = 400, OUTLINED = 2500; // ms for which a body shakes, and has an outline
+const SWING = 3, PERIOD = 100; // px and ms of the shaking
+/** Messages that are no deed of the reader. */
+const QUIET = ['show', 'watch', 'move', 'let_go', 'drop'];
+
+export class Refusals {
+  /** @param {import('./app.js').App} app */
+  constructor(app) {
+    this.app = app;
+    /** @type {Map<string, Place>} by request */
+    this.places = new Map();
+    /** @type {Map<string, number>} bodies, and when they were refused [ms] */
+    this.bodies = new Map();
+    this.dismiss = () => {};
+    this.moves = matchMedia('(prefers-reduced-motion: no-preference)');
+    const {connection} = app;
+    connection.on('sent', (message) => this.#note(message));
+    connection.on('unsent', (message) => {
+      if (!QUIET.includes(message.type)) this.#show('Not done: the server is gone', placeOf(message));
+    });
+    connection.on('answer', ({request, ok, code, message, subject, values}) => {
+      if (ok || code === 'not_recognised' || request === '') return;
+      const place = this.places.get(request) ?? {point: null, names: []};
+      const name = values.body ?? subject;
+      this.#show(message, name ? {...place, names: [name]} : place);
+    });
+    app.view.overlays.push((view) => this.#draw(view));
+  }
+
+  /** @param {any} message */
+  #note(message) {
+    if (QUIET.includes(message.type)) return;
+    this.places.set(message.id, placeOf(message));
+    if (this.places.size > KEPT) this.places.delete(this.places.keys().next().value ?? '');
+  }
+
+  /**
+   * @param {string} reason
+   * @param {Place} place
+   */
+  #show(reason, {point, names}) {
+    const {app} = this, {world} = app;
+    app.notes.say(reason, {ok: false});
+    this.dismiss();
+    const known = names.filter((name) => world.row(name) >= 0);
+    for (const name of known) this.bodies.set(name, performance.now());
+    app.view.dirty = true;
+    if (known.length) this.dismiss = app.notes.pin(() => world.topOf(known[0]), [reason], {kind: 'refusal'});
+    else if (point) this.dismiss = app.notes.pin(() => point, [reason], {kind: 'refusal'});
+  }
+
+  /** @param {import('./scene_view.js').SceneView} view */
+  #draw(view) {
+    const now = performance.now();
+    for (const [name, since] of this.bodies) {
+      const row = this.app.world.row(name), age = now - since;
+      if (age > OUTLINED || row < 0) this.bodies.delete(name);
+      else {
+        const swing = this.moves.matches && age < SHAKEN ?
+          SWING * Math.sin(2 * Math.PI * age / PERIOD) / this.app.camera.scale : 0;
+        view.outline(row, view.palette.warn, [swing, 0]);
+      }
+      view.dirty = true;
+    }
+  }
+}
+
+/**
+ * @param {any} message of the page
+ * @returns {Place}
+ */
+function placeOf({point = null, points = [], name, names}) {
+  const highest = points.reduce((/** @type {Point} */ top, /** @type {number[]} */ [x, y]) =>
+    y > top[1] ? [x, y] : top, [0, -Infinity]);
+  return {point: points.length ? highest : point, names: names ?? (name ? [name] : [])};
+}
