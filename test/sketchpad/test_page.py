@@ -166,6 +166,27 @@ def test_the_past_is_gone_to_by_the_slider_and_acting_there_starts_another_cours
     assert sheet.pose(name) == pytest.approx(fallen, abs=1e-6)
 
 
+def test_drawing_in_a_world_that_runs_back_stops_it_there(sheet: Sheet) -> None:
+    sheet.press('Play')
+    sheet.wait('physsim.time > 1')
+    sheet.press('Rewind')
+    sheet.wait('physsim.speed === -1')
+    before = sheet.names()
+    sheet.drag(*circle(0.0, 5.0, 0.8))
+    sheet.wait_for_new(before)
+    assert sheet.page.evaluate('physsim.speed === 0 && physsim.time > 0')
+
+
+def test_a_polygon_is_closed_by_the_enter_key(sheet: Sheet) -> None:
+    before = sheet.names()
+    sheet.press('Polygon')
+    for point in ((1.0, 5.0), (2.0, 5.0), (2.0, 6.0)):
+        sheet.page.mouse.click(*sheet.place(*point))
+    sheet.page.keyboard.press('Enter')
+    x, y, _ = sheet.pose(sheet.wait_for_new(before))
+    assert math.dist((x, y), (5 / 3, 16 / 3)) < 0.1
+
+
 def test_undo_takes_back_what_was_drawn_and_redo_draws_it_again(sheet: Sheet) -> None:
     before = sheet.names()
     sheet.press('Circle')

@@ -28,7 +28,7 @@ import {WorldState} from './world_state.js';
 /**
  * @typedef {{down(touch: Touch): void, move(touch: Touch): void, up(touch: Touch): void, cancel(): void,
  *   draw(view: SceneView): void, turns?: boolean, turn?(angle: number): void, clicks?: number,
- *   finish?(): void, aims?: 'accent' | 'warn'}} Tool
+ *   finish?(): boolean, aims?: 'accent' | 'warn'}} Tool
  *   clicks: of a gesture, where it is made by clicks; aims: colour of the body that it is pointed at
  */
 
@@ -74,6 +74,7 @@ export class App {
     this.#listen();
     this.connection.connect();
     setInterval(() => this.#listBodies(), LIST_EVERY);
+    this.#followSizes();
   }
 
   #fillTop() {
@@ -136,6 +137,17 @@ export class App {
   /** @param {string} address of the recording; '' where no viewer serves browsers */
   #linkRecording(address) {
     Object.assign(this.recording ?? {}, {href: address, hidden: !address});
+  }
+
+  /** Keep the tools of a narrow page above its bar, and the world in a window that changes. */
+  #followSizes() {
+    const bar = find('bar', HTMLElement);
+    const sizes = new ResizeObserver(() => {
+      document.documentElement.style.setProperty('--bar', `${bar.offsetHeight}px`);
+      if (this.camera.fitted) this.frame();
+    });
+    sizes.observe(bar);
+    sizes.observe(this.view.canvas);
   }
 
   /** Ask for the parts of frames that are shown. */

@@ -10,6 +10,7 @@ export class Camera {
     this.x = this.y = 0; // the middle of the page [m]
     this.scale = 60; // px/m
     this.width = this.height = 1; // of the page [px]
+    this.fitted = false; // nobody has moved the view since
   }
 
   /** @returns {boolean} whether tools and panel lie below */
@@ -40,6 +41,7 @@ export class Camera {
    * @param {number} dy [px]
    */
   pan(dx, dy) {
+    this.fitted = false;
     this.x -= dx / this.scale;
     this.y += dy / this.scale;
   }
@@ -50,6 +52,7 @@ export class Camera {
    * @param {number} factor
    */
   zoom(px, py, factor) {
+    this.fitted = false;
     const [x, y] = this.toWorld(px, py);
     this.scale = Math.min(Math.max(this.scale * factor, LEAST_SCALE), GREATEST_SCALE);
     const [nowX, nowY] = this.toWorld(px, py);
@@ -66,6 +69,7 @@ export class Camera {
     const height = this.height - insets.top - insets.bottom;
     this.scale = Math.max(Math.min(width / Math.max(xmax - xmin, LEAST_SPAN),
       height / Math.max(ymax - ymin, LEAST_SPAN)), LEAST_SCALE);
+    this.fitted = true;
     this.x = (xmin + xmax) / 2 + (insets.right - insets.left) / 2 / this.scale;
     this.y = (ymin + ymax) / 2 + (insets.top - insets.bottom) / 2 / this.scale;
   }

@@ -49,6 +49,7 @@ export class Cursor {
       this.move(0, 0, false);
       return;
     }
+    app.time.endRewind();
     if (!this.pressed) app.tool.down(this.touch);
     if (this.pressed || app.tool.clicks) app.tool.up(this.touch);
     this.pressed = !this.pressed && !app.tool.clicks;

@@ -60,8 +60,7 @@ export class Keyboard {
       if (!event.repeat) this.since = event.timeStamp;
       app.pointers.space = true;
     } else if (key === 'Enter' && !button) {
-      if (app.cursor.shown || target === app.view.canvas) app.cursor.press();
-      else app.tool.finish?.();
+      if (app.cursor.shown || !app.tool.finish?.()) app.cursor.press();
     } else if (key in ARROWS && !button) {
       app.cursor.move(...ARROWS[key], event.shiftKey);
     } else if (key in this.keys) {

@@ -53,6 +53,7 @@ export class Pointers {
       (this.stylus && event.pointerType === 'touch');
     if (this.down.size === 1 && !moves) {
       this.working = event.pointerId;
+      app.time.endRewind();
       app.tool.down(this.#touch(event));
     } else if (this.down.size > 1 && this.working >= 0 && !app.tool.turns) {
       app.tool.cancel();

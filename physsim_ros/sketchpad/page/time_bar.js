@@ -56,6 +56,11 @@ export class TimeBar {
     this.call(this.app.world.paused ? 'play' : 'pause');
   }
 
+  /** Pause a world that runs back, so that what is done in it is not taken back at once. */
+  endRewind() {
+    if (this.app.world.frame.speed < 0) this.call('pause');
+  }
+
   #slide() {
     if (!this.app.world.paused) this.call('pause');
     this.wanted = Number(this.slider.value);

@@ -62,9 +62,14 @@ export class ClickTool {
     this.waits = false;
   }
 
-  /** Close an open polygon. */
+  /**
+   * Close an open polygon.
+   * @returns {boolean} whether there was one
+   */
   finish() {
-    if (this.id === 'polygon' && this.points.length > 2) this.#click(this.points[0]);
+    const open = this.id === 'polygon' && this.points.length > 2;
+    if (open) this.#click(this.points[0]);
+    return open;
   }
 
   /** @param {Touch} touch */
