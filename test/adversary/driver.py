@@ -27,6 +27,7 @@ from nav_msgs.msg import Path
 from physsim_ros.model.requests import Spawn
 from physsim_ros.model.shapes import Box, Compound, Disc
 from physsim_ros.ros.qos_safe_node import NodeWithoutQosEvents
+from physsim_ros.sketchpad.messages import ACTIONS
 from rcl_interfaces.msg import Parameter as ParameterMessage
 from rcl_interfaces.srv import SetParameters
 import rclpy
@@ -43,20 +44,6 @@ from .. import messages
 # The longest that a world may leave a service unanswered [s].
 PATIENCE = 60.0
 LOSSLESS = QoSProfile(history=HistoryPolicy.KEEP_ALL, reliability=ReliabilityPolicy.RELIABLE)
-SERVICES = (
-    'play',
-    'pause',
-    'rewind',
-    'fast_forward',
-    'fast_rewind',
-    'step',
-    'undo',
-    'redo',
-    'reset',
-    'clear',
-    'load_world',
-    'save_world',
-)
 WORLDS = ('demo', 'bridge', 'galton', 'gear_train', 'newtons_cradle', 'dominoes')
 VIEWERS = ('none', 'web', 'connect', 'spawn')
 
@@ -87,7 +74,7 @@ class Driver:
         self._seek = self._publisher(Clock, 'seek')
         self._stroke = self._publisher(Path, 'stroke')
         self._clients = {
-            name: self.node.create_client(Trigger, f'/physsim/{name}') for name in SERVICES
+            name: self.node.create_client(Trigger, f'/physsim/{name}') for name in ACTIONS
         }
         self._parameters = self.node.create_client(SetParameters, '/physsim/set_parameters')
         self.node.create_subscription(
@@ -181,7 +168,7 @@ class Driver:
             self._seek.publish(message)
 
     def call_some(self) -> None:
-        for name in self.random.choices(SERVICES, k=3):
+        for name in self.random.choices(ACTIONS, k=3):
             if name == 'load_world':
                 self.set_parameters(world_file=self.random.choice(WORLDS))
             elif name == 'save_world':

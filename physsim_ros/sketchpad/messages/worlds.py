@@ -1,0 +1,132 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Messages about time and whole worlds: what services do, speed, seeking, courses, files."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from physsim_ros.model.checks import LONGEST, number, shown, Whole, Within
+from physsim_ros.model.errors import BadProperty
+from physsim_ros.sketchpad.messages.fields import Fields, Readers, text_of
+
+# Actions that need nothing but a name: those of the services.
+ACTIONS = (
+    'play',
+    'pause',
+    'rewind',
+    'fast_forward',
+    'fast_rewind',
+    'step',
+    'undo',
+    'redo',
+    'reset',
+    'clear',
+    'save_world',
+    'load_world',
+)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Perform:
+    """
+    Perform what a service does.
+
+    :param action: one of `ACTIONS`
+    :param world: name of the world to save or load; '' is the one of parameter `world_file`
+    """
+
+    action: str
+    world: str = ''
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SetSpeed:
+    """Set the speed of time [simulation seconds a second]."""
+
+    speed: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Seek:
+    """Go to a simulation time [ns]."""
+
+    stamp: int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ReturnToCourse:
+    """Return to a course of events that was left, by its number."""
+
+    course: int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Share:
+    """Ask for the world as the text of a world file."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Upload:
+    """
+    Replace the world by that of a file.
+
+    :param content: of the world file
+    """
+
+    content: Mapping[Any, Any]
+
+
+def _perform(fields: Fields) -> Perform:
+    action = fields.get('name')
+    if action not in ACTIONS:
+        raise BadProperty(f'there is no service {shown(action)}', field='name')
+    return Perform(action=action, world=text_of(fields.get('world', ''), 'world'))
+
+
+def _seek(fields: Fields) -> Seek:
+    return Seek(stamp=round(Within(0.0, LONGEST, 's')(fields.get('time'), 'time') * 1e9))
+
+
+def _course(fields: Fields) -> ReturnToCourse:
+    return ReturnToCourse(course=Whole(0, 2**31)(fields.get('course'), 'course'))
+
+
+def _save(fields: Fields) -> Perform:
+    return Perform(action='save_world', world=_world_name(fields))
+
+
+def _open(fields: Fields) -> Perform:
+    return Perform(action='load_world', world=_world_name(fields))
+
+
+def _world_name(fields: Fields) -> str:
+    name = text_of(fields.get('name'), 'name')
+    if not name:
+        raise BadProperty('a world has a name', field='name')
+    return name
+
+
+READERS: Readers = {
+    'service': (['name', 'world'], _perform),
+    'speed': (['speed'], lambda fields: SetSpeed(speed=number(fields.get('speed'), 'speed'))),
+    'seek': (['time'], _seek),
+    'course': (['course'], _course),
+    'save': (['name'], _save),
+    'open': (['name'], _open),
+    'share': ([], lambda _: Share()),
+}
