@@ -106,7 +106,7 @@ class PageSocket(Guarded, WebSocketHandler):
             self.server.note_parts()
             # Sent once more, with other parts.
             self.frame = 0
-            self.server.update_page(self)
+            self.server.feed.update_page(self)
         elif self.view_only and not isinstance(checked, OF_VIEWERS):
             self.answer(id_, code='view_only', message='this page only shows the world')
         elif not self.server.inbox_put(Incoming(self.number, id_, checked)):
@@ -156,7 +156,7 @@ class PageSocket(Guarded, WebSocketHandler):
                 # It is being closed.
                 return
             if not self._unsent:
-                self.server.update_page(self)
+                self.server.feed.update_page(self)
 
         sent.add_done_callback(done)
 

@@ -15,8 +15,7 @@
 """
 The server of the page: HTTP and web sockets, on a thread of its own.
 
-Laws: the world's thread never waits for a page. A frame is encoded once for all pages that show
-the same; a page gets the newest frame only; answers are not dropped.
+Laws: the world's thread never waits for a page; answers are not dropped.
 """
 
 from __future__ import annotations
@@ -25,53 +24,37 @@ import asyncio
 from collections import deque
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import replace
-import errno
-from ipaddress import ip_address
 from pathlib import Path
-import socket
 import threading
-import time
 from typing import Any
 
 from physsim_ros.files import shipped_pictures
-from physsim_ros.model.errors import PhysSimError
 from physsim_ros.model.snapshot import Answer, Frame, Snapshot
 from physsim_ros.sketchpad.access import Access, Role
 from physsim_ros.sketchpad.answers import answer_content, asker_of
-from physsim_ros.sketchpad.frame_codec import encode_frame, Show
+from physsim_ros.sketchpad.frame_codec import Show
+from physsim_ros.sketchpad.frame_feed import FrameFeed
 from physsim_ros.sketchpad.gallery import gallery_content
 from physsim_ros.sketchpad.handlers import Files, Login, Missing, Page, Session
 from physsim_ros.sketchpad.inbox import Inbox, Incoming, SERVER
+from physsim_ros.sketchpad.listening import BoundedServer, listening_sockets, reachable_host
 from physsim_ros.sketchpad.messages import Message
 from physsim_ros.sketchpad.page_socket import PageSocket
 from physsim_ros.sketchpad.recording_handlers import recording_routes, Recordings
-from physsim_ros.sketchpad.scene_codec import compact, SceneCodec
+from physsim_ros.sketchpad.scene_codec import compact
 from physsim_ros.sketchpad.world_handlers import Download, UploadWorld
-from tornado.httpserver import HTTPServer
-from tornado.netutil import bind_sockets
 from tornado.web import Application
 
 # Pages at once.
 MOST_PAGES = 64
-# Connections at once, pages included: fewer than a process may have files open.
-MOST_CONNECTIONS = 256
 # Of a message of a page, and of an uploaded world [bytes].
 MOST_BYTES = 2**20
 # From one ping to the next, and until a page without an answer is closed [s].
 PING_PERIOD = 10.0
-# Ports that are tried, from the given one on.
-_PORTS = 20
 # For the thread to end [s].
 _CLOSING = 2.0
-# Bytes a second that new scenes may take, for all pages together. Where bodies come and go in each
-# frame, a scene of many bodies is sent less often than the frames are due.
-SCENE_RATE = 20e6
 # Answers to others that are passed on, of one frame; the rest is counted.
 MOST_QUIET = 20
-
-# The message of the end of a ghost.
-NO_GHOST = compact({'type': 'ghost', 'epoch': 0, 'bodies': []})
 
 PAGE = Path(__file__).with_name('page')
 
@@ -90,6 +73,7 @@ class Server:
 
     :ivar access: its tokens
     :ivar port: that it listens on
+    :ivar feed: frames on their way to the pages
     :ivar wants_contacts: whether a page asks for contacts
     """
 
@@ -109,7 +93,7 @@ class Server:
         self._address = address
         self._inbox = inbox
         self._wake = wake
-        self._sockets = _listening_sockets(address, port)
+        self._sockets = listening_sockets(address, port)
         self.port: int = self._sockets[0].getsockname()[1]
         self.access = Access(address, self.port)
         self._pages: dict[int, PageSocket] = {}
@@ -119,20 +103,10 @@ class Server:
         self._asked = 0
         self._replies: dict[str, asyncio.Future[Answer]] = {}
         # Written by the world's thread.
-        self._newest: tuple[Frame, Snapshot | None] | None = None
         self._outbox: deque[tuple[int | None, str] | tuple[Answer, ...]] = deque()
         self._scheduled = False
-        # Of the server's thread.
-        self._codec = SceneCodec()
-        self._frame: Frame | None = None
-        self._number = 0
-        self._encoded: dict[Show, bytes] = {}
-        self._scene_text = ''
-        self._ghost_codec = SceneCodec()
-        self._ghost_text = ''
-        self._ghost_frame = b''
-        self._scene_due = 0.0
         self._loop = asyncio.new_event_loop()
+        self.feed = FrameFeed(self._pages.values(), self._loop)
         self._ended = asyncio.Event()
         self._thread = threading.Thread(target=self._run, name='sketchpad', daemon=True)
         self._thread.start()
@@ -141,7 +115,7 @@ class Server:
 
     def url(self, role: Role) -> str:
         """Return the address of a page with its token."""
-        host = _reachable_host(self._address)
+        host = reachable_host(self._address)
         return f'http://{host}:{self.port}/login?token={self.access.tokens[role]}'
 
     def show(self, frame: Frame, ghost: Snapshot | None = None) -> None:
@@ -150,14 +124,14 @@ class Server:
 
         :param ghost: of a course that was left, at the same time; None where there is none
         """
-        self._newest = frame, ghost
+        self.feed.newest = frame, ghost
         if frame.answers:
             self._outbox.append(frame.answers)
         self._schedule()
 
     def keep(self, frame: Frame) -> None:
         """Keep a frame for the first page to come."""
-        self._newest = frame, None
+        self.feed.newest = frame, None
 
     @property
     def has_pages(self) -> bool:
@@ -216,8 +190,8 @@ class Server:
         self._last_number += 1
         self._pages[self._last_number] = page
         page.send(compact(gallery_content(self.world_dir)))
-        self._send_frame()
-        self.update_page(page)
+        self.feed.send_frame()
+        self.feed.update_page(page)
         return self._last_number
 
     def remove_page(self, page: PageSocket) -> None:
@@ -248,28 +222,6 @@ class Server:
         finally:
             del self._replies[request_id]
 
-    def update_page(self, page: PageSocket) -> None:
-        """Send the newest frame, and its scene, to a page that has not got it and is not busy."""
-        if page.is_busy or self._frame is None or page.frame == self._number:
-            return
-        if page.epoch != self._codec.epoch:
-            page.epoch = self._codec.epoch
-            page.send(self._scene_text)
-        page.frame = self._number
-        if page.show not in self._encoded:
-            self._encoded[page.show] = encode_frame(
-                self._frame, epoch=self._codec.epoch, show=page.show
-            )
-        page.send(self._encoded[page.show])
-        if self._ghost_frame:
-            if page.ghost_epoch != self._ghost_codec.epoch:
-                page.ghost_epoch = self._ghost_codec.epoch
-                page.send(self._ghost_text)
-            page.send(self._ghost_frame)
-        elif page.ghost_epoch:
-            page.ghost_epoch = 0
-            page.send(NO_GHOST)
-
     def _run(self) -> None:
         asyncio.set_event_loop(self._loop)
         try:
@@ -278,7 +230,7 @@ class Server:
             self._loop.close()
 
     async def _serve(self) -> None:
-        server = _BoundedServer(
+        server = BoundedServer(
             self._application(),
             max_body_size=MOST_BYTES,
             max_buffer_size=2 * MOST_BYTES,
@@ -331,42 +283,12 @@ class Server:
                 for page in list(pages):
                     if page is not None:
                         page.send(text)
-        self._send_frame()
+        self.feed.send_frame()
 
     def _send_worlds(self) -> None:
         text = compact(gallery_content(self.world_dir))
         for page in list(self._pages.values()):
             page.send(text)
-
-    def _send_frame(self) -> None:
-        if self._newest is None or self._newest[0] is self._frame:
-            return
-        frame, ghost = self._newest
-        if frame.snapshot.scene is not self._codec.scene:
-            wait = self._scene_due - time.monotonic()
-            if wait > 0.0:
-                # Other frames may come until then; the newest is sent.
-                self._loop.call_later(wait, self._send_frame)
-                return
-            self._scene_text = self._codec.encode(frame.snapshot.scene)
-            cost = len(self._scene_text) * len(self._pages) / SCENE_RATE
-            self._scene_due = time.monotonic() + cost
-        self._frame = frame
-        self._number += 1
-        self._encoded.clear()
-        self._encode_ghost(frame, ghost)
-        for page in list(self._pages.values()):
-            self.update_page(page)
-
-    def _encode_ghost(self, frame: Frame, ghost: Snapshot | None) -> None:
-        if ghost is None:
-            self._ghost_frame = b''
-            return
-        codec = self._ghost_codec
-        if ghost.scene is not codec.scene:
-            self._ghost_text = codec.encode(ghost.scene, kind='ghost')
-        shown = replace(frame, snapshot=ghost, contacts=None, answers=())
-        self._ghost_frame = encode_frame(shown, epoch=codec.epoch, show=Show.GHOST)
 
     def _send_answers(self, answers: tuple[Answer, ...]) -> None:
         quiet: list[str] = []
@@ -389,61 +311,3 @@ class Server:
             text = compact(answer_content(more, ''))
             for each in list(self._pages.values()):
                 each.send(text)
-
-
-class _BoundedServer(HTTPServer):
-    """A server that closes connections beyond a number at once."""
-
-    def handle_stream(self, stream: Any, address: Any) -> None:
-        if len(self._connections) >= MOST_CONNECTIONS:
-            stream.close()
-            return
-        super().handle_stream(stream, address)
-
-
-def _listening_sockets(address: str, port: int) -> list[socket.socket]:
-    """
-    Return sockets that listen on a port, or on one of the next.
-
-    :raises PhysSimError: the address is none of this machine, or all ports are taken
-    """
-    last = port if port == 0 else min(port + _PORTS - 1, 65535)
-    for tried in range(port, last + 1):
-        try:
-            return bind_sockets(tried, address)
-        except PermissionError as error:
-            reason = str(error)
-        except OSError as error:
-            if tried == last or error.errno != errno.EADDRINUSE:
-                raise PhysSimError(
-                    f'the sketchpad cannot listen on {address!r}, port {tried}: {error}'
-                ) from error
-            continue
-        raise PhysSimError(f'the sketchpad may not listen on port {tried}: {reason}')
-    raise PhysSimError(f'the ports {port} to {last} are all taken')
-
-
-def _reachable_host(address: str) -> str:
-    """Return the host of the page's address: that of this machine where it listens on all."""
-    if not address or _is_unspecified(address):
-        return _own_address()
-    return f'[{address}]' if ':' in address else address
-
-
-def _is_unspecified(address: str) -> bool:
-    """Tell whether an address stands for all of a machine: 0.0.0.0 or ::."""
-    try:
-        return ip_address(address).is_unspecified
-    except ValueError:
-        return False
-
-
-def _own_address() -> str:
-    """Return the address of this machine in its network; no packet is sent."""
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
-        try:
-            # TEST-NET-1, RFC 5737: routed like any other address, and nobody's.
-            probe.connect(('192.0.2.1', 9))
-        except OSError:
-            return socket.gethostname()
-        return str(probe.getsockname()[0])

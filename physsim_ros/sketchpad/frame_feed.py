@@ -1,0 +1,120 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+The newest frame on its way to the pages.
+
+Laws: a frame is encoded once for all pages that show the same; a page gets the newest frame only,
+after its scene, and none while it is busy.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import replace
+import time
+from typing import TYPE_CHECKING
+
+from physsim_ros.model.snapshot import Frame, Snapshot
+from physsim_ros.sketchpad.frame_codec import encode_frame, Show
+from physsim_ros.sketchpad.scene_codec import compact, SceneCodec
+
+if TYPE_CHECKING:
+    from asyncio import AbstractEventLoop
+
+    from physsim_ros.sketchpad.page_socket import PageSocket
+
+# Bytes a second that new scenes may take, for all pages together. Where bodies come and go in each
+# frame, a scene of many bodies is sent less often than the frames are due.
+SCENE_RATE = 20e6
+# The message of the end of a ghost.
+NO_GHOST = compact({'type': 'ghost', 'epoch': 0, 'bodies': []})
+
+
+class FrameFeed:
+    """
+    The newest frame, and what of it is encoded already.
+
+    :param pages: that are open
+    :param loop: of the server's thread
+
+    :ivar newest: frame, and ghost beside it; the world's thread sets it
+    """
+
+    def __init__(self, pages: Collection[PageSocket], loop: AbstractEventLoop) -> None:
+        self._pages = pages
+        self._loop = loop
+        self.newest: tuple[Frame, Snapshot | None] | None = None
+        self._codec = SceneCodec()
+        self._frame: Frame | None = None
+        self._number = 0
+        self._encoded: dict[Show, bytes] = {}
+        self._scene_text = ''
+        self._ghost_codec = SceneCodec()
+        self._ghost_text = ''
+        self._ghost_frame = b''
+        self._scene_due = 0.0
+
+    def send_frame(self) -> None:
+        """Send the newest frame to the pages that are not busy; the others get it later."""
+        if self.newest is None or self.newest[0] is self._frame:
+            return
+        frame, ghost = self.newest
+        if frame.snapshot.scene is not self._codec.scene:
+            wait = self._scene_due - time.monotonic()
+            if wait > 0.0:
+                # Other frames may come until then; the newest is sent.
+                self._loop.call_later(wait, self.send_frame)
+                return
+            self._scene_text = self._codec.encode(frame.snapshot.scene)
+            cost = len(self._scene_text) * len(self._pages) / SCENE_RATE
+            self._scene_due = time.monotonic() + cost
+        self._frame = frame
+        self._number += 1
+        self._encoded.clear()
+        self._encode_ghost(frame, ghost)
+        for page in list(self._pages):
+            self.update_page(page)
+
+    def _encode_ghost(self, frame: Frame, ghost: Snapshot | None) -> None:
+        if ghost is None:
+            self._ghost_frame = b''
+            return
+        codec = self._ghost_codec
+        if ghost.scene is not codec.scene:
+            self._ghost_text = codec.encode(ghost.scene, kind='ghost')
+        shown = replace(frame, snapshot=ghost, contacts=None, answers=())
+        self._ghost_frame = encode_frame(shown, epoch=codec.epoch, show=Show.GHOST)
+
+    def update_page(self, page: PageSocket) -> None:
+        """Send the newest frame, and its scene, to a page that has not got it and is not busy."""
+        if page.is_busy or self._frame is None or page.frame == self._number:
+            return
+        if page.epoch != self._codec.epoch:
+            page.epoch = self._codec.epoch
+            page.send(self._scene_text)
+        page.frame = self._number
+        if page.show not in self._encoded:
+            self._encoded[page.show] = encode_frame(
+                self._frame, epoch=self._codec.epoch, show=page.show
+            )
+        page.send(self._encoded[page.show])
+        if self._ghost_frame:
+            if page.ghost_epoch != self._ghost_codec.epoch:
+                page.ghost_epoch = self._ghost_codec.epoch
+                page.send(self._ghost_text)
+            page.send(self._ghost_frame)
+        elif page.ghost_epoch:
+            page.ghost_epoch = 0
+            page.send(NO_GHOST)

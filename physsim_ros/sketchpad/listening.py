@@ -1,0 +1,90 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Sockets that listen, the address by which others reach them, and connections at once."""
+
+from __future__ import annotations
+
+import errno
+from ipaddress import ip_address
+import socket
+from typing import Any
+
+from physsim_ros.model.errors import PhysSimError
+from tornado.httpserver import HTTPServer
+from tornado.netutil import bind_sockets
+
+# Connections at once, pages included: fewer than a process may have files open.
+MOST_CONNECTIONS = 256
+# Ports that are tried, from the given one on.
+_PORTS = 20
+
+
+class BoundedServer(HTTPServer):
+    """A server that closes connections beyond a number at once."""
+
+    def handle_stream(self, stream: Any, address: Any) -> None:
+        """Serve a connection, if there are not too many."""
+        if len(self._connections) >= MOST_CONNECTIONS:
+            stream.close()
+            return
+        super().handle_stream(stream, address)
+
+
+def listening_sockets(address: str, port: int) -> list[socket.socket]:
+    """
+    Return sockets that listen on a port, or on one of the next.
+
+    :raises PhysSimError: the address is none of this machine, or all ports are taken
+    """
+    last = port if port == 0 else min(port + _PORTS - 1, 65535)
+    for tried in range(port, last + 1):
+        try:
+            return bind_sockets(tried, address)
+        except PermissionError as error:
+            reason = str(error)
+        except OSError as error:
+            if tried == last or error.errno != errno.EADDRINUSE:
+                raise PhysSimError(
+                    f'the sketchpad cannot listen on {address!r}, port {tried}: {error}'
+                ) from error
+            continue
+        raise PhysSimError(f'the sketchpad may not listen on port {tried}: {reason}')
+    raise PhysSimError(f'the ports {port} to {last} are all taken')
+
+
+def reachable_host(address: str) -> str:
+    """Return the host of the page's address: that of this machine where it listens on all."""
+    if not address or _is_unspecified(address):
+        return _own_address()
+    return f'[{address}]' if ':' in address else address
+
+
+def _is_unspecified(address: str) -> bool:
+    """Tell whether an address stands for all of a machine: 0.0.0.0 or ::."""
+    try:
+        return ip_address(address).is_unspecified
+    except ValueError:
+        return False
+
+
+def _own_address() -> str:
+    """Return the address of this machine in its network; no packet is sent."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        try:
+            # TEST-NET-1, RFC 5737: routed like any other address, and nobody's.
+            probe.connect(('192.0.2.1', 9))
+        except OSError:
+            return socket.gethostname()
+        return str(probe.getsockname()[0])
