@@ -44,6 +44,7 @@ SOFTWARE_GL = [
     '--enable-unsafe-swiftshader',
     '--ignore-gpu-blocklist',
 ]
+VIEWPORT = {'width': 1200, 'height': 800}
 MILLISECONDS = 1000.0 * PATIENCE
 
 
@@ -78,7 +79,7 @@ class Sheet:
     """
 
     def __init__(self, browser: Any, address: str, **options: Any) -> None:
-        self.context = browser.new_context(viewport={'width': 1200, 'height': 800}, **options)
+        self.context = browser.new_context(**{'viewport': VIEWPORT} | options)
         self.page = self.context.new_page()
         self.errors: list[str] = []
         self.page.on('pageerror', lambda error: self.errors.append(str(error)))

@@ -14,11 +14,14 @@
 
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 from physsim_ros.testing import own_context, PhysSim
 import pytest
 
 from .browser import Browser
+from .chromium import launched_chromium, started_world
+from ..outside import Outside
 
 
 @pytest.fixture
@@ -30,3 +33,19 @@ def browser(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Browser
         browser = Browser(physsim)
         yield browser
         browser.close()
+
+
+@pytest.fixture(scope='module')
+def chromium() -> Iterator[Any]:
+    """Give a module one browser."""
+    sync_api = pytest.importorskip('playwright.sync_api', reason='playwright is not installed')
+    with sync_api.sync_playwright() as playwright:
+        browser = launched_chromium(playwright)
+        yield browser
+        browser.close()
+
+
+@pytest.fixture(scope='module')
+def address(outside: Outside) -> str:
+    """Give a module the address of one world."""
+    return started_world(outside)[1]

@@ -24,30 +24,10 @@ from typing import Any
 
 import pytest
 
-from .chromium import Fingers, launched_chromium, Sheet, started_world, Stylus
+from .chromium import Fingers, Sheet, started_world, Stylus
 from ..outside import Outside
 
 sync_api = pytest.importorskip('playwright.sync_api', reason='playwright is not installed')
-
-TIME = ['Fast rewind', 'Rewind', 'Pause', 'Play', 'Fast forward', 'Step', 'Undo', 'Redo', 'Reset']
-SHAPES = ['Pen', 'Hand', 'Circle', 'Circle by diameter', 'Rectangle', 'Polygon', 'Wall']
-JOINTS = ['Anchor', 'Release', 'Pin', 'Axle', 'Spring', 'Rod', 'Rope']
-OTHERS = ['Velocity', 'Gravity', 'Delete', 'Worlds', 'Save']
-
-
-@pytest.fixture(scope='module')
-def chromium() -> Iterator[Any]:
-    """Give a module one browser."""
-    with sync_api.sync_playwright() as playwright:
-        browser = launched_chromium(playwright)
-        yield browser
-        browser.close()
-
-
-@pytest.fixture(scope='module')
-def address(outside: Outside) -> str:
-    """Give a module the address of one world."""
-    return started_world(outside)[1]
 
 
 @pytest.fixture
@@ -62,15 +42,6 @@ def sheet(chromium: Any, address: str) -> Iterator[Sheet]:
 def circle(x: float, y: float, radius: float) -> list[tuple[float, float]]:
     angles = [math.tau * each / 24 for each in range(25)]
     return [(x + radius * math.cos(angle), y + radius * math.sin(angle)) for angle in angles]
-
-
-def test_every_control_has_its_name_and_is_large_enough_for_a_finger(sheet: Sheet) -> None:
-    for name in TIME + SHAPES + JOINTS + OTHERS:
-        box = sheet.page.get_by_role('button', name=name, exact=True).bounding_box()
-        assert min(box['width'], box['height']) >= 44, name
-    assert sheet.page.get_by_role('slider', name='Time').count() == 1
-    assert sheet.page.get_by_role('img', name='World').count() == 1
-    assert sheet.page.get_by_role('status').count() == 1
 
 
 def test_a_drawn_circle_becomes_a_body_with_its_reading_beside_it(sheet: Sheet) -> None:

@@ -117,12 +117,13 @@ export class App {
       gone.hidden = true;
     });
     connection.on('closed', (status) => {
+      // Once, not at each attempt to come back: a stroke is drawn to its end.
+      if (gone.hidden) this.tool.cancel();
       gone.hidden = false;
       gone.textContent = status === 401 || status === 403 ?
         'Wrong token: open the address that the node printed.' :
         status ? 'The server refused this page; trying again …' :
           'The server is gone. This page comes back with it.';
-      this.tool.cancel();
     });
     connection.on('frame', () => {
       if (!this.framed && this.world.frame.epoch === this.world.scene.epoch) this.frame();

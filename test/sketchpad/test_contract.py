@@ -1,0 +1,212 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""*The page* of the contract, to the letter; contrast, motion and what a screen reader finds."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from .chromium import Sheet
+
+# Of `INTERFACE.md`, *The page*.
+BUTTONS = """
+Fast rewind, Rewind, Pause, Play, Fast forward, Step, Undo, Redo, Reset, Pen, Hand, Circle,
+Circle by diameter, Rectangle, Polygon, Wall, Anchor, Release, Pin, Axle, Spring, Rod, Rope,
+Velocity, Gravity, Delete, Worlds, Save
+"""
+# Least side of what a finger presses [px], WCAG 2.2, 2.5.5.
+FINGER = 44
+# Least contrast of text, WCAG 2.2, 1.4.3.
+CONTRAST = 4.5
+# Contrast of all texts and icons that are shown, by WCAG's relative luminance.
+MEASURE = """() => {
+  const luminance = (color) => {
+    const [r, g, b] = color.match(/[\\d.]+/g).slice(0, 3).map((each) => each / 255)
+      .map((c) => c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4);
+    return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+  };
+  const behind = (element) => {
+    for (let each = element; each; each = each.parentElement) {
+      const color = getComputedStyle(each).backgroundColor;
+      if (!/^rgba\\(.*, 0(\\.\\d+)?\\)$/.test(color)) return color;
+    }
+    return getComputedStyle(document.body).backgroundColor;
+  };
+  const ratio = (a, b) => {
+    const [dark, light] = [luminance(a), luminance(b)].sort((p, q) => p - q);
+    return (light + 0.05) / (dark + 0.05);
+  };
+  const found = {};
+  for (const element of document.querySelectorAll('body *:not(script)')) {
+    const style = getComputedStyle(element);
+    const text = [...element.childNodes].some((each) => each.nodeType === 3 && each.data.trim());
+    const seen = element.checkVisibility({opacityProperty: true});
+    if (!seen || !(text || element.tagName === 'svg')) continue;
+    const name = element.closest('[aria-label]')?.getAttribute('aria-label') ?? '';
+    found[`${name} ${element.textContent.trim().slice(0, 30)}`] =
+      ratio(text ? style.color : style.stroke, behind(element));
+  }
+  const palette = getComputedStyle(document.documentElement);
+  const hex = (name) => palette.getPropertyValue(name).trim().match(/\\w\\w/g)
+    .map((each) => parseInt(each, 16)).join(' ');
+  for (const name of ['--faint', '--ink', '--accent', '--force', '--warn']) {
+    found[name] = ratio(hex(name), hex('--paper'));
+  }
+  return found;
+}"""
+
+
+def poor(sheet: Sheet) -> dict[str, float]:
+    """Return what is shown with too little contrast."""
+    found: dict[str, float] = sheet.page.evaluate(MEASURE)
+    assert len(found) > 20
+    return {name: ratio for name, ratio in found.items() if ratio < CONTRAST}
+
+
+@pytest.fixture(params=['desk', 'phone'])
+def sheet(chromium: Any, address: str, request: pytest.FixtureRequest) -> Any:
+    """Give a test a page of either size."""
+    phone = {'viewport': {'width': 390, 'height': 844}, 'has_touch': True}
+    sheet = Sheet(chromium, address, **(phone if request.param == 'phone' else {}))
+    sheet.begin()
+    yield sheet
+    sheet.close()
+
+
+def test_every_name_of_the_contract_is_there_once_and_large_enough_for_a_finger(
+    sheet: Sheet,
+) -> None:
+    names = BUTTONS.replace('\n', ' ').split(',')
+    assert len(names) == 28
+    for name in names:
+        button = sheet.page.get_by_role('button', name=name.strip(), exact=True)
+        assert button.count() == 1, name
+        box = button.bounding_box()
+        assert min(box['width'], box['height']) >= FINGER, name
+    for box in (each.bounding_box() for each in sheet.page.get_by_role('button').all()):
+        assert min(box['width'], box['height']) >= FINGER
+    for role, name in (('slider', 'Time'), ('img', 'World')):
+        assert sheet.page.get_by_role(role, name=name, exact=True).count() == 1
+    assert sheet.page.get_by_role('status').count() == 1
+
+
+def test_window_physsim_is_that_of_the_contract(sheet: Sheet) -> None:
+    page = sheet.page
+    assert page.evaluate('[physsim.time, physsim.speed]') == [0, 0]
+    x, y = page.evaluate('physsim.toWorld(...physsim.toPage(1.25, 2.5))')
+    assert (x, y) == pytest.approx((1.25, 2.5))
+    # x to the right, y up.
+    assert sheet.place(1, 0)[0] > sheet.place(0, 0)[0]
+    assert sheet.place(0, 1)[1] < sheet.place(0, 0)[1]
+    assert {name: sheet.pose(name) for name in sheet.names()} == {
+        'ball/0': [0, 0.5, 0],
+        'box/0': [4, 0.5, 0],
+        'shelf/0': [-4, 3, 0],
+    }
+
+
+@pytest.mark.parametrize('scheme', ['light', 'dark'])
+def test_all_that_is_to_be_read_has_contrast(chromium: Any, address: str, scheme: str) -> None:
+    sheet = Sheet(chromium, address, color_scheme=scheme, reduced_motion='reduce')
+    sheet.begin()
+    assert sheet.page.evaluate('document.documentElement.dataset.theme') == scheme
+    assert poor(sheet) == {}
+    sheet.press('Anchor')
+    sheet.page.mouse.click(*sheet.place(-2.0, 6.0))
+    sheet.page.locator('.note.refusal').wait_for()
+    assert poor(sheet) == {}
+    sheet.press('Hand')
+    sheet.page.mouse.click(*sheet.place(0.0, 0.5))
+    sheet.page.get_by_role('complementary', name='Body').wait_for()
+    assert poor(sheet) == {}
+    for name in ('Worlds', 'Save', 'Keys'):
+        sheet.press(name)
+        assert poor(sheet) == {}
+        sheet.page.keyboard.press('Escape')
+    sheet.close()
+
+
+def test_nothing_moves_by_itself_for_those_who_wish_so(chromium: Any, address: str) -> None:
+    sheet = Sheet(chromium, address, reduced_motion='reduce')
+    sheet.begin()
+    sheet.press('Circle')
+    sheet.drag((0.0, 6.0), (0.4, 6.0))
+    # The hint points at the hand now.
+    sheet.page.locator('button.next').wait_for()
+    sheet.press('Hand')
+    sheet.page.mouse.click(*sheet.place(0.0, 0.5))
+    sheet.page.get_by_role('complementary', name='Body').wait_for()
+    assert sheet.page.evaluate('document.getAnimations().length') == 0
+    sheet.close()
+
+
+def test_a_screen_reader_finds_the_bodies_with_their_places(sheet: Sheet) -> None:
+    items = sheet.page.get_by_role('list', name='Bodies').get_by_role('listitem')
+    items.nth(2).wait_for(state='attached')
+    assert items.all_inner_texts() == [
+        'ball/0: disc, at 0.0, 0.5 m',
+        'box/0: polygon, at 4.0, 0.5 m',
+        'shelf/0: polygon, anchored, at -4.0, 3.0 m',
+    ]
+
+
+def test_a_button_says_what_it_does_as_soon_as_it_is_pointed_at(
+    chromium: Any, address: str
+) -> None:
+    sheet = Sheet(chromium, address)
+    sheet.begin()
+    tip = sheet.page.get_by_role('tooltip')
+    button = sheet.page.get_by_role('button', name='Rectangle', exact=True)
+    button.hover()
+    tip.get_by_text('then click the side across').wait_for()
+    button.focus()
+    sheet.page.keyboard.press('Tab')
+    tip.get_by_text('Polygon (G)').wait_for()
+    sheet.press('Circle')
+    assert tip.count() == 0
+    assert 'then click' in button.get_attribute('title')
+    sheet.close()
+
+
+def test_hints_lead_from_a_first_body_to_a_changed_past(chromium: Any, address: str) -> None:
+    sheet = Sheet(chromium, address)
+    hint = sheet.page.locator('#hint')
+    hint.get_by_text('Draw').wait_for()
+    sheet.begin()
+    before = sheet.names()
+    sheet.press('Circle')
+    hint.get_by_text('From the centre').wait_for()
+    sheet.drag((0.0, 6.0), (0.4, 6.0))
+    name = sheet.wait_for_new(before)
+    hint.get_by_text('take the hand').wait_for()
+    sheet.press('Hand')
+    sheet.press('Play')
+    with sheet.dragging(tuple(sheet.pose(name)[:2]), (2.0, 6.0)):
+        sheet.page.get_by_role('status').get_by_text('grabbed').wait_for()
+    hint.get_by_text('rewind').wait_for()
+    sheet.wait('physsim.time > 0.5')
+    sheet.press('Rewind')
+    hint.get_by_text('the past').wait_for()
+    sheet.press('Pause')
+    sheet.press('Delete')
+    sheet.page.mouse.click(*sheet.place(*sheet.pose('box/0')[:2]))
+    hint.get_by_text('went before').wait_for()
+    # What is known is not taught again.
+    sheet.page.reload()
+    sheet.wait('Object.keys(physsim.bodies).length > 0')
+    assert 'Draw a circle' not in hint.inner_text()
+    sheet.close()
