@@ -22,6 +22,7 @@ from pathlib import Path
 import re
 from typing import Any
 
+import numpy as np
 import pytest
 
 from .chromium import Fingers, Sheet, started_world, Stylus
@@ -314,6 +315,43 @@ def test_all_of_it_goes_by_keys_alone(sheet: Sheet) -> None:
     assert 'ball/0' in sheet.page.get_by_role('complementary', name='Body').inner_text()
     keyboard.press('?')
     assert sheet.page.get_by_role('dialog').is_visible()
+
+
+def test_a_second_finger_turns_the_body_that_is_placed(chromium: Any, address: str) -> None:
+    sheet = Sheet(chromium, address, has_touch=True)
+    sheet.begin()
+    sheet.press('Hand')
+    x, y = sheet.place(4.0, 0.5)
+    fingers = Fingers(sheet)
+    fingers.put((x, y))
+    x, y = sheet.place(4.0, 4.0)
+    fingers.move((x, y))
+    sheet.wait('Math.abs(physsim.bodies["box/0"][1] - 4) < 0.1')
+    fingers.put((x, y), (x + 100, y))
+    # A quarter of a turn counter-clockwise, in steps.
+    for angle in np.linspace(0.0, math.pi / 2, 9)[1:]:
+        fingers.move((x, y), (x + 100 * math.cos(angle), y - 100 * math.sin(angle)))
+    sheet.wait('angle => Math.abs(physsim.bodies["box/0"][2] - angle) < 0.05', math.pi / 2)
+    fingers.lift()
+    sheet.press('Undo')
+    sheet.wait('physsim.bodies["box/0"].join() === "4,0.5,0"')
+    sheet.close()
+
+
+def test_the_velocity_arrow_of_a_body_is_dragged_to_another_velocity(sheet: Sheet) -> None:
+    sheet.press('Hand')
+    sheet.page.mouse.click(*sheet.place(0.0, 0.5))
+    sheet.page.get_by_role('complementary', name='Body').wait_for()
+    scale = sheet.place(1.0, 0.0)[0] - sheet.place(0.0, 0.0)[0]
+    x, y = sheet.place(0.0, 0.5)
+    gap = 22  # px from the centre to the tail
+    with sheet.dragging((gap / scale, 0.5)):
+        sheet.page.mouse.move(x, y - gap - 4.0 * scale, steps=5)
+    sheet.page.get_by_role('status').get_by_text('ball/0').wait_for()
+    sheet.press('Play')
+    # 4 m/s upwards rise by v^2 / 2 g.
+    top = 0.5 + 4.0**2 / (2 * 9.81)
+    sheet.wait('top => Math.abs(physsim.bodies["ball/0"][1] - top) < 0.03', top)
 
 
 def test_a_finger_draws_and_two_fingers_zoom(chromium: Any, address: str) -> None:
