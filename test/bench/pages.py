@@ -15,17 +15,21 @@
 """
 What pages of the sketchpad cost the world's loop, and how soon a stroke is a body.
 
-The pages are sockets in another process, which read all that comes. Turns without pages, with one
-and with many follow each other, so that a machine whose speed drifts does not favour one of them.
+The pages are sockets in another process, which read all that comes. Two equal worlds take turns,
+frame by frame, one with pages and one without: the cost is the median of the differences of their
+frames, so that neither a machine whose speed drifts nor a frame that was disturbed changes it.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+import math
 import statistics
 import subprocess
 import sys
 import time
 
+import numpy as np
 from physsim_ros.ros.node import PhysSimNode
 import rclpy
 from rclpy.logging import LoggingSeverity
@@ -34,10 +38,11 @@ from rclpy.parameter import Parameter
 from .bodies import fill, SETTLE
 from ..outside import own_domain
 
+# None shows how equal the two worlds are.
 COUNTS = (0, 1, 20)
-ROUNDS = 3
-# Frames of a turn at 60 Hz, and those before them that do not count.
-FRAMES, WARM = 180, 30
+# Frames that are compared, and those before them that do not count.
+FRAMES, WARM = 360, 30
+# From a frame of one world to that of the other: what the pages cost beside the loop is done then.
 PERIOD = 1 / 60
 STROKES = 20
 # Opens pages; prints the mean bytes of their frames, then how long each stroke took [ms].
@@ -111,21 +116,8 @@ class Clients:
         self._process.wait()
 
 
-def ticks(node: PhysSimNode, frames: int) -> list[float]:
-    """Run at 60 Hz; return the time that each tick took [ms]."""
-    times = []
-    due = time.perf_counter()
-    for _ in range(frames):
-        began = time.perf_counter()
-        node.tick(time.monotonic_ns())
-        times.append(1e3 * (time.perf_counter() - began))
-        due += PERIOD
-        time.sleep(max(0.0, due - time.perf_counter()))
-    return times
-
-
 def served_world(bodies: int) -> PhysSimNode:
-    """Return a node that serves its page, with a settled pile of bodies."""
+    """Return a node with a settled pile, whose pages are served."""
     values = {'viewer': 'none', 'sketchpad': 'serve', 'sketchpad_port': 0, 'speed': 0.0}
     node = PhysSimNode(
         parameter_overrides=[Parameter(name, value=value) for name, value in values.items()]
@@ -136,33 +128,50 @@ def served_world(bodies: int) -> PhysSimNode:
     return node
 
 
+def ticks(nodes: Sequence[PhysSimNode], frames: int) -> np.ndarray:
+    """
+    Run nodes in turns, each frame of theirs a 60th of a second of simulation.
+
+    :return: (frames, n, 2) float64: wall time of each tick, and its CPU time in this thread [ms]
+    """
+    times = np.empty((frames, len(nodes), 2))
+    due, now = time.perf_counter(), time.monotonic_ns()
+    for row in times:
+        now += round(1e9 / 60)
+        for column, node in enumerate(nodes):
+            began, used = time.perf_counter(), time.thread_time()
+            node.tick(now)
+            row[column] = time.perf_counter() - began, time.thread_time() - used
+            due += PERIOD
+            time.sleep(max(0.0, due - time.perf_counter()))
+    return 1e3 * times
+
+
 def measure(bodies: int) -> None:
     """Print the rows of a count of bodies."""
-    node = served_world(bodies)
-    times: dict[int, list[float]] = {count: [] for count in COUNTS}
-    cpu: dict[int, float] = dict.fromkeys(COUNTS, 0.0)
+    alone, paged = served_world(bodies), served_world(bodies)
     try:
-        for _ in range(ROUNDS):
-            for count in COUNTS:
-                clients = Clients(node, count) if count else None
-                ticks(node, WARM)
-                if clients is not None:
-                    clients.read_line()
-                began = time.process_time()
-                times[count] += ticks(node, FRAMES)
-                cpu[count] += time.process_time() - began
-                if clients is not None:
-                    clients.close()
-        alone = statistics.median(times[0])
-        for count, each in times.items():
-            median, share = statistics.median(each), 1e3 * cpu[count] / ROUNDS / FRAMES
-            print(
-                f'{bodies:6} {count:6} {median:10.2f} {100 * (median / alone - 1):+10.1f}'
-                f' {share:12.2f}',
-                flush=True,
-            )
+        for count in COUNTS:
+            clients = Clients(paged, count) if count else None
+            ticks((alone, paged), WARM)
+            if clients is not None:
+                clients.read_line()
+            times = ticks((alone, paged), FRAMES)
+            if clients is not None:
+                clients.close()
+            words = [f'{bodies:6} {count:6}']
+            for kind in range(2):
+                median = float(np.median(times[:, 0, kind]))
+                costs = times[:, 1, kind] - times[:, 0, kind]
+                quarter, cost, rest = np.quantile(costs, (0.25, 0.5, 0.75))
+                # Of a median of n values: 0.93 (q3 - q1) / sqrt(n), for a normal distribution.
+                error = 0.93 * (rest - quarter) / math.sqrt(FRAMES)
+                share = 100 / median
+                words.append(f'{median:10.2f} {share * cost:9.1f} {share * error:5.1f}')
+            print(*words, flush=True)
     finally:
-        node.destroy_node()
+        alone.destroy_node()
+        paged.destroy_node()
 
 
 def measure_strokes(bodies: int) -> None:
@@ -171,7 +180,7 @@ def measure_strokes(bodies: int) -> None:
     clients = Clients(node, 1, STROKES)
     try:
         # A tick a frame; the client is done long before them.
-        ticks(node, WARM + 60 * STROKES // 3)
+        ticks((node,), WARM + 60 * STROKES // 3)
         assert clients.read_line() == ['open']
         took = [float(clients.read_line()[0]) for _ in range(STROKES)]
         size = float(clients.read_line()[1])
@@ -190,7 +199,7 @@ def table(bodies: int = 1000) -> None:
     with own_domain() as domain:
         rclpy.init(domain_id=domain)
         print('\nPages of the sketchpad, a settled pile at 60 Hz, recorded by nobody')
-        print('bodies  pages  tick [ms]  cost [%]  CPU/frame [ms]')
+        print('bodies  pages  tick [ms]  cost [%]   +-   CPU [ms]  cost [%]   +-')
         measure(bodies)
         print('bodies  stroke to body [ms]  greatest  bytes/frame  bytes/body')
         for count in (100, bodies):

@@ -19,6 +19,7 @@ import math
 
 import numpy as np
 from physsim_ros.model.grips import Grip
+from physsim_ros.sketchpad.server import PAGE
 from physsim_ros.testing import PhysSim
 import pytest
 from rclpy.parameter import Parameter
@@ -214,3 +215,19 @@ def test_a_change_of_the_past_branches_and_the_old_course_stays_as_a_ghost(
     assert undone['message'].startswith('undid')
     told = [each for each in page.of_type('answer') if each['message'] == undone['message']]
     assert len(told) == 1
+
+
+def test_the_page_is_small_on_its_way_and_sent_once(browser: Browser) -> None:
+    files = [path for path in PAGE.rglob('*.*') if path.suffix in ('.js', '.css', '.svg', '.html')]
+    size = 0
+    for path in files:
+        address = f'/page/{path.relative_to(PAGE)}'
+        headers = {'Accept-Encoding': 'gzip'}
+        response = browser.fetch(address, headers=headers, decompress_response=False)
+        assert response.headers['Content-Encoding'] == 'gzip' or len(response.body) < 1024
+        size += len(response.body)
+        known = headers | {'If-None-Match': response.headers['Etag']}
+        assert browser.fetch(address, headers=known).code == 304
+    assert len(files) > 30
+    # Of the first visit, without pictures [bytes].
+    assert size < 60e3
