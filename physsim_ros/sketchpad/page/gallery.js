@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Worlds: a gallery to open from, saving by name, files, a link that holds the world, a picture. */
 
-import {download, find, iconButton, make} from './dom.js';
+import {download, find, icon, iconButton, make} from './dom.js';
 import {packText, unpackText} from './link.js';
 
 const LONGEST_LINK = 16000; // characters
@@ -35,8 +35,9 @@ export class Gallery {
   showWorlds() {
     const cards = this.worlds.map(({name, title, picture}) => make('button',
       {type: 'button', className: 'card', onclick: () => this.#open(name)},
-      picture ? make('img', {src: picture, alt: '', loading: 'lazy'}) : make('span', {className: 'blank'}),
-      make('strong', {textContent: name.replaceAll('_', ' ')}), make('small', {textContent: title})));
+      picture ? make('img', {src: picture, alt: '', loading: 'lazy'}) : make('span', {className: 'blank'}, icon('pen')),
+      make('strong', {textContent: name.replaceAll('_', ' ')}),
+      make('small', {textContent: title === name ? 'Yours' : title})));
     const file = make('input', {type: 'file', accept: '.yaml,.yml',
       onchange: async () => file.files?.[0] && this.#upload(await file.files[0].text())});
     this.show('Worlds', make('div', {className: 'row'},

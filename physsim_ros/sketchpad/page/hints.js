@@ -12,10 +12,11 @@ const STEPS = [
   ['throw', 'Now take the hand, and throw it.', 'Hand'],
   ['rewind', 'Nothing is lost: rewind, or drag the time line.', 'Rewind'],
   ['change', 'This is the past. Draw or move something here, and it goes otherwise.', ''],
-  ['ghost', 'Dashed is how it went before. The ring on the time line goes back there.', 'Play'],
+  ['ghost', 'Dashed: how it went before, where that differs. The ring on the time line goes back there.', 'Play'],
 ];
 const KEY = 'physsim-hints';
-const TOOL_SHOWN = 7000, LAST_SHOWN = 12000; // ms
+const TOOL_SHOWN = 7000, USED_SHOWN = 2500, LAST_SHOWN = 12000; // ms: how a tool is used, when it was used, the last step
+const USES = ['stroke', 'click', 'grab'];
 
 export class Hints {
   /** @param {import('./app.js').App} app */
@@ -24,6 +25,7 @@ export class Hints {
     this.line = find('hint', HTMLElement);
     this.step = Number(localStorage.getItem(KEY) ?? 0);
     this.timer = 0;
+    this.ofTool = false; // the line says how the tool is used
     const {connection} = app;
     connection.on('reading', ({built}) => built && this.done('draw'));
     connection.on('answer', ({request, ok, topic, subject}) => {
@@ -32,6 +34,9 @@ export class Hints {
     connection.on('timeline', ({state, courses = []}) => {
       if (state === 'rewinding' || state === 'in the past') this.done('rewind');
       if (courses.length && this.step > 2) this.done('change');
+    });
+    connection.on('sent', ({type}) => {
+      if (USES.includes(type) && this.ofTool) this.#return(USED_SHOWN);
     });
     this.#showStep();
   }
@@ -48,7 +53,14 @@ export class Hints {
   /** @param {string} text how the tool in hand is used */
   showTool(text) {
     this.#show(text);
-    this.timer = setTimeout(() => this.#showStep(), TOOL_SHOWN);
+    this.ofTool = true;
+    this.#return(TOOL_SHOWN);
+  }
+
+  /** @param {number} after [ms] the line shows the next step again */
+  #return(after) {
+    clearTimeout(this.timer);
+    this.timer = setTimeout(() => this.#showStep(), after);
   }
 
   #showStep() {
@@ -62,6 +74,7 @@ export class Hints {
   /** @param {string} text '' hides the line */
   #show(text) {
     clearTimeout(this.timer);
+    this.ofTool = false;
     if (text) this.line.textContent = text;
     this.line.classList.toggle('faded', !text);
   }
