@@ -32,7 +32,7 @@ from physsim_ros.engine.body import engine_motion, REST, RigidBody
 from physsim_ros.engine.boundary import wall_count
 from physsim_ros.engine.space import Space
 from physsim_ros.engine.warm_start import read_impulses, shape_numbers, write_impulses
-from physsim_ros.model.checkpoint import Checkpoint, ImpulseCache, WorldState
+from physsim_ros.model.checkpoint import BodyState, Checkpoint, ImpulseCache, Motion, WorldState
 from physsim_ros.model.garbage_collection import suspended_collection
 from physsim_ros.model.scene import Body, Scene
 
@@ -65,6 +65,36 @@ def take_checkpoint(space: Space, step: int) -> Checkpoint:
             joints=space.joints.impulses(),
         ),
         grips=space.pipeline.mouse_joints.grips(),
+    )
+
+
+def saved_state(space: Space, step: int) -> WorldState:
+    """
+    Return the saved state of a space, whose times count from now.
+
+    :param step: steps that the world has made
+    """
+    key, bodies = take_checkpoint(space, step), []
+    motions = zip(key.state.tolist(), key.free.tolist(), strict=True)
+    for rigid, (state, free) in zip(space.bodies.by_name.values(), motions, strict=True):
+        body, until = rigid.body, rigid.wrench_until
+        if body.expires is not None:
+            body = replace(body, expires=body.expires - step)
+        bodies.append(
+            BodyState(
+                body=body,
+                pose=rigid.pose,
+                twist=space.twist_of(rigid),
+                motion=Motion._make((*state, free)),
+                wrench=rigid.wrench,
+                wrench_steps=None if until is None else until - step,
+            )
+        )
+    return WorldState(
+        settings=key.scene.settings,
+        bodies=tuple(bodies),
+        joints=key.scene.joints,
+        memory=key.memory,
     )
 
 

@@ -20,12 +20,44 @@ Law: a hand whose body is gone does nothing, and is not refused.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from physsim_ros.engine.space import Space
 from physsim_ros.model.errors import NothingThere
 from physsim_ros.model.grips import Grip
-from physsim_ros.model.requests import Grab, GrabToPlace, MoveHand, PlaceHand
+from physsim_ros.model.requests import (
+    Grab,
+    GrabToPlace,
+    HandRequest,
+    KeepHand,
+    LetGo,
+    MoveHand,
+    PlaceHand,
+)
 from physsim_ros.model.transform import Point, Pose, rotated
 from physsim_ros.simulation.capacity import Capacity
+from physsim_ros.simulation.lookup import points_in_world, pose_in_world
+
+
+def apply_hand_request(space: Space, request: HandRequest, capacity: Capacity) -> tuple[str, str]:
+    """
+    Carry out a request of a hand.
+
+    :return: the body concerned, or '', and a sentence that says what was done
+    :raises Refusal: and nothing is changed
+    """
+    match request:
+        case Grab(point=point, frame=frame):
+            (point,) = points_in_world(space, (point,), frame)
+            return grab_body(space, request, point)
+        case MoveHand(point=point, yaw=yaw, frame=frame):
+            x, y, turned = pose_in_world(space, (*point, yaw or 0.0), frame)
+            moved = replace(request, point=(x, y), yaw=None if yaw is None else turned)
+            return move_hand(space, moved, capacity)
+        case KeepHand(hand=hand):
+            return '', f'{hand} is there'
+        case LetGo(hand=hand):
+            return let_go(space, hand)
 
 
 def grab_body(space: Space, request: Grab, point: Point) -> tuple[str, str]:

@@ -13,7 +13,7 @@
 # limitations under the License.
 
 """
-JointRequest: which two bodies a request means, where the joint sits on them, and what is refused.
+Requests for joints: which two bodies one means, where the joint sits on them, what is refused.
 
 Laws: nothing is changed before all has been checked; a joint that is asked for where it already
 is keeps its seat to the last bit, so that whoever publishes what is drawn changes nothing.
@@ -29,11 +29,11 @@ from physsim_ros.engine.space import Space
 from physsim_ros.model.errors import Anchored, BadProperty, NothingThere, UnknownJoint
 from physsim_ros.model.joints import JointKind, JointProperties
 from physsim_ros.model.names import split_name, WORLD
-from physsim_ros.model.requests import Join
+from physsim_ros.model.requests import Axle, Join, JointRequest, Pin, Unjoin, UnjoinAll
 from physsim_ros.model.scene import Joint, Seat
 from physsim_ros.model.texts import nearest_name
 from physsim_ros.model.transform import Point, Pose, rotated
-from physsim_ros.simulation.lookup import body_of_name
+from physsim_ros.simulation.lookup import body_of_name, points_in_world
 
 # Points that lie so near to where a joint is drawn are where it is [m]: what is drawn comes back
 # in the digits of a double, and from a person's hand never.
@@ -45,6 +45,26 @@ _NEAR_SHARE, _NEAR = 0.35, 0.1
 # Where the background is, which never moves.
 BACKGROUND = (0.0, 0.0, 0.0)
 _STRAIGHT = {JointKind.SPRING, JointKind.ROD, JointKind.ROPE}
+
+
+def apply_joint_request(space: Space, request: JointRequest) -> tuple[str, str]:
+    """
+    Carry out a request for joints.
+
+    :return: the joint concerned, or '', and a sentence that says what was done
+    :raises Refusal: and nothing is changed
+    """
+    match request:
+        case Join(points=points, frame=frame):
+            return join(space, request, points_in_world(space, points, frame))
+        case Unjoin(name=name):
+            return unjoin(space, name)
+        case UnjoinAll(namespace=namespace):
+            return '', unjoin_all(space, namespace)
+        case Pin(point=point, frame=frame) | Axle(point=point, frame=frame):
+            kind = JointKind.PIN if isinstance(request, Pin) else JointKind.AXLE
+            (point,) = points_in_world(space, (point,), frame)
+            return pin(space, kind, point)
 
 
 def join(space: Space, request: Join, points: tuple[Point, ...]) -> tuple[str, str]:

@@ -24,18 +24,14 @@ from __future__ import annotations
 from dataclasses import replace
 import hashlib
 import math
-from typing import NamedTuple
 
-from physsim_ros.engine.body_pool import BodyPool
-from physsim_ros.engine.checkpoint import checkpoint_of, restore_checkpoint, take_checkpoint
+from physsim_ros.engine.checkpoint import checkpoint_of, saved_state
 from physsim_ros.engine.observation import digest_parts, observe_bodies
 from physsim_ros.engine.space import Space
-from physsim_ros.model.checkpoint import BodyState, Checkpoint, Motion, WorldState
+from physsim_ros.model.checkpoint import Checkpoint, WorldState
 from physsim_ros.model.grips import Grip
-from physsim_ros.model.joints import JointKind
 from physsim_ros.model.requests import (
     Anchor,
-    Axle,
     BodyRequest,
     ChangeBody,
     Command,
@@ -43,28 +39,21 @@ from physsim_ros.model.requests import (
     Delete,
     DeleteAll,
     DeleteBodies,
-    Grab,
     HandRequest,
-    Join,
     JointRequest,
-    KeepHand,
-    LetGo,
     MoveBodies,
-    MoveHand,
-    Pin,
     Release,
     Request,
     Restore,
     Spawn,
-    Unjoin,
-    UnjoinAll,
 )
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Contacts, Snapshot
 from physsim_ros.model.transform import Point
 from physsim_ros.simulation import body_requests, hand_requests, joint_requests
 from physsim_ros.simulation.capacity import Capacity
-from physsim_ros.simulation.lookup import points_in_world, pose_in_world
+from physsim_ros.simulation.live_space import LiveSpace
+from physsim_ros.simulation.lookup import points_in_world
 
 
 class World:
@@ -72,8 +61,8 @@ class World:
     A world of bodies, stepped at a fixed rate.
 
     :param physics_rate: steps a second of simulation time [Hz]
-    :param frame_steps: of a frame; at its end, what has left the range of numbers is looked for
-    :param settings: what holds at the start
+    :param frame_steps: number of steps in a frame
+    :param settings: at the start; None is the default ones
     """
 
     def __init__(
@@ -92,12 +81,14 @@ class World:
         # Whether the last request that was carried out changed anything.
         self.changed = False
         self._settings = settings or WorldSettings()
-        self._space = Space(self._settings, self.dt)
+        self._live_space = LiveSpace(self._settings, self.dt)
+        # The serial number of the next body.
         self._spawned = 0
-        self._pool = BodyPool()
-        # Of a space that was built from it just now.
-        self._fresh: _Fresh | None = None
         self._capacity = Capacity(self._settings)
+
+    @property
+    def _space(self) -> Space:
+        return self._live_space.space
 
     # Reading
 
@@ -109,7 +100,7 @@ class World:
 
     @property
     def settings(self) -> WorldSettings:
-        """Return what holds for the whole world."""
+        """Return the settings of the world."""
         return self._settings
 
     @property
@@ -118,7 +109,7 @@ class World:
         return round(self.step_count * 1e9 / self.physics_rate)
 
     def snapshot(self) -> Snapshot:
-        """Return where everything is."""
+        """Return the snapshot of this step."""
         table, settled = self._space.table, self._space.settled
         poses, twists = observe_bodies(table, settled)
         return Snapshot(
@@ -134,16 +125,16 @@ class World:
         )
 
     def contacts(self, snapshot: Snapshot) -> Contacts:
-        """Return what touched since the last call while the world was being watched."""
+        """Return the contacts since the last call, of the steps in which they were read."""
         report = self._space.pipeline.contact_report
         return report.take_contacts(self._space.table, lambda: snapshot.centers)
 
     def clear_contacts(self) -> None:
-        """Forget what touched since the last call of `contacts`."""
+        """Drop the contacts since the last call of `contacts`."""
         self._space.pipeline.contact_report.clear()
 
     def digest(self) -> str:
-        """Return a hash of all that is known of the world, but for the engine's own memory."""
+        """Return a hash of time, scene, poses, velocities, wrenches and grips, not of impulses."""
         digest = hashlib.blake2b(digest_size=16)
         digest.update(f'{self.step_count} {self.physics_rate!r}'.encode())
         acting = self._space.pipeline.wrenches.acting()
@@ -163,34 +154,14 @@ class World:
         return next(iter(self._space.bodies.at(point)), None)
 
     def save(self) -> WorldState:
-        """Return everything that the world goes on from."""
-        now = self.step_count
-        key, bodies = take_checkpoint(self._space, now), []
-        motions = zip(key.state.tolist(), key.free.tolist(), strict=True)
-        for rigid, (state, free) in zip(self._space.bodies.by_name.values(), motions, strict=True):
-            body, until = rigid.body, rigid.wrench_until
-            if body.expires is not None:
-                body = replace(body, expires=body.expires - now)
-            bodies.append(
-                BodyState(
-                    body=body,
-                    pose=rigid.pose,
-                    twist=self._space.twist_of(rigid),
-                    motion=Motion._make((*state, free)),
-                    wrench=rigid.wrench,
-                    wrench_steps=None if until is None else until - now,
-                )
-            )
-        joints = tuple(held.joint for held in self._space.joints.by_name.values())
-        return WorldState(
-            settings=self._settings, bodies=tuple(bodies), joints=joints, memory=key.memory
-        )
+        """Return the saved state of the world."""
+        return saved_state(self._space, self.step_count)
 
     # Changing
 
     def replay(self, request: Request) -> None:
         """
-        Carry out a request again, for which there was a place the first time.
+        Carry out a request again, whose capacity was checked the first time.
 
         :raises Refusal: and nothing is changed
         """
@@ -214,9 +185,9 @@ class World:
 
     def _carry_out(self, request: Request) -> tuple[str, str]:
         if isinstance(request, JointRequest):
-            return self._join(request)
+            return joint_requests.apply_joint_request(self._space, request)
         if isinstance(request, HandRequest):
-            return self._drag(request)
+            return hand_requests.apply_hand_request(self._space, request, self._capacity)
         if isinstance(request, BodyRequest):
             return self._change_bodies(request)
         match request:
@@ -229,13 +200,13 @@ class World:
                 return '', f'loaded {len(state.bodies)} bodies{joints}'
 
     def take_broken(self) -> list[tuple[str, float]]:
-        """Return the joints that have broken since the last call, and what each gave then [N]."""
+        """Return the joints that broke since the last call, and the force of each then [N]."""
         broken, self._space.broken = self._space.broken, []
         return broken
 
     def step(self, count: int) -> tuple[str, ...]:
         """
-        Go on by a number of steps.
+        Make a number of steps.
 
         :return: bodies that left the range of numbers and were removed
         """
@@ -249,18 +220,14 @@ class World:
 
     def renew(self) -> Checkpoint:
         """
-        Go on in a space built anew from what is so, and return that.
+        Go on in a space that is built from a checkpoint of this moment, and return that.
 
-        Whoever resumes the checkpoint later goes on with the same bits. The engine itself has a
-        past that cannot be read, as in the order in which it has found contacts; a new space has
-        none.
+        A world that resumes the checkpoint later goes on with the same bits.
         """
-        if self._fresh is not None and self._fresh.suits(self._space, self.step_count):
-            return self._fresh.key
-        key = take_checkpoint(self._space, self.step_count)
-        space = restore_checkpoint(key, self.dt, pool=self._pool.bodies)
-        _hand_over(self._space, space)
-        self._replace_space(space, BodyPool(self._space))
+        before = self._space
+        key = self._live_space.renew(self.step_count)
+        if self._space is not before:
+            self._note_new_space()
         return key
 
     def resume(self, key: Checkpoint, *, going_over: bool = False) -> None:
@@ -268,22 +235,19 @@ class World:
         Go back, or forward, to a checkpoint.
 
         :param going_over: whether the world is at that moment now, with the same bodies; then
-            the contacts of the frame so far are not forgotten
+            the contacts of the frame so far are kept
         """
         self.step_count = key.step
         self._settings = key.scene.settings
-        space = restore_checkpoint(key, self.dt)
-        if going_over:
-            _hand_over(self._space, space)
-        self._replace_space(space, BodyPool())
+        self._live_space.resume(key, going_over=going_over)
+        self._note_new_space()
 
     def build_bodies(self, count: int) -> None:
         """Make so many bodies ready for the next `renew`."""
-        self._pool.build_bodies(self._space.table.scene, count)
+        self._live_space.build_bodies(count)
 
-    def _replace_space(self, space: Space, pool: BodyPool) -> None:
-        self._space, self._pool, self._fresh = space, pool, None
-        self._spawned = len(space.bodies.by_name)
+    def _note_new_space(self) -> None:
+        self._spawned = len(self._space.bodies.by_name)
         self._capacity.settings = self._settings
         self._capacity.forget()
 
@@ -320,34 +284,6 @@ class World:
         self._spawned = max(self._spawned, self._space.bodies.by_name[request.name].serial + 1)
         return done
 
-    def _join(self, request: JointRequest) -> tuple[str, str]:
-        match request:
-            case Join(points=points, frame=frame):
-                placed = points_in_world(self._space, points, frame)
-                return joint_requests.join(self._space, request, placed)
-            case Unjoin(name=name):
-                return joint_requests.unjoin(self._space, name)
-            case UnjoinAll(namespace=namespace):
-                return '', joint_requests.unjoin_all(self._space, namespace)
-            case Pin(point=point, frame=frame) | Axle(point=point, frame=frame):
-                kind = JointKind.PIN if isinstance(request, Pin) else JointKind.AXLE
-                (point,) = points_in_world(self._space, (point,), frame)
-                return joint_requests.pin(self._space, kind, point)
-
-    def _drag(self, request: HandRequest) -> tuple[str, str]:
-        match request:
-            case Grab(point=point, frame=frame):
-                (point,) = points_in_world(self._space, (point,), frame)
-                return hand_requests.grab_body(self._space, request, point)
-            case MoveHand(point=point, yaw=yaw, frame=frame):
-                x, y, turned = pose_in_world(self._space, (*point, yaw or 0.0), frame)
-                moved = replace(request, point=(x, y), yaw=None if yaw is None else turned)
-                return hand_requests.move_hand(self._space, moved, self._capacity)
-            case KeepHand(hand=hand):
-                return '', f'{hand} is there'
-            case LetGo(hand=hand):
-                return hand_requests.let_go(self._space, hand)
-
     def _wrenches_until(self) -> int | None:
         """Return the step until which a wrench acts that is asked for now; None is for ever."""
         timeout = self._settings.command_timeout
@@ -369,14 +305,9 @@ class World:
     def _restore(self, state: WorldState) -> None:
         self._capacity.check_state(state)
         # A space of its own for every state: what was in the old one leaves no trace.
-        key = checkpoint_of(state, self.step_count, self.dt)
-        space = restore_checkpoint(key, self.dt)
-        space.joints.check_springs(
-            {name: rigid.body for name, rigid in space.bodies.by_name.items()}
-        )
+        self._live_space.begin(checkpoint_of(state, self.step_count, self.dt))
         self._settings = state.settings
-        self._replace_space(space, BodyPool())
-        self._fresh = _Fresh(key, space, space.changes)
+        self._note_new_space()
 
     def _step_after(self, seconds: float) -> int:
         return self.step_count + steps_in(seconds, self.physics_rate)
@@ -390,27 +321,3 @@ def steps_in(seconds: float, physics_rate: float) -> int:
     """
     # Less a billionth, and a few last bits: 0.1 s at 240 Hz is 24 steps, not 25.
     return max(1, math.ceil(seconds * physics_rate * (1.0 - 1e-15) - 1e-9))
-
-
-class _Fresh(NamedTuple):
-    """
-    A checkpoint, and the space that was built from it.
-
-    :ivar changes: of the space then
-    """
-
-    key: Checkpoint
-    space: Space
-    changes: int
-
-    def suits(self, space: Space, step: int) -> bool:
-        """Tell whether a space is still as it was built, at a step."""
-        as_built = self.space is space and space.age == 0 and space.changes == self.changes
-        return as_built and self.key.step == step
-
-
-def _hand_over(old: Space, new: Space) -> None:
-    """Hand on what an older space of the same bodies has reported of the frame so far."""
-    report = new.pipeline.contact_report
-    report.copy_sums(old.pipeline.contact_report, old.table.ids, new.table.ids)
-    new.broken = old.broken
