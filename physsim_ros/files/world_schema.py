@@ -35,6 +35,7 @@ PARAMETERS = frozenset(
         'fast_speed',
         'frame_id',
         'history',
+        'history_memory',
         *LIMITS,
         'physics_rate',
         'publish_clock',

@@ -98,7 +98,8 @@ class Snapshot:
     @property
     def nbytes(self) -> int:
         """Memory of its arrays [bytes], without cached properties."""
-        return self.poses.nbytes + self.twists.nbytes + self.forces.nbytes
+        arrays = (self.poses, self.twists, self.forces, self.compressed, *self.springs)
+        return sum(array.nbytes for array in arrays)
 
     @cached_property
     def centers(self) -> Floats:

@@ -34,18 +34,20 @@ FAR_BEHIND = 0.5
 
 class Backlog(NamedTuple):
     """
-    What waits in the node.
+    What waits in the node, and what it remembers.
 
     :ivar message_delay: time that messages wait before they are handled [s]
     :ivar undecodable: number of messages that could not be decoded, since the node started
     :ivar waiting_answers: number of answers that wait for acknowledgements
     :ivar stopped_listener: whether a subscriber of `~/events` has stopped
+    :ivar history_memory: memory of the past, and its budget [MB]
     """
 
     message_delay: float = 0.0
     undecodable: int = 0
     waiting_answers: int = 0
     stopped_listener: bool = False
+    history_memory: tuple[float, float] = (0.0, 0.0)
 
 
 class FrameStatistics:
@@ -135,6 +137,7 @@ class FrameStatistics:
             'wait of requests [s]': f'{backlog.message_delay:.3f}',
             'undecodable messages': backlog.undecodable,
             'answers that wait': backlog.waiting_answers,
+            'memory of the past [MB]': '{:.1f} of {:g}'.format(*backlog.history_memory),
             'kinetic energy [J]': f'{snapshot.kinetic_energy:.6g}',
             'potential energy [J]': f'{snapshot.potential_energy:.6g}',
             'elastic energy [J]': f'{snapshot.elastic_energy:.6g}',

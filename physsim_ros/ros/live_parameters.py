@@ -105,6 +105,8 @@ class LiveParameters:
             self._simulation.speed = self._values['speed']
         if 'history' in names:
             self._simulation.history = self._values['history']
+        if 'history_memory' in names:
+            self._simulation.limit_memory(self._values['history_memory'])
         for name, effect in self._effects.items():
             if name in names:
                 effect()

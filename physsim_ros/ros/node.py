@@ -105,6 +105,7 @@ class PhysSimNode(NodeWithoutQosEvents):
             settings=parameters.world_settings(self._values),
             speed=self._values['speed'],
             history=self._values['history'],
+            history_memory=self._values['history_memory'],
         )
         self._session = DrawingSession(
             parameters.drawing_settings(self._values), Tool(self._values['tool'])
@@ -361,6 +362,7 @@ class PhysSimNode(NodeWithoutQosEvents):
                     undecodable=self.requests.undecodable,
                     waiting_answers=events.waiting,
                     stopped_listener=events.stopped,
+                    history_memory=self.simulation.history_memory.in_megabytes,
                 ),
             )
         )

@@ -26,12 +26,14 @@ bits.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from physsim_ros.model.errors import OutOfHistory
-from physsim_ros.simulation.history import History, Moment, Tail
+from physsim_ros.simulation.history import History
+from physsim_ros.simulation.records import Moment, Tail
 
-# Courses that are kept, at most; the one that was left first goes first.
+# Courses that are kept, at most, as many as a person tells apart; the one that was left first
+# goes first.
 MOST_COURSES = 16
 
 
@@ -44,12 +46,18 @@ class LeftCourse:
     :param parent: number of the course in whose log it begins
     :param begins: the moment at which the two part
     :param tail: its log and checkpoints from there on
+
+    :ivar size: memory that these take [bytes]
     """
 
     number: int
     parent: int
     begins: Moment
     tail: Tail
+    size: int = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.size = self.tail.size
 
 
 class Courses:
@@ -65,6 +73,17 @@ class Courses:
         self._numbers = numbers
         self.current = next(numbers)
         self._left: dict[int, LeftCourse] = {}
+
+    @property
+    def size(self) -> int:
+        """Return the memory that the courses take that were left [bytes]."""
+        return sum(course.size for course in self._left.values())
+
+    def drop_oldest(self) -> int:
+        """Drop the course that was left first; return the memory that it took [bytes]."""
+        before = self.size
+        self._drop([*self._left.values()][:1])
+        return before - self.size
 
     def reachable(self, history: History) -> list[LeftCourse]:
         """Return the courses that can be returned to, by number."""
@@ -88,7 +107,7 @@ class Courses:
         """
         left = self._leave(begins, tail, next(self._numbers))
         if len(self._left) > MOST_COURSES:
-            self._drop([next(iter(self._left.values()))])
+            self.drop_oldest()
         return left
 
     def drop_after(self, moment: Moment) -> None:

@@ -24,17 +24,22 @@ replayed, forward, while those after them are shown, backward.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
+from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Answer, Contacts, Snapshot
-from physsim_ros.simulation.history import History, Mark
+from physsim_ros.simulation.history import History
+from physsim_ros.simulation.memory_size import frame_size, scene_size
+from physsim_ros.simulation.records import Mark
 from physsim_ros.simulation.replay import Replay
 from physsim_ros.simulation.world import World
 
-# Python's own share of a frame [bytes].
-_OVERHEAD = 1000
+# Segments that are never dropped for want of memory: the one that is shown, and the one beside it
+# that is shown next.
+_LEAST_SEGMENTS = 2
 # The memory that a body may take in a frame on average [bytes]: a pose.
 _BODY = 24
 
@@ -50,15 +55,17 @@ class CachedFrame(NamedTuple):
     snapshot: Snapshot
     contacts: Contacts | None
 
-    @property
-    def size(self) -> int:
-        """Return the memory it takes [bytes]."""
-        contacts = 0 if self.contacts is None else self.contacts.nbytes
-        return _OVERHEAD + self.snapshot.nbytes + contacts
-
     def copy(self) -> CachedFrame:
         """Return a copy without the cached properties of its snapshot."""
         return self._replace(snapshot=replace(self.snapshot))
+
+
+def size_of_frames(frames: Iterable[CachedFrame]) -> int:
+    """Return the memory that frames take [bytes], with each scene once."""
+    frames = list(frames)
+    scenes = {id(frame.snapshot.scene): frame.snapshot.scene for frame in frames}
+    size = sum(frame_size(*frame) for frame in frames)
+    return size + sum(map(scene_size, scenes.values()))
 
 
 class _Segment:
@@ -67,20 +74,28 @@ class _Segment:
     def __init__(self) -> None:
         self.frames: dict[int, CachedFrame] = {}
         self.size = 0
+        # The scene of the frame that was added last.
+        self._scene: Scene | None = None
 
     def add(self, frame: CachedFrame) -> None:
         old = self.frames.get(frame.snapshot.step)
-        self.size += frame.size - (0 if old is None else old.size)
+        self.size += frame_size(*frame) - (0 if old is None else frame_size(*old))
+        if frame.snapshot.scene is not self._scene:
+            self._scene = frame.snapshot.scene
+            self.size += scene_size(self._scene)
         self.frames[frame.snapshot.step] = frame.copy()
+
+    def pop_from(self, step: int) -> list[CachedFrame]:
+        """Drop the frames from a step on, and return them."""
+        popped = [self.frames.pop(each) for each in [*self.frames] if each >= step]
+        if popped:
+            self.size = size_of_frames(self.frames.values())
+        return popped
 
     def has(self, step: int, *, watching: bool) -> bool:
         """Return whether it has the frame of a step, with contacts if `watching`."""
         frame = self.frames.get(step)
         return frame is not None and (frame.contacts is not None or not watching)
-
-    def distance(self, step: int) -> int:
-        """Return how far a step is from the nearest frame."""
-        return max(min(self.frames) - step, step - max(self.frames), 0) if self.frames else step
 
 
 class FrameCache:
@@ -101,6 +116,8 @@ class FrameCache:
         self._frame_steps = frame_steps
         self.budget = budget
         self._segments: dict[Mark, _Segment] = {}
+        # The step that is shown.
+        self._shown = 0
         # Number of bodies in the last frame.
         self._bodies = 0
         # The world that replays the segment which is shown next in a rewind.
@@ -152,10 +169,7 @@ class FrameCache:
         for mark in [mark for mark in self._segments if mark.step >= step]:
             dropped += self._segments.pop(mark).frames.values()
         for segment in self._segments.values():
-            for number in [number for number in segment.frames if number >= step]:
-                frame = segment.frames.pop(number)
-                segment.size -= frame.size
-                dropped.append(frame)
+            dropped += segment.pop_from(step)
         return dropped
 
     def frame_at(self, step: int, *, watching: bool) -> CachedFrame:
@@ -225,14 +239,31 @@ class FrameCache:
         return replay
 
     def _evict(self, step: int) -> None:
-        """Drop the segments that are farthest away, until the rest fits."""
+        """Drop the segments that the history has no more, and more of them until all fit."""
+        self._shown = step
+        first = self._history.checkpoints[0].moment
+        for mark in [mark for mark in self._segments if mark.moment < first]:
+            del self._segments[mark]
         size = self.size
         poses = self._history.length // self._frame_steps * self._bodies
         budget = min(self.budget, poses * _BODY)
-        # Never the one that is shown, nor those before and after it.
-        while size > budget and len(self._segments) > 3:
-            farthest = max(self._segments, key=lambda mark: self._segments[mark].distance(step))
-            size -= self._segments.pop(farthest).size
+        while size > budget and (dropped := self.drop_oldest()):
+            size -= dropped
+
+    def drop_oldest(self) -> int:
+        """
+        Drop a segment: the last of those after the step that is shown, else the first.
+
+        A rewind shows what lies before the step, and what is played again is added again.
+
+        :return: memory that it took [bytes]; 0 where only the step's own and the one next to it
+            are left
+        """
+        if len(self._segments) <= _LEAST_SEGMENTS:
+            return 0
+        marks = sorted(self._segments, key=lambda mark: mark.moment)
+        last = self._segments.pop(marks[-1] if marks[-1].step > self._shown else marks[0])
+        return last.size
 
 
 class _SegmentReplay:

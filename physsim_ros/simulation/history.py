@@ -22,80 +22,16 @@ checkpoint leads to the same bits; what is dropped is dropped from one end.
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
-from dataclasses import dataclass
 from functools import lru_cache
-from typing import NamedTuple
 
-from physsim_ros.model.checkpoint import Checkpoint, WorldState
+from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import OutOfHistory
 from physsim_ros.model.requests import Command, Request, Restore
+from physsim_ros.simulation.memory_size import checkpoint_size, names_size, request_size
+from physsim_ros.simulation.records import Entry, Mark, Moment, Tail, total_size
 
 # Number of tuples of names that commands of the log share: one a publisher.
 _SHARED_NAMES = 16
-
-# A step, and the number of requests made until then.
-Moment = tuple[int, int]
-
-
-@dataclass(slots=True, eq=False)
-class Entry:
-    """
-    A request that changed the world.
-
-    :param step: at which it did
-    :param request: that was applied
-    :param gesture: requests of one gesture are undone together
-    :param shown: whether that step has been shown with it; what came to a running world shows only
-        in the next frame
-    :param subject: name of the body or joint concerned, or ''
-    """
-
-    step: int
-    request: Request
-    gesture: int
-    shown: bool = False
-    subject: str = ''
-
-
-class Mark(NamedTuple):
-    """
-    A checkpoint and its moment.
-
-    :ivar step: of the checkpoint
-    :ivar serial: number of requests made until then
-    :ivar key: the checkpoint
-    :ivar digest: of the world then
-    """
-
-    step: int
-    serial: int
-    key: Checkpoint
-    digest: str
-
-    @property
-    def moment(self) -> Moment:
-        """Return step and serial."""
-        return self.step, self.serial
-
-
-class Tail(NamedTuple):
-    """
-    The part of a history after a moment, cut off by an undo or by a branch.
-
-    :ivar after: moment of the last checkpoint before it
-    :ivar entries: the requests, the undone ones first
-    :ivar marks: checkpoints after them
-    :ivar head: the last step that the world had reached
-    :ivar step: at which it was cut off, and
-    :ivar serial: number of requests made until then
-    """
-
-    after: Moment
-    entries: tuple[Entry, ...]
-    marks: tuple[Mark, ...]
-    head: int
-    step: int
-    serial: int
 
 
 class History:
@@ -105,9 +41,16 @@ class History:
     :param first: checkpoint of the beginning
     :param length: steps that are kept, at least
     :param spacing: steps from one checkpoint to the next, at least
+
+    :ivar log_limit: memory of the requests after the last checkpoint, from which on the next one
+        is due [bytes]: what lies after a checkpoint can be dropped only together with it
+    :ivar size: memory that the log and the checkpoints take [bytes]
+    :ivar shown: the moment that is shown; the checkpoint that it is replayed from is not dropped
+        for want of memory
     """
 
-    def __init__(self, first: Mark, *, length: int, spacing: int) -> None:
+    def __init__(self, first: Mark, *, length: int, spacing: int, log_limit: int) -> None:
+        self.log_limit = log_limit
         self._spacing = spacing
         self._length = length
         self._entries: list[Entry] = []
@@ -119,7 +62,13 @@ class History:
         self._restored = 0
         # The number of requests before the first one of each gesture.
         self._gestures: dict[int, int] = {}
-        self._marks = [first]
+        self._marks = [first._replace(size=checkpoint_size(first.key))]
+        self.shown = first.moment
+        # Whether the oldest step was shown without requests that were dropped with it.
+        self._begins_later = False
+        # Memory of the requests after the last checkpoint [bytes].
+        self._since = 0
+        self._count_size()
         # The last step that was reached.
         self.head = first.step
         # Returns the names of an earlier command that are equal: publishers command the same
@@ -141,7 +90,8 @@ class History:
     @property
     def oldest(self) -> int:
         """Return the oldest step that can be gone back to."""
-        return max(self._marks[0].step, self.head - self._length)
+        first = self._marks[0].step + self._begins_later
+        return min(self.head, max(first, self.head - self._length))
 
     @property
     def end(self) -> Moment:
@@ -200,18 +150,27 @@ class History:
     def is_checkpoint_due(self, step: int) -> bool:
         """Return whether a checkpoint is due at a step; a loaded state begins with one."""
         last = self._marks[-1]
-        return step - last.step >= self._spacing or self._restored > last.serial
+        long = step - last.step >= self._spacing or self.is_log_long
+        return long or self._restored > last.serial
+
+    @property
+    def is_log_long(self) -> bool:
+        """Whether the requests after the last checkpoint take so much that the next is due."""
+        return self._since > self.log_limit
 
     def last_gesture(self, serial: int) -> tuple[Entry, int] | None:
         """
         Return the first request of the last gesture before a serial; None where none is kept.
 
         :return: it, and the number of requests from it on; among them are those of other gestures
-            that came in between, since time goes back before them
+            that came in between, since time goes back before them; None also for a gesture of
+            which the beginning is kept no more: it is undone as a whole or not at all
         """
         if serial <= self._dropped:
             return None
         first = self._gestures[self._entries[serial - self._dropped - 1].gesture]
+        if first < self._dropped:
+            return None
         return self._entries[first - self._dropped], serial - first
 
     def gesture_before(self, serial: int, default: int) -> int:
@@ -222,7 +181,8 @@ class History:
     def gesture_start(self, gesture: int, serial: int) -> Moment | None:
         """Return step and serial of the first request of a gesture before a serial, if kept."""
         first = self._gestures.get(gesture, serial)
-        return (self._entries[first - self._dropped].step, first) if first < serial else None
+        kept = self._dropped <= first < serial
+        return (self._entries[first - self._dropped].step, first) if kept else None
 
     @property
     def last_loaded(self) -> WorldState | None:
@@ -244,12 +204,21 @@ class History:
 
     def add_entry(self, entry: Entry) -> None:
         """Add a request that changed the world, as the last."""
-        if isinstance(entry.request, Command):
-            entry.request.share_names(self._shared_names(entry.request.names))
+        entry.size = entry.size or self._entry_size(entry.request)
+        self.size += entry.size
+        self._since += entry.size
         self._gestures.setdefault(entry.gesture, self._dropped + len(self._entries))
         self._entries.append(entry)
         if isinstance(entry.request, Restore):
             self._restored = self._dropped + len(self._entries)
+
+    def _entry_size(self, request: Request) -> int:
+        """Return the memory of a request; equal names of commands are in memory once."""
+        if not isinstance(request, Command):
+            return request_size(request)
+        names = request.names
+        request.share_names(self._shared_names(names))
+        return request_size(request) + (names_size(names) if request.names is names else 0)
 
     def note_shown(self, step: int, serial: int) -> None:
         """Note that a step has been shown, with the requests up to a serial."""
@@ -262,7 +231,10 @@ class History:
 
     def add_checkpoint(self, mark: Mark) -> None:
         """Add a checkpoint, as the last."""
+        mark = mark._replace(size=checkpoint_size(mark.key, self._marks[-1].key))
         self._marks.append(mark)
+        self.size += mark.size
+        self._since = 0
 
     def cut(self, step: int, serial: int, *, now: Moment) -> Tail:
         """
@@ -305,6 +277,7 @@ class History:
         for entry in tail.entries:
             self.add_entry(entry)
         self._marks += tail.marks
+        self._count_size()
         self.head = tail.head
         self._drop_old()
 
@@ -319,23 +292,57 @@ class History:
         self._restored = min(self._restored, serial)
         while self._marks[-1].step > step or self._marks[-1].serial > serial:
             self._marks.pop()
+        self._count_size()
         self.head = step
 
     def _drop_old(self) -> None:
         """Drop what is older than `length`, but the checkpoint before the oldest step."""
         old = bisect_right(self._marks, self.head - self._length, key=lambda each: each.step) - 1
         if old > 0:
-            del self._marks[:old]
-            old = self._marks[0].serial - self._dropped
-            for entry in self._entries[:old]:
-                if isinstance(entry.request, Restore):
-                    self._loaded = entry.request.state
-            del self._entries[:old]
-            self._dropped = self._marks[0].serial
-            self._index_gestures()
+            self._drop_before(old)
+
+    def drop_oldest(self) -> int:
+        """
+        Drop the oldest checkpoint and the requests up to the next one.
+
+        :return: memory that they took [bytes]; 0 where the moment that is shown is replayed from
+            that checkpoint
+        """
+        if len(self._marks) == 1 or self._marks[1].moment > self.shown:
+            return 0
+        before = self.size
+        self._drop_before(1)
+        return before - self.size
+
+    def _drop_before(self, place: int) -> None:
+        """Drop the checkpoints before one of them, and the requests up to it."""
+        del self._marks[:place]
+        first = self._marks[0]
+        count = first.serial - self._dropped
+        dropped = self._entries[:count]
+        del self._entries[:count]
+        for entry in dropped:
+            if isinstance(entry.request, Restore):
+                self._loaded = entry.request.state
+        last = dropped[-1] if dropped else None
+        self._begins_later = last is not None and last.step == first.step and not last.shown
+        self._dropped = first.serial
+        # Of a gesture that began before, the beginning remains known.
+        kept = {entry.gesture for entry in self._entries}
+        self._gestures = {each: at for each, at in self._gestures.items() if each in kept}
+        self._count_size()
+
+    def _count_size(self) -> None:
+        """Count the memory of all requests and checkpoints, and of those requests at the end."""
+        last = self._marks[-1].serial - self._dropped
+        self._since = total_size(self._entries[last:])
+        # The scene of the first checkpoint was counted with one that is dropped.
+        first = self._marks[0]
+        scene = checkpoint_size(first.key) - first.size
+        self.size = total_size(self._entries) + total_size(self._marks) + scene
 
     def _index_gestures(self) -> None:
-        self._gestures.clear()
+        self._gestures = {each: at for each, at in self._gestures.items() if at < self._dropped}
         for place, entry in enumerate(self._entries):
             self._gestures.setdefault(entry.gesture, self._dropped + place)
 

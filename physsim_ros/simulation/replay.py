@@ -28,7 +28,8 @@ from physsim_ros.model.errors import OutOfHistory, Refusal
 from physsim_ros.model.requests import Request
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.courses import Courses
-from physsim_ros.simulation.history import Entry, History, Mark, Tail
+from physsim_ros.simulation.history import History
+from physsim_ros.simulation.records import Entry, Mark, Tail
 from physsim_ros.simulation.world import World
 
 # The share of the time between two checkpoints in which the bodies for the next one are made
@@ -140,6 +141,7 @@ class Timeline(Replay):
     :param world: at its beginning
     :param length: steps that are kept
     :param spacing: steps from one checkpoint to the next, at least
+    :param log_limit: memory of requests from which on the next checkpoint is due [bytes]
     :param courses: numbers of its courses; None counts from 1
 
     :ivar courses: those that were left
@@ -151,11 +153,14 @@ class Timeline(Replay):
         *,
         length: int,
         spacing: int,
+        log_limit: int,
         courses: Iterator[int] | None = None,
     ) -> None:
         self.courses = Courses(courses or itertools.count(1))
         first = Mark(world.step_count, 0, world.renew(), world.digest())
-        super().__init__(world, History(first, length=length, spacing=spacing))
+        super().__init__(
+            world, History(first, length=length, spacing=spacing, log_limit=log_limit)
+        )
         self._resumed = first.moment
         self._spacing = spacing
 
@@ -183,6 +188,9 @@ class Timeline(Replay):
         step = self.world.step_count
         self.history.add_entry(Entry(step, request, gesture, subject=done[0]))
         self.serial += 1
+        if self.history.is_log_long:
+            # A paused world, too, can drop what is old.
+            self.add_checkpoint()
         return done
 
     @property
@@ -221,14 +229,23 @@ class Timeline(Replay):
             )
         self.seek_moment(step, history.serial_shown_at(step))
 
-    def limit(self, length: int) -> bool:
+    def keep_within(self, length: int, log_limit: int) -> bool:
         """
-        Keep so many steps from now on; a world that is before them goes to the oldest.
+        Keep so many steps from now on, with a checkpoint after so many bytes of requests.
+
+        :return: whether the world is at the same moment as before, as of `enter_history`
+        """
+        self.history.log_limit = log_limit
+        self.history.length = length
+        return self.enter_history()
+
+    def enter_history(self) -> bool:
+        """
+        Go to the oldest step if the world is before it.
 
         :return: whether the world is at the same moment as before
         """
         history = self.history
-        history.length = length
         if (
             self.world.step_count >= history.oldest
             and self.moment >= history.checkpoints[0].moment

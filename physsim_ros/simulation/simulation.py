@@ -37,13 +37,16 @@ from physsim_ros.model.requests import (
 )
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer, Frame, NO_CONTACTS, Snapshot
-from physsim_ros.model.timeline import CourseSpan, TimelineStatus
+from physsim_ros.model.timeline import TimelineStatus
 from physsim_ros.simulation.clock import Clock
 from physsim_ros.simulation.frame_cache import CachedFrame, FrameCache
 from physsim_ros.simulation.ghosts import Ghosts
 from physsim_ros.simulation.hands import Hands, placing
+from physsim_ros.simulation.history_memory import DEFAULT_MEMORY, HistoryMemory
+from physsim_ros.simulation.records import Moment
 from physsim_ros.simulation.replay import Timeline
 from physsim_ros.simulation.request_queue import RequestQueue
+from physsim_ros.simulation.timeline_status import status_of
 from physsim_ros.simulation.undo import Undo
 from physsim_ros.simulation.world import World
 
@@ -51,8 +54,6 @@ from physsim_ros.simulation.world import World
 _FRAMES_A_CALL = 2
 # Simulation time from one checkpoint to the next [s]: at most so much is replayed to reach a step.
 CHECKPOINTS = 3.0
-# Greatest memory of the frame cache [bytes]: three minutes of 100 bodies, 23 s of 1,000.
-MOST_KEPT = 64 * 2**20
 
 
 class Simulation:
@@ -64,9 +65,9 @@ class Simulation:
     :param settings: of the empty world at the start
     :param speed: simulation seconds a second; 0 is paused, negative goes back
     :param history: how far back it can go [s of simulation time]
+    :param history_memory: memory that the past may take [MB]; when it is spent, the oldest goes
     :param checkpoints: from one checkpoint to the next [s]
-    :ivar past: what was shown of it
-    :raises BadProperty: publish_rate does not divide physics_rate
+    :raises BadProperty: publish_rate does not divide physics_rate, or the memory is out of range
     """
 
     def __init__(
@@ -77,6 +78,7 @@ class Simulation:
         settings: WorldSettings | None = None,
         speed: float = 1.0,
         history: float = 600.0,
+        history_memory: float = DEFAULT_MEMORY,
         checkpoints: float = CHECKPOINTS,
     ) -> None:
         steps = physics_rate / publish_rate
@@ -96,6 +98,7 @@ class Simulation:
         self._watching = False
         self._history = history
         self._checkpoints = checkpoints
+        self._memory = HistoryMemory(history_memory)
         empty = WorldState(settings=settings or WorldSettings())
         self._course_numbers = itertools.count(1)
         self._ghosts = Ghosts()
@@ -146,31 +149,16 @@ class Simulation:
     @property
     def status(self) -> TimelineStatus:
         """Return where the world is in its time, and what can be undone and returned to."""
-        history, dt = self.timeline.history, 1.0 / self.physics_rate
-        moment = self.timeline.moment
-        if self._shown is not None:
-            moment = self.step, history.serial_shown_at(self.step)
-        if self.speed < 0.0:
-            state = 'rewinding'
-        elif moment != history.end:
-            state = 'in the past'
-        else:
-            state = 'playing' if self.speed else 'paused'
-        courses = self.timeline.courses
-        return TimelineStatus(
-            state=state,
-            speed=self.speed,
-            oldest=history.oldest * dt,
-            now=moment[0] * dt,
-            newest=history.head * dt,
-            course=courses.current,
-            undo=self._undo.undo_words(moment[1]),
-            redo=self._undo.redo_words,
-            courses=tuple(
-                CourseSpan(course.number, course.begins[0] * dt, course.tail.head * dt)
-                for course in courses.reachable(history)
-            ),
+        return status_of(
+            self._undo, self._shown_moment, speed=self.speed, dt=1.0 / self.physics_rate
         )
+
+    @property
+    def _shown_moment(self) -> Moment:
+        """Return step and serial that are shown."""
+        if self._shown is None:
+            return self.timeline.moment
+        return self.step, self.timeline.history.serial_shown_at(self.step)
 
     def ghost(self, course: int, seconds: float) -> Snapshot | None:
         """
@@ -191,9 +179,29 @@ class Simulation:
     def history(self, history: float) -> None:
         self._seek_shown()
         self._history = history
-        if not self.timeline.limit(self._steps(history)):
+        if not self._limit_timeline():
             self._note_jump()
             self._report_oldest()
+
+    @property
+    def history_memory(self) -> HistoryMemory:
+        """Return the budget of all that remembers the past, and what is taken of it."""
+        return self._memory
+
+    def limit_memory(self, megabytes: float) -> None:
+        """
+        Set the memory that the past may take [MB]; what is too much goes with the next frame.
+
+        :raises Refusal: it is out of range
+        """
+        self._memory.megabytes = megabytes
+        self.frame_cache.budget = self._memory.frame_limit
+        self._limit_timeline()
+        self._changed = True
+
+    def _limit_timeline(self) -> bool:
+        """Limit the timeline in force, and return whether the world is where it was."""
+        return self.timeline.keep_within(self._steps(self._history), self._memory.log_limit)
 
     @property
     def late_frames(self) -> int:
@@ -484,7 +492,7 @@ class Simulation:
             return
         self.frame_cache = self._new_frame_cache()
         self.timeline.world.watching = self._watching
-        if self.timeline.limit(self._steps(self._history)):
+        if self._limit_timeline():
             # With the contacts of the frame that was shown.
             self.timeline.seek_moment(*self.timeline.moment)
 
@@ -578,6 +586,7 @@ class Simulation:
         if self._shown is not None and not moved:
             # They have been shown.
             contacts = NO_CONTACTS
+        self._fit_memory()
         self._answers += self.timeline.take_answers() + self.frame_cache.take_answers()
         frame = Frame(
             snapshot=snapshot,
@@ -590,6 +599,25 @@ class Simulation:
         self._answers.clear()
         self._changed = False
         return frame
+
+    def _fit_memory(self) -> None:
+        """Drop the oldest of what remembers the past until it fits, and tell it once."""
+        undo, history = self._undo, self.timeline.history
+        history.shown = min(self._shown_moment, self.timeline.moment)
+        stores = (
+            self._ghosts,
+            self.timeline.courses,
+            undo.undone,
+            undo.before_resets,
+            history,
+        )
+        if self._memory.fit(self.frame_cache, stores):
+            oldest = history.oldest / self.physics_rate
+            message = (
+                f'the past would take more than {self._memory.megabytes:g} MB (history_memory): '
+                f'the oldest goes, {oldest:.3f} s is the oldest that is kept'
+            )
+            self._answers.append(Answer(topic='history', message=message, code='history'))
 
     def _observe_world(self, *, moved: bool) -> CachedFrame:
         """Return the state of the world, and cache it for rewinds."""
@@ -613,6 +641,7 @@ class Simulation:
             world,
             length=self._steps(self._history),
             spacing=self._steps(self._checkpoints),
+            log_limit=self._memory.log_limit,
             courses=self._course_numbers,
         )
 
@@ -622,7 +651,7 @@ class Simulation:
             self.timeline.history,
             physics_rate=self.physics_rate,
             frame_steps=self.frame_steps,
-            budget=MOST_KEPT,
+            budget=self._memory.frame_limit,
         )
 
     def _report_oldest(self, more: str = '') -> None:

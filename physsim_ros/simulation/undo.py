@@ -22,16 +22,14 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Generic, NamedTuple, TypeVar
 
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import OutOfHistory
 from physsim_ros.model.requests import Grab
-from physsim_ros.simulation.history import Entry, Tail
+from physsim_ros.simulation.memory_size import world_size
+from physsim_ros.simulation.records import Entry, Tail
 from physsim_ros.simulation.replay import Timeline
-
-# So many steps back can be redone, and so many resets undone.
-MOST_UNDONE, MOST_RESETS = 100, 10
 
 # What requests are called whose classes' names are no words for it.
 _WORDS = {
@@ -48,6 +46,54 @@ _WORDS = {
 }
 
 
+_Stored = TypeVar('_Stored', bound='Tail | _StoredTimeline')
+
+
+class UndoStack(Generic[_Stored]):
+    """
+    What was in force once and can be again, the latest last.
+
+    :ivar size: memory that it takes [bytes]
+    """
+
+    def __init__(self) -> None:
+        self.size = 0
+        self._stored: deque[tuple[_Stored, int]] = deque()
+
+    def __len__(self) -> int:
+        return len(self._stored)
+
+    @property
+    def last(self) -> _Stored:
+        """Return what was added last."""
+        return self._stored[-1][0]
+
+    def add(self, stored: _Stored) -> None:
+        """Add something, as the last."""
+        size = stored.size
+        self.size += size
+        self._stored.append((stored, size))
+
+    def pop(self) -> _Stored:
+        """Return what was added last, and keep it no more."""
+        stored, size = self._stored.pop()
+        self.size -= size
+        return stored
+
+    def drop_oldest(self) -> int:
+        """Drop what was added first; return the memory that it took [bytes]."""
+        if not self._stored:
+            return 0
+        _, size = self._stored.popleft()
+        self.size -= size
+        return size
+
+    def clear(self) -> None:
+        """Drop everything."""
+        self._stored.clear()
+        self.size = 0
+
+
 class Undo:
     """
     The timeline in force, and what undo, redo and reset need to replace it.
@@ -55,26 +101,27 @@ class Undo:
     :param begin: makes a timeline that begins with a state
     :param state: that the first one begins with
     :ivar timeline: the one in force
+    :ivar before_resets: the timeline before each reset
+    :ivar undone: the tail that each undo cut off, or the timeline that it left
     """
 
     def __init__(self, begin: Callable[[WorldState], Timeline], state: WorldState) -> None:
         self._begin = begin
-        # The timeline before each reset; the tail that each undo cut off, or the timeline it left.
-        self._before_resets: deque[_StoredTimeline] = deque(maxlen=MOST_RESETS)
-        self._undone: deque[Tail | _StoredTimeline] = deque(maxlen=MOST_UNDONE)
+        self.before_resets = UndoStack[_StoredTimeline]()
+        self.undone = UndoStack[Tail | _StoredTimeline]()
         # The state that this timeline began with.
         self._beginning = state
         self.timeline = begin(state)
 
     def begin(self, state: WorldState) -> None:
         """Begin a timeline with a state; nothing before it can be undone."""
-        self._before_resets.clear()
-        self._undone.clear()
+        self.before_resets.clear()
+        self.undone.clear()
         self._beginning, self.timeline = state, self._begin(state)
 
     def clear_undone(self) -> None:
         """Drop what could be redone: another request was applied."""
-        self._undone.clear()
+        self.undone.clear()
 
     def reset(self) -> bool:
         """Return to the state that was loaded last, at time 0, and whether it was not there."""
@@ -82,8 +129,8 @@ class Undo:
         if history.head == 0 and self.timeline.serial == 0:
             # Nothing has happened since the beginning.
             return False
-        self._store_timeline(self._before_resets)
-        self._undone.clear()
+        self._store_timeline(self.before_resets)
+        self.undone.clear()
         self._beginning = history.last_loaded or self._beginning
         self.timeline = self._begin(self._beginning)
         return True
@@ -99,12 +146,12 @@ class Undo:
             tail = self.timeline.undo()
         except OutOfHistory:
             # Before the reset come the requests since then, though they are kept no more.
-            if not (self._before_resets and self._is_begun):
+            if not (self.before_resets and self._is_begun):
                 raise
-            self._store_timeline(self._undone)
-            self.timeline, self._beginning = self._before_resets.pop()
+            self._store_timeline(self.undone)
+            self.timeline, self._beginning = self.before_resets.pop()
             return 'reset', None
-        self._undone.append(tail)
+        self.undone.add(tail)
         return self._described_tail(tail), tail.entries[0].step
 
     def undo_words(self, serial: int) -> str:
@@ -116,14 +163,14 @@ class Undo:
         undone = self.timeline.history.last_gesture(serial)
         if undone is not None:
             return f'undo {_described(*undone)}'
-        return 'undo reset' if self._before_resets and self._is_begun else ''
+        return 'undo reset' if self.before_resets and self._is_begun else ''
 
     @property
     def redo_words(self) -> str:
         """Return the words for the request that `redo` would repeat; '' if there is none."""
-        if not self._undone:
+        if not self.undone:
             return ''
-        undone = self._undone[-1]
+        undone = self.undone.last
         return f'redo {self._described_tail(undone)}' if isinstance(undone, Tail) else 'redo reset'
 
     @property
@@ -143,21 +190,23 @@ class Undo:
         :return: the step from which on frames differ; None is all
         :raises OutOfHistory: nothing was undone, or something else was done since
         """
-        if not self._undone:
+        if not self.undone:
             raise OutOfHistory('there is nothing to redo', field='history')
-        undone = self._undone[-1]
+        undone = self.undone.last
         if isinstance(undone, Tail):
             self.timeline.redo(undone)
-            self._undone.pop()
+            self.undone.pop()
             return undone.entries[0].step
-        self._undone.pop()
-        self._store_timeline(self._before_resets)
+        self.undone.pop()
+        self._store_timeline(self.before_resets)
         self.timeline, self._beginning = undone
         return None
 
-    def _store_timeline(self, to: deque[_StoredTimeline] | deque[Tail | _StoredTimeline]) -> None:
+    def _store_timeline(
+        self, to: UndoStack[_StoredTimeline] | UndoStack[Tail | _StoredTimeline]
+    ) -> None:
         """Store the timeline in force, before another one replaces it."""
-        to.append(_StoredTimeline(self.timeline, self._beginning))
+        to.add(_StoredTimeline(self.timeline, self._beginning))
 
 
 class _StoredTimeline(NamedTuple):
@@ -170,6 +219,13 @@ class _StoredTimeline(NamedTuple):
 
     timeline: Timeline
     beginning: WorldState
+
+    @property
+    def size(self) -> int:
+        """Return the memory that it takes [bytes]."""
+        timeline = self.timeline
+        world = world_size(timeline.world.scene)
+        return timeline.history.size + timeline.courses.size + world
 
 
 def _described(entry: Entry, count: int) -> str:

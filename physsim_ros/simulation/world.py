@@ -47,6 +47,7 @@ from physsim_ros.model.requests import (
     Restore,
     Spawn,
 )
+from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Contacts, Snapshot
 from physsim_ros.model.transform import Point
@@ -102,6 +103,11 @@ class World:
     def settings(self) -> WorldSettings:
         """Return the settings of the world."""
         return self._settings
+
+    @property
+    def scene(self) -> Scene:
+        """Return the bodies, joints and settings."""
+        return self._space.table.scene
 
     @property
     def stamp(self) -> int:

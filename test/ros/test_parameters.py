@@ -63,6 +63,7 @@ CONTRACT: dict[str, tuple[Any, str]] = {
     'command_timeout': (0.5, 'live'),
     'drag_force': (10.0, 'live'),
     'history': (600.0, 'live'),
+    'history_memory': (256.0, 'live'),
     'publish_clock': (True, 'live'),
     'publish_tf': (False, 'read-only'),
     'viewer': ('auto', 'live'),

@@ -20,7 +20,6 @@ import numpy as np
 from physsim_ros.model.errors import OutOfHistory
 from physsim_ros.model.requests import Command, Delete
 from physsim_ros.model.shapes import Box
-from physsim_ros.simulation import ghosts
 from physsim_ros.simulation.courses import MOST_COURSES
 from physsim_ros.simulation.simulation import Simulation
 import pytest
@@ -147,18 +146,6 @@ def test_a_ghost_is_what_the_course_has_shown() -> None:
     sim.return_to_course(1)
     assert sim.ghost(1, 1.5) is None
     assert sim.ghost(2, 1.5) is not None
-
-
-def test_ghosts_have_a_budget(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(ghosts, 'GREATEST_SIZE', 200_000)
-    sim = simulation()
-    run(sim, 2.0)
-    for number in range(5):
-        branch(sim, 1.0, float(number + 1))
-    kept = [number for number in numbers(sim) if sim.ghost(number, 1.5) is not None]
-    # The last ones are kept.
-    assert 0 < len(kept) < 5
-    assert kept[-1] == numbers(sim)[-1]
 
 
 def test_undo_and_redo_go_along_a_course() -> None:

@@ -24,6 +24,7 @@ from physsim_ros.model.settings import RANGES as WORLD_RANGES
 from physsim_ros.model.settings import STRONGEST, WorldSettings
 from physsim_ros.model.shapes import LARGEST
 from physsim_ros.ros.parameters.spec import Spec
+from physsim_ros.simulation.history_memory import DEFAULT_MEMORY, LEAST_MEMORY, MOST_MEMORY
 from physsim_ros.view import ViewerMode
 
 # Value of draw_color with which each body has another colour.
@@ -75,6 +76,13 @@ _OF_NODE = {
         meaning='how far back the world can be rewound [s]; older steps are dropped',
         low=0.0,
         high=86400.0,
+    ),
+    'history_memory': Spec(
+        default=DEFAULT_MEMORY,
+        meaning='memory of the past [MB]: log, checkpoints, frames, courses that were left, what '
+        'was undone; when it is spent the oldest goes, and an event (history) says so',
+        low=LEAST_MEMORY,
+        high=MOST_MEMORY,
     ),
     'publish_clock': Spec(default=True, meaning='whether the clock is published'),
     'publish_tf': Spec(

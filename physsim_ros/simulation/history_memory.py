@@ -1,0 +1,123 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+History memory: one budget in bytes for all that remembers the past.
+
+Law: when it is spent the oldest goes, and the least of it first: what can be computed again, what
+is only shown, what is not in force, and last the past of the course in force.
+
+In this order: frames of that course, which a replay makes again; ghosts; courses that were left,
+the one first that was left first; what was undone; what was before resets; the oldest checkpoint
+of the course in force with the requests up to the next one. What always remains: the last
+checkpoint, the requests after it, and the frames beside the one that is shown.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Protocol
+
+from physsim_ros.model.checks import Within
+
+# Bytes of a megabyte.
+MEGABYTE = 10**6
+# Least and greatest memory of the past [MB]: a second of a few hundred commands; a large machine.
+LEAST_MEMORY, MOST_MEMORY = 1.0, 1e6
+# Memory of the past when nothing is said [MB].
+DEFAULT_MEMORY = 256.0
+# Share of the budget for the requests after a checkpoint, from which on the next one is due:
+# eight or more parts can be dropped one by one.
+_LOG_SHARE = 1 / 8
+# Share of the budget for frames: 64 MB of 256, three minutes of 100 bodies; more than that saves
+# little, since a rewind beyond it replays ahead of what it shows.
+_FRAME_SHARE = 1 / 4
+# Share of the budget below which the next loss is news again.
+_RELIEF = 1 / 2
+
+
+class Store(Protocol):
+    """A part of what remembers the past."""
+
+    @property
+    def size(self) -> int:
+        """Return the memory that it takes [bytes]."""
+
+    def drop_oldest(self) -> int:
+        """Drop the oldest of it, and return the memory that this took; 0 is nothing to drop."""
+
+
+class HistoryMemory:
+    """
+    The budget of all that remembers the past.
+
+    :param megabytes: memory that it may take [MB]
+    :raises BadProperty: that is out of range
+    :raises Malformed: it is not a finite number
+
+    :ivar used: memory that was taken at the last count [bytes]
+    """
+
+    def __init__(self, megabytes: float) -> None:
+        self.used = 0
+        self.megabytes = megabytes
+
+    @property
+    def megabytes(self) -> float:
+        """Return the memory that it may take [MB]."""
+        return self._megabytes
+
+    @megabytes.setter
+    def megabytes(self, megabytes: float) -> None:
+        self._megabytes = Within(LEAST_MEMORY, MOST_MEMORY, 'MB')(megabytes, 'history_memory')
+        self._told = False
+
+    @property
+    def size(self) -> int:
+        """Return the memory that it may take [bytes]."""
+        return round(self._megabytes * MEGABYTE)
+
+    @property
+    def in_megabytes(self) -> tuple[float, float]:
+        """Return what was taken at the last count, and what may be [MB]."""
+        return self.used / MEGABYTE, self._megabytes
+
+    @property
+    def log_limit(self) -> int:
+        """Return the memory of requests from which on a checkpoint is due [bytes]."""
+        return round(self.size * _LOG_SHARE)
+
+    @property
+    def frame_limit(self) -> int:
+        """Return the memory that frames may take [bytes]."""
+        return round(self.size * _FRAME_SHARE)
+
+    def fit(self, frames: Store, stores: Sequence[Store]) -> bool:
+        """
+        Drop the oldest until everything fits.
+
+        :param frames: what can be computed again; it goes first
+        :param stores: all else, in the order in which it goes
+        :return: whether anything but frames was lost, once until less than half is taken again
+        """
+        self.used = frames.size + sum(store.size for store in stores)
+        self._told = self._told and self.used > _RELIEF * self.size
+        lost = False
+        for store in (frames, *stores):
+            while self.used > self.size and (dropped := store.drop_oldest()):
+                self.used -= dropped
+                lost |= store is not frames
+        news = lost and not self._told
+        self._told |= lost
+        return news

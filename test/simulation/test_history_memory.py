@@ -1,0 +1,235 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The past has one budget in bytes; what is kept of it comes again to the bit."""
+
+import gc
+import tracemalloc
+
+import numpy as np
+from physsim_ros.model.errors import BadProperty, Malformed, OutOfHistory, Refusal
+from physsim_ros.model.requests import Command, Configure, Spawn
+from physsim_ros.model.shapes import Box, Disc
+from physsim_ros.simulation.history_memory import LEAST_MEMORY, MEGABYTE
+from physsim_ros.simulation.simulation import Simulation
+import pytest
+
+SECOND = 1_000_000_000
+NAMES = tuple(f'a/{number}' for number in range(100))
+TWISTS = np.random.default_rng(17).uniform(-1.0, 1.0, (64, 100, 3))
+
+
+def crowd(memory: float, count: int = 100) -> Simulation:
+    """Return a hundred discs above a floor."""
+    sim = Simulation(speed=0.0, history_memory=memory)
+    sim.perform(Configure(changes={'bounds': (-30.0, 0.0, 30.0, 20.0)}))
+    for number in range(count):
+        at = (0.5 * (number % 50) - 12.0, 1.0 + number // 50, 0.0)
+        sim.perform(Spawn(name=NAMES[number], shape=Disc(radius=0.2), pose=at))
+    return sim
+
+
+def command(sim: Simulation, number: int, *, joined: bool = False) -> None:
+    # New strings each time, as they come off the wire.
+    names = tuple(f'{name:s}'[:2] + name[2:] for name in NAMES)
+    request = Command(names=names, twists=TWISTS[number % 64])
+    sim.submit(request, topic='~/command', joined=joined)
+
+
+def told(sim: Simulation, frames: int) -> list[str]:
+    """Advance, and return the events with code `history`."""
+    found = []
+    for _ in range(frames):
+        answers = sim.advance_frame().answers
+        found += [answer.message for answer in answers if answer.code == 'history']
+    return found
+
+
+def used(sim: Simulation) -> float:
+    return sim.history_memory.used
+
+
+@pytest.mark.parametrize('paused', [False, True])
+def test_a_flood_of_commands_takes_no_more_than_the_budget(paused: bool) -> None:
+    sim = crowd(3.0)
+    gc.collect()
+    tracemalloc.start()
+    before, _ = tracemalloc.get_traced_memory()
+    digests, events = {}, []
+    for number in range(900):
+        for part in range(4):
+            command(sim, number + part)
+        if paused:
+            frame = sim.settle()
+            assert frame is not None
+            events += [each for each in frame.answers if each.code == 'history']
+        else:
+            frame = sim.advance_frame()
+            events += [each for each in frame.answers if each.code == 'history']
+            if frame.snapshot.step % 480 == 0:
+                digests[frame.snapshot.step] = sim.world.digest()
+        assert used(sim) <= 3.0 * MEGABYTE
+    gc.collect()
+    after, _ = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+
+    # The estimate is within a factor of 1.5 of what Python has allocated.
+    assert 1 / 1.5 < used(sim) / (after - before) < 1.5
+    assert len(events) == 1
+    history = sim.timeline.history
+    assert sim.status.oldest == history.oldest / 240
+    if paused:
+        return
+    assert 0 < history.oldest < history.head == sim.step
+    end = sim.world.digest()
+    with pytest.raises(OutOfHistory):
+        sim.seek(round((history.oldest - 4) / 240 * SECOND))
+    assert sim.world.digest() == end
+    kept = [step for step in digests if step >= history.oldest]
+    assert kept
+    for step in kept:
+        sim.seek(round(step / 240 * SECOND))
+        assert sim.world.digest() == digests[step]
+    sim.seek(round(history.head / 240 * SECOND))
+    assert sim.world.digest() == end
+
+
+@pytest.mark.parametrize(
+    'make', [lambda size: Disc(radius=size), lambda size: Box(width=size, height=0.2)]
+)
+def test_the_estimate_for_bodies_and_frames_is_near_what_they_take(make) -> None:
+    sim = crowd(100.0)
+    gc.collect()
+    tracemalloc.start()
+    before, _ = tracemalloc.get_traced_memory()
+    first = used(sim)
+    for number in range(240):
+        for part in range(3):
+            shape = make(0.2 + 1e-6 * (3 * number + part))
+            sim.submit(Spawn(name=NAMES[part], shape=shape, pose=(part, 9.0, 0.0)), topic='')
+        sim.advance_frame()
+    gc.collect()
+    after, _ = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+
+    assert 1 / 1.5 < (used(sim) - first) / (after - before) < 1.5
+
+
+def test_frames_go_first_then_ghosts_and_courses_and_the_course_in_force_last() -> None:
+    sim = crowd(100.0)
+    told(sim, 240)
+    for number in range(3):
+        sim.seek(SECOND)
+        command(sim, number)
+        told(sim, 600)
+    courses = len(sim.status.courses)
+    assert courses == 3
+    assert sim.ghost(1, 2.0) is not None
+    without_frames = used(sim) - sim.frame_cache.size
+
+    # Frames are dropped for it, and nothing else.
+    sim.limit_memory(without_frames / MEGABYTE + 2.5)
+    assert told(sim, 1) == []
+    assert len(sim.status.courses) == 3
+
+    # Then the ghosts of the courses, of which the first left goes first.
+    sim.limit_memory(3.0)
+    (message,) = told(sim, 1)
+    assert 'history_memory' in message
+    assert sim.ghost(1, 2.0) is None
+    assert sim.status.oldest == 0.0
+
+    sim.limit_memory(LEAST_MEMORY)
+    for number in range(300):
+        command(sim, number)
+        command(sim, number + 1)
+        sim.advance_frame()
+    assert sim.status.courses == ()
+    assert sim.status.oldest > 0.0
+
+
+def test_what_is_shown_of_the_past_stays_though_the_budget_shrinks() -> None:
+    sim = crowd(100.0)
+    told(sim, 60)
+    early = sim.world.digest()
+    for number in range(400):
+        command(sim, number)
+        sim.advance_frame()
+    sim.seek(SECOND)
+    sim.limit_memory(LEAST_MEMORY)
+    assert sim.settle() is not None
+    assert sim.status.now == 1.0
+    assert sim.status.oldest <= 1.0
+    assert sim.world.digest() == early
+
+    sim.seek(round(sim.status.newest * SECOND))
+    assert sim.settle() is not None
+    assert sim.status.oldest > 1.0
+
+
+def test_a_gesture_is_undone_as_a_whole_or_not_at_all() -> None:
+    sim = crowd(LEAST_MEMORY)
+    # One gesture, of which the log has the last part only.
+    for number in range(600):
+        command(sim, number, joined=number > 0)
+    sim.settle()
+    assert sim.timeline.history.checkpoints[0].serial > 0
+    before = sim.world.digest()
+
+    with pytest.raises(OutOfHistory):
+        sim.undo()
+
+    assert sim.world.digest() == before
+    assert sim.status.undo == ''
+    # A later gesture is whole.
+    command(sim, 7)
+    sim.settle()
+    sim.undo()
+    assert sim.world.digest() == before
+
+
+def test_undone_requests_and_resets_are_of_the_budget() -> None:
+    sim = crowd(2.0)
+    for number in range(300):
+        command(sim, number)
+        sim.advance_frame()
+    for _ in range(200):
+        sim.undo()
+    for _ in range(5):
+        sim.redo()
+    sim.advance_frame()
+    assert used(sim) <= 2.0 * MEGABYTE
+    for _ in range(12):
+        sim.reset()
+        told(sim, 4)
+    assert used(sim) <= 2.0 * MEGABYTE
+    assert sim.undo().startswith('undid reset')
+
+
+@pytest.mark.parametrize(
+    ('value', 'refusal'),
+    [
+        (0.0, BadProperty),
+        (-1.0, BadProperty),
+        (0.5 * LEAST_MEMORY, BadProperty),
+        (np.nan, Malformed),
+    ],
+)
+def test_a_budget_that_is_none_is_refused(value: float, refusal: type[Refusal]) -> None:
+    sim = Simulation()
+    with pytest.raises(refusal):
+        Simulation(history_memory=value)
+    with pytest.raises(refusal):
+        sim.limit_memory(value)
+    assert sim.history_memory.megabytes == 256.0
