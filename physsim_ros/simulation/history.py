@@ -305,8 +305,7 @@ class History:
         """
         Drop the oldest checkpoint and the requests up to the next one.
 
-        :return: memory that they took [bytes]; 0 where the moment that is shown is replayed from
-            that checkpoint
+        :return: memory that they took [bytes]; 0 where that checkpoint is still needed
         """
         if len(self._marks) == 1 or self._marks[1].moment > self.shown:
             return 0

@@ -30,6 +30,7 @@ from collections.abc import Sequence
 from typing import Protocol
 
 from physsim_ros.model.checks import Within
+from physsim_ros.model.snapshot import Answer
 
 # Bytes of a megabyte.
 MEGABYTE = 10**6
@@ -121,3 +122,15 @@ class HistoryMemory:
         news = lost and not self._told
         self._told |= lost
         return news
+
+    def report(self, oldest: float) -> Answer:
+        """
+        Return the event that something was lost.
+
+        :param oldest: time that is kept of the course in force [s]
+        """
+        message = (
+            f'the past would take more than {self._megabytes:g} MB (history_memory): the oldest '
+            f'goes, {oldest:.3f} s is the oldest that is kept'
+        )
+        return Answer(topic='history', message=message, code='history')

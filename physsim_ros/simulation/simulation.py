@@ -602,22 +602,10 @@ class Simulation:
 
     def _fit_memory(self) -> None:
         """Drop the oldest of what remembers the past until it fits, and tell it once."""
-        undo, history = self._undo, self.timeline.history
+        history = self.timeline.history
         history.shown = min(self._shown_moment, self.timeline.moment)
-        stores = (
-            self._ghosts,
-            self.timeline.courses,
-            undo.undone,
-            undo.before_resets,
-            history,
-        )
-        if self._memory.fit(self.frame_cache, stores):
-            oldest = history.oldest / self.physics_rate
-            message = (
-                f'the past would take more than {self._memory.megabytes:g} MB (history_memory): '
-                f'the oldest goes, {oldest:.3f} s is the oldest that is kept'
-            )
-            self._answers.append(Answer(topic='history', message=message, code='history'))
+        if self._memory.fit(self.frame_cache, (self._ghosts, *self._undo.stores)):
+            self._answers.append(self._memory.report(history.oldest / self.physics_rate))
 
     def _observe_world(self, *, moved: bool) -> CachedFrame:
         """Return the state of the world, and cache it for rewinds."""

@@ -27,6 +27,7 @@ from typing import Generic, NamedTuple, TypeVar
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import OutOfHistory
 from physsim_ros.model.requests import Grab
+from physsim_ros.simulation.history_memory import Store
 from physsim_ros.simulation.memory_size import world_size
 from physsim_ros.simulation.records import Entry, Tail
 from physsim_ros.simulation.replay import Timeline
@@ -112,6 +113,12 @@ class Undo:
         # The state that this timeline began with.
         self._beginning = state
         self.timeline = begin(state)
+
+    @property
+    def stores(self) -> tuple[Store, ...]:
+        """Return what remembers the past, in the order in which it goes when memory is short."""
+        timeline = self.timeline
+        return timeline.courses, self.undone, self.before_resets, timeline.history
 
     def begin(self, state: WorldState) -> None:
         """Begin a timeline with a state; nothing before it can be undone."""
