@@ -18,6 +18,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+import math
 import re
 import shutil
 import time
@@ -67,6 +68,12 @@ def started_world(outside: Outside, **parameters: object) -> tuple[Program, str]
     found = re.search(r'http\S+', line)
     assert found
     return world, found[0]
+
+
+def circle(x: float, y: float, radius: float) -> list[tuple[float, float]]:
+    """Return the points of a stroke around a centre [m]."""
+    angles = [math.tau * each / 24 for each in range(25)]
+    return [(x + radius * math.cos(angle), y + radius * math.sin(angle)) for angle in angles]
 
 
 class Sheet:

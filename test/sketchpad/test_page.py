@@ -22,13 +22,9 @@ from pathlib import Path
 import re
 from typing import Any
 
-import numpy as np
 import pytest
 
-from .chromium import Fingers, Sheet, started_world, Stylus
-from ..outside import Outside
-
-sync_api = pytest.importorskip('playwright.sync_api', reason='playwright is not installed')
+from .chromium import circle, Sheet
 
 
 @pytest.fixture
@@ -38,11 +34,6 @@ def sheet(chromium: Any, address: str) -> Iterator[Sheet]:
     sheet.begin()
     yield sheet
     sheet.close()
-
-
-def circle(x: float, y: float, radius: float) -> list[tuple[float, float]]:
-    angles = [math.tau * each / 24 for each in range(25)]
-    return [(x + radius * math.cos(angle), y + radius * math.sin(angle)) for angle in angles]
 
 
 def test_a_drawn_circle_becomes_a_body_with_its_reading_beside_it(sheet: Sheet) -> None:
@@ -317,27 +308,6 @@ def test_all_of_it_goes_by_keys_alone(sheet: Sheet) -> None:
     assert sheet.page.get_by_role('dialog').is_visible()
 
 
-def test_a_second_finger_turns_the_body_that_is_placed(chromium: Any, address: str) -> None:
-    sheet = Sheet(chromium, address, has_touch=True)
-    sheet.begin()
-    sheet.press('Hand')
-    x, y = sheet.place(4.0, 0.5)
-    fingers = Fingers(sheet)
-    fingers.put((x, y))
-    x, y = sheet.place(4.0, 4.0)
-    fingers.move((x, y))
-    sheet.wait('Math.abs(physsim.bodies["box/0"][1] - 4) < 0.1')
-    fingers.put((x, y), (x + 100, y))
-    # A quarter of a turn counter-clockwise, in steps.
-    for angle in np.linspace(0.0, math.pi / 2, 9)[1:]:
-        fingers.move((x, y), (x + 100 * math.cos(angle), y - 100 * math.sin(angle)))
-    sheet.wait('angle => Math.abs(physsim.bodies["box/0"][2] - angle) < 0.05', math.pi / 2)
-    fingers.lift()
-    sheet.press('Undo')
-    sheet.wait('physsim.bodies["box/0"].join() === "4,0.5,0"')
-    sheet.close()
-
-
 def test_the_velocity_arrow_of_a_body_is_dragged_to_another_velocity(sheet: Sheet) -> None:
     sheet.press('Hand')
     sheet.page.mouse.click(*sheet.place(0.0, 0.5))
@@ -352,108 +322,3 @@ def test_the_velocity_arrow_of_a_body_is_dragged_to_another_velocity(sheet: Shee
     # 4 m/s upwards rise by v^2 / 2 g.
     top = 0.5 + 4.0**2 / (2 * 9.81)
     sheet.wait('top => Math.abs(physsim.bodies["ball/0"][1] - top) < 0.03', top)
-
-
-def test_a_finger_draws_and_two_fingers_zoom(chromium: Any, address: str) -> None:
-    sheet = Sheet(chromium, address, has_touch=True)
-    sheet.begin()
-    before = sheet.names()
-    fingers = Fingers(sheet)
-    places = [sheet.place(*point) for point in circle(1.0, 5.0, 0.8)]
-    fingers.put(places[0])
-    for place in places[1:]:
-        fingers.move(place)
-    fingers.lift()
-    sheet.wait_for_new(before)
-
-    def width() -> float:
-        return sheet.place(1.0, 0.0)[0] - sheet.place(0.0, 0.0)[0]
-
-    narrow = width()
-    fingers.put((500, 400), (600, 400))
-    fingers.move((450, 400), (650, 400))
-    fingers.lift()
-    assert 1.7 * narrow < width() < 2.3 * narrow
-    sheet.close()
-
-
-def test_a_stylus_draws_and_from_then_on_a_finger_moves_the_view(
-    chromium: Any, address: str
-) -> None:
-    sheet = Sheet(chromium, address, has_touch=True)
-    sheet.begin()
-    before = sheet.names()
-    Stylus(sheet).draw([sheet.place(*point) for point in circle(1.0, 5.0, 0.8)])
-    sheet.wait_for_new(before)
-    x, y = sheet.place(0.0, 0.0)
-    fingers = Fingers(sheet)
-    fingers.put((500, 300))
-    fingers.move((540, 330))
-    fingers.lift()
-    assert sheet.place(0.0, 0.0) == pytest.approx((x + 40, y + 30), abs=1.0)
-    sheet.close()
-
-
-def test_the_page_comes_back_when_its_socket_was_cut(chromium: Any, address: str) -> None:
-    sheet = Sheet(chromium, 'about:blank')
-    sockets: list[Any] = []
-
-    def pass_on(socket: Any) -> None:
-        sockets.append(socket)
-        socket.connect_to_server()
-
-    sheet.page.route_web_socket('**/ws*', pass_on)
-    sheet.page.goto(address)
-    sheet.begin()
-    sockets[0].close()
-    sheet.page.get_by_role('alert').wait_for(state='visible')
-    sheet.page.get_by_role('alert').wait_for(state='hidden')
-    before = sheet.names()
-    sheet.press('Circle')
-    sheet.drag((1.0, 6.0), (1.5, 6.0))
-    sheet.wait_for_new(before)
-    sheet.close()
-
-
-def test_the_page_says_that_the_server_is_gone_and_comes_back_with_it(
-    chromium: Any, outside: Outside
-) -> None:
-    world, first = started_world(outside, sketchpad_port=8790)
-    sheet = Sheet(chromium, first)
-    sheet.begin()
-    world.interrupt()
-    alert = sheet.page.get_by_role('alert')
-    alert.get_by_text('gone').wait_for()
-    # What is drawn meanwhile is not lost in silence.
-    sheet.drag(*circle(1.0, 5.0, 0.8))
-    sheet.page.locator('.note.refusal').get_by_text('Not done').wait_for()
-    port = re.search(r':(\d+)/', first)[1]
-    world, _ = started_world(outside, sketchpad_port=port)
-    alert.wait_for(state='hidden')
-    assert sheet.page.get_by_role('status').inner_text() == 'Connected again'
-    before = sheet.names()
-    sheet.drag(*circle(1.0, 5.0, 0.8))
-    sheet.wait_for_new(before)
-    world.interrupt()
-    # Of another user, or a year ago.
-    (outside.directory / 'physsim_ros' / 'cookie_key').unlink()
-    started_world(outside, sketchpad_port=port)
-    alert.get_by_text('Wrong token').wait_for()
-    sheet.context.close()
-
-
-def test_a_wrong_token_opens_nothing_and_says_so(chromium: Any, address: str) -> None:
-    context = chromium.new_context()
-    page = context.new_page()
-    response = page.goto(re.sub('token=.*', 'token=wrong', address))
-    assert response.status == 403
-    assert 'token' in page.inner_text('body')
-    assert page.goto(address.partition('/login')[0]).status == 403
-    context.close()
-
-
-def test_a_page_that_only_shows_has_no_tools(chromium: Any, address: str) -> None:
-    sheet = Sheet(chromium, f'{address}&view')
-    sheet.wait('Object.keys(physsim.bodies).length > 0')
-    assert sheet.page.get_by_role('button').count() == 0
-    sheet.close()

@@ -1,0 +1,88 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Pages whose server goes and comes back, and pages without the right to be there."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+from .chromium import circle, Sheet, started_world
+from ..outside import Outside
+
+
+def test_the_page_comes_back_when_its_socket_was_cut(chromium: Any, address: str) -> None:
+    sheet = Sheet(chromium, 'about:blank')
+    sockets: list[Any] = []
+
+    def pass_on(socket: Any) -> None:
+        sockets.append(socket)
+        socket.connect_to_server()
+
+    sheet.page.route_web_socket('**/ws*', pass_on)
+    sheet.page.goto(address)
+    sheet.begin()
+    sockets[0].close()
+    sheet.page.get_by_role('alert').wait_for(state='visible')
+    sheet.page.get_by_role('alert').wait_for(state='hidden')
+    before = sheet.names()
+    sheet.press('Circle')
+    sheet.drag((1.0, 6.0), (1.5, 6.0))
+    sheet.wait_for_new(before)
+    sheet.close()
+
+
+def test_the_page_says_that_the_server_is_gone_and_comes_back_with_it(
+    chromium: Any, outside: Outside
+) -> None:
+    world, first = started_world(outside, sketchpad_port=8790)
+    sheet = Sheet(chromium, first)
+    sheet.begin()
+    world.interrupt()
+    alert = sheet.page.get_by_role('alert')
+    alert.get_by_text('gone').wait_for()
+    # What is drawn meanwhile is not lost in silence.
+    sheet.drag(*circle(1.0, 5.0, 0.8))
+    sheet.page.locator('.note.refusal').get_by_text('Not done').wait_for()
+    port = re.search(r':(\d+)/', first)[1]
+    world, _ = started_world(outside, sketchpad_port=port)
+    alert.wait_for(state='hidden')
+    assert sheet.page.get_by_role('status').inner_text() == 'Connected again'
+    before = sheet.names()
+    sheet.drag(*circle(1.0, 5.0, 0.8))
+    sheet.wait_for_new(before)
+    world.interrupt()
+    # Of another user, or a year ago.
+    (outside.directory / 'physsim_ros' / 'cookie_key').unlink()
+    started_world(outside, sketchpad_port=port)
+    alert.get_by_text('Wrong token').wait_for()
+    sheet.context.close()
+
+
+def test_a_wrong_token_opens_nothing_and_says_so(chromium: Any, address: str) -> None:
+    context = chromium.new_context()
+    page = context.new_page()
+    response = page.goto(re.sub('token=.*', 'token=wrong', address))
+    assert response.status == 403
+    assert 'token' in page.inner_text('body')
+    assert page.goto(address.partition('/login')[0]).status == 403
+    context.close()
+
+
+def test_a_page_that_only_shows_has_no_tools(chromium: Any, address: str) -> None:
+    sheet = Sheet(chromium, f'{address}&view')
+    sheet.wait('Object.keys(physsim.bodies).length > 0')
+    assert sheet.page.get_by_role('button').count() == 0
+    sheet.close()
