@@ -64,6 +64,7 @@ class SceneColumns(NamedTuple):
     :ivar not_colliding: (k, 2) intp: rows of bodies that a joint keeps from colliding
     :ivar sprung: (n,) bool: part of an island of joints that hangs on a spring and on something
         that forces do not move, so that its velocity has no half-step lead
+    :ivar on_springs: (s,) intp: rows of the dynamic bodies that springs pull
     :ivar expiries: step -> names of the bodies that are removed at its end
     """
 
@@ -84,6 +85,7 @@ class SceneColumns(NamedTuple):
     joined: Rows
     not_colliding: Rows
     sprung: Flags
+    on_springs: Rows
     expiries: dict[int, list[str]]
 
 
@@ -241,6 +243,7 @@ def _columns_of(scene: Scene, dt: float) -> SceneColumns:
         joined=joined,
         not_colliding=joined[~collide],
         sprung=_sprung(dynamic, joined, springs),
+        on_springs=np.unique(joined[springs][dynamic[joined[springs]]]),
         expiries=expiries,
     )
 

@@ -44,7 +44,7 @@ from physsim_ros.engine.stages.half_step import HalfStep
 from physsim_ros.engine.stages.impact_propagation import ImpactPropagation
 from physsim_ros.engine.stages.mouse_joints import MouseJoints
 from physsim_ros.engine.stages.resting_damping import RestingDamping
-from physsim_ros.engine.stages.sleeping import keep_flying_awake
+from physsim_ros.engine.stages.sleeping import keep_flying_awake, keep_swinging_awake
 from physsim_ros.engine.stages.tight_boxes import tighten_boxes
 from physsim_ros.engine.stages.wrenches import Wrenches
 from physsim_ros.engine.step_context import StepContext
@@ -109,6 +109,7 @@ class Pipeline:
         self._joints.close_gaps(context)
         self.half_step.find_free(context)
         keep_flying_awake(context)
+        keep_swinging_awake(context)
         if context.watching:
             self.contact_report.add_step(table)
         else:

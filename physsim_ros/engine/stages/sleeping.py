@@ -37,6 +37,9 @@ import pymunk
 IDLE_SPEED = 0.005
 # For so long [s].
 IDLE_TIME = 0.5
+# A body on a spring that accelerates by no more than this is at rest [m/s², rad/s²]: one that
+# swings in 40 s is then within 1 mm of where it rests.
+REST_ACCELERATION = 2.5e-5
 
 
 def enable_sleeping(space: pymunk.Space) -> None:
@@ -51,6 +54,16 @@ def keep_flying_awake(context: StepContext) -> None:
     speeds = np.abs(table.state[:, 3:]).max(axis=1)
     for row in np.flatnonzero(table.free & (speeds < IDLE_SPEED) & (speeds > 0.0)).tolist():
         # Chipmunk begins to count idle time anew.
+        table.bodies[row].engine.activate()
+
+
+def keep_swinging_awake(context: StepContext) -> None:
+    """Keep bodies on springs awake that accelerate: a slow swing has only reached its turn."""
+    table, rows = context.table, context.table.columns.on_springs
+    twists = table.state[rows, 3:]
+    slow = np.abs(twists).max(axis=1, initial=0.0) < IDLE_SPEED
+    changes = np.abs(twists - context.twists[rows]).max(axis=1, initial=0.0)
+    for row in rows[slow & (changes > REST_ACCELERATION * context.dt)].tolist():
         table.bodies[row].engine.activate()
 
 

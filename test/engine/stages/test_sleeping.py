@@ -15,6 +15,7 @@
 """Sleeping by island: rest costs nothing, changes nothing that is seen, and ends when it must."""
 
 from collections.abc import Callable
+import math
 
 import numpy as np
 from physsim_ros.model.joints import JointKind, JointProperties
@@ -90,6 +91,42 @@ def test_a_pendulum_does_not_sleep_where_it_turns_round() -> None:
 
     assert max(reached[-20:]) == pytest.approx(0.02, rel=0.05)
     assert min(reached[-20:]) == pytest.approx(-0.02, rel=0.05)
+
+
+def on_spring(mass: float, stiffness: float, stretch: float, damping: float) -> World:
+    world = World(settings=WorldSettings(gravity=(0.0, 0.0)))
+    spawn(world, 'bob/0', DISC, mass=mass)
+    properties = JointProperties(stiffness=stiffness, rest_length=2.0 - stretch, damping=damping)
+    world.apply(
+        Join(
+            name='spring/0',
+            kind=JointKind.SPRING,
+            points=((0.0, 0.0), (0.0, 2.0)),
+            a='bob/0',
+            b='world',
+            properties=properties,
+        )
+    )
+    return world
+
+
+def test_a_slow_swing_on_a_spring_does_not_sleep_where_it_turns_round() -> None:
+    # Never faster than 3.2 cm/s, with a period of 19.9 s.
+    world = on_spring(10.0, 1.0, 0.1, 0.0)
+
+    for second in range(1, 31):
+        world.step(240)
+        exact = 0.1 * (1.0 - math.cos(math.sqrt(0.1) * second))
+        assert pose(world, 'bob/0')[1] == pytest.approx(exact, abs=1e-3)
+
+
+def test_what_comes_to_rest_on_a_damped_spring_sleeps_there() -> None:
+    world = on_spring(1.0, 100.0, 0.05, 6.0)
+
+    world.step(2400)
+
+    assert sleepers(world) == ['bob/0']
+    assert pose(world, 'bob/0')[1] == pytest.approx(0.05, abs=1e-6)
 
 
 WAKING: dict[str, Callable[[], Request]] = {
