@@ -36,7 +36,7 @@ _STATE |= batch.BodyFields.VELOCITY | batch.BodyFields.ANGULAR_VELOCITY
 
 class BatchIO:
     """
-    Reads and writes what is in a space, all at once.
+    Reads and writes the bodies and contacts of a space as arrays.
 
     :param space: of the engine
     """

@@ -47,9 +47,9 @@ class RigidBody:
     """
     A body and its engine objects; made by `build`.
 
-    :param body: what it is
+    :param body: its description
     :param engine: the Pymunk body
-    :param serial: counts spawns; what is spawned later lies on top
+    :param serial: number of the spawn; the body that is spawned later is the topmost one
     :param first: the engine's number of its first shape
     :param free: in free flight, so that the engine's velocity leads
     :param wrench: force [N] and torque [N m] that act on the centre of mass
@@ -141,7 +141,7 @@ def offset_of(body: Body) -> Point:
 
 
 def lead_of(body: Body, wrench: Pose, gravity: Point, dt: float) -> Pose:
-    """Return how far the engine's velocity of a body is ahead of the true one in free flight."""
+    """Return the half-step lead of a body in free flight."""
     if body.fixed:
         return REST
     fx, fy, torque = wrench
@@ -154,7 +154,7 @@ def lead_of(body: Body, wrench: Pose, gravity: Point, dt: float) -> Pose:
 
 
 def engine_motion(state: BodyState, settings: WorldSettings, dt: float) -> Motion:
-    """Return the engine's state of a body whose pose and twist a person wrote; it flies freely."""
+    """Return the engine's numbers of a body by its pose and twist; it is in free flight."""
     body, (x, y, yaw) = state.body, state.pose
     offset_x, offset_y = rotated(offset_of(body), yaw)
     ahead = lead_of(body, state.wrench, settings.gravity, dt)
@@ -197,5 +197,5 @@ def _shape(piece: Piece, engine: pymunk.Body, offset: Point) -> pymunk.Shape:
 
 
 def same_in_engine(a: Body, b: Body) -> bool:
-    """Return whether two bodies differ only in what the engine does not know."""
+    """Return whether two bodies have the same objects in the engine."""
     return a == replace(b, color=a.color, expires=a.expires)

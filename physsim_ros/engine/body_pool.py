@@ -32,7 +32,7 @@ import pymunk
 
 class BodyPool:
     """
-    Bodies outside any space, as good as new.
+    Bodies outside any space, at rest and without contacts.
 
     :param retired: a space that is used no more; None is none
     """
@@ -47,7 +47,7 @@ class BodyPool:
         self._row = 0
 
     def build_bodies(self, scene: Scene, count: int) -> None:
-        """Make so many more bodies ready, as far as a scene needs them."""
+        """Build up to a number of further bodies of a scene."""
         while count and self._retired is not None and self._retired.bodies.by_name:
             rigid = _extract_body(self._retired)
             self.bodies[rigid.body.name] = rigid
@@ -65,7 +65,7 @@ class BodyPool:
 
 def _clear_contacts(space: Space) -> None:
     """
-    Have the engine forget all contacts, by a step with all bodies far from each other.
+    Clear the contacts of the engine, by a step with all bodies far from each other.
 
     For each shape that is removed it goes through all contacts that it remembers.
     """
@@ -81,7 +81,7 @@ def _clear_contacts(space: Space) -> None:
 
 
 def _extract_body(space: Space) -> RigidBody:
-    """Take a body out of a retired space, at rest and without a wrench."""
+    """Remove a body from a retired space and return it, at rest and without a wrench."""
     rigid = space.bodies.by_name.popitem()[1]
     space.shapes.remove(rigid.engine.shapes)
     space.engine.remove(rigid.engine)

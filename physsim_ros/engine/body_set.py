@@ -57,13 +57,13 @@ class BodySet:
         self._engine.add(*(rigid.engine for rigid in rigids))
 
     def add(self, rigid: RigidBody) -> None:
-        """Add a body; it replaces one of that name, which was taken out, in its place."""
+        """Add a body, in the place in the order that its name had if it was removed before."""
         self.add_without_shapes([rigid])
         rigid.first = self._shapes.add(rigid.engine.shapes)
         self.wake_around(rigid)
 
     def take_out(self, rigid: RigidBody) -> None:
-        """Take a body out of the engine; its name keeps its place."""
+        """Remove a body from the engine; its name keeps its place in the order."""
         self._shapes.remove(rigid.engine.shapes)
         self._engine.remove(rigid.engine)
         del self._names[rigid.engine]

@@ -37,7 +37,7 @@ from physsim_ros.model.scene import Scene
 import pymunk
 from pymunk._chipmunk_cffi import lib
 
-# A body that is farther or faster than this has left every world [m, m/s]; float64 holds 0.1 mm
+# A body beyond this position or speed is removed [m, m/s, rad, rad/s]; float64 resolves 0.1 mm
 # there.
 LOST = 1e12
 
@@ -99,7 +99,7 @@ class BodyTable:
     :param io: of the space
     :param dt: of a step [s]
 
-    :ivar columns: what follows from the scene
+    :ivar columns: numbers that follow from the scene alone
     :ivar leads: (n, 3) float64: the half-step lead of each body in free flight, wrench included
     :ivar free: (n,) bool: in free flight, so that the engine's velocity leads by that
     :ivar asleep: (n,) bool: in the engine's sleep, as of the last reading
@@ -159,7 +159,7 @@ class BodyTable:
         return states.take(self._slots, axis=0)
 
     def lost(self) -> list[str]:
-        """Return the names of the bodies that have left the range of numbers."""
+        """Return the names of the bodies whose state is not finite, or too large."""
         # NaN compares false, so that it is lost too.
         far = ~(np.abs(self.state) < LOST).all(axis=1)
         return [self.scene.names[row] for row in np.flatnonzero(far)]
@@ -189,11 +189,11 @@ class BodyTable:
         state[rows, :3] = poses
 
     def forget_state(self) -> None:
-        """Read the state anew when it is asked for next: the engine has changed it."""
+        """Drop the cached state, which the engine has changed."""
         self._state = None
 
     def store_flags(self) -> None:
-        """Write whether it flies to each body, before the table is given up."""
+        """Write to each body whether it is in free flight, before the table is dropped."""
         for rigid, free in zip(self.bodies, self.free.tolist(), strict=True):
             rigid.free = free
 

@@ -39,7 +39,7 @@ from physsim_ros.model.scene import Body, Scene
 
 def take_checkpoint(space: Space, step: int) -> Checkpoint:
     """
-    Return everything that a space goes on from.
+    Return the checkpoint of a space.
 
     Nothing in the space changes. Sleeping bodies have no velocity in it; in a space that is built
     from it all bodies are awake.
@@ -149,7 +149,7 @@ def restore_checkpoint(
     key: Checkpoint, dt: float, *, pool: Mapping[str, RigidBody] | None = None
 ) -> Space:
     """
-    Build a space that goes on from a checkpoint.
+    Build a space from a checkpoint.
 
     :param dt: of a step [s]
     :param pool: bodies built beforehand, by name

@@ -24,7 +24,7 @@ Rows = NDArray[np.intp]
 
 
 def ranges(first: Rows, count: Rows) -> Rows:
-    """Return numbers in a row, so many from each first one on, one row after the other."""
+    """Return the integers of several ranges, one range after the other."""
     ends = np.cumsum(count)
     rows: Rows = np.repeat(first - ends + count, count)
     rows += np.arange(len(rows))

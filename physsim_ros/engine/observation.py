@@ -44,7 +44,7 @@ def digest_parts(
     table: BodyTable, settled: Settled, pushed: Sequence[RigidBody]
 ) -> Iterator[bytes]:
     """
-    Yield all that is known of the bodies, but for the engine's impulse cache.
+    Yield scene, poses, velocities and wrenches as bytes, in a fixed order.
 
     :param settled: the state that the next step begins with
     :param pushed: bodies on which a wrench acts, in spawn order

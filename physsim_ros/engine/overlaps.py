@@ -174,7 +174,7 @@ def count_inside(shape: Shape) -> int:
 
 
 def _overlap(cores: Cores, one: Ints, other: Ints) -> Flags:
-    """Tell which pairs of cores overlap."""
+    """Return which pairs of cores overlap."""
     offset = cores.centers[other] - cores.centers[one]
     difference = cores.yaws[other] - cores.yaws[one]
     cos, sin = np.abs(np.cos(difference)), np.abs(np.sin(difference))

@@ -116,7 +116,7 @@ class Pipeline:
             self.contact_report.skip_step()
 
     def forget_body(self, engine_id: int) -> None:
-        """Forget a body that leaves the engine, or the background where its walls are replaced."""
+        """Drop the state of a removed body, or of the background where its walls are replaced."""
         self.contact_report.forget_body(engine_id)
 
     def _begin_contact(self, arbiter: pymunk.Arbiter, space: pymunk.Space, _: object) -> None:

@@ -41,7 +41,7 @@ from physsim_ros.model.transform import Pose
 
 class Space:
     """
-    What is in the engine.
+    The bodies, joints and walls in the engine.
 
     :param settings: of the world
     :param dt: of a step [s]
@@ -52,7 +52,7 @@ class Space:
     :ivar joints: between them
     :ivar broken: joints that have broken, and the force that each bore then [N]; whoever reads it
         empties it
-    :ivar changes: counts what has been done to it from outside
+    :ivar changes: number of changes by requests
     """
 
     def __init__(self, settings: WorldSettings, dt: float, *, first_shape: int = 0) -> None:
@@ -91,7 +91,7 @@ class Space:
         )
 
     def lay_out(self, scene: Scene) -> BodyTable:
-        """Make the table of the bodies anew; the scene is that of what is in the space."""
+        """Return a new table of the bodies."""
         rigids, background = self.bodies.by_name.values(), self.engine.static_body
         self._table = BodyTable(scene, tuple(rigids), background, self._io, self.dt)
         return self._table
@@ -110,7 +110,7 @@ class Space:
         return rigid.twist(self._settings.gravity, self.dt)
 
     def configure(self, settings: WorldSettings) -> None:
-        """Let other settings hold from now on."""
+        """Replace the settings."""
         self._drop_table()
         old, self._settings = self._settings, settings
         self.changes += old != settings
@@ -126,7 +126,7 @@ class Space:
 
     def change(self, old: RigidBody, body: Body, pose: Pose, twist: Pose) -> None:
         """
-        Replace a body by what it has become; its place in the spawn order stays.
+        Replace a body by a changed one, in its place in the spawn order.
 
         :raises BadProperty: springs on it would be too stiff; nothing is changed
         """
@@ -166,7 +166,7 @@ class Space:
         self.pipeline.half_step.release_bodies(touching)
 
     def set_pose(self, rigid: RigidBody, pose: Pose) -> None:
-        """Put a body somewhere else."""
+        """Set the pose of a body."""
         touching = self.bodies.touching(rigid.engine)
         rigid.pose = self.joints.with_turns(rigid, pose)
         self.bodies.wake_around(rigid, touching)
@@ -196,7 +196,7 @@ class Space:
     # Grips
 
     def set_grip(self, grip: Grip) -> None:
-        """Have a hand draw a body to itself from now on, instead of any other body."""
+        """Add a grip, in place of that of the same hand."""
         old = self.pipeline.mouse_joints.grip_of(grip.hand)
         if old is not None and old.body != grip.body:
             self.remove_grip(grip.hand)
@@ -204,7 +204,7 @@ class Space:
         self.pipeline.mouse_joints.set_grip(grip)
 
     def remove_grip(self, hand: str) -> None:
-        """Have a hand let go of its body, which moves on at its velocity."""
+        """Remove the grip of a hand; its body keeps its velocity."""
         grip = self.pipeline.mouse_joints.grip_of(hand)
         if grip is not None:
             self.pipeline.mouse_joints.remove_grip(hand)
@@ -273,7 +273,7 @@ class Space:
             self._table.forget_state()
 
     def _drop_table(self) -> None:
-        """Give up the table, before a body or joint comes, goes or changes."""
+        """Drop the table, before a body or joint is added, removed or changed."""
         if self._table is not None:
             self._table.store_flags()
         self._table = None

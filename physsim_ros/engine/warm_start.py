@@ -52,7 +52,7 @@ _POINT = np.dtype(
 
 class ShapeIds:
     """
-    The engine's numbers of the shapes in a space: its contacts know them by these.
+    The numbers by which the engine's contacts name the shapes of a space.
 
     :param space: where they are
     """
@@ -134,12 +134,12 @@ class _Points(NamedTuple):
     points: NDArray[Any]
 
     def scale(self, share: float) -> None:
-        """Make all impulses so many times as great."""
+        """Multiply all impulses by a factor."""
         for impulse in ('jnAcc', 'jtAcc'):
             self.points[impulse] *= share
 
     def forget(self, numbers: Ints) -> None:
-        """Set to nothing what shapes of some numbers give and get."""
+        """Set the impulses of shapes to zero, by their numbers."""
         parted = np.isin(self.pairs, numbers).any(axis=1)
         for impulse in ('jnAcc', 'jtAcc'):
             self.points[impulse][parted] = 0.0
@@ -179,7 +179,7 @@ def read_impulses(
     shapes: ShapeIds, rigids: Sequence[RigidBody], walls: int, *, without: Ints, joints: Floats
 ) -> ImpulseCache:
     """
-    Return the cached impulses of a space; nothing in it changes.
+    Return the impulse cache of a space.
 
     :param shapes: in the space
     :param rigids: all bodies, in spawn order

@@ -28,7 +28,7 @@ from pymunk import Vec2d
 
 
 def is_jointed(space: pymunk.Space, body: pymunk.Body) -> bool:
-    """Tell whether a body hangs on joints: these take what it gains, and it does not fly."""
+    """Return whether a body has joints, which remove the work that it gains."""
     # A body lists joints that have left the space for as long as anything refers to them.
     dynamic = body.body_type == pymunk.Body.DYNAMIC
     return dynamic and any(joint in space.constraints for joint in body.constraints)
@@ -36,7 +36,7 @@ def is_jointed(space: pymunk.Space, body: pymunk.Body) -> bool:
 
 def take_back_work(space: pymunk.Space, body: pymunk.Body, back: Vec2d, dt: float) -> None:
     """
-    Give a body that is set back the speed that it had there, as it flew.
+    Set the velocity of a body that is set back to that which it had at that place.
 
     :param back: the way by which it is set back [m]
     :param dt: of a step [s]

@@ -70,7 +70,7 @@ def naming(entry: Mapping[Any, Any], noun: str = 'body', count: int = 0) -> Iter
 def is_same(
     saved: Sequence[float] | Sequence[Point], written: Sequence[float] | Sequence[Point]
 ) -> bool:
-    """Tell whether numbers differ by no more than rounding."""
+    """Return whether numbers differ by no more than rounding."""
     return bool(np.allclose(saved, written, rtol=ROUNDING, atol=ROUNDING))
 
 

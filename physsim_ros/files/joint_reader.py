@@ -101,7 +101,7 @@ def _saved_joint(name: str, terms: Mapping[Any, Any], seat: Seat) -> Joint:
 def _is_unedited(
     joint: Joint, points: tuple[Point, ...], poses: Mapping[str, Pose], unmoved: set[str]
 ) -> bool:
-    """Tell whether nobody has edited the points of a saved joint, nor moved its bodies."""
+    """Return whether the points of a saved joint and the poses of its bodies are unedited."""
     seat, phase = joint.seat, joint.properties.phase
     # The background is never among the bodies.
     if joint.a not in unmoved or joint.b not in unmoved | {WORLD} or joint.a == joint.b:

@@ -55,7 +55,7 @@ def _shipped(folder: Path) -> Path:
 
 
 def is_plain(name: str) -> bool:
-    """Tell whether a name has neither directory nor suffix, like the names of shipped files."""
+    """Return whether a name has neither directory nor suffix, like the names of shipped files."""
     return Path(name).name == name and not Path(name).suffix
 
 

@@ -205,7 +205,7 @@ def save_world(state: WorldState, name: str, *, world_dir: Path, physics_rate: f
 
 def hides_shipped(path: Path, *, world_dir: Path) -> bool:
     """
-    Tell whether the plain name of a shipped world now finds this file instead.
+    Return whether the plain name of a shipped world finds this file instead.
 
     :param path: of a saved world
     :param world_dir: directory of the user's worlds
@@ -235,7 +235,7 @@ def _check_place(path: Path, name: str, directories: tuple[Path, ...]) -> None:
 
 
 def _is_world_file(path: Path) -> bool:
-    """Tell whether a file is there whose format is that of world files."""
+    """Return whether a file exists whose format is that of world files."""
     try:
         return first_value(read_file(path, MOST_BYTES), 'format') == str(FORMAT)
     except (OSError, UnicodeDecodeError):

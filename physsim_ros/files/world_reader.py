@@ -216,7 +216,7 @@ def _saved_state(state: BodyState, entry: Mapping[Any, Any], lead: Pose) -> Body
 
     :param entry: the body in the file
     :param lead: half-step lead of the body in free flight [m/s, m/s, rad/s]
-    :return: None where somebody has edited the pose or the velocity since
+    :return: None where pose or velocity were edited since
     """
     motion, pose = _motion(entry), _pose(entry)
     velocity = pair(entry.get('velocity', [0.0, 0.0]), 'velocity')

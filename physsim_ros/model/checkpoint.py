@@ -58,7 +58,7 @@ class BodyState:
     :param body: without pose and velocity; `expires` counts from the step of the state
     :param pose: of its origin in the world [m, rad]
     :param twist: velocity of the centre of mass [m/s] and spin [rad/s]
-    :param motion: the engine's numbers for these two; None if a person wrote them
+    :param motion: the engine's numbers for these two; None in a file written by hand
     :param wrench: force [N] and torque [N m] that act on it
     :param wrench_steps: number of further steps in which the wrench acts; None is for ever
     """
@@ -79,7 +79,7 @@ class WorldState:
     :param settings: of the world
     :param bodies: in spawn order
     :param joints: in the order in which they were made
-    :param memory: impulse cache; None if a person wrote the state
+    :param memory: impulse cache; None in a file written by hand
     """
 
     settings: WorldSettings

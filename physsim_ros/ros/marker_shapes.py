@@ -80,7 +80,7 @@ def geometry_of(shape: Shape) -> Geometry:
 
 
 def points_from(points: Sequence[PointMessage]) -> tuple[Point, ...]:
-    """Return the points of a message [m], no more than it takes to refuse too many of them."""
+    """Return the points of a message [m], at most one more than are allowed."""
     # A closed line repeats its first point, so MOST_POINTS + 1 may be valid.
     return tuple((point.x, point.y) for point in points[: MOST_POINTS + 2])
 

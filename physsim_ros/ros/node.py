@@ -331,7 +331,7 @@ class PhysSimNode(NodeWithoutQosEvents):
             self.outputs.sketchpad.handle_messages()
 
     def _wake(self) -> None:
-        """Have the messages of pages handled; called on the thread of the sketchpad."""
+        """Queue the handling of messages of pages; called on the thread of the sketchpad."""
         executor = self.executor
         # With timers, the next tick handles them.
         if not self._started and executor is not None:

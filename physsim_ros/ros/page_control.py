@@ -13,7 +13,7 @@
 # limitations under the License.
 
 """
-What the pages of the sketchpad may ask of the node: services, speed, time, and worlds by name.
+The node as the pages of the sketchpad use it: services, speed, time, and worlds by name.
 
 Law: a page can do nothing that a service, a topic or a parameter cannot.
 """
@@ -72,7 +72,7 @@ class PageControl:
 
     def perform(self, action: str, world: str) -> str:
         """
-        Perform what a service does, and return its message.
+        Perform the action of a service, and return its message.
 
         :raises PhysSimError: it is refused
         """

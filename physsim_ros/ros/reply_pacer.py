@@ -43,7 +43,7 @@ READING = 1e-3
 
 class ReplyPacer:
     """
-    Delays the replies of services, in their order, and not what they do.
+    Delays the replies of services, in their order, and not their actions.
 
     :param node: that offers the services
     """

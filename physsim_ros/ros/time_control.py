@@ -60,7 +60,7 @@ class TimeControl:
 
     @property
     def services(self) -> Mapping[str, Callable[[], str]]:
-        """Return what services do, by name."""
+        """Return the actions of the services for time, by name."""
         return {
             'play': lambda: self._run_at(1.0),
             'pause': lambda: self._run_at(0.0),

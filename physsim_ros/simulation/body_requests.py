@@ -71,7 +71,7 @@ def spawn_body(
 
 def check_count(count: int, settings: WorldSettings) -> None:
     """
-    Refuse one more body than so many.
+    Refuse one more body where the world has its greatest number.
 
     :raises WorldFull: the world may not hold it
     """
@@ -83,7 +83,7 @@ def new_body(request: Spawn, settings: WorldSettings, expires: int | None) -> tu
     """
     Return the body of a request, and its twist.
 
-    :param settings: of the world, for what the request does not say
+    :param settings: of the world, the defaults of properties
     :param expires: step at whose end it is removed; None is never
     :raises Refusal: there is no such body
     """
@@ -103,7 +103,7 @@ def _spawn_changes(request: Spawn, expires: int | None) -> dict[str, Any]:
 
 def change_body(space: Space, request: ChangeBody, capacity: Capacity) -> Done:
     """
-    Change those properties of a body that a request names, and nothing else.
+    Change the properties of a body that a request names.
 
     :raises Refusal: and nothing is changed
     """
@@ -226,7 +226,7 @@ def _told(verb: str, names: tuple[str, ...]) -> Done:
 
 
 def _set_poses(space: Space, rigids: list[RigidBody], poses: list[Pose]) -> None:
-    """Put bodies somewhere else; without poses, none."""
+    """Set the poses of bodies, if there are any."""
     for rigid, pose in zip(rigids, poses, strict=False):
         space.set_pose(rigid, pose)
 

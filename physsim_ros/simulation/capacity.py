@@ -63,7 +63,7 @@ class Capacity:
         self.forget()
 
     def forget(self) -> None:
-        """Forget the count of overlaps: the world is another."""
+        """Drop the count of overlaps: the world is another."""
         # At most as many overlaps as there are; None is unknown.
         self._bound: int | None = None
         # Steps that the engine had made at the last count, and pieces of requests since then.

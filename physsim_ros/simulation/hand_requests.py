@@ -62,7 +62,7 @@ def apply_hand_request(space: Space, request: HandRequest, capacity: Capacity) -
 
 def grab_body(space: Space, request: Grab, point: Point) -> tuple[str, str]:
     """
-    Have a hand grab the topmost body under a point.
+    Add the grip of a hand on the topmost body under a point.
 
     :param point: in the world [m]
     :return: name of the body, and a sentence that says what was done
@@ -116,7 +116,7 @@ def _placed_pose(pose: Pose, grip: Grip, request: PlaceHand) -> Pose:
 
 def let_go(space: Space, hand: str) -> tuple[str, str]:
     """
-    Have a hand let go of its body.
+    Remove the grip of a hand.
 
     :return: name of the body, and a sentence that says what was done
     """

@@ -81,7 +81,7 @@ class Hands:
 
     def note_time(self, now_ns: int, *, paused: bool) -> None:
         """
-        Forget the hands that have been silent for too long.
+        Drop the hands that have been silent for too long.
 
         :param now_ns: steady time, never going back [ns]
         :param paused: whether the world is; its time does not count
@@ -93,7 +93,7 @@ class Hands:
                 del self._dragging[name]
 
     def clear(self) -> None:
-        """Forget all hands: another moment is shown than the one at which they grabbed."""
+        """Drop all hands: another moment is shown than the one at which they grabbed."""
         self._dragging.clear()
 
 

@@ -237,7 +237,7 @@ def _phase(space: Space, a: str, b: str, said: JointProperties) -> float:
 
 
 def _is_at(space: Space, joint: Joint, points: tuple[Point, ...]) -> bool:
-    """Tell whether a joint would be drawn with these points now."""
+    """Return whether a joint would be drawn with these points now."""
     drawn = _drawn(space, joint)
     if joint.kind is JointKind.SLIDER:
         # Its second point says no more than where its line leads.

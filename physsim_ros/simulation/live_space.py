@@ -88,7 +88,7 @@ class LiveSpace:
         self._fresh = _Fresh(key, space, space.changes)
 
     def build_bodies(self, count: int) -> None:
-        """Make so many bodies ready for the next `renew`."""
+        """Build a number of bodies for the next `renew`."""
         self._pool.build_bodies(self.space.table.scene, count)
 
     def _replace(self, space: Space, pool: BodyPool) -> None:
@@ -107,7 +107,7 @@ class _Fresh(NamedTuple):
     changes: int
 
     def suits(self, space: Space, step: int) -> bool:
-        """Tell whether a space is still as it was built, at a step."""
+        """Return whether a space is still as it was built, at a step."""
         as_built = self.space is space and space.age == 0 and space.changes == self.changes
         return as_built and self.key.step == step
 

@@ -115,7 +115,7 @@ class RequestQueue:
         self._waiting.append(Waiting(answer, answer.topic, answer.subject, self.gesture))
 
     def take_all(self) -> Iterator[Waiting]:
-        """Take what waits, one after the other."""
+        """Remove and yield the waiting requests, in order."""
         self._moves.clear()
         while self._waiting:
             yield self._waiting.popleft()

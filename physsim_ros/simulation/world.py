@@ -249,7 +249,7 @@ class World:
         self._note_new_space()
 
     def build_bodies(self, count: int) -> None:
-        """Make so many bodies ready for the next `renew`."""
+        """Build a number of bodies for the next `renew`."""
         self._live_space.build_bodies(count)
 
     def _note_new_space(self) -> None:
@@ -321,7 +321,7 @@ class World:
 
 def steps_in(seconds: float, physics_rate: float) -> int:
     """
-    Return how many steps something takes that goes on for so long, at least one.
+    Return the number of steps that cover a time [s], at least one.
 
     :param physics_rate: of the world [Hz]
     """

@@ -47,7 +47,7 @@ class SettlingExecutor:
         self._executor.add_node(node)
 
     def shutdown(self) -> None:
-        """Spin no more nodes."""
+        """Remove all nodes, and shut the executor down."""
         for node in self._nodes:
             self._executor.remove_node(node)
         self._executor.shutdown()

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""What a test reads of a world, and the errors that it catches."""
+"""Values that a test reads of a world, and errors that it catches."""
 
 from __future__ import annotations
 

@@ -62,7 +62,7 @@ _ON_SOLID = 0.6
 @dataclass(slots=True, kw_only=True, eq=False)
 class Figure:
     """
-    One thing that was drawn.
+    One or several strokes that are read together.
 
     :param strokes: each (n, 3) float64: x, y [m], time [s]
     :param began: when its first stroke began [s]

@@ -73,7 +73,7 @@ class JointSet:
         return tuple(name for name in self.by_name if name in self._on.get(body, ()))
 
     def has_joints(self, body: str) -> bool:
-        """Tell whether a body has joints."""
+        """Return whether a body has joints."""
         return body in self._on
 
     def joints_on(self, bodies: Iterable[str], joint: Joint | None) -> list[Joint]:
@@ -93,7 +93,7 @@ class JointSet:
 
     def check_springs(self, bodies: Mapping[str, Body], joint: Joint | None = None) -> None:
         """
-        Refuse what would leave springs too stiff for the steps.
+        Refuse a change by which springs would be too stiff for the steps.
 
         :param bodies: that are to change, as they will be
         :param joint: that is to come; None is none
@@ -124,14 +124,14 @@ class JointSet:
         del self.by_name[name]
 
     def clear(self) -> None:
-        """Take all joints out of the engine, before its bodies serve another space."""
+        """Remove all joints from the engine, before its bodies are used in another space."""
         self._space.remove(*self._constraints())
         self._drop_table()
         self.by_name.clear()
         self._on.clear()
 
     def detach(self, body: str) -> None:
-        """Take the joints of a body out of the engine, before its engine objects go."""
+        """Remove the joints of a body from the engine, before its engine objects are replaced."""
         for name in self.names_on(body):
             engine_joint = self.by_name[name]
             self._space.remove(*engine_joint.constraints)

@@ -45,7 +45,7 @@ class JointTable:
     :param background: of the space
     :param dt: of a step [s]
 
-    :ivar breakable: joints that can break, and the most that each may give [N s]
+    :ivar breakable: joints that can break, and the greatest impulse of each [N s]
     """
 
     def __init__(self, joints: Sequence[EngineJoint], background: pymunk.Body, dt: float) -> None:

@@ -127,7 +127,7 @@ class Motion(NamedTuple):
 
 class Kind(NamedTuple):
     """
-    What one kind of joint consists of.
+    The functions of one kind of joint.
 
     :ivar constraints: makes the Pymunk constraints, the one that `set_targets` writes to first
     :ivar bounds: returns (lower, upper) of each constraint row of a joint [m, rad]

@@ -114,7 +114,7 @@ class Projection:
         Close the gaps of all joints but those that yielded in this step.
 
         :param poses: (m, 3) float64: of the jointed bodies [m, rad]; changed in place
-        :param yielded: numbers of the joints that gave their greatest force
+        :param yielded: numbers of the joints that reached their greatest force
         """
         if not self._batches:
             return

@@ -72,7 +72,7 @@ class HalfStep:
         self._released: set[str] = set()
 
     def release_bodies(self, rigids: Iterable[RigidBody]) -> None:
-        """Note that something which may have carried these bodies is removed, or moved away."""
+        """Note bodies whose support may have been removed, or moved away."""
         self._released.update(rigid.body.name for rigid in rigids)
 
     def settle(self, table: BodyTable) -> Settled:
@@ -97,7 +97,7 @@ class HalfStep:
 
     def begin_step(self, table: BodyTable) -> Flags:
         """
-        Write to the engine what requests since the last step have changed about free flight.
+        Write the half-step leads of bodies whose free flight requests have changed.
 
         :return: (n,) bool: bodies whose support was removed
         """

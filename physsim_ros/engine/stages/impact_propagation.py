@@ -185,7 +185,7 @@ class ImpactPropagation:
 
 def leave_open(arbiter: Any, impact: float) -> None:
     """
-    Have the solver pass over a contact in this step, unless it is as fast as an impact or loaded.
+    Exclude a contact from this step, unless it is as fast as an impact or loaded.
 
     Private fields of Chipmunk 7 as in Pymunk 7.3.1, `cpContact` of `cpArbiter.contacts`:
     `bounce` [m/s] is set to `e * v_n` by `cpArbiterPreStep`, `v_n < 0` being approach; the solver

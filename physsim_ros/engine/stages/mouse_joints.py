@@ -57,7 +57,7 @@ class MouseJoints:
         self._grips: dict[str, Grip] = {}
 
     def grips(self) -> tuple[Grip, ...]:
-        """Return the grips, in the order in which the hands have grabbed."""
+        """Return the grips, in the order in which they were made."""
         return tuple(self._grips.values())
 
     def grip_of(self, hand: str) -> Grip | None:

@@ -33,7 +33,7 @@ import pymunk
 def add_pre_solve(
     space: pymunk.Space, function: Callable[[pymunk.Constraint, pymunk.Space], None]
 ) -> None:
-    """Have a function called in each step of a space, before its contacts are solved."""
+    """Call a function in each step of a space, before its contacts are solved."""
     # A massive body outside the space, whose angle stays 0 and within the limits.
     hook = pymunk.RotaryLimitJoint(space.static_body, pymunk.Body(1.0, 1.0), -1.0, 1.0)
     hook.pre_solve = function

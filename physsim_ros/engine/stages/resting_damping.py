@@ -57,7 +57,7 @@ _CONTACT |= _F.CONTACT_COUNT | _F.TOTAL_IMPULSE | _F.NORMAL
 
 class RestingDamping:
     """
-    Damps what friction locks in place.
+    Damps bodies that friction locks in place.
 
     :param io: of a space whose `collision_persistence` is 1, so that it lists only contacts of
         the last step
@@ -75,7 +75,7 @@ class RestingDamping:
         self._thrown.add(rigid.body.name)
 
     def damp_resting(self, context: StepContext) -> None:
-        """Remove a share of the velocity of what is locked in place, where it is time for it."""
+        """Remove a share of the velocity of bodies locked in place, every so many steps."""
         thrown, self._thrown = self._thrown, set()
         if context.age % self._period:
             return

@@ -75,6 +75,6 @@ def wake_bodies(bodies: Iterable[pymunk.Body]) -> None:
 
 
 def wake_overlapping(space: pymunk.Space, body: pymunk.Body) -> None:
-    """Wake what overlaps a body: the engine compares static shapes with awake ones only."""
+    """Wake the bodies that overlap one: the engine compares static shapes with awake ones only."""
     hits = (hit.shape for shape in body.shapes for hit in space.shape_query(shape))
     wake_bodies(shape.body for shape in hits if shape is not None and shape.body is not None)

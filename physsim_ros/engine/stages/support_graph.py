@@ -49,7 +49,7 @@ def find_unsupported(
         of the last step
     :param io: of the space
     :param table: of its bodies
-    :param released: rows of the dynamic bodies from which something was removed since that step
+    :param released: rows of the dynamic bodies that lost a neighbour since that step
     """
     loose = np.zeros(len(table.ids), np.bool_)
     loose[list(released)] = True
@@ -63,7 +63,7 @@ def _contacts(
     space: pymunk.Space, io: BatchIO, table: BodyTable, loose: Flags, engines: list[pymunk.Body]
 ) -> Rows:
     """
-    Return (k, 2) intp: rows of what supports each other.
+    Return (k, 2) intp: rows of the pairs of bodies that support each other.
 
     Contacts that pressed in the last step do; those of released bodies are searched for anew,
     and count if they pressed or are new, not if the two only lie side by side.

@@ -46,7 +46,7 @@ class Wrenches:
             self._acting[rigid.body.name] = rigid
 
     def forget_body(self, rigid: RigidBody) -> None:
-        """Forget a body that leaves the space; what it carries stays with it."""
+        """Drop a body that is removed from the space; its wrench stays with it."""
         self._acting.pop(rigid.body.name, None)
 
     def acting(self) -> list[RigidBody]:

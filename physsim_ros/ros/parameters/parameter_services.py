@@ -35,7 +35,7 @@ _TYPES = {each.value for each in Type}
 
 class ParameterServices(ParameterService):
     """
-    The parameter services of a node; what they set or refuse is told as answers, too.
+    The parameter services of a node, whose results are answers, too.
 
     rclpy.parameter_service.ParameterService of ROS 2 Jazzy raises on a type of value that it does
     not know, which ends the node; such a value is refused here.
@@ -69,7 +69,7 @@ class ParameterServices(ParameterService):
         return response
 
     def _tell_result(self, name: str, result: SetParametersResult) -> None:
-        """Tell the result for one parameter, whose reason becomes the sentence of the answer."""
+        """Answer with the result for one parameter, whose reason becomes the message."""
         topic = '~/set_parameters'
         if result.successful:
             result.reason = f'{name} is {shown(self._get_node().get_parameter(name).value)}'
