@@ -129,6 +129,17 @@ def test_the_past_is_gone_to_by_the_slider_and_acting_there_starts_another_cours
     assert sheet.pose(name) == pytest.approx(fallen, abs=1e-6)
 
 
+def test_the_slider_has_the_last_word_over_buttons_pressed_before(sheet: Sheet) -> None:
+    sheet.press('Play')
+    sheet.wait('physsim.time > 0.5')
+    for name in ('Rewind', 'Fast forward', 'Step', 'Play'):
+        sheet.press(name)
+    sheet.page.get_by_role('slider', name='Time').fill('0.25')
+    sheet.wait('physsim.speed === 0 && Math.abs(physsim.time - 0.25) < 0.02')
+    sheet.press('Step')
+    sheet.wait('physsim.speed === 0 && physsim.time > 0.255')
+
+
 def test_drawing_in_a_world_that_runs_back_stops_it_there(sheet: Sheet) -> None:
     sheet.press('Play')
     sheet.wait('physsim.time > 1')

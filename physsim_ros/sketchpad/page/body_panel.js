@@ -11,7 +11,7 @@ import {ARROW_GAP} from './tools/hand.js';
 const RANGES = [['density', 'Density [kg/m²]', 0.1, 10, 0.1], ['friction', 'Friction', 0, 2, 0.05],
   ['elasticity', 'Bounciness', 0, 1, 0.05]];
 const GRIP = 14; // px around the tip of the velocity arrow
-const COVERED = 80; // px: nearer to the sheet's edge, or beneath it, a body is covered
+const COVERED = 80; // px: nearer to the edge of the panel, or beneath it, a body is covered
 const BESIDE = 0.5; // m: where a copy is put
 
 export class BodyPanel {
@@ -57,13 +57,14 @@ export class BodyPanel {
   }
 
   /**
-   * Move the view where the sheet of a narrow page covers what is chosen.
+   * Move the view where the panel covers what is chosen.
    * @param {number} row
    */
   #uncover(row) {
-    const {camera, world} = this.app, lowest = this.element.getBoundingClientRect().top - COVERED;
-    const [, y] = camera.toPage(...world.place(row, world.scene.bodies[row].centroid));
-    if (camera.narrow && y > lowest) camera.pan(0, lowest - y);
+    const {camera, world} = this.app, {left, top, bottom} = this.element.getBoundingClientRect();
+    const [x, y] = camera.toPage(...world.place(row, world.scene.bodies[row].centroid));
+    if (camera.narrow) camera.pan(0, Math.min(top - COVERED - y, 0));
+    else if (y < bottom) camera.pan(Math.min(left - COVERED - x, 0), 0);
   }
 
   /** @param {string[]} names of several bodies */

@@ -164,7 +164,7 @@ function plot(canvas, {start, end, now, label, curve, exact, palette}) {
   ctx.fillStyle = palette.faint;
   const marks = most - least > 4 * margin ? [least + margin, most - margin] : [(least + most) / 2];
   for (const value of marks) {
-    const rounded = Math.abs(value) < margin / 100 ? 0 : Number(value.toPrecision(3));
+    const rounded = Number(Math.abs(value) < 1 ? value.toFixed(2) : value.toPrecision(3));
     ctx.fillText(String(rounded), 0, atY(value) + 4);
   }
   ctx.fillText(`${start.toFixed(1)} s`, LEFT, HEIGHT - 2);

@@ -62,7 +62,8 @@ export class TimeBar {
   }
 
   #slide() {
-    if (!this.app.world.paused) this.call('pause');
+    // Also where it stands already: a request to play may be on its way.
+    if (!this.busy) this.call('pause');
     this.wanted = Number(this.slider.value);
     this.#seek();
   }
