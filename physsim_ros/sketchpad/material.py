@@ -36,7 +36,8 @@ class Material:
     def choose(self, choice: DrawWith) -> None:
         """Take over what a message sets."""
         self._properties = replace(self._properties, **choice.properties.explicit())
-        self._color = choice.color or self._color
+        if choice.color is not None:
+            self._color = choice.color or None
 
     def applied(self, requests: Iterable[Request]) -> tuple[Request, ...]:
         """Return requests of a drawing, with this material where they add bodies."""

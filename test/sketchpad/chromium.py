@@ -46,6 +46,8 @@ SOFTWARE_GL = [
     '--ignore-gpu-blocklist',
 ]
 VIEWPORT = {'width': 1200, 'height': 800}
+PIXEL = """([x, y]) => [...document.querySelector('canvas').getContext('2d').getImageData(
+    x * devicePixelRatio, y * devicePixelRatio, 1, 1).data]"""
 MILLISECONDS = 1000.0 * PATIENCE
 
 
@@ -132,6 +134,11 @@ class Sheet:
         """Return the pixels of a point of the world [m]."""
         px, py = self.page.evaluate('([x, y]) => physsim.toPage(x, y)', [x, y])
         return px, py
+
+    def color_at(self, x: float, y: float) -> list[int]:
+        """Return red, green, blue, each 0 .. 255, at a point of the world [m]."""
+        color: list[int] = self.page.evaluate(PIXEL, self.place(x, y))
+        return color[:3]
 
     def drag(self, *points: tuple[float, float]) -> None:
         """Draw with the mouse from point to point of the world [m]."""

@@ -62,17 +62,10 @@ def test_a_rectangle_is_a_dragged_side_and_a_click_across(sheet: Sheet) -> None:
 
 
 def test_a_body_is_where_its_colour_says(sheet: Sheet) -> None:
-    read = """([x, y]) => [...document.querySelector('canvas').getContext('2d').getImageData(
-        x * devicePixelRatio, y * devicePixelRatio, 1, 1).data]"""
-
-    def color_at(x: float, y: float) -> list[int]:
-        color: list[int] = sheet.page.evaluate(read, sheet.place(x, y))
-        return color[:3]
-
-    assert color_at(0.0, 0.5) == [0xD0, 0x20, 0x20]
-    assert color_at(4.0, 0.5) == [0x20, 0xA0, 0x40]
-    assert color_at(-4.0, 3.0) == [0x20, 0x40, 0xD0]
-    assert color_at(0.0, 1.2) not in ([0xD0, 0x20, 0x20], color_at(0.0, 0.5))
+    assert sheet.color_at(0.0, 0.5) == [0xD0, 0x20, 0x20]
+    assert sheet.color_at(4.0, 0.5) == [0x20, 0xA0, 0x40]
+    assert sheet.color_at(-4.0, 3.0) == [0x20, 0x40, 0xD0]
+    assert sheet.color_at(0.0, 1.2) not in ([0xD0, 0x20, 0x20], sheet.color_at(0.0, 0.5))
 
 
 def test_a_hand_drags_a_body_and_throws_it(sheet: Sheet) -> None:
@@ -207,6 +200,25 @@ def test_a_body_is_tapped_and_changed_in_its_panel(sheet: Sheet) -> None:
     sheet.wait('Object.keys(physsim.bodies).length === 4')
     sheet.press('Delete body')
     sheet.wait('!("ball/0" in physsim.bodies)')
+
+
+def test_what_is_drawn_next_gets_the_chosen_colour_until_any_will_do(sheet: Sheet) -> None:
+    def drawn_color(x: float) -> list[int]:
+        before = sheet.names()
+        sheet.press('Circle')
+        sheet.drag((x, 5.0), (x + 0.5, 5.0))
+        sheet.wait_for_new(before)
+        return sheet.color_at(x - 0.1, 5.0)
+
+    sheet.press('Material')
+    sheet.page.get_by_label('Colour', exact=True).fill('#123456')
+    assert drawn_color(-2.0) == [0x12, 0x34, 0x56]
+    # The panel knows the choice when it is opened again.
+    sheet.press('Material')
+    assert sheet.page.get_by_label('Colour', exact=True).input_value() == '#123456'
+    assert not sheet.page.get_by_label('Each body another colour').is_checked()
+    sheet.page.get_by_label('Each body another colour').check()
+    assert drawn_color(2.0) != [0x12, 0x34, 0x56]
 
 
 def test_a_lasso_moves_several_bodies_and_deletes_them(sheet: Sheet) -> None:

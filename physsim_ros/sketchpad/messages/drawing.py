@@ -17,6 +17,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from physsim_ros.drawing import Tool
@@ -88,11 +89,11 @@ class DrawWith:
     Choose the material of what this page draws next.
 
     :param properties: that bodies get; those that are not set stay as they were
-    :param color: that bodies get; None stays as it was
+    :param color: that bodies get; None stays as it was, '' is one of the world's choice
     """
 
     properties: Properties
-    color: Color | None = None
+    color: Color | Literal[''] | None = None
 
 
 def _stroke(fields: Fields) -> Stroke:
@@ -141,7 +142,9 @@ def _let_go(_: Fields) -> UseHand:
 
 def _draw_with(fields: Fields) -> DrawWith:
     properties = {key: fields[key] for key in _MATERIAL if key in fields}
-    color = color_of(fields['color']) if 'color' in fields else None
+    color: Color | Literal[''] | None = None
+    if 'color' in fields:
+        color = '' if fields['color'] == '' else color_of(fields['color'])
     return DrawWith(properties=properties_from(properties), color=color)
 
 

@@ -85,11 +85,19 @@ export class BodyPanel {
       const [x, y] = strength ? gravity.map((each) => each / strength) : [0, -1];
       app.connection.send('gravity', {gravity: [x * value, y * value]});
     });
+    const change = (/** @type {any} */ properties) => {
+      Object.assign(app.material, properties);
+      app.connection.send('draw_with', properties);
+    };
+    const color = app.material.color || [0.3, 0.47, 0.66];
+    const any = make('input', {type: 'checkbox', checked: !app.material.color,
+      onchange: () => change({color: any.checked ? '' : hexOf(color)})});
     this.#show('What is drawn next', [
-      ...fields({...app.material, color: app.material.color ?? [0.3, 0.47, 0.66]}, (properties) => {
-        Object.assign(app.material, properties);
-        app.connection.send('draw_with', properties);
+      ...fields({...app.material, color}, (properties) => {
+        if (properties.color) any.checked = false;
+        change(properties);
       }),
+      make('label', {}, 'Each body another colour', any),
       make('h3', {textContent: 'World'}), pull]);
   }
 
@@ -171,13 +179,21 @@ export class BodyPanel {
  * @returns {HTMLElement[]}
  */
 function fields(values, change) {
-  const hex = `#${values.color.slice(0, 3).map((/** @type {number} */ channel) =>
-    Math.round(255 * channel).toString(16).padStart(2, '0')).join('')}`;
-  const color = make('input', {type: 'color', value: hex, onchange: () => change({color: color.value})});
+  const color = make('input', {type: 'color', value: hexOf(values.color), onchange: () => change({color: color.value})});
   return [
     ...RANGES.map(([key, label, least, most, step]) => range(label, least, most, step, values[key],
       (value) => change({[key]: value}))),
     make('label', {}, 'Colour', color)];
+}
+
+/**
+ * @param {number[] | string} color channels, each 0 .. 1, or as hexOf returns it
+ * @returns {string} as inputs have it
+ */
+function hexOf(color) {
+  if (typeof color === 'string') return color;
+  return `#${color.slice(0, 3).map((channel) =>
+    Math.round(255 * channel).toString(16).padStart(2, '0')).join('')}`;
 }
 
 /**
