@@ -180,3 +180,9 @@ class Running(Refusal):
     """Time is running, where it must be paused."""
 
     code = 'running'
+
+
+class Busy(Refusal):
+    """More requests wait than may wait."""
+
+    code = 'busy'

@@ -37,6 +37,7 @@ class Backlog(NamedTuple):
     What waits in the node, and what it remembers.
 
     :ivar message_delay: time that messages wait before they are handled [s]
+    :ivar waiting_requests: number of requests that wait for the next frame
     :ivar undecodable: number of messages that could not be decoded, since the node started
     :ivar waiting_answers: number of answers that wait for acknowledgements
     :ivar stopped_listener: whether a subscriber of `~/events` has stopped
@@ -44,6 +45,7 @@ class Backlog(NamedTuple):
     """
 
     message_delay: float = 0.0
+    waiting_requests: int = 0
     undecodable: int = 0
     waiting_answers: int = 0
     stopped_listener: bool = False
@@ -135,6 +137,7 @@ class FrameStatistics:
             'step cost [ms]': f'{self._step_ns / frames * 1e-6:.3f}',
             'frame cost [ms]': f'{self._frame_ns / frames * 1e-6:.3f}',
             'wait of requests [s]': f'{backlog.message_delay:.3f}',
+            'requests that wait': backlog.waiting_requests,
             'undecodable messages': backlog.undecodable,
             'answers that wait': backlog.waiting_answers,
             'memory of the past [MB]': '{:.1f} of {:g}'.format(*backlog.history_memory),

@@ -359,6 +359,7 @@ class PhysSimNode(NodeWithoutQosEvents):
                 viewer_failure=self.outputs.viewer.failure,
                 backlog=Backlog(
                     message_delay=self.message_delay,
+                    waiting_requests=self.simulation.waiting_requests,
                     undecodable=self.requests.undecodable,
                     waiting_answers=events.waiting,
                     stopped_listener=events.stopped,

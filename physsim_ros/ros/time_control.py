@@ -40,7 +40,7 @@ class TimeControl:
     :param simulation: of the node
     :param values: of the parameters of the node, by name, always up to date
     :param advance_frame: advances the world by one frame, and publishes it
-    :param on_seek: called after time has jumped
+    :param on_seek: called where time jumps
     """
 
     def __init__(
@@ -92,7 +92,8 @@ class TimeControl:
 
         def seek(message: Clock) -> None:
             stamp = message.clock.sec * 10**9 + message.clock.nanosec
-            perform('~/seek', lambda: self.seek(stamp))
+            self._simulation.submit_seek(stamp, topic='~/seek')
+            self._on_seek()
 
         subscriptions.add(Float64, '~/speed', set_speed)
         subscriptions.add(Clock, '~/seek', seek)

@@ -15,8 +15,9 @@
 """
 The queue of requests that wait for the next frame.
 
-Laws: what is submitted is taken in the order of its arrival; of the moves of a hand that wait, the
-last counts.
+Laws: what is submitted is taken in the order of its arrival and answered once; of the moves of a
+hand that wait, and of seeks that wait one behind the other, the last is carried out; what waits is
+bounded in count and in memory, and what is too much is refused.
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ from collections import deque
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from physsim_ros.model.errors import Refusal
+from physsim_ros.model.errors import Busy, Refusal
 from physsim_ros.model.requests import (
     ChangeBody,
     Command,
@@ -39,6 +40,21 @@ from physsim_ros.model.requests import (
     Unjoin,
 )
 from physsim_ros.model.snapshot import Answer
+from physsim_ros.simulation.memory_size import names_size, request_size
+
+# Requests that wait, at most, and memory that they may take [bytes]: five worlds of 20,000 bodies.
+MOST_WAITING, MOST_BYTES = 100_000, 256 * 10**6
+
+
+@dataclass(frozen=True, slots=True)
+class Seek:
+    """
+    Go to a simulation time.
+
+    :param stamp: of it [ns]
+    """
+
+    stamp: int
 
 
 @dataclass(slots=True)
@@ -46,7 +62,7 @@ class Waiting:
     """
     A request that waits, the refusal of a message that is no request, or an answer.
 
-    :param request: to be applied, or refused; or an answer without a request
+    :param request: to be applied, a time to go to, or a refusal, or an answer without a request
     :param topic: that it came from
     :param subject: name of the body or joint that it names, or ''
     :param gesture: requests of one gesture are undone together
@@ -54,7 +70,7 @@ class Waiting:
     :param asker: key of the message that asks, which the answer names; '' for none
     """
 
-    request: Request | Refusal | Answer
+    request: Request | Seek | Refusal | Answer
     topic: str
     subject: str
     gesture: int
@@ -72,6 +88,8 @@ class RequestQueue:
     def __init__(self) -> None:
         self.gesture = 0
         self._waiting: deque[Waiting] = deque()
+        # Memory of the requests that wait [bytes].
+        self._size = 0
         # The last move of each hand; a later one takes its place.
         self._moves: dict[str, Waiting] = {}
 
@@ -94,14 +112,30 @@ class RequestQueue:
         if isinstance(request, MoveHand) and request.hand in self._moves:
             self._moves[request.hand].request = request
             return
+        subject, size = _subject_of(request), _size_of(request)
+        if len(self) >= MOST_WAITING or self._size + size > MOST_BYTES:
+            refusal = Busy(f'{len(self)} requests wait; this one was one too many')
+            self.add_refusal(
+                refusal, topic=topic, subject=subject, joined=joined, field=field, asker=asker
+            )
+            return
         gesture = self.gesture if joined else self.begin_gesture()
-        waiting = Waiting(request, topic, _subject_of(request), gesture, field, asker)
+        waiting = Waiting(request, topic, subject, gesture, field, asker)
         self._waiting.append(waiting)
+        self._size += size
         match request:
             case MoveHand(hand=hand):
                 self._moves[hand] = waiting
             case Grab(hand=hand) | LetGo(hand=hand):
                 self._moves.pop(hand, None)
+
+    def add_seek(self, seek: Seek, *, topic: str) -> None:
+        """Add a seek; one that waits just before it is answered, and not carried out."""
+        if self._waiting and isinstance(self._waiting[-1].request, Seek):
+            last = self._waiting[-1]
+            message = f'superseded by a seek to {seek.stamp * 1e-9:.3f} s'
+            last.request = Answer(topic=last.topic, message=message, asker=last.asker)
+        self._waiting.append(Waiting(seek, topic, '', self.gesture))
 
     def add_refusal(
         self, refusal: Refusal, *, topic: str, subject: str, joined: bool, field: str, asker: str
@@ -117,8 +151,15 @@ class RequestQueue:
     def take_all(self) -> Iterator[Waiting]:
         """Remove and yield the waiting requests, in order."""
         self._moves.clear()
+        self._size = 0
         while self._waiting:
             yield self._waiting.popleft()
+
+
+def _size_of(request: Request) -> int:
+    """Return the memory that a request takes [bytes]."""
+    names = names_size(request.names) if isinstance(request, Command) else 0
+    return request_size(request) + names
 
 
 def _subject_of(request: Request) -> str:

@@ -45,7 +45,7 @@ from physsim_ros.simulation.hands import Hands, placing
 from physsim_ros.simulation.history_memory import DEFAULT_MEMORY, HistoryMemory
 from physsim_ros.simulation.records import Moment
 from physsim_ros.simulation.replay import Timeline
-from physsim_ros.simulation.request_queue import RequestQueue
+from physsim_ros.simulation.request_queue import RequestQueue, Seek
 from physsim_ros.simulation.timeline_status import status_of
 from physsim_ros.simulation.undo import Undo
 from physsim_ros.simulation.world import World
@@ -202,6 +202,11 @@ class Simulation:
     def _limit_timeline(self) -> bool:
         """Limit the timeline in force, and return whether the world is where it was."""
         return self.timeline.keep_within(self._steps(self._history), self._memory.log_limit)
+
+    @property
+    def waiting_requests(self) -> int:
+        """Count of requests, refusals and answers that wait for the next frame."""
+        return len(self._requests)
 
     @property
     def late_frames(self) -> int:
@@ -388,6 +393,17 @@ class Simulation:
         :raises OutOfHistory: it is kept no more, or has not come yet
         """
         self._apply_waiting()
+        return self._go_to(stamp)
+
+    def submit_seek(self, stamp: int, *, topic: str) -> None:
+        """
+        Queue a seek to a simulation time [ns]; of those in a row the last is carried out.
+
+        :param topic: where it comes from
+        """
+        self._requests.add_seek(Seek(stamp), topic=topic)
+
+    def _go_to(self, stamp: int) -> str:
         self._seek_shown()
         # What has just been carried out belongs to this step.
         self.timeline.note_shown()
@@ -512,11 +528,15 @@ class Simulation:
             if isinstance(request, Answer):
                 self._answers.append(request)
                 continue
-            self._changed = True
+            # A seek that is refused shows nothing new.
+            self._changed |= not isinstance(request, Seek)
             try:
                 if isinstance(request, Refusal):
                     raise request
-                subject, message = self._apply(request, waiting.gesture)
+                if isinstance(request, Seek):
+                    message = self._go_to(request.stamp)
+                else:
+                    subject, message = self._apply(request, waiting.gesture)
             except Refusal as refusal:
                 answer = Answer.refused(
                     refusal, topic=topic, subject=subject, field=field, asker=asker

@@ -1,0 +1,103 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""What waits is bounded, is answered once each, and of seeks in a row the last is carried out."""
+
+from physsim_ros.model.requests import Spawn
+from physsim_ros.model.shapes import Disc
+from physsim_ros.simulation import request_queue
+from physsim_ros.simulation.simulation import Simulation
+import pytest
+
+SECOND = 1_000_000_000
+SPAWN = Spawn(name='a/0', shape=Disc(radius=0.2), pose=(0.0, 9.0, 0.0))
+
+
+def spawn(sim: Simulation, number: int) -> None:
+    request = Spawn(name=f'a/{number}', shape=Disc(radius=0.2), pose=(number, 9.0, 0.0))
+    sim.submit(request, topic='~/spawn')
+
+
+def test_of_seeks_in_a_row_the_last_is_carried_out_and_each_is_answered(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    sim = Simulation(speed=0.0)
+    for number in range(3):
+        spawn(sim, number)
+    for _ in range(120):
+        sim.advance_frame()
+    sought = []
+    seek = sim.timeline.seek
+    monkeypatch.setattr(sim.timeline, 'seek', lambda step: (sought.append(step), seek(step)))
+    for number in range(1000):
+        sim.submit_seek(round((0.2 + number / 1000) * SECOND), topic='~/seek')
+
+    frame = sim.settle()
+
+    assert frame is not None
+    assert [each.topic for each in frame.answers] == ['~/seek'] * 1000
+    assert all('superseded' in each.message for each in frame.answers[:-1])
+    assert frame.answers[-1].message == 'at 1.200 s'
+    assert sought == [288]
+    assert sim.step == 288
+
+
+def test_a_request_between_two_seeks_is_made_where_the_first_one_goes() -> None:
+    sim = Simulation(speed=0.0)
+    for _ in range(120):
+        sim.advance_frame()
+    sim.submit_seek(SECOND, topic='~/seek')
+    spawn(sim, 7)
+    sim.submit_seek(9 * SECOND, topic='~/seek')
+    sim.submit_seek(SECOND // 2, topic='~/seek')
+
+    frame = sim.settle()
+
+    assert frame is not None
+    topics = [each.topic for each in frame.answers if each.topic != 'branch']
+    assert topics == ['~/seek', '~/spawn', '~/seek', '~/seek']
+    assert not any(each.code for each in frame.answers)
+    assert sim.step == 120
+    sim.seek(SECOND)
+    assert sim.status.newest == 1.0
+    assert len(sim.world) == 1
+
+
+def test_a_seek_to_where_nothing_is_kept_is_refused() -> None:
+    sim = Simulation(speed=0.0)
+    sim.settle()
+    sim.submit_seek(9 * SECOND, topic='~/seek')
+
+    assert sim.settle() is None
+    (answer,) = sim.take_answers()
+    assert (answer.topic, answer.code) == ('~/seek', 'out_of_history')
+
+
+@pytest.mark.parametrize('bound', ['MOST_WAITING', 'MOST_BYTES'])
+def test_what_is_too_much_is_refused_and_the_rest_is_carried_out(
+    bound: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    sim = Simulation(speed=0.0)
+    size = request_queue.request_size(SPAWN)
+    monkeypatch.setattr(request_queue, bound, 5 if bound == 'MOST_WAITING' else 5 * size)
+    for _ in range(2):
+        for number in range(7):
+            spawn(sim, number)
+
+        frame = sim.settle()
+
+        assert frame is not None
+        assert [each.code for each in frame.answers] == [''] * 5 + ['busy'] * 2
+        assert [each.subject for each in frame.answers][-2:] == ['a/5', 'a/6']
+        assert len(sim.world) == 5
