@@ -31,6 +31,7 @@ The pipeline: one step of the engine, stage by stage in this order.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping
 
 import numpy as np
@@ -86,6 +87,8 @@ class Pipeline:
         self._shapes = shapes
         # The step that is being made; None between steps.
         self._context: StepContext | None = None
+        # Pieces of bodies that contact projection has placed anew in this step.
+        self._placed: Counter[pymunk.Body] = Counter()
         engine.on_collision(begin=self._begin_contact)
 
     def step(self, context: StepContext) -> None:
@@ -103,6 +106,7 @@ class Pipeline:
         tighten_boxes(context)
         self._joints.set_targets(context)
         self._context, self.impact_propagation.table = context, table
+        self._placed.clear()
         self._engine.step(context.dt)
         self._context = self.impact_propagation.table = None
         table.forget_state()
@@ -124,6 +128,6 @@ class Pipeline:
         if self._context is None:
             return
         contact = contact_at_impact(arbiter, self._context)
-        project_contact(arbiter, contact, space)
+        project_contact(arbiter, contact, space, self._placed)
         if self._context.watching:
             self.contact_report.add_first_touch(arbiter, contact)

@@ -31,7 +31,9 @@ def is_jointed(space: pymunk.Space, body: pymunk.Body) -> bool:
     """Return whether a body has joints, which remove the work that it gains."""
     # A body lists joints that have left the space for as long as anything refers to them.
     dynamic = body.body_type == pymunk.Body.DYNAMIC
-    return dynamic and any(joint in space.constraints for joint in body.constraints)
+    # `Space.constraints` copies the list of all joints of the space.
+    inside = space._constraints  # noqa: SLF001
+    return dynamic and any(joint in inside for joint in body.constraints)
 
 
 def take_back_work(space: pymunk.Space, body: pymunk.Body, back: Vec2d, dt: float) -> None:

@@ -174,7 +174,7 @@ class PhysSimNode(NodeWithoutQosEvents):
             actions,
             simulation,
             self._reply_pacer,
-            on_success=self._live_parameters.mirror_settings,
+            on_success=self._note_change,
         )
         self._page_control = PageControl(
             simulation=simulation,
@@ -288,7 +288,13 @@ class PhysSimNode(NodeWithoutQosEvents):
 
     def _note_seek(self) -> None:
         self.outputs.statistics.reset_pace()
-        self._live_parameters.mirror_settings()
+        self._note_change()
+
+    def _note_change(self) -> None:
+        """Have the parameters of the world mirror it, unless a long seek is under way."""
+        began = time.perf_counter_ns()
+        if self.simulation.continue_seek(lambda: time.perf_counter_ns() - began > MOST_TICK_NS):
+            self._live_parameters.mirror_settings()
 
     # Answers
 

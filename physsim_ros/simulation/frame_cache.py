@@ -24,7 +24,7 @@ replayed, forward, while those after them are shown, backward.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -172,24 +172,38 @@ class FrameCache:
             dropped += segment.pop_from(step)
         return dropped
 
-    def frame_at(self, step: int, *, watching: bool) -> CachedFrame:
+    def frame_at(
+        self, step: int, *, watching: bool, is_overdue: Callable[[], bool] = lambda: False
+    ) -> CachedFrame | None:
         """
         Return the frame of a step.
 
         :param watching: whether with contacts
+        :param is_overdue: whether its replay is to go on another time
+        :return: None where it is not replayed yet
         """
         mark, end = self._history.segment(step)
         segment = self._segments.get(mark)
         if segment is None or not segment.has(step, watching=watching):
             stride = self._frame_steps if step == end or step % self._frame_steps == 0 else 1
             replay = self._begin_segment(mark, end, stride, watching=watching)
-            replay.replay_steps(end - mark.step)
+            replay.replay_steps(end - mark.step, is_overdue)
+            if replay.steps_left:
+                return None
             segment = self._segments[mark] = replay.segment
             self._segment_replay = None
             self._evict(step)
         return segment.frames[step].copy()
 
-    def replay_ahead(self, step: int, steps: int, *, fine: bool, watching: bool) -> None:
+    def replay_ahead(
+        self,
+        step: int,
+        steps: int,
+        *,
+        fine: bool,
+        watching: bool,
+        is_overdue: Callable[[], bool] = lambda: False,
+    ) -> None:
         """
         Replay a share of the steps that a rewind shows next, so that no frame waits for all.
 
@@ -197,6 +211,7 @@ class FrameCache:
         :param steps: to the one that is shown next
         :param fine: whether every step is shown
         :param watching: whether with contacts
+        :param is_overdue: whether the rest is to be replayed another time
         """
         stride = 1 if fine else self._frame_steps
         # At whole speeds all frames but the first, which may be shorter, go by as many steps.
@@ -207,7 +222,7 @@ class FrameCache:
         mark, end = self._history.segment(gap)
         replay = self._begin_segment(mark, end, stride, watching=watching)
         frames_left = max(1, (step - gap) // max(1, steps))
-        replay.replay_steps(-(-replay.steps_left // frames_left))
+        replay.replay_steps(-(-replay.steps_left // frames_left), is_overdue)
         if replay.steps_left == 0:
             self._segments[mark] = replay.segment
             self._segment_replay = None
@@ -297,14 +312,16 @@ class _SegmentReplay:
         """Return how many steps remain."""
         return self._end - self._replay.world.step_count
 
-    def replay_steps(self, steps: int) -> None:
-        """Make so many more steps, no more than remain."""
+    def replay_steps(self, steps: int, is_overdue: Callable[[], bool]) -> None:
+        """Make so many more steps, no more than remain, until it is overdue."""
         replay = self._replay
         goal = min(self._end, replay.world.step_count + steps)
         while (at := replay.world.step_count) < goal:
             stop = min(self._end, at - at % self._stride + self._stride)
             replay.replay_shown(stop)
             self._add_frame()
+            if is_overdue():
+                break
         if self.steps_left == 0:
             replay.check_digest()
 

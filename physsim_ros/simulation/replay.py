@@ -21,20 +21,36 @@ and so the same bits; where it does not, that is reported.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 import itertools
+from typing import NamedTuple
 
 from physsim_ros.model.errors import OutOfHistory, Refusal
 from physsim_ros.model.requests import Request
+from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.courses import Courses
 from physsim_ros.simulation.history import History
-from physsim_ros.simulation.records import Entry, Mark, Tail
+from physsim_ros.simulation.records import Entry, Mark, Moment, Tail
 from physsim_ros.simulation.world import World
 
 # The share of the time between two checkpoints in which the bodies for the next one are made
 # ready, so that no frame makes them all.
 _AHEAD = 0.75
+
+
+class _Seek(NamedTuple):
+    """
+    A way through the past that is not finished.
+
+    :ivar begin: moment from which on contacts are those of the goal's frame
+    :ivar goal: moment that is shown
+    :ivar with_contacts: whether the contacts of that frame are yet to be shown
+    """
+
+    begin: Moment
+    goal: Moment
+    with_contacts: bool
 
 
 class Replay:
@@ -46,7 +62,7 @@ class Replay:
     """
 
     def __init__(self, world: World, history: History) -> None:
-        self.world = world
+        self._world = world
         self.history = history
         # Number of requests of the history that were applied.
         self.serial = history.checkpoints[0].serial
@@ -54,9 +70,14 @@ class Replay:
         self._reports: list[Answer] = []
 
     @property
+    def world(self) -> World:
+        """Return the world."""
+        return self._world
+
+    @property
     def moment(self) -> tuple[int, int]:
         """Return step and serial."""
-        return self.world.step_count, self.serial
+        return self._world.step_count, self.serial
 
     def take_answers(self) -> list[Answer]:
         """Return the reports of events without a request since the last call."""
@@ -69,13 +90,13 @@ class Replay:
 
         :param going_over: whether the world is at that moment now, with the same bits
         """
-        self.world.resume(mark.key, going_over=going_over)
+        self._world.resume(mark.key, going_over=going_over)
         self.serial = mark.serial
         self._resumed = mark.moment
 
     def replay_to(self, step: int, serial: int) -> None:
         """Replay up to a moment of the past, no earlier than now."""
-        while self.world.step_count < step:
+        while self._world.step_count < step:
             self._replay_to_stop(step)
         self._apply_logged(serial)
 
@@ -85,14 +106,14 @@ class Replay:
 
     def _replay_to_stop(self, end: int) -> None:
         """Replay up to the next step with a request or a checkpoint, or to the end."""
-        self._apply_logged(self.history.serial_at(self.world.step_count))
+        self._apply_logged(self.history.serial_at(self._world.step_count))
         self._enter_checkpoint()
         self._make_steps(end)
 
     def _make_steps(self, end: int) -> None:
-        step = self.world.step_count
+        step = self._world.step_count
         stop = self.history.next_stop(step, end)
-        lost, broken = self.world.step(stop - step), self.world.take_broken()
+        lost, broken = self._world.step(stop - step), self._world.take_broken()
         # Events of a replay were reported the first time.
         if stop > self.history.head:
             for name in lost:
@@ -110,7 +131,7 @@ class Replay:
         for entry in self.history.entries_between(self.serial, serial):
             self._enter_checkpoint()
             try:
-                self.world.replay(entry.request)
+                self._world.replay(entry.request)
             except Refusal as refusal:
                 self._report('divergence', f'a request of the log is refused now: {refusal}')
             self.serial += 1
@@ -124,9 +145,9 @@ class Replay:
     def check_digest(self) -> bool:
         """Return whether the digest is that of the checkpoint of this moment; report if not."""
         mark = self.history.checkpoint_at(*self.moment)
-        same = mark is None or self.world.digest() == mark.digest
+        same = mark is None or self._world.digest() == mark.digest
         if not same:
-            seconds = self.world.step_count * self.world.dt
+            seconds = self._world.step_count * self._world.dt
             self._report('divergence', f'{seconds:.3f} s was reached with other bits than before')
         return same
 
@@ -137,6 +158,8 @@ class Replay:
 class Timeline(Replay):
     """
     A world and its history, which new steps and requests are added to.
+
+    A seek is done bit by bit, by `continue_seek`; who asks for the world finishes it.
 
     :param world: at its beginning
     :param length: steps that are kept
@@ -162,7 +185,28 @@ class Timeline(Replay):
             world, History(first, length=length, spacing=spacing, log_limit=log_limit)
         )
         self._resumed = first.moment
+        self._seek: _Seek | None = None
         self._spacing = spacing
+
+    @property
+    def world(self) -> World:
+        """Return the world, at this moment."""
+        self.continue_seek()
+        return self._world
+
+    @property
+    def settings(self) -> WorldSettings:
+        """Return the settings of the world, as far as a seek has come."""
+        return self._world.settings
+
+    @property
+    def moment(self) -> Moment:
+        """Return step and serial, those of the goal while a seek is under way."""
+        return super().moment if self._seek is None else self._seek.goal
+
+    def watch_contacts(self, watching: bool) -> None:  # noqa: FBT001 - a state, not a mode
+        """Record contacts from now on, or not."""
+        self._world.watching = watching
 
     def apply(self, request: Request, gesture: int) -> tuple[str, str]:
         """
@@ -171,6 +215,7 @@ class Timeline(Replay):
         :return: the body concerned, or '', and a sentence that says what was done
         :raises Refusal: and nothing is changed
         """
+        self.continue_seek()
         # As it will be carried out again.
         self._enter_checkpoint()
         done = self.world.apply(request)
@@ -214,20 +259,23 @@ class Timeline(Replay):
                 self._make_steps(end)
                 self.history.note_step(self.world.step_count)
 
-    def seek(self, step: int) -> None:
+    def seek(self, step: int, *, with_contacts: bool = True) -> None:
         """
         Go to a step of the history, as it was shown.
 
+        :param with_contacts: whether the contacts of its frame are yet to be shown
+
         :raises OutOfHistory: it is kept no more, or has not come yet
         """
-        history, dt = self.history, self.world.dt
+        history, dt = self.history, self._world.dt
         if not history.oldest <= step <= history.head:
             raise OutOfHistory(
                 f'{step * dt:.3f} s is not in the history, which reaches from '
                 f'{history.oldest * dt:.3f} to {history.head * dt:.3f} s',
                 field='clock',
             )
-        self.seek_moment(step, history.serial_shown_at(step))
+        moment = step, history.serial_shown_at(step)
+        self.seek_moment(*moment, with_contacts=with_contacts)
 
     def keep_within(self, length: int, log_limit: int) -> bool:
         """
@@ -235,6 +283,8 @@ class Timeline(Replay):
 
         :return: whether the world is at the same moment as before, as of `enter_history`
         """
+        # Before what it goes through is dropped.
+        self.continue_seek()
         self.history.log_limit = log_limit
         self.history.length = length
         return self.enter_history()
@@ -254,21 +304,44 @@ class Timeline(Replay):
         self.seek(history.oldest)
         return False
 
-    def seek_moment(self, step: int, serial: int) -> None:
+    def seek_moment(self, step: int, serial: int, *, with_contacts: bool = True) -> None:
         """Go to a moment of the past, from the nearest checkpoint or from here."""
-        history, frame = self.history, self.world.frame_steps
+        history, frame = self.history, self._world.frame_steps
         # Its contacts are those of one frame, as they were the first time.
         begin = max(history.oldest, step - (step % frame or frame))
+        start = begin, history.serial_shown_at(begin)
         first = (step, serial)
-        if self.world.watching:
-            first = min(first, (begin, history.serial_shown_at(begin)))
+        if self._world.watching:
+            first = min(first, start)
         mark = history.checkpoint_before(*first)
-        if not mark.moment <= self.moment <= first:
+        # A seek that this one takes the place of has come to a moment of the history, too.
+        if not mark.moment <= super().moment <= first:
             self.resume(mark)
-        if self.world.step_count < begin:
-            self.replay_to(begin, history.serial_shown_at(begin))
-        self.world.clear_contacts()
-        self.replay_to(step, serial)
+        self._seek = _Seek(start, (step, serial), with_contacts)
+
+    def continue_seek(self, is_overdue: Callable[[], bool] = lambda: False) -> bool:
+        """
+        Replay towards the moment that was sought.
+
+        :param is_overdue: whether to go on another time
+        :return: whether the world is there
+        """
+        seek, self._seek = self._seek, None
+        if seek is None:
+            return True
+        world, (begin, serial) = self._world, seek.begin
+        if world.step_count < begin:
+            while world.step_count < begin:
+                self._replay_to_stop(min(begin, world.step_count + world.frame_steps))
+                if is_overdue():
+                    self._seek = seek
+                    return False
+            self._apply_logged(serial)
+        world.clear_contacts()
+        self.replay_to(*seek.goal)
+        if not seek.with_contacts:
+            world.clear_contacts()
+        return True
 
     def undo(self) -> Tail:
         """
@@ -277,11 +350,12 @@ class Timeline(Replay):
         :return: what `redo` needs, the undone gesture first
         :raises OutOfHistory: there is none
         """
-        undone = self.history.last_gesture(self.serial)
+        now = self.moment
+        undone = self.history.last_gesture(now[1])
         if undone is None:
             raise OutOfHistory('there is nothing to undo', field='history')
-        step, serial = undone[0].step, self.serial - undone[1]
-        tail = self.history.cut(step, serial, now=self.moment)
+        step, serial = undone[0].step, now[1] - undone[1]
+        tail = self.history.cut(step, serial, now=now)
         self.seek_moment(step, serial)
         return tail
 
@@ -322,7 +396,7 @@ class Timeline(Replay):
         :return: that step; and for each request what `apply` returns, or its refusal
         """
         now = self.moment
-        starts = [self.history.gesture_start(each, self.serial) for each in gestures]
+        starts = [self.history.gesture_start(each, now[1]) for each in gestures]
         found = [start for start in starts if start is not None]
         step, serial = min(found, key=lambda start: start[1], default=now)
         gesture = gestures[0]

@@ -125,14 +125,14 @@ class Simulation:
         """Return the step that is shown."""
         if self._shown is not None:
             return self._shown.snapshot.step
-        return self.timeline.world.step_count
+        return self.timeline.moment[0]
 
     @property
     def settings(self) -> WorldSettings:
         """Return what holds for the whole world at the moment that is shown."""
         if self._shown is not None:
             return self._shown.snapshot.scene.settings
-        return self.timeline.world.settings
+        return self.timeline.settings
 
     @property
     def speed(self) -> float:
@@ -215,7 +215,8 @@ class Simulation:
 
     def watch_contacts(self, watching: bool) -> None:  # noqa: FBT001 - a state, not a mode
         """Record contacts for the frames, or save the cost of it."""
-        self._watching = self.timeline.world.watching = watching
+        self._watching = watching
+        self.timeline.watch_contacts(watching)
 
     # Requests
 
@@ -414,6 +415,20 @@ class Simulation:
 
     # Time
 
+    def continue_seek(self, is_overdue: Callable[[], bool] = lambda: False) -> bool:
+        """
+        Replay towards the moment that was sought, without a limit where the world is asked for.
+
+        Requests wait until it is reached; another seek or an undo takes its place.
+
+        :param is_overdue: whether to go on another time
+        :return: whether the world is there
+        """
+        if self.timeline.continue_seek(is_overdue):
+            return True
+        self._clock.restart()
+        return False
+
     def advance(
         self, now_ns: int, *, is_overdue: Callable[[], bool] = lambda: False
     ) -> tuple[Frame, ...]:
@@ -426,6 +441,10 @@ class Simulation:
         :return: the frames, in the order in which they are shown; none where nothing is due and
             nothing has changed
         """
+        if self._shown is not None and (self.speed > 0 or self._requests):
+            self._seek_shown()
+        if not self.continue_seek(is_overdue):
+            return ()
         self._apply_waiting()
         self._hands.note_time(now_ns, paused=self.speed == 0)
         if self.speed > 0:
@@ -438,7 +457,10 @@ class Simulation:
             if steps > 0:
                 frames.append(self._play_frame(steps, is_overdue))
             else:
-                frames.append(self._rewind_frame(-steps))
+                frame = self._rewind_frame(-steps, is_overdue)
+                if frame is None:
+                    break
+                frames.append(frame)
             if self.speed == 0 or is_overdue():
                 break
         if not frames and self._changed:
@@ -476,26 +498,30 @@ class Simulation:
             steps = 0 if is_overdue() else steps - some
         return self._frame(moved=True)
 
-    def _rewind_frame(self, steps: int) -> Frame:
+    def _rewind_frame(self, steps: int, is_overdue: Callable[[], bool]) -> Frame | None:
+        """Return a frame further back; None where it has to be replayed for longer."""
         oldest = self.timeline.history.oldest
         step = max(oldest, self.step - steps)
         moved = step < self.step
         if moved:
-            self._shown = self.frame_cache.frame_at(step, watching=self._watching)
+            shown = self.frame_cache.frame_at(step, watching=self._watching, is_overdue=is_overdue)
+            if shown is None:
+                return None
+            self._shown = shown
             fine = not self.speed.is_integer()
-            self.frame_cache.replay_ahead(step, steps, fine=fine, watching=self._watching)
+            self.frame_cache.replay_ahead(
+                step, steps, fine=fine, watching=self._watching, is_overdue=is_overdue
+            )
         if step == oldest:
             self.speed = 0.0
             self._report_oldest('; paused')
         return self._frame(moved=moved)
 
     def _seek_shown(self) -> None:
-        """Have the world at the moment that is shown."""
+        """Have the world go to the moment that is shown."""
         if self._shown is not None:
             step, self._shown = self._shown.snapshot.step, None
-            self.timeline.seek(step)
-            # They have been shown.
-            self.timeline.world.clear_contacts()
+            self.timeline.seek(step, with_contacts=False)
 
     def _drop_frames(self, step: int | None) -> None:
         """
@@ -507,7 +533,7 @@ class Simulation:
             self.frame_cache.drop_from(step)
             return
         self.frame_cache = self._new_frame_cache()
-        self.timeline.world.watching = self._watching
+        self.timeline.watch_contacts(self._watching)
         if self._limit_timeline():
             # With the contacts of the frame that was shown.
             self.timeline.seek_moment(*self.timeline.moment)
@@ -515,7 +541,7 @@ class Simulation:
     def _note_jump(self) -> None:
         """Note that another moment is shown than before."""
         self._shown = None
-        self.timeline.world.watching = self._watching
+        self.timeline.watch_contacts(self._watching)
         self._clock.restart()
         self._changed = True
 

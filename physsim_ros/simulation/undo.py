@@ -133,7 +133,7 @@ class Undo:
     def reset(self) -> bool:
         """Return to the state that was loaded last, at time 0, and whether it was not there."""
         history = self.timeline.history
-        if history.head == 0 and self.timeline.serial == 0:
+        if history.head == 0 and self.timeline.moment[1] == 0:
             # Nothing has happened since the beginning.
             return False
         self._store_timeline(self.before_resets)
@@ -183,12 +183,12 @@ class Undo:
     @property
     def _is_begun(self) -> bool:
         """Whether nothing has been done since the beginning, as far as the history reaches."""
-        return self.timeline.serial == 0 and self.timeline.history.oldest == 0
+        return self.timeline.moment[1] == 0 and self.timeline.history.oldest == 0
 
     def _described_tail(self, tail: Tail) -> str:
         """Return the gesture in words that was undone with a tail, the last one."""
         entry = tail.entries[0]
-        return _described(entry, tail.serial - self.timeline.serial)
+        return _described(entry, tail.serial - self.timeline.moment[1])
 
     def redo(self) -> int | None:
         """

@@ -24,11 +24,14 @@ inverse mass, so that the common centre of mass stays (Müller et al. 2007, Posi
 Where the step ends, the line of centres of two discs has turned, by v dt / (2 r) at most, and with
 it the direction in which they part: by 9° for billiard balls at 4 m/s. Discs get the normal that
 they have at their time of impact, the root of a quadratic (Ericson, Real-Time Collision Detection,
-5.5.5). Cost: one callback for each contact that begins.
+5.5.5). Cost: one callback for each contact that begins, and 1 us for each piece of the two bodies,
+of which a body has a budget in a step: two lists of 1,000 spheres that meet would take that for a
+million. The engine's own bias holds for what is left.
 """
 
 from __future__ import annotations
 
+from collections import Counter
 import math
 
 import numpy as np
@@ -85,12 +88,25 @@ def _way(center: Vec2d, context: StepContext, row: int) -> tuple[Vec2d, Vec2d]:
     return Vec2d(x, y) + arm, velocity * context.dt
 
 
+# Pieces of a body that are placed anew in a step, at most: those of a body of 40 for 100 contacts.
+MOST_PIECES = 4000
+
+
 def project_contact(
-    arbiter: pymunk.Arbiter, contact: pymunk.ContactPointSet, space: pymunk.Space
+    arbiter: pymunk.Arbiter,
+    contact: pymunk.ContactPointSet,
+    space: pymunk.Space,
+    placed: Counter[pymunk.Body],
 ) -> None:
-    """Set two bodies apart that touch for the first time, along the contact normal."""
+    """
+    Set two bodies apart that touch for the first time, along the contact normal.
+
+    :param placed: pieces of each body that were placed anew in this step
+    """
     point = min(contact.points, key=lambda point: point.distance, default=None)
     if point is None or -point.distance <= SLOP or any(it.sensor for it in arbiter.shapes):
+        return
+    if any(placed[body] >= MOST_PIECES for body in arbiter.bodies):
         return
     dt, normal = space.current_time_step, contact.normal
     sides = tuple(zip(arbiter.bodies, (1.0, -1.0), (point.point_a, point.point_b), strict=True))
@@ -114,6 +130,7 @@ def project_contact(
         # Further shapes of it, and further contacts, are found where it is now.
         for shape in body.shapes:
             shape.cache_bb()
+            placed[body] += 1
 
 
 def _may_move(body: pymunk.Body) -> bool:

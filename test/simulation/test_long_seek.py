@@ -1,0 +1,105 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""A long way through the past is made bit by bit, and leads to the same bits."""
+
+from __future__ import annotations
+
+from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.snapshot import Frame
+from physsim_ros.simulation.simulation import Simulation
+import pytest
+
+from ..building import DISC, spawning
+
+SECOND = 10**9
+FLOOR = WorldSettings(bounds=(-10.0, 0.0, 10.0, 20.0))
+
+
+@pytest.fixture
+def past() -> tuple[Simulation, dict[int, str]]:
+    """Return a simulation with two seconds without a checkpoint in them, and its digests."""
+    simulation = Simulation(settings=FLOOR)
+    for number in range(4):
+        simulation.submit(
+            spawning(f'disc/{number}', DISC, (0.3 * number, 3.0 * number + 1.0, 0.0)), topic=''
+        )
+    digests = {}
+    for _ in range(150):
+        simulation.advance_frame()
+        digests[simulation.step] = simulation.world.digest()
+    return simulation, digests
+
+
+def ticks_to_a_frame(simulation: Simulation, now: int) -> tuple[int, Frame]:
+    """Tick until there is a frame, when each tick is overdue at once; return how many it took."""
+    for tick in range(1, 2000):
+        frames = simulation.advance(now + tick * SECOND // 60, is_overdue=lambda: True)
+        if frames:
+            return tick, frames[0]
+    pytest.fail('no frame')
+
+
+def test_a_seek_is_made_bit_by_bit_and_reaches_the_same_bits(
+    past: tuple[Simulation, dict[int, str]],
+) -> None:
+    simulation, digests = past
+    simulation.speed = 0.0
+    simulation.seek(2 * SECOND)
+    ticks, frame = ticks_to_a_frame(simulation, 0)
+    assert ticks > 100
+    assert frame.snapshot.step == 480
+    assert simulation.world.digest() == digests[480]
+
+
+def test_requests_wait_for_the_end_of_a_seek_and_apply_there(
+    past: tuple[Simulation, dict[int, str]],
+) -> None:
+    simulation, _ = past
+    simulation.speed = 0.0
+    simulation.seek(SECOND)
+    simulation.submit(spawning('late/0', DISC, (5.0, 1.0, 0.0)), topic='~/spawn')
+    _, frame = ticks_to_a_frame(simulation, 0)
+    assert [answer.subject for answer in frame.answers if answer.topic == '~/spawn'] == ['late/0']
+    assert frame.snapshot.step == 240
+
+
+def test_another_seek_takes_the_place_of_one_under_way(
+    past: tuple[Simulation, dict[int, str]],
+) -> None:
+    simulation, digests = past
+    simulation.speed = 0.0
+    simulation.seek(2 * SECOND)
+    for tick in range(50):
+        assert not simulation.advance(tick * SECOND // 60, is_overdue=lambda: True)
+    simulation.seek(SECOND)
+    simulation.seek(2 * SECOND)
+    ticks, _ = ticks_to_a_frame(simulation, SECOND)
+    # From where the first one had come.
+    assert ticks < 80
+    assert simulation.world.digest() == digests[480]
+
+
+def test_a_rewind_beyond_its_frames_is_made_bit_by_bit(
+    past: tuple[Simulation, dict[int, str]],
+) -> None:
+    simulation, digests = past
+    simulation.frame_cache.drop_from(0)
+    simulation.speed = -1.0
+    simulation.settle()
+    ticks_to_a_frame(simulation, 0)
+    first = simulation.step
+    simulation.speed = 0.0
+    assert first < 600
+    assert simulation.world.digest() == digests[first]
