@@ -53,15 +53,18 @@ class RealTimeLoop:
         """Run until it is over."""
         due = time.monotonic_ns()
         while not self._is_over():
-            self._node.tick(time.monotonic_ns())
+            began = time.monotonic_ns()
+            self._node.tick(began)
             self._queue_mark()
             ended = time.monotonic_ns()
             due += self._period
             if due > ended:
                 self._spin_until(due)
             else:
-                # No longer than a period: the next tick carries out what has arrived until then.
-                self._handle_waiting(ended + self._period)
+                # As long as the tick took: with a period for messages and a second for a crowded
+                # world, a burst of thousands would wait for minutes. The next tick carries out
+                # what has arrived until then.
+                self._handle_waiting(ended + max(self._period, ended - began))
                 due = time.monotonic_ns()
 
     def _spin_until(self, due: int) -> None:

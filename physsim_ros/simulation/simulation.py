@@ -459,6 +459,8 @@ class Simulation:
             else:
                 frame = self._rewind_frame(-steps, is_overdue)
                 if frame is None:
+                    # What is shown stands still meanwhile, and makes up for nothing.
+                    self._clock.restart()
                     break
                 frames.append(frame)
             if self.speed == 0 or is_overdue():
