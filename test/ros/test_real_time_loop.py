@@ -90,14 +90,14 @@ def test_a_flood_does_not_delay_a_tick_by_more_than_a_message(
     assert machine.message_delay > 9.0
 
 
-def test_a_world_too_slow_for_real_time_handles_messages_for_a_period(
+def test_a_world_too_slow_for_real_time_handles_messages_as_long_as_it_ticks(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     machine = Machine(tick=100 * MS, message=MS)
     machine.send(1000)
     machine.run(monkeypatch, 1200 * MS)
-    assert max(gaps(machine.ticks)) <= 121 * MS
-    assert len(machine.handled) >= 180
+    assert max(gaps(machine.ticks)) <= 202 * MS
+    assert len(machine.handled) >= 500
 
 
 def test_a_slow_world_without_messages_ticks_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
