@@ -15,6 +15,7 @@
 """
 A world and its time: requests go in, frames come out, any past step can be gone back to.
 
-No physics (that is `engine`), no files, topics or threads. Start with `simulation`, the one door;
-`history` and `replay` are how rewinding works.
+No physics (that is `engine`), no files, topics or threads. Start with `simulation`, the front,
+then `world`; `body_requests`, `joint_requests` and `hand_requests` carry out requests; `history`,
+`replay` and `undo` are rewinding.
 """
