@@ -36,7 +36,7 @@ COLOR = (214, 39, 40)
 # Greatest length of an arrow, in lengths of that of one weight.
 _LONGEST = 3.0
 # Bounds of the length of the arrow of one weight [units].
-_SHORT, _LONG = 0.3, 1.0
+_SHORT, _LONG = 0.15, 1.0
 # Standard gravity [m/s²], for the scale in worlds without one.
 _GRAVITY = 9.81
 _NONE: Floats = np.empty((0, 2))

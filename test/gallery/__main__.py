@@ -17,10 +17,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 import sys
 import tempfile
 
+from physsim_ros.drawing import DrawingSession, DrawingSettings, Tool
 from physsim_ros.model.snapshot import Frame
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.view.frame_context import FrameContext
@@ -36,7 +38,7 @@ DOCS = Path(__file__).parents[2] / 'docs'
 WIDTH, HEIGHT = 1400, 920
 # Simulation time of the picture of a scene [s], where most is going on.
 TIMES = {
-    'drawings/catapult': 0.9,
+    'drawings/catapult': 0.5,
     'drawings/cradle': 1.0,
     'drawings/double_pendulum': 0.4,
     'drawings/marble_run': 6.0,
@@ -99,6 +101,19 @@ def draw_scene(viewer: HeadlessViewer, directory: Path, name: str) -> None:
     viewer.picture(now).save(path, optimize=True)
 
 
+def draw_drawing(viewer: HeadlessViewer, directory: Path) -> None:
+    """Draw a car of strokes, and beside it a polygon that clicks have half drawn."""
+    *_, frame = frames_until(scene('drawings/car'), 1.5)
+    session = DrawingSession(DrawingSettings(), Tool.POLYGON)
+    for point in ((10.0, 4.6), (12.0, 4.4), (12.8, 5.6), (11.4, 6.6)):
+        session.click(point, '', frame.snapshot)
+    recording = Recording(directory / 'drawing.rrd')
+    now = recording.draw([replace(frame, preview=session.preview)])
+    recording.close()
+    viewer.open_recording(recording.path)
+    viewer.picture(now).save(DOCS / 'drawing.png', optimize=True)
+
+
 def draw_window(viewer: HeadlessViewer, directory: Path) -> None:
     """Draw the whole window, and the animation of it."""
     recording = Recording(directory / 'window.rrd')
@@ -149,6 +164,7 @@ def draw_time(viewer: HeadlessViewer, directory: Path) -> None:
 def main(chosen: list[str]) -> None:
     """Draw the chosen pictures, or all."""
     pictures: dict[str, Callable[[HeadlessViewer, Path], None]] = {
+        'drawing': draw_drawing,
         'window': draw_window,
         'time': draw_time,
     }
