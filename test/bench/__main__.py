@@ -17,7 +17,19 @@
 import gc
 import sys
 
-from . import capacity, crowd, frames, joints, outside, pages, picture, resting, rewinding, startup
+from . import (
+    capacity,
+    crowd,
+    frames,
+    joints,
+    outside,
+    pages,
+    picture,
+    recording_page,
+    resting,
+    rewinding,
+    startup,
+)
 
 # As the node does: what has been imported stays, and the collector need not look at it.
 gc.collect()
@@ -31,4 +43,5 @@ joints.table()
 rewinding.table()
 pages.table()
 picture.table()
+recording_page.table()
 startup.table()
