@@ -172,6 +172,7 @@ class FrameOutputs:
         context = FrameContext(
             real_time_factor=self.statistics.real_time_factor,
             cost=self.statistics.frame_cost,
+            title=Path(self._values['world_file']).stem or 'empty world',
             traced=parameters.traced_names(self._values['trace']),
         )
         self.viewer.show(frame, context=context)

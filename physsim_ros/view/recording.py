@@ -71,6 +71,7 @@ class FrameRecorder:
         self._clock = RecordedClock()
         self._due = 0
         self._last: Frame | None = None
+        self._title = ''
         self._geometry: BodyGeometry | None = None
         self._camera = Camera()
         # Poses of the bodies that were sent last.
@@ -105,6 +106,9 @@ class FrameRecorder:
         if frames and layout != self._layout:
             self._layout = layout
             send_blueprint(self._recording, blueprint(paced=layout[0], traced=layout[1]))
+        if frames and context.title != self._title:
+            self._title = context.title
+            self._recording.send_recording_name(self._title)
         fresh = []
         for frame in frames:
             if self._is_new(frame):

@@ -607,6 +607,22 @@ def test_the_camera_steps_back_for_bodies_that_are_far_outside(recording):
     assert eye[:2] == pytest.approx((50.0, 0.0))
 
 
+def test_a_recording_is_called_like_the_world_that_was_loaded_last(recording):
+    for title in ('demo', 'car'):
+        recording.draw(frame(scene(), []), title=title)
+    recording.close()
+
+    names = [
+        name
+        for each in chunk.RrdReader(recording.path).stream()
+        if each.entity_path == '/__properties'
+        for column, values in each.to_record_batch().to_pydict().items()
+        if column.endswith('RecordingInfo:name')
+        for name in values
+    ]
+    assert [['demo'], ['car']] == names[-2:]
+
+
 def test_an_empty_world_can_be_drawn(recording):
     recording.draw(frame(scene(), []), frame(scene(), [], step=4))
 
