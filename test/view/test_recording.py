@@ -620,7 +620,7 @@ def test_a_recording_is_called_like_the_world_that_was_loaded_last(recording):
         if column.endswith('RecordingInfo:name')
         for name in values
     ]
-    assert [['demo'], ['car']] == names[-2:]
+    assert names[-2:] == [['demo'], ['car']]
 
 
 def test_an_empty_world_can_be_drawn(recording):
