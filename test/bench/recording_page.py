@@ -81,7 +81,7 @@ class Watch:
 
     @property
     def _now(self) -> float:
-        """Simulation time of the last frame [s]."""
+        """Return the simulation time of the last frame [s]."""
         frame = self._node.frame
         return 0.0 if frame is None else frame.snapshot.stamp * 1e-9
 
