@@ -291,10 +291,10 @@ class PhysSimNode(NodeWithoutQosEvents):
         self._note_change()
 
     def _note_change(self) -> None:
-        """Have the parameters of the world mirror it, unless a long seek is under way."""
+        """Have the parameters mirror the world, and a short seek be done at once."""
+        self._live_parameters.mirror_settings()
         began = time.perf_counter_ns()
-        if self.simulation.continue_seek(lambda: time.perf_counter_ns() - began > MOST_TICK_NS):
-            self._live_parameters.mirror_settings()
+        self.simulation.continue_seek(lambda: time.perf_counter_ns() - began > MOST_TICK_NS)
 
     # Answers
 

@@ -22,11 +22,12 @@ and so the same bits; where it does not, that is reported.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 import itertools
 from typing import NamedTuple
 
 from physsim_ros.model.errors import OutOfHistory, Refusal
-from physsim_ros.model.requests import Request
+from physsim_ros.model.requests import Configure, Request, Restore
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.courses import Courses
@@ -196,8 +197,19 @@ class Timeline(Replay):
 
     @property
     def settings(self) -> WorldSettings:
-        """Return the settings of the world, as far as a seek has come."""
-        return self._world.settings
+        """Return the settings of the world at this moment."""
+        if self._seek is None:
+            return self._world.settings
+        goal = self._seek.goal
+        mark = self.history.checkpoint_before(*goal)
+        settings = mark.key.scene.settings
+        for entry in self.history.entries_between(mark.serial, goal[1]):
+            match entry.request:
+                case Configure(changes=changes):
+                    settings = replace(settings, **changes)
+                case Restore(state=state):
+                    settings = state.settings
+        return settings
 
     @property
     def moment(self) -> Moment:
