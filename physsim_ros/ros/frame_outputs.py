@@ -24,6 +24,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
 import sys
+import time
 from typing import Any
 
 from physsim_ros.drawing import DrawingSession
@@ -36,6 +37,10 @@ from physsim_ros.ros.publishers import Publishers
 from physsim_ros.sketchpad import Role, Sketchpad
 from physsim_ros.view import FrameContext, Viewer, ViewerMode
 from rclpy.node import Node
+
+# Least time from one logged refusal to the next [s]. The throttling of rclpy (7.1.6) inspects the
+# call stack for each message, logged or not, which takes 0.5 ms.
+_WARNING_PERIOD = 1.0
 
 
 class FrameOutputs:
@@ -67,6 +72,8 @@ class FrameOutputs:
         self._node = node
         self._values = values
         self._session = session
+        # Steady time from which on a refusal is logged again [s].
+        self._warning_due = 0.0
 
     @property
     def wants_contacts(self) -> bool:
@@ -181,11 +188,13 @@ class FrameOutputs:
 
     def _log_answer(self, answer: Answer) -> None:
         if answer.code:
+            now = time.monotonic()
+            if now < self._warning_due:
+                return
+            self._warning_due = now + _WARNING_PERIOD
             # The topic of an event without a request is its code, which is named once.
             names = dict.fromkeys((answer.topic, answer.code))
-            self._node.get_logger().warning(
-                f'{": ".join(names)}: {answer.message}', throttle_duration_sec=1.0
-            )
+            self._node.get_logger().warning(f'{": ".join(names)}: {answer.message}')
         elif answer.topic == 'viewer':
             # The address of the viewer, for the person at the terminal.
             self._node.get_logger().info(answer.message)

@@ -26,6 +26,7 @@ import struct
 import numpy as np
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import Malformed
+from physsim_ros.model.names import LONGEST_NAME
 from physsim_ros.model.settings import MOST_SAMPLES
 
 # Size of the header of CDR, from whose end on values are aligned to their size [bytes].
@@ -42,8 +43,8 @@ def stroke_from(message: bytes, *, frame_id: str) -> tuple[Floats, str, float | 
     :param frame_id: name of the world's frame
     :return: (n, 3) float64: x, y [m] and time from the first sample [s]; name of the frame, '' for
         the world; the stamp of the first sample [s], None where all have the same
-    :raises Malformed: there are too many samples, they are in different frames, or the message is
-        truncated
+    :raises Malformed: there are too many samples, they are in different frames, the name of one is
+        too long, or the message is truncated
     """
     try:
         return _read(message, frame_id)
@@ -90,9 +91,19 @@ class _Reader:
         self._position = struct.Struct(order + '2d')
 
     def header(self) -> tuple[int, str]:
-        """Return stamp [ns] and frame of a header."""
+        """
+        Return stamp [ns] and frame of a header.
+
+        :raises Malformed: the name of the frame is too long
+        """
         self._at += -self._at % 4
         seconds, nanoseconds, length = self._stamp.unpack_from(self._data, self._at)
+        # Of four bytes in UTF-8 at most, and a NUL.
+        if length > 4 * LONGEST_NAME + 1:
+            raise Malformed(
+                f'the name of a frame has at most {LONGEST_NAME} characters',
+                field='header.frame_id',
+            )
         begin = self._at + self._stamp.size
         self._at = begin + length
         last = self._at - 1

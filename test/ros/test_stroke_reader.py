@@ -19,6 +19,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 import math
 import struct
+from typing import Any
 
 from geometry_msgs.msg import PoseStamped
 from hypothesis import given
@@ -104,6 +105,13 @@ def test_a_path_that_is_too_long_is_not_looked_into() -> None:
     message = path(*[(0.0, 0.0)] * (MOST_SAMPLES + 1))[:40]
     with pytest.raises(Malformed, match='at most'):
         stroke_from(message, frame_id='world')
+
+
+@pytest.mark.parametrize('names', [{'frame': 'f' * 4001}, {'frames': ['f' * 4001]}])
+def test_a_frame_of_a_long_name_is_refused(names: dict[str, Any]) -> None:
+    with pytest.raises(Malformed, match='1000') as refused:
+        stroke_from(path((1, 2), **names), frame_id='world')
+    assert refused.value.field == 'header.frame_id'
 
 
 def test_a_frame_that_is_no_text_is_another_frame_and_no_accident() -> None:

@@ -18,6 +18,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from physsim_ros.ros import subscriptions
 from physsim_ros.testing import PhysSim
 import pytest
 from rcl_interfaces.msg import Parameter as ParameterMessage
@@ -142,6 +143,24 @@ def test_a_message_that_cannot_be_decoded_is_answered_and_counted(
     (event,) = told(client)
     assert (event.level, event.name, event.code) == (2, topic, 'malformed')
     assert physsim.node.requests.undecodable == 1
+    assert physsim.digest() == before
+
+
+def test_a_message_of_many_megabytes_is_refused_before_it_is_decoded(
+    physsim: PhysSim, client: Client, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(subscriptions, 'MOST_BYTES', 1000)
+    accepted, refused = Marker(ns='a'), Marker(ns='a' * 1000)
+    client.ask('~/spawn', accepted)
+    told(client)
+    before = physsim.digest()
+    decoded = list[bytes]()
+    monkeypatch.setattr(subscriptions, 'deserialize_message', lambda data, _: decoded.append(data))
+    client._publishers['~/spawn'].publish(refused)  # noqa: SLF001 - it is sent as it is
+    physsim.settle()
+    (event,) = told(client)
+    assert (event.level, event.name, event.code) == (2, '~/spawn', 'malformed')
+    assert decoded == []
     assert physsim.digest() == before
 
 
