@@ -63,6 +63,9 @@ class JointSet:
         self._dt = dt
         # Names of the joints of each body.
         self._on: dict[str, dict[str, None]] = {}
+        # Number of each joint, in the order of `by_name`.
+        self._serials: dict[str, int] = {}
+        self._next_serial = 0
         self._table: JointTable | None = None
         self._springs: Springs | None = None
         # Whether a joint or a body has come or gone since the last step, and before that.
@@ -70,7 +73,7 @@ class JointSet:
 
     def names_on(self, body: str) -> tuple[str, ...]:
         """Return the names of a body's joints, in the order in which they were made."""
-        return tuple(name for name in self.by_name if name in self._on.get(body, ()))
+        return tuple(sorted(self._on.get(body, ()), key=self._serials.__getitem__))
 
     def has_joints(self, body: str) -> bool:
         """Return whether a body has joints."""
@@ -86,7 +89,7 @@ class JointSet:
         """
         names = {*bodies, *(() if joint is None else (joint.a, joint.b))} - {WORLD}
         on = {name for body in names for name in self._on.get(body, ())}
-        joints = [each.joint for name, each in self.by_name.items() if name in on]
+        joints = [self.by_name[name].joint for name in sorted(on, key=self._serials.__getitem__)]
         if joint is not None:
             joints = [each for each in joints if each.name != joint.name] + [joint]
         return joints
@@ -99,8 +102,10 @@ class JointSet:
         :param joint: that is to come; None is none
         :raises BadProperty: of the greatest stiffness that can be had
         """
-        known = {name: rigid.body for name, rigid in self._bodies.items()} | dict(bodies)
-        spring.check_stiffness(self.joints_on(bodies, joint), known, self._dt)
+        joints = self.joints_on(bodies, joint)
+        ends = {name for each in joints for name in (each.a, each.b)} - {WORLD}
+        known = {name: bodies.get(name) or self._bodies[name].body for name in ends}
+        spring.check_stiffness(joints, known, self._dt)
 
     def with_turns(self, rigid: RigidBody, pose: Pose) -> Pose:
         """Return a pose with as many whole turns as a jointed body has made: joints count them."""
@@ -117,11 +122,13 @@ class JointSet:
         self._add_constraints(joint)
         for body in (joint.a, joint.b):
             self._on.setdefault(body, {})[joint.name] = None
+        self._serials.setdefault(joint.name, self._next_serial)
+        self._next_serial += 1
 
     def remove(self, name: str) -> None:
         """Remove a joint for good."""
         self._remove_constraints(self.by_name[name])
-        del self.by_name[name]
+        del self.by_name[name], self._serials[name]
 
     def clear(self) -> None:
         """Remove all joints from the engine, before its bodies are used in another space."""
@@ -129,6 +136,7 @@ class JointSet:
         self._drop_table()
         self.by_name.clear()
         self._on.clear()
+        self._serials.clear()
 
     def detach(self, body: str) -> None:
         """Remove the joints of a body from the engine, before its engine objects are replaced."""
