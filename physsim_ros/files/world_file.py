@@ -230,6 +230,8 @@ def _check_place(path: Path, name: str, directories: tuple[Path, ...]) -> None:
         raise BadWorldFile(f'{name[:99]} lies outside world_dir', field='world_file')
     if all(any(part.startswith('.') for part in each.parts) for each in below):
         raise BadWorldFile(f'{name[:99]} is hidden', field='world_file')
+    if not name.isprintable():
+        raise BadWorldFile('the name of a world file is not printable', field='world_file')
     if path.suffix != _SUFFIX:
         raise BadWorldFile(f'the name of a world file ends in {_SUFFIX}', field='world_file')
 

@@ -1107,14 +1107,22 @@ def test_the_worlds_of_a_user_are_in_the_data_directory(
 @pytest.mark.parametrize(
     'name',
     ['.bashrc', '.w.yaml', '.ssh/w.yaml', 'sub/.w.yaml', 'w.yml', 'w.world', 'w.YAML', 'w.yaml.sh',
-     'hidden.yaml', 'hiding/w.yaml'],
+     'hidden.yaml', 'hiding/w.yaml', 'w\n.yaml', 'w\x1b[2J.yaml'],
 )  # fmt: skip
 def test_only_visible_yaml_files_are_read_and_written(name: str, folder: Path) -> None:
     for directory in ('sub', '.ssh'):
         (folder / directory).mkdir()
     (folder / 'hidden.yaml').symlink_to('.secret.yaml')
     (folder / 'hiding').symlink_to('.ssh')
-    for place in ('.bashrc', '.w.yaml', '.ssh/w.yaml', 'sub/.w.yaml', 'w.yml', '.secret.yaml'):
+    for place in (
+        '.bashrc',
+        '.w.yaml',
+        '.ssh/w.yaml',
+        'sub/.w.yaml',
+        'w.yml',
+        '.secret.yaml',
+        'w\n.yaml',
+    ):
         write(folder, 'format: 1', place)
     before = {path: path.is_file() and path.read_text() for path in folder.rglob('*')}
 

@@ -168,7 +168,7 @@ def test_a_bad_request_is_refused_once_by_its_code_and_changes_nothing(
 ) -> None:
     before = inhabited.digest()
     (event,) = client.ask(topic, message)
-    assert event == Event(2, topic, subject, event.message, code, field)
+    assert event[:6] == (2, topic, subject, event.message, code, field)
     assert event.message
     assert '\n' not in event.message
     assert inhabited.digest() == before

@@ -91,20 +91,23 @@ def double(name: str, value: float) -> ParameterMessage:
 def test_what_parameters_changed_or_refused_is_told(physsim: PhysSim, client: Client) -> None:
     long = 'p' * 100_000
     asked = [double('speed', 2.0), double('speed', 1e9), double(long, 1.0), double('a\x1b', 1.0)]
+    asked.append(double('gravty', 1.0))
     response = client.request(
         SetParameters, '~/set_parameters', SetParameters.Request(parameters=asked)
     )
-    assert [result.successful for result in response.results] == [True, False, False, False]
+    assert [result.successful for result in response.results] == [True, False, False, False, False]
     events = told(client)
     assert [event.code for event in events] == [
         'ok',
         'bad_property',
         'unknown_property',
         'unknown_property',
+        'unknown_property',
     ]
     assert events[0].message == response.results[0].reason == 'speed is 2.0'
     assert response.results[1].reason.endswith(events[1].message)
     assert events[1].field == 'speed'
+    assert events[4].message == "there is no parameter 'gravty'; nearest is 'gravity'"
     for event, result in zip(events, response.results, strict=True):
         assert event.message.isprintable()
         assert event.field.isprintable()

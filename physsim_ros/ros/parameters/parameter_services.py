@@ -21,7 +21,7 @@ from collections.abc import Callable, Iterable
 from physsim_ros.model.checks import shown
 from physsim_ros.model.errors import BadProperty, UnknownProperty
 from physsim_ros.model.snapshot import Answer
-from physsim_ros.model.texts import abbreviated, message_text
+from physsim_ros.model.texts import abbreviated, message_text, nearest_name
 from physsim_ros.ros.parameters.spec import Type
 from physsim_ros.ros.parameters.table import SPECS
 from rcl_interfaces.msg import Parameter as ParameterMessage
@@ -75,6 +75,10 @@ class ParameterServices(ParameterService):
             result.reason = f'{name} is {shown(self._get_node().get_parameter(name).value)}'
             self._tell(Answer(topic=topic, message=result.reason))
             return
+        if not self._get_node().has_parameter(name):
+            # rclpy 7.1 does not name the parameter that it refuses.
+            nearest = nearest_name(abbreviated(name), SPECS)
+            result.reason = f'there is no parameter {shown(name)}{nearest}'
         result.reason = message_text(result.reason)
         code, separator, reason = result.reason.partition(': ')
         if not separator or not code.isidentifier():
