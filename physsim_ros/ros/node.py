@@ -369,7 +369,7 @@ class PhysSimNode(NodeWithoutQosEvents):
                     undecodable=self.requests.undecodable,
                     waiting_answers=events.waiting,
                     stopped_listener=events.stopped,
-                    history_memory=self.simulation.history_memory.in_megabytes,
+                    history_memory=self.simulation.past.memory.in_megabytes,
                 ),
             )
         )

@@ -16,6 +16,7 @@
 A world and its time: requests go in, frames come out, any past step can be gone back to.
 
 No physics (that is `engine`), no files, topics or threads. Start with `simulation`, the front,
-then `world`; `body_requests`, `joint_requests` and `hand_requests` carry out requests; `history`,
-`replay` and `undo` are rewinding.
+then `request_handler`, `playback` (the moment that is shown) and `past` (what is kept for going
+back: `timeline`, `history`, `replay`, `undo`); then `world`, with `body_requests`,
+`joint_requests` and `hand_requests`.
 """

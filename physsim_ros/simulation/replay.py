@@ -13,7 +13,7 @@
 # limitations under the License.
 
 """
-Replay: a world makes the steps of its history again; and the timeline, a world with a history.
+Replay: a world makes the steps of its history again.
 
 Law: a replay makes the same steps, from the same checkpoints, with the same requests in between,
 and so the same bits; where it does not, that is reported.
@@ -21,37 +21,11 @@ and so the same bits; where it does not, that is reported.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import replace
-import itertools
-from typing import NamedTuple
-
-from physsim_ros.model.errors import OutOfHistory, Refusal
-from physsim_ros.model.requests import Configure, Request, Restore
-from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.errors import Refusal
 from physsim_ros.model.snapshot import Answer
-from physsim_ros.simulation.courses import Courses
 from physsim_ros.simulation.history import History
-from physsim_ros.simulation.records import Entry, Mark, Moment, Tail
+from physsim_ros.simulation.records import Mark, Moment
 from physsim_ros.simulation.world import World
-
-# The share of the time between two checkpoints in which the bodies for the next one are made
-# ready, so that no frame makes them all.
-_AHEAD = 0.75
-
-
-class _Seek(NamedTuple):
-    """
-    A way through the past that is not finished.
-
-    :ivar begin: moment from which on contacts are those of the goal's frame
-    :ivar goal: moment that is shown
-    :ivar with_contacts: whether the contacts of that frame are yet to be shown
-    """
-
-    begin: Moment
-    goal: Moment
-    with_contacts: bool
 
 
 class Replay:
@@ -67,7 +41,7 @@ class Replay:
         self.history = history
         # Number of requests of the history that were applied.
         self.serial = history.checkpoints[0].serial
-        self._resumed: tuple[int, int] | None = None
+        self._resumed: Moment | None = None
         self._reports: list[Answer] = []
 
     @property
@@ -76,7 +50,7 @@ class Replay:
         return self._world
 
     @property
-    def moment(self) -> tuple[int, int]:
+    def moment(self) -> Moment:
         """Return step and serial."""
         return self._world.step_count, self.serial
 
@@ -154,314 +128,3 @@ class Replay:
 
     def _report(self, code: str, message: str, subject: str = '') -> None:
         self._reports.append(Answer(topic=code, subject=subject, message=message, code=code))
-
-
-class Timeline(Replay):
-    """
-    A world and its history, which new steps and requests are added to.
-
-    A seek is done bit by bit, by `continue_seek`; who asks for the world finishes it.
-
-    :param world: at its beginning
-    :param length: steps that are kept
-    :param spacing: steps from one checkpoint to the next, at least
-    :param log_limit: memory of requests from which on the next checkpoint is due [bytes]
-    :param courses: numbers of its courses; None counts from 1
-
-    :ivar courses: those that were left
-    """
-
-    def __init__(
-        self,
-        world: World,
-        *,
-        length: int,
-        spacing: int,
-        log_limit: int,
-        courses: Iterator[int] | None = None,
-    ) -> None:
-        self.courses = Courses(courses or itertools.count(1))
-        first = Mark(world.step_count, 0, world.renew(), world.digest())
-        super().__init__(
-            world, History(first, length=length, spacing=spacing, log_limit=log_limit)
-        )
-        self._resumed = first.moment
-        self._seek: _Seek | None = None
-        self._spacing = spacing
-
-    @property
-    def world(self) -> World:
-        """Return the world, at this moment."""
-        self.continue_seek()
-        return self._world
-
-    @property
-    def settings(self) -> WorldSettings:
-        """Return the settings of the world at this moment."""
-        if self._seek is None:
-            return self._world.settings
-        goal = self._seek.goal
-        mark = self.history.checkpoint_before(*goal)
-        settings = mark.key.scene.settings
-        for entry in self.history.entries_between(mark.serial, goal[1]):
-            match entry.request:
-                case Configure(changes=changes):
-                    settings = replace(settings, **changes)
-                case Restore(state=state):
-                    settings = state.settings
-        return settings
-
-    @property
-    def moment(self) -> Moment:
-        """Return step and serial, those of the goal while a seek is under way."""
-        return super().moment if self._seek is None else self._seek.goal
-
-    def watch_contacts(self, watching: bool) -> None:  # noqa: FBT001 - a state, not a mode
-        """Record contacts from now on, or not."""
-        self._world.watching = watching
-
-    def apply(self, request: Request, gesture: int) -> tuple[str, str]:
-        """
-        Carry out a request; where it changes anything and something lay ahead, a course begins.
-
-        :return: the body concerned, or '', and a sentence that says what was done
-        :raises Refusal: and nothing is changed
-        """
-        self.continue_seek()
-        # As it will be carried out again.
-        self._enter_checkpoint()
-        done = self.world.apply(request)
-        if not self.world.changed:
-            return done
-        if self.history.lies_ahead(*self.moment):
-            left = self.courses.branch(
-                self.moment, self.history.cut(*self.moment, now=self.moment)
-            )
-            seconds = self.world.step_count * self.world.dt
-            message = f'course {self.courses.current} begins at {seconds:.3f} s; {left} is kept'
-            self._reports.append(Answer(topic='branch', message=message))
-        else:
-            self.courses.drop_after(self.moment)
-        step = self.world.step_count
-        self.history.add_entry(Entry(step, request, gesture, subject=done[0]))
-        self.serial += 1
-        if self.history.is_log_long:
-            # A paused world, too, can drop what is old.
-            self.add_checkpoint()
-        return done
-
-    @property
-    def is_newest(self) -> bool:
-        """Whether nothing lies ahead of this moment."""
-        return self.moment == self.history.end
-
-    def note_shown(self) -> None:
-        """Note that this moment is shown, with all requests until now."""
-        self.history.note_shown(*self.moment)
-
-    def advance(self, steps: int) -> None:
-        """Advance by so many steps: by replay up to the head, and further."""
-        end = self.world.step_count + steps
-        while self.world.step_count < end:
-            if self.world.step_count < self.history.head:
-                self._replay_to_stop(min(end, self.history.head))
-            else:
-                self._apply_logged(self.history.serial_at(self.world.step_count))
-                self._make_checkpoint()
-                self._make_steps(end)
-                self.history.note_step(self.world.step_count)
-
-    def seek(self, step: int, *, with_contacts: bool = True) -> None:
-        """
-        Go to a step of the history, as it was shown.
-
-        :param with_contacts: whether the contacts of its frame are yet to be shown
-
-        :raises OutOfHistory: it is kept no more, or has not come yet
-        """
-        history, dt = self.history, self._world.dt
-        if not history.oldest <= step <= history.head:
-            raise OutOfHistory(
-                f'{step * dt:.3f} s is not in the history, which reaches from '
-                f'{history.oldest * dt:.3f} to {history.head * dt:.3f} s',
-                field='clock',
-            )
-        moment = step, history.serial_shown_at(step)
-        self.seek_moment(*moment, with_contacts=with_contacts)
-
-    def keep_within(self, length: int, log_limit: int) -> bool:
-        """
-        Keep so many steps from now on, with a checkpoint after so many bytes of requests.
-
-        :return: whether the world is at the same moment as before, as of `enter_history`
-        """
-        # Before what it goes through is dropped.
-        self.continue_seek()
-        self.history.log_limit = log_limit
-        self.history.length = length
-        return self.enter_history()
-
-    def enter_history(self) -> bool:
-        """
-        Go to the oldest step if the world is before it.
-
-        :return: whether the world is at the same moment as before
-        """
-        history = self.history
-        if (
-            self.world.step_count >= history.oldest
-            and self.moment >= history.checkpoints[0].moment
-        ):
-            return True
-        self.seek(history.oldest)
-        return False
-
-    def seek_moment(self, step: int, serial: int, *, with_contacts: bool = True) -> None:
-        """Go to a moment of the past, from the nearest checkpoint or from here."""
-        history, frame = self.history, self._world.frame_steps
-        # Its contacts are those of one frame, as they were the first time.
-        begin = max(history.oldest, step - (step % frame or frame))
-        start = begin, history.serial_shown_at(begin)
-        first = (step, serial)
-        if self._world.watching:
-            first = min(first, start)
-        mark = history.checkpoint_before(*first)
-        # A seek that this one takes the place of has come to a moment of the history, too.
-        if not mark.moment <= super().moment <= first:
-            self.resume(mark)
-        self._seek = _Seek(start, (step, serial), with_contacts)
-
-    def continue_seek(self, is_overdue: Callable[[], bool] = lambda: False) -> bool:
-        """
-        Replay towards the moment that was sought.
-
-        :param is_overdue: whether to go on another time
-        :return: whether the world is there
-        """
-        seek, self._seek = self._seek, None
-        if seek is None:
-            return True
-        world, (begin, serial) = self._world, seek.begin
-        if world.step_count < begin:
-            while world.step_count < begin:
-                self._replay_to_stop(min(begin, world.step_count + world.frame_steps))
-                if is_overdue():
-                    self._seek = seek
-                    return False
-            self._apply_logged(serial)
-        world.clear_contacts()
-        self.replay_to(*seek.goal)
-        if not seek.with_contacts:
-            world.clear_contacts()
-        return True
-
-    def undo(self) -> Tail:
-        """
-        Go back to the moment before the last gesture.
-
-        :return: what `redo` needs, the undone gesture first
-        :raises OutOfHistory: there is none
-        """
-        now = self.moment
-        undone = self.history.last_gesture(now[1])
-        if undone is None:
-            raise OutOfHistory('there is nothing to undo', field='history')
-        step, serial = undone[0].step, now[1] - undone[1]
-        tail = self.history.cut(step, serial, now=now)
-        self.seek_moment(step, serial)
-        return tail
-
-    def return_to_course(self, number: int) -> int:
-        """
-        Return to a course that was left, at this time or its last.
-
-        :return: the step from which on things go differently
-        :raises OutOfHistory: the course is kept no more; nothing is changed
-        """
-        path = self.courses.path_to(number, self.history)
-        if not path:
-            return self.history.head
-        now = self.moment
-        for course in path:
-            tail = self.history.exchange(course.tail, course.begins, now=now)
-            self.courses.exchange(course, tail)
-        history = self.history
-        step = max(history.oldest, min(now[0], history.head))
-        moment = step, history.serial_shown_at(step)
-        # Not from here: these steps may be of the course that is left.
-        self.resume(history.checkpoint_before(*moment))
-        self.seek_moment(*moment)
-        return min(course.begins for course in path)[0]
-
-    def amend(
-        self, gestures: Sequence[int], requests: Sequence[Request]
-    ) -> tuple[int, list[tuple[str, str] | Refusal]]:
-        """
-        Replace the requests of earlier gestures, and simulate again up to this moment.
-
-        Later requests that the amended past refuses are dropped; so is what lay ahead. Gestures
-        that changed nothing, or are kept no more, are left out; without any, the requests are made
-        now.
-
-        :param gestures: their numbers, at least one; the requests get the first of them
-        :param requests: that take the place of theirs, at their first step
-        :return: that step; and for each request what `apply` returns, or its refusal
-        """
-        now = self.moment
-        starts = [self.history.gesture_start(each, now[1]) for each in gestures]
-        found = [start for start in starts if start is not None]
-        step, serial = min(found, key=lambda start: start[1], default=now)
-        gesture = gestures[0]
-        self.courses.drop_after((step, serial))
-        later = [
-            each
-            for each in self.history.entries_between(serial, now[1])
-            if each.gesture not in gestures
-        ]
-        self.history.cut(step, serial, now=now)
-        self.seek_moment(step, serial)
-        done = [self._try_apply(request, gesture) for request in requests]
-        for entry in later:
-            self.advance(entry.step - self.world.step_count)
-            self._try_apply(entry.request, entry.gesture)
-        self.advance(now[0] - self.world.step_count)
-        self.world.clear_contacts()
-        return step, done
-
-    def _try_apply(self, request: Request, gesture: int) -> tuple[str, str] | Refusal:
-        try:
-            return self.apply(request, gesture)
-        except Refusal as refusal:
-            return refusal
-
-    def redo(self, tail: Tail) -> None:
-        """
-        Return to where something was undone, and to how things went on from there.
-
-        :raises OutOfHistory: it is kept no more
-        """
-        self.history.splice(tail)
-        # Steps made since then are discarded: the world goes on from a checkpoint, not from here.
-        self.resume(self.history.checkpoint_before(tail.step, tail.serial))
-        self.seek_moment(tail.step, tail.serial)
-
-    def _make_checkpoint(self) -> None:
-        """Make a checkpoint where one is due, or where a request followed the last one."""
-        self._enter_checkpoint()
-        step = self.world.step_count
-        changed = self._resumed is not None and self._resumed[0] == step
-        if self.history.checkpoint_at(*self.moment) is None and (
-            changed or self.history.is_checkpoint_due(step)
-        ):
-            self.add_checkpoint()
-
-    def add_checkpoint(self) -> None:
-        """Make a checkpoint now, the last of the history, and go on from it."""
-        mark = Mark(*self.moment, self.world.renew(), self.world.digest())
-        self.history.add_checkpoint(mark)
-        self._resumed = mark.moment
-
-    def build_ahead(self, steps: int) -> None:
-        """Build the share of bodies for the next checkpoint that falls to so many steps."""
-        bodies = len(self.world)
-        self.world.build_bodies(-(-bodies * steps // max(1, int(self._spacing * _AHEAD))))

@@ -30,7 +30,7 @@ from physsim_ros.model.requests import Grab
 from physsim_ros.simulation.history_memory import Store
 from physsim_ros.simulation.memory_size import world_size
 from physsim_ros.simulation.records import Entry, Tail
-from physsim_ros.simulation.replay import Timeline
+from physsim_ros.simulation.timeline import Timeline
 
 # What requests are called whose classes' names are no words for it.
 _WORDS = {

@@ -37,7 +37,7 @@ def body_past(simulation: Simulation, name: str) -> dict[str, Any]:
     times: list[float] = []
     rows: list[Floats] = []
     scene, row = None, -1
-    for snapshot in simulation.frame_cache.snapshots(simulation.step, MOST_FRAMES):
+    for snapshot in simulation.past.frame_cache.snapshots(simulation.step, MOST_FRAMES):
         if snapshot.scene is not scene:
             scene = snapshot.scene
             row = scene.names.index(name) if name in scene.names else -1

@@ -145,7 +145,7 @@ class Disturbances(RuleBasedStateMachine):
 
     def stamp_at(self, share: float) -> int:
         """Return a time between the oldest step and this one [ns]."""
-        oldest, here = self.straight.timeline.history.oldest, self.straight.step
+        oldest, here = self.straight.past.timeline.history.oldest, self.straight.step
         return round((oldest + round(share * (here - oldest))) * 1e9 / 240)
 
     def return_to(self, step: int) -> None:

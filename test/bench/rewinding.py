@@ -35,7 +35,7 @@ def measure(count: int, seconds: int) -> None:
     fill(simulation.world, count)
     gc.collect()
     gc.freeze()
-    history = simulation.timeline.history
+    history = simulation.past.timeline.history
     frames, stalls = [], []
     for _ in range(60 * seconds):
         before = history.checkpoints[-1]
@@ -54,7 +54,7 @@ def measure(count: int, seconds: int) -> None:
     rng = random.Random(count)
     print(
         f'{count:6} {usual:10.2f} {statistics.median(stalls) - usual:12.1f}'
-        f' {bytes_kept / seconds * 60 / 1e6:14.2f} {simulation.frame_cache.size / 1e6:12.1f}',
+        f' {bytes_kept / seconds * 60 / 1e6:14.2f} {simulation.past.frame_cache.size / 1e6:12.1f}',
         end='',
     )
     for distance in (1, 10, seconds):

@@ -57,7 +57,7 @@ def told(sim: Simulation, frames: int) -> list[str]:
 
 
 def used(sim: Simulation) -> float:
-    return sim.history_memory.used
+    return sim.past.memory.used
 
 
 @pytest.mark.parametrize('paused', [False, True])
@@ -87,7 +87,7 @@ def test_a_flood_of_commands_takes_no_more_than_the_budget(paused: bool) -> None
     # The estimate is within a factor of 1.5 of what Python has allocated.
     assert 1 / 1.5 < used(sim) / (after - before) < 1.5
     assert len(events) == 1
-    history = sim.timeline.history
+    history = sim.past.timeline.history
     assert sim.status.oldest == history.oldest / 240
     if paused:
         return
@@ -135,8 +135,8 @@ def test_frames_go_first_then_ghosts_and_courses_and_the_course_in_force_last() 
         told(sim, 600)
     courses = len(sim.status.courses)
     assert courses == 3
-    assert sim.ghost(1, 2.0) is not None
-    without_frames = used(sim) - sim.frame_cache.size
+    assert sim.past.ghost(1, 2.0) is not None
+    without_frames = used(sim) - sim.past.frame_cache.size
 
     # Frames are dropped for it, and nothing else.
     sim.limit_memory(without_frames / MEGABYTE + 2.5)
@@ -147,7 +147,7 @@ def test_frames_go_first_then_ghosts_and_courses_and_the_course_in_force_last() 
     sim.limit_memory(3.0)
     (message,) = told(sim, 1)
     assert 'history_memory' in message
-    assert sim.ghost(1, 2.0) is None
+    assert sim.past.ghost(1, 2.0) is None
     assert sim.status.oldest == 0.0
 
     sim.limit_memory(LEAST_MEMORY)
@@ -184,7 +184,7 @@ def test_a_gesture_is_undone_as_a_whole_or_not_at_all() -> None:
     for number in range(600):
         command(sim, number, joined=number > 0)
     sim.settle()
-    assert sim.timeline.history.checkpoints[0].serial > 0
+    assert sim.past.timeline.history.checkpoints[0].serial > 0
     before = sim.world.digest()
 
     with pytest.raises(OutOfHistory):
@@ -232,4 +232,4 @@ def test_a_budget_that_is_none_is_refused(value: float, refusal: type[Refusal]) 
         Simulation(history_memory=value)
     with pytest.raises(refusal):
         sim.limit_memory(value)
-    assert sim.history_memory.megabytes == 256.0
+    assert sim.past.memory.megabytes == 256.0

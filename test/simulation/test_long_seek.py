@@ -95,7 +95,7 @@ def test_a_rewind_beyond_its_frames_is_made_bit_by_bit(
     past: tuple[Simulation, dict[int, str]],
 ) -> None:
     simulation, digests = past
-    simulation.frame_cache.drop_from(0)
+    simulation.past.frame_cache.drop_from(0)
     simulation.speed = -1.0
     simulation.settle()
     ticks_to_a_frame(simulation, 0)

@@ -57,6 +57,6 @@ def test_contacts_of_the_past_are_those_shown_where_a_request_woke_bodies():
     simulation.settle()
     run(60)
     # Nothing that was shown is kept: the past is simulated again.
-    simulation.frame_cache.drop_from(0)
+    simulation.past.frame_cache.drop_from(0)
     simulation.speed = -1.0
     run(200)

@@ -140,8 +140,8 @@ def test_slow_motion_goes_back_step_by_step(driven: Driven) -> None:
 def test_the_past_is_the_same_where_it_has_to_be_made_again(
     driven: Driven, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(driven.simulation.frame_cache, 'budget', 0)
-    driven.simulation.frame_cache.drop_from(0)
+    monkeypatch.setattr(driven.simulation.past.frame_cache, 'budget', 0)
+    driven.simulation.past.frame_cache.drop_from(0)
     for frame in driven.run(-1.0, 4.5):
         driven.assert_same(frame)
 
@@ -184,7 +184,7 @@ def test_no_tick_makes_many_steps_while_time_goes_back(made: list[int], speed: f
 def test_what_a_seek_left_out_is_made_again_in_time(made: list[int], on: float) -> None:
     driven = Driven()
     driven.record(12.0)
-    driven.simulation.frame_cache.drop_from(0)
+    driven.simulation.past.frame_cache.drop_from(0)
     driven.simulation.seek(round(4.5 * SECOND))
     driven.settle()
     driven.run(1.0, on)
@@ -204,7 +204,7 @@ def test_where_frames_were_far_apart_no_others_are_made(made: list[int]) -> None
 
 
 def test_what_is_half_made_again_ends_no_earlier_than_time_has_come_since(driven: Driven) -> None:
-    driven.simulation.frame_cache.drop_from(0)
+    driven.simulation.past.frame_cache.drop_from(0)
     driven.simulation.seek(round(4.8 * SECOND))
     driven.settle()
     driven.run(1.0, 0.2)
@@ -485,7 +485,9 @@ def test_a_moment_that_is_kept_no_more_is_left_for_the_oldest() -> None:
     driven.simulation.seek(2 * SECOND)
     driven.simulation.history = 1.0
     frame = driven.settle()
-    assert frame.snapshot.step == driven.simulation.timeline.history.oldest == 19 * 240 - FRAME
+    assert (
+        frame.snapshot.step == driven.simulation.past.timeline.history.oldest == 19 * 240 - FRAME
+    )
     driven.assert_same(frame)
     assert 'oldest' in told([frame], 'history')[0].message
     driven.ask(spawning('b/0', BOX, (0.0, 8.0, 0.0)))
@@ -503,7 +505,7 @@ def test_what_was_left_is_returned_to_as_far_as_it_is_kept(history: float) -> No
     driven.simulation.reset()
     driven.simulation.history = history
     driven.simulation.undo()
-    oldest = driven.simulation.timeline.history.oldest
+    oldest = driven.simulation.past.timeline.history.oldest
     assert driven.simulation.step == oldest == 15 * 240 - FRAME - round(history * 240)
     driven.assert_same(driven.settle())
 
@@ -553,7 +555,7 @@ def test_the_thousandth_command_to_a_paused_world_costs_no_more_than_the_first(
                 looks[-1] += 1
             super().__setattr__(name, value)
 
-    monkeypatch.setattr('physsim_ros.simulation.replay.Entry', Counted)
+    monkeypatch.setattr('physsim_ros.simulation.timeline.Entry', Counted)
     driven = Driven(speed=0.0)
     driven.ask(spawning('a/0', BOX))
     for _ in range(1000):
@@ -562,7 +564,7 @@ def test_the_thousandth_command_to_a_paused_world_costs_no_more_than_the_first(
         driven.settle()
     assert max(looks) < 10
     driven.simulation.seek(0)
-    assert driven.simulation.timeline.serial == 1001
+    assert driven.simulation.past.timeline.serial == 1001
 
 
 def test_what_was_loaded_at_the_beginning_cannot_be_undone() -> None:
@@ -589,7 +591,7 @@ def test_older_steps_than_are_kept_are_dropped() -> None:
     driven = Driven(history=3.0)
     driven.ask(spawning('a/0', BOX, (0.0, 5.0, 0.0)))
     driven.record(10.0)
-    history = driven.simulation.timeline.history
+    history = driven.simulation.past.timeline.history
     assert history.head - history.oldest == 3 * 240
     assert len(history.checkpoints) <= 3
     frames = driven.run(-64.0, 0.5)
@@ -603,9 +605,9 @@ def test_shots_take_no_more_memory_than_they_may(monkeypatch: pytest.MonkeyPatch
     driven = Driven()
     for number in range(50):
         driven.ask(spawning(f'a/{number}', BOX, (0.1 * number, 1.0 + number, 0.0)))
-    monkeypatch.setattr(driven.simulation.frame_cache, 'budget', 2_000_000)
+    monkeypatch.setattr(driven.simulation.past.frame_cache, 'budget', 2_000_000)
     driven.record(20.0)
-    assert driven.simulation.frame_cache.size <= 2_000_000
+    assert driven.simulation.past.frame_cache.size <= 2_000_000
 
 
 @pytest.mark.parametrize('bodies', [1, 8])
@@ -615,7 +617,7 @@ def test_few_bodies_take_no_more_memory_than_their_poses_would(bodies: int) -> N
         driven.ask(spawning(f'a/{number}', BOX, (1.5 * number - 6.0, 1.0, 0.0)))
     driven.record(20.0)
     a_segment = 60 * CHECKPOINTS * (1000 + bodies * 2 * 24)
-    assert driven.simulation.frame_cache.size <= max(120 * 60 * 24 * bodies, 3 * a_segment)
+    assert driven.simulation.past.frame_cache.size <= max(120 * 60 * 24 * bodies, 3 * a_segment)
     for frame in driven.run(-4.0, 5.0):
         driven.assert_same(frame)
 
@@ -647,9 +649,9 @@ def test_forces_of_joints_come_again(back: float) -> None:
             )
         )
     driven.record(7.0)
-    checkpoint = driven.simulation.timeline.history.checkpoints[2].key.step
+    checkpoint = driven.simulation.past.timeline.history.checkpoints[2].key.step
     assert driven.shown[checkpoint].snapshot.forces.all()
-    driven.simulation.frame_cache.drop_from(0)
+    driven.simulation.past.frame_cache.drop_from(0)
     driven.simulation.seek(checkpoint * SECOND // 240)
     driven.assert_same(driven.settle())
     for frame in driven.run(1.0, 1.0) + driven.run(back, 1.5):
@@ -657,7 +659,7 @@ def test_forces_of_joints_come_again(back: float) -> None:
 
 
 def test_other_bits_than_before_are_told(driven: Driven) -> None:
-    history = driven.simulation.timeline.history
+    history = driven.simulation.past.timeline.history
     wrong = history.checkpoints[2]._replace(digest='not that')
     history.checkpoints[2] = wrong
     driven.simulation.seek(0)
@@ -709,7 +711,7 @@ def test_a_request_at_the_step_of_a_checkpoint_is_made_again_where_it_was() -> N
     collide(driven)
     for _ in range(150):
         driven.simulation.advance_frame()
-    checkpoint = driven.simulation.timeline.history.checkpoints[-1].step
+    checkpoint = driven.simulation.past.timeline.history.checkpoints[-1].step
     driven.simulation.seek(round(checkpoint / 240 * SECOND))
     driven.ask(spawning('b/0', BOX, (0.2, 6.0, 0.5)))
     for _ in range(120):
@@ -730,7 +732,7 @@ def test_a_request_at_a_checkpoint_of_the_past_is_made_again_where_it_was() -> N
     # Deep in the floor, so that it goes on otherwise in a space that is built anew.
     sim.perform(spawning('a/0', DISC, (2.4, 0.1, 3.0), velocity=(1.8, 2.7)))
     sim.advance_frame()
-    sim.timeline.add_checkpoint()
+    sim.past.timeline.add_checkpoint()
     for _ in range(14):
         sim.advance_frame()
     sim.seek(round(FRAME * SECOND / 240))
@@ -864,7 +866,7 @@ def test_what_is_deleted_at_a_checkpoint_is_gone_from_the_contacts(names: str | 
     for number in range(5):
         driven.ask(spawning(f'a/{number}', BOX, (0.0, 0.5 + number, 0.0)))
     for _ in range(3):
-        while driven.simulation.timeline.history.head % 480 or not driven.simulation.step:
+        while driven.simulation.past.timeline.history.head % 480 or not driven.simulation.step:
             driven.simulation.advance_frame()
         driven.ask(DeleteAll() if names is None else Delete(name=names))
         driven.ask(spawning('a/0' if names is None else names, BOX, (3.0, 0.5, 0.0)))

@@ -38,8 +38,8 @@ def test_of_seeks_in_a_row_the_last_is_carried_out_and_each_is_answered(
     for _ in range(120):
         sim.advance_frame()
     sought = []
-    seek = sim.timeline.seek
-    monkeypatch.setattr(sim.timeline, 'seek', lambda step: (sought.append(step), seek(step)))
+    seek = sim.past.timeline.seek
+    monkeypatch.setattr(sim.past.timeline, 'seek', lambda step: (sought.append(step), seek(step)))
     for number in range(1000):
         sim.submit_seek(round((0.2 + number / 1000) * SECOND), topic='~/seek')
 

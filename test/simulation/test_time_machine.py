@@ -188,13 +188,13 @@ class TimeMachine(RuleBasedStateMachine):
     @rule(request=requests)
     def ask_while_it_stands(self, request: Request) -> None:
         step, digest = self.simulation.step, self.simulation.world.digest()
-        made = self.simulation.timeline.serial
+        made = self.simulation.past.timeline.serial
         self.simulation.submit(request, topic='')
         frame = self.simulation.settle()
         assert frame is not None
         # What has changed anything will be done again.
         changed = self.simulation.world.digest() != digest
-        assert not changed or self.simulation.timeline.serial > made
+        assert not changed or self.simulation.past.timeline.serial > made
         self.after_request(frame, step, accepted=not frame.answers[0].code)
 
     @rule(request=requests)
@@ -252,7 +252,7 @@ class TimeMachine(RuleBasedStateMachine):
 
     @rule(share=st.floats(0.0, 1.0))
     def seek(self, share: float) -> None:
-        history = self.simulation.timeline.history
+        history = self.simulation.past.timeline.history
         step = round(history.oldest + share * (history.head - history.oldest))
         self.simulation.seek(round(step * 1e9 / 240))
         assert self.simulation.step == step
@@ -261,7 +261,9 @@ class TimeMachine(RuleBasedStateMachine):
     @rule()
     def undo_and_redo(self) -> None:
         step, digest = self.simulation.step, self.simulation.world.digest()
-        if not self.simulation.timeline.history.last_gesture(self.simulation.timeline.serial):
+        if not self.simulation.past.timeline.history.last_gesture(
+            self.simulation.past.timeline.serial
+        ):
             return
         self.simulation.undo()
         assert self.simulation.step <= step
@@ -271,7 +273,9 @@ class TimeMachine(RuleBasedStateMachine):
     @rule(frames=st.integers(0, 20))
     def undo_and_go_on_and_redo(self, frames: int) -> None:
         step, digest = self.simulation.step, self.simulation.world.digest()
-        if not self.simulation.timeline.history.last_gesture(self.simulation.timeline.serial):
+        if not self.simulation.past.timeline.history.last_gesture(
+            self.simulation.past.timeline.serial
+        ):
             return
         self.simulation.undo()
         # A hand that is there no more lets go, after which nothing can be redone.
@@ -284,7 +288,7 @@ class TimeMachine(RuleBasedStateMachine):
     def undo(self) -> None:
         # What is undone is what came before the moment that is shown.
         self.simulation.world.digest()
-        timeline = self.simulation.timeline
+        timeline = self.simulation.past.timeline
         undone = timeline.history.last_gesture(timeline.serial)
         if undone is not None:
             self.simulation.undo()
@@ -305,7 +309,7 @@ class TimeMachine(RuleBasedStateMachine):
     @rule(frames=st.integers(1, 40))
     def save_and_go_on_elsewhere(self, frames: int) -> None:
         simulation = self.simulation
-        history = simulation.timeline.history
+        history = simulation.past.timeline.history
         simulation.seek(round(history.head * 1e9 / 240))
         self.look(simulation.settle())
         # Hands are not saved.
@@ -346,7 +350,7 @@ class TimeMachine(RuleBasedStateMachine):
     @invariant()
     def the_history_is_no_longer_than_asked(self) -> None:
         if hasattr(self, 'simulation'):
-            history = self.simulation.timeline.history
+            history = self.simulation.past.timeline.history
             assert history.head - history.oldest <= history.length
 
 

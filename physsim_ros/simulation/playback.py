@@ -1,0 +1,208 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Playback: the moment that is shown, and its way forward and back.
+
+Laws: a rewind shows cached frames while the world is at another step; the world goes to the step
+that is shown before a request, a step or a reader comes to it; after a jump to another moment the
+state of the world is shown, and no cached frame.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.snapshot import NO_CONTACTS
+from physsim_ros.simulation.clock import Clock
+from physsim_ros.simulation.frame_cache import CachedFrame
+from physsim_ros.simulation.past import Past
+from physsim_ros.simulation.records import Moment
+from physsim_ros.simulation.world import World
+
+
+class Playback:
+    """
+    The moment that is shown.
+
+    :param past: that it is a moment of
+    :param speed: simulation seconds a second; 0 is paused, negative goes back
+
+    :ivar clock: the speed, and the steps that are due
+    :ivar changed: whether the next frame differs from the last one, though no step was made
+    """
+
+    def __init__(self, past: Past, *, speed: float) -> None:
+        self.clock = Clock(
+            physics_rate=past.physics_rate, frame_steps=past.frame_steps, speed=speed
+        )
+        self.changed = True
+        self._past = past
+        # The frame of a rewind that is shown, while the world is at another step; else None.
+        self._shown: CachedFrame | None = None
+
+    @property
+    def speed(self) -> float:
+        """Return simulation seconds a second; 0 is paused, negative goes back."""
+        return self.clock.speed
+
+    @speed.setter
+    def speed(self, speed: float) -> None:
+        self.changed |= speed != self.clock.speed
+        self.clock.speed = speed
+
+    # The moment that is shown
+
+    @property
+    def is_frame_cached(self) -> bool:
+        """Return whether a cached frame is shown, while the world is at another step."""
+        return self._shown is not None
+
+    @property
+    def step(self) -> int:
+        """Return the step that is shown."""
+        if self._shown is not None:
+            return self._shown.snapshot.step
+        return self._past.timeline.moment[0]
+
+    @property
+    def moment(self) -> Moment:
+        """Return step and serial that are shown."""
+        timeline = self._past.timeline
+        if self._shown is None:
+            return timeline.moment
+        return self.step, timeline.history.serial_shown_at(self.step)
+
+    @property
+    def time(self) -> str:
+        """Return the simulation time that is shown, with its unit."""
+        return f'{self.step / self._past.physics_rate:.3f} s'
+
+    @property
+    def settings(self) -> WorldSettings:
+        """Return the settings of the world at the moment that is shown."""
+        if self._shown is not None:
+            return self._shown.snapshot.scene.settings
+        return self._past.timeline.settings
+
+    @property
+    def world(self) -> World:
+        """Return the world, at the moment that is shown."""
+        self.seek_shown()
+        return self._past.timeline.world
+
+    def observe_frame(self, *, moved: bool) -> CachedFrame:
+        """
+        Return the frame that is shown, and note that it was.
+
+        :param moved: whether it is of another step than the one before
+        """
+        if self._shown is None:
+            return self._observe_world(moved=moved)
+        # Contacts belong to the first frame of a step.
+        return self._shown if moved else self._shown._replace(contacts=NO_CONTACTS)
+
+    def _observe_world(self, *, moved: bool) -> CachedFrame:
+        """Return the state of the world, and cache it for rewinds."""
+        timeline, cache = self._past.timeline, self._past.frame_cache
+        world = timeline.world
+        snapshot = world.snapshot()
+        contacts = world.contacts(snapshot) if world.watching else None
+        frame = CachedFrame(snapshot, contacts)
+        # The frame that came with this step has taken its contacts.
+        cache.add_frame(frame if moved else cache.with_first_contacts(frame))
+        timeline.note_shown()
+        return frame
+
+    # To another moment
+
+    def seek(self, stamp: int) -> None:
+        """
+        Go to a simulation time [ns].
+
+        :raises OutOfHistory: it is kept no more, or has not come yet
+        """
+        self.seek_shown()
+        timeline = self._past.timeline
+        # Requests that were applied just now belong to this step.
+        timeline.note_shown()
+        timeline.seek(self._past.steps_in(stamp * 1e-9))
+        self.note_jump()
+
+    def seek_shown(self) -> None:
+        """Have the world go to the moment that is shown."""
+        if self._shown is not None:
+            step, self._shown = self._shown.snapshot.step, None
+            self._past.timeline.seek(step, with_contacts=False)
+
+    def continue_seek(self, is_overdue: Callable[[], bool]) -> bool:
+        """
+        Replay towards the moment that was sought; time stands still meanwhile.
+
+        :param is_overdue: whether to go on another time
+        :return: whether the world is there
+        """
+        if self._past.timeline.continue_seek(is_overdue):
+            return True
+        self.clock.restart()
+        return False
+
+    def note_jump(self) -> None:
+        """Note that the timeline is at another moment than the one that was shown; show it."""
+        self._shown = None
+        self.clock.restart()
+        self.changed = True
+
+    # By steps
+
+    @property
+    def steps_to_period(self) -> int:
+        """Return the number of steps to the next multiple of the publish period."""
+        return self._past.frame_steps - self.step % self._past.frame_steps
+
+    def play(self, steps: int, is_overdue: Callable[[], bool] = lambda: False) -> None:
+        """
+        Advance by steps.
+
+        :param is_overdue: whether to end at the next multiple of the publish period
+        """
+        self.seek_shown()
+        timeline = self._past.timeline
+        while steps > 0:
+            some = min(steps, self.steps_to_period)
+            timeline.advance(some)
+            timeline.build_ahead(some)
+            steps = 0 if is_overdue() else steps - some
+
+    def rewind(self, steps: int, is_overdue: Callable[[], bool]) -> bool:
+        """
+        Show the frame of an earlier step, no earlier than the oldest.
+
+        :param is_overdue: whether its replay is to go on another time; time stands still meanwhile
+        :return: whether it is shown
+        """
+        cache, watching = self._past.frame_cache, self._past.watching
+        step = max(self._past.timeline.history.oldest, self.step - steps)
+        if step >= self.step:
+            return True
+        shown = cache.frame_at(step, watching=watching, is_overdue=is_overdue)
+        if shown is None:
+            # No frame makes up for the time that this takes.
+            self.clock.restart()
+            return False
+        self._shown = shown
+        fine = not self.speed.is_integer()
+        cache.replay_ahead(step, steps, fine=fine, watching=watching, is_overdue=is_overdue)
+        return True

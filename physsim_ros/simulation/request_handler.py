@@ -1,0 +1,138 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+The handler of requests: it applies those that wait, in their order, and collects the answers.
+
+Law: every request that waits has one answer, but for the moves of hands; answers keep the order of
+requests.
+"""
+
+from __future__ import annotations
+
+from physsim_ros.model.errors import Refusal
+from physsim_ros.model.requests import Grab, HandRequest, KeepHand, LetGo, MoveHand, Request
+from physsim_ros.model.snapshot import Answer
+from physsim_ros.simulation.hands import Hands, placing
+from physsim_ros.simulation.past import Past
+from physsim_ros.simulation.playback import Playback
+from physsim_ros.simulation.request_queue import RequestQueue, Seek, Waiting
+
+
+class RequestHandler:
+    """
+    Applies requests at the moment that is shown.
+
+    :param past: whose timeline has the world
+    :param playback: of it
+
+    :ivar queue: requests that wait
+    :ivar hands: that drag bodies
+    :ivar answers: that wait for the next frame
+    """
+
+    def __init__(self, past: Past, playback: Playback) -> None:
+        self.queue = RequestQueue()
+        self.hands = Hands()
+        self.answers: list[Answer] = []
+        self._past = past
+        self._playback = playback
+
+    def apply_waiting(self) -> None:
+        """Apply the requests that wait, and collect their answers."""
+        for waiting in self.queue.take_all():
+            request = waiting.request
+            if isinstance(request, Answer):
+                self.answers.append(request)
+                continue
+            # A seek that is refused shows nothing new.
+            self._playback.changed |= not isinstance(request, Seek)
+            answer = self._answer(request, waiting)
+            if answer.code or not isinstance(request, MoveHand | KeepHand):
+                self.answers.append(answer)
+
+    def apply(self, request: Request, gesture: int) -> tuple[str, str]:
+        """
+        Apply a request now.
+
+        :param gesture: that it is part of; a drag has one of its own
+        :return: the body or joint concerned, or '', and a sentence that says what was done
+        :raises Refusal: and nothing is changed
+        """
+        timeline = self._past.timeline
+        before = timeline.moment
+        if isinstance(request, HandRequest):
+            done = self._drag(request, gesture)
+        else:
+            done = self._apply_to_world(request, gesture)
+        if timeline.moment != before:
+            # A branch has no hands of the course that it leaves.
+            self.release_grips()
+        return done
+
+    def seek(self, stamp: int) -> str:
+        """
+        Go to a simulation time [ns] now, and say so.
+
+        :raises OutOfHistory: it is kept no more, or has not come yet
+        """
+        self._playback.seek(stamp)
+        self.hands.clear()
+        return f'at {self._playback.time}'
+
+    def release_grips(self) -> None:
+        """Remove the grips of hands that are gone, unless the history has their end."""
+        timeline = self._past.timeline
+        if self._playback.is_frame_cached or not timeline.world.grips or not timeline.is_newest:
+            return
+        for grip in timeline.world.grips:
+            if grip.hand not in self.hands:
+                # Undone together with the request before.
+                gesture = timeline.history.gesture_before(timeline.serial, self.queue.gesture)
+                self._apply_to_world(LetGo(hand=grip.hand), gesture)
+                message = f'{grip.hand} is silent and has let go of {grip.body}'
+                self.answers.append(
+                    Answer(topic='~/drag/feedback', subject=grip.body, message=message)
+                )
+
+    def _answer(self, request: Request | Seek | Refusal, waiting: Waiting) -> Answer:
+        """Apply a request that waited, and return its answer."""
+        topic, subject, asker = waiting.topic, waiting.subject, waiting.asker
+        try:
+            if isinstance(request, Refusal):
+                raise request
+            if isinstance(request, Seek):
+                message = self.seek(request.stamp)
+            else:
+                subject, message = self.apply(request, waiting.gesture)
+        except Refusal as refusal:
+            return Answer.refused(
+                refusal, topic=topic, subject=subject, field=waiting.field, asker=asker
+            )
+        return Answer(topic=topic, subject=subject, message=message, asker=asker)
+
+    def _drag(self, request: HandRequest, gesture: int) -> tuple[str, str]:
+        if request.hand not in self.hands and not isinstance(request, Grab):
+            # A grip of the past that is shown belongs to no hand of now.
+            return '', f'{request.hand} holds no body'
+        if self._playback.speed == 0.0:
+            request = placing(request)
+        gesture = self.hands.gesture_of(request, gesture)
+        done = self._apply_to_world(request, gesture)
+        self.hands.note_request(request, gesture)
+        return done
+
+    def _apply_to_world(self, request: Request, gesture: int) -> tuple[str, str]:
+        self._playback.seek_shown()
+        return self._past.apply(request, gesture)
