@@ -32,14 +32,14 @@ def test_a_crowd_of_fast_bodies_is_not_paired_with_all_of_itself() -> None:
     world = World(settings=NOWHERE)
     process = psutil.Process()
     before = process.memory_info().rss
-    for number in range(3000):
+    for number in range(4000):
         place = (float(number % 55), float(number // 55), 0.0)
         # 20 km/s in all directions; sensors have no continuous collision.
         velocity = (2e4 * (-1) ** number, 1e4 * (number % 7 - 3))
         spawn(world, f'body/{number}', Disc(radius=0.1), place, velocity=velocity, sensor=True)
     world.step(2)
-    # All pairs of them take 140 MB.
-    assert process.memory_info().rss - before < 60e6
+    # Measured: 17 MB, and 101 MB without the stage.
+    assert process.memory_info().rss - before < 50e6
 
 
 def test_what_is_indexed_ahead_moves_to_the_bit_as_if_it_were_not() -> None:
