@@ -144,13 +144,13 @@ STAGES = (
         'warm start',
         (
             ((warm_start, '_same'), _no_common_points),
-            ((JointSet, 'go_on_from'), _nothing),
+            ((JointSet, 'set_impulses'), _nothing),
         ),
         (
             (checkpoint, 'read_impulses'),
             (checkpoint, 'write_impulses'),
             (JointSet, 'impulses'),
-            (JointSet, 'go_on_from'),
+            (JointSet, 'set_impulses'),
         ),
     ),
 )
