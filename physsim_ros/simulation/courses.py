@@ -30,7 +30,7 @@ from dataclasses import dataclass, field
 
 from physsim_ros.model.errors import OutOfHistory
 from physsim_ros.simulation.history import History
-from physsim_ros.simulation.records import Moment, Tail
+from physsim_ros.simulation.records import is_beyond, Moment, Tail
 
 # Courses that are kept, at most, as many as a person tells apart; the one that was left first
 # goes first.
@@ -91,7 +91,7 @@ class Courses:
         # A course that begins in a log that was undone is not reachable until that is redone.
         found, parents = [], {self.current}
         for course in sorted(self._left.values(), key=lambda course: course.begins):
-            cut = course.parent == self.current and course.begins > history.end
+            cut = course.parent == self.current and is_beyond(course.begins, history.end)
             if course.parent in parents and not cut:
                 parents.add(course.number)
                 found.append(course)
@@ -114,7 +114,9 @@ class Courses:
         """Drop the courses that part later than at a moment: the log goes on differently."""
         current = self.current
         self._drop(
-            each for each in self._left.values() if each.parent == current and each.begins > moment
+            each
+            for each in self._left.values()
+            if each.parent == current and is_beyond(each.begins, moment)
         )
 
     def path_to(self, number: int, history: History) -> list[LeftCourse]:
@@ -145,7 +147,7 @@ class Courses:
         """Leave the course in force for another one, with which it has the log up to a moment."""
         old, self.current = self.current, number
         for each in self._left.values():
-            if each.parent == old and each.begins <= begins:
+            if each.parent == old and not is_beyond(each.begins, begins):
                 each.parent = number
         self._left[old] = LeftCourse(old, number, begins, tail)
         return old

@@ -31,6 +31,15 @@ from physsim_ros.model.requests import Request
 Moment = tuple[int, int]
 
 
+def is_beyond(moment: Moment, end: Moment) -> bool:
+    """
+    Return whether a history up to an end does not have a moment.
+
+    Tuples do not tell: after an undo a world reaches later steps with fewer requests.
+    """
+    return moment[0] > end[0] or moment[1] > end[1]
+
+
 @dataclass(slots=True, eq=False)
 class Entry:
     """

@@ -183,6 +183,28 @@ def test_courses_that_part_in_what_was_undone_are_there_when_it_is_redone() -> N
     assert numbers(sim) == []
 
 
+def test_courses_that_part_in_what_was_undone_are_hidden_while_time_goes_on() -> None:
+    sim = simulation()
+    run(sim, 0.5)
+    act(sim, 1.0)
+    run(sim, 1.5)
+    branch(sim, 1.0, 5.0)
+    sim.undo()
+    sim.undo()
+
+    # To a later step than that at which they part, with fewer requests.
+    run(sim, 1.5)
+    assert numbers(sim) == []
+    with pytest.raises(OutOfHistory):
+        sim.return_to_course(1)
+    sim.redo()
+    assert numbers(sim) == [1]
+    sim.undo()
+    run(sim, 1.5)
+    act(sim, 3.0)
+    assert numbers(sim) == []
+
+
 def test_as_many_courses_are_kept_as_are_said() -> None:
     sim = simulation()
     run(sim, 0.5)
