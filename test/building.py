@@ -27,7 +27,7 @@ from physsim_ros.model.requests import Join, Spawn
 from physsim_ros.model.scene import Body
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon, Shape, Triangles
-from physsim_ros.model.transform import Pose
+from physsim_ros.model.transform import Point, Pose
 from physsim_ros.simulation.world import World
 
 G = 9.81
@@ -113,9 +113,15 @@ def spawn(world: World, name: str, *arguments: Any, **options: Any) -> None:
 
 
 def body(world: World, name: str) -> Body:
-    """Return what a body is."""
+    """Return the description of a body."""
     scene = world.snapshot().scene
     return scene.bodies[scene.names.index(name)]
+
+
+def body_at(world: World, point: Point) -> str | None:
+    """Return the topmost body that covers a point of the world [m]."""
+    bodies = world._space.bodies  # noqa: SLF001 - as a click finds them, without changing any
+    return next(iter(bodies.at(point)), None)
 
 
 def pose(world: World, name: str) -> NDArray[np.float64]:

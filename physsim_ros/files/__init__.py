@@ -20,7 +20,7 @@ recognised in `drawing`. Start with `world_file`, then `world_reader` and `world
 """
 
 from physsim_ros.files.drawing_file import BadDrawing, drawings, find_drawing, load_drawing, Pace
-from physsim_ros.files.resources import files_by_name, shipped, shipped_pictures, title_of
+from physsim_ros.files.resources import shipped, shipped_pictures, title_of
 from physsim_ros.files.world_file import (
     find_world,
     hides_shipped,
@@ -41,7 +41,6 @@ __all__ = [
     'BadDrawing',
     'Pace',
     'drawings',
-    'files_by_name',
     'find_drawing',
     'find_world',
     'hides_shipped',

@@ -50,7 +50,6 @@ from physsim_ros.model.requests import (
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Contacts, Snapshot
-from physsim_ros.model.transform import Point
 from physsim_ros.simulation import body_requests, hand_requests, joint_requests
 from physsim_ros.simulation.capacity import Capacity
 from physsim_ros.simulation.live_space import LiveSpace
@@ -154,10 +153,6 @@ class World:
     def grips(self) -> tuple[Grip, ...]:
         """Return the grips of hands on bodies."""
         return self._space.pipeline.mouse_joints.grips()
-
-    def body_at(self, point: Point) -> str | None:
-        """Return the topmost body, that spawned last, which covers a point of the world [m]."""
-        return next(iter(self._space.bodies.at(point)), None)
 
     def save(self) -> WorldState:
         """Return the saved state of the world."""

@@ -27,7 +27,7 @@ from physsim_ros.model.requests import Join
 from physsim_ros.simulation.world import World
 import pytest
 
-from ..building import INSIDE, NOWHERE, SHAPES, spawn
+from ..building import body_at, INSIDE, NOWHERE, SHAPES, spawn
 
 AT = (3.0, -2.0, 0.7)
 
@@ -47,7 +47,7 @@ def test_the_topmost_body_under_a_point_is_the_worlds() -> None:
     points = np.random.default_rng(3).uniform((-1.0, -1.0), (3.0, 3.0), (2000, 2)).tolist()
     hits = 0
     for x, y in points:
-        found = world.body_at((x, y))
+        found = body_at(world, (x, y))
         assert next(iter(view.bodies_at((x, y))), None) == found
         hits += found is not None
     assert hits > 500

@@ -27,7 +27,6 @@ import sys
 import time
 
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.strokes.interpretation import interpret_stroke
 from physsim_ros.drawing.strokes.recogniser import recognise_form
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.errors import Refusal
@@ -36,6 +35,7 @@ from .people import drawn_by, PEOPLE
 from .reliability import Reliability
 from .scenes import faulty_scenes, MEANINGS, Scene, scenes
 from ..drawing.machines import LAWS, Machine, strokes_of
+from ..drawing.single_stroke import interpret_stroke
 
 CLOSED = ('disc', 'rectangle', 'polygon')
 SETTINGS = DrawingSettings()

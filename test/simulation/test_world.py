@@ -55,6 +55,7 @@ import pytest
 
 from ..building import (
     body,
+    body_at,
     BOX,
     DISC,
     ELL,
@@ -197,7 +198,7 @@ def test_a_change_keeps_the_place_in_the_order_and_on_top(world: World) -> None:
     spawn(world, 'a/1', DISC, color=RED)
 
     assert names(world) == ('a/0', 'a/1', 'a/2')
-    assert world.body_at((0.0, 0.0)) == 'a/2'
+    assert body_at(world, (0.0, 0.0)) == 'a/2'
     assert len(world) == 3
 
 
@@ -460,8 +461,8 @@ def test_a_point_is_in_a_turned_box_up_to_each_edge(
         x, y = edge[0] * distance, edge[1] * distance
         return 10.0 + cos * x - sin * y, -3.0 + sin * x + cos * y
 
-    assert world.body_at(at(half - 1e-6)) == 'a/0'
-    assert world.body_at(at(half + 1e-6)) is None
+    assert body_at(world, at(half - 1e-6)) == 'a/0'
+    assert body_at(world, at(half + 1e-6)) is None
 
 
 @pytest.mark.parametrize('angle', [0.0, 0.7, 2.0, 4.0])
@@ -469,8 +470,8 @@ def test_a_point_is_in_a_disc_up_to_its_rim(angle: float, world: World) -> None:
     spawn(world, 'a/0', DISC, (1.0, 1.0, 0.0))
     x, y = math.cos(angle), math.sin(angle)
 
-    assert world.body_at((1.0 + 0.499999 * x, 1.0 + 0.499999 * y)) == 'a/0'
-    assert world.body_at((1.0 + 0.500001 * x, 1.0 + 0.500001 * y)) is None
+    assert body_at(world, (1.0 + 0.499999 * x, 1.0 + 0.499999 * y)) == 'a/0'
+    assert body_at(world, (1.0 + 0.500001 * x, 1.0 + 0.500001 * y)) is None
 
 
 @pytest.mark.parametrize('yaw', [0.0, 0.7])
@@ -486,7 +487,7 @@ def test_a_point_in_the_notch_of_an_ell_is_outside_it(yaw: float, world: World) 
         (0.99, 0.99, True),
         (-0.01, 0.5, False),
     ):
-        found = world.body_at((cos * x - sin * y, sin * x + cos * y))
+        found = body_at(world, (cos * x - sin * y, sin * x + cos * y))
         assert (found == 'a/0') is inside
 
 
@@ -498,36 +499,36 @@ def test_a_point_on_the_seam_of_two_pieces_is_inside(world: World) -> None:
     spawn(world, 'a/0', square)
     spawn(world, 'a/1', ELL, (10.0, 0.0, 0.0))
 
-    assert world.body_at((0.0, 0.0)) == 'a/0'
-    assert world.body_at((0.5, 0.5)) == 'a/0'
+    assert body_at(world, (0.0, 0.0)) == 'a/0'
+    assert body_at(world, (0.5, 0.5)) == 'a/0'
     for share in np.linspace(0.01, 0.99, 21).tolist():
         # Any way from the inner corner of the ell to its outer ones is inside it.
         for x, y in ((0.0, 0.0), (2.0, 0.0), (0.0, 2.0), (1.0, 0.0), (0.0, 1.0)):
             point = (10.0 + 1.0 + share * (x - 1.0), 1.0 + share * (y - 1.0))
-            assert world.body_at(point) == 'a/1'
+            assert body_at(world, point) == 'a/1'
 
 
 def test_the_topmost_is_the_one_that_spawned_last(world: World) -> None:
     for name in ('a/3', 'a/1', 'a/2'):
         spawn(world, name, DISC)
 
-    assert world.body_at((0.1, 0.1)) == 'a/2'
+    assert body_at(world, (0.1, 0.1)) == 'a/2'
     world.apply(Delete(name='a/2'))
-    assert world.body_at((0.1, 0.1)) == 'a/1'
+    assert body_at(world, (0.1, 0.1)) == 'a/1'
 
 
 def test_sensors_and_grouped_bodies_are_found_under_a_point(world: World) -> None:
     spawn(world, 'a/0', DISC, sensor=True)
     spawn(world, 'a/1', DISC, (3.0, 0.0, 0.0), group=1)
 
-    assert world.body_at((0.0, 0.0)) == 'a/0'
-    assert world.body_at((3.0, 0.0)) == 'a/1'
+    assert body_at(world, (0.0, 0.0)) == 'a/0'
+    assert body_at(world, (3.0, 0.0)) == 'a/1'
 
 
 def test_walls_are_no_bodies() -> None:
     world = World(settings=WorldSettings(bounds=(-1.0, -1.0, 1.0, 1.0)))
 
-    assert world.body_at((0.0, -1.5)) is None
+    assert body_at(world, (0.0, -1.5)) is None
     with pytest.raises(NothingThere):
         world.apply(Anchor(point=(0.0, -1.5)))
 
@@ -588,16 +589,16 @@ def test_an_anchored_body_still_answers_to_changes(born: bool) -> None:
     spawn(world, 'a/0', BOX, (4.0, 0.0, 0.7), color=RED)
     assert body(world, 'a/0').color == RED
     assert body(world, 'a/0').anchored
-    assert world.body_at((4.0, 0.0)) == 'a/0'
-    assert world.body_at((0.0, 0.0)) is None
+    assert body_at(world, (4.0, 0.0)) == 'a/0'
+    assert body_at(world, (0.0, 0.0)) is None
 
     spawn(world, 'a/0', Box(width=3.0, height=1.0), (4.0, 0.0, 0.0))
-    assert world.body_at((5.4, 0.0)) == 'a/0'
+    assert body_at(world, (5.4, 0.0)) == 'a/0'
 
     world.apply(Command(names=('a/0',), poses=((-4.0, 1.0, math.pi / 2),)))
     assert pose(world, 'a/0').tolist() == [-4.0, 1.0, math.pi / 2]
-    assert world.body_at((-4.0, 2.4)) == 'a/0'
-    assert world.body_at((-5.4, 1.0)) is None
+    assert body_at(world, (-4.0, 2.4)) == 'a/0'
+    assert body_at(world, (-5.4, 1.0)) is None
 
     # Where it is now, others land on it.
     spawn(world, 'b/0', Disc(radius=0.2), (-4.0, 3.0, 0.0), elasticity=0.0)
@@ -837,7 +838,7 @@ def test_looking_changes_nothing(looking: str) -> None:
             case 'contacts':
                 world.contacts(world.snapshot())
             case 'body_at':
-                world.body_at((0.0, 0.5))
+                body_at(world, (0.0, 0.5))
             case _:
                 getattr(world, looking)()
 

@@ -47,7 +47,6 @@ from physsim_ros.drawing.strokes.glyphs import SIGNS
 from physsim_ros.drawing.strokes.hypothesis import Hypothesis, LEAST
 from physsim_ros.drawing.strokes.recogniser import recognise_form
 from physsim_ros.drawing.strokes.stroke import resample_stroke
-from physsim_ros.drawing.strokes.stroke_order import joined_strokes
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NotRecognised
 
@@ -125,45 +124,16 @@ class Reading(Outcome):
         return _values(self.guesses)
 
 
-def interpret_stroke(samples: Floats, scene: SceneQuery, settings: DrawingSettings) -> Reading:
-    """
-    Return the most likely meaning of a stroke.
-
-    :param samples: (n, 2) float64: positions of the pen in the world, in order [m]; or (n, 3), the
-        third column the time of each, by which they are ordered where it differs
-    :param scene: the world that it was drawn over
-    :param settings: of drawing
-    :raises Malformed: there are no samples, or one is not finite
-    :raises BadSize: the stroke is too small to be anything, or too large
-    :raises BadOutline: its outline cannot be simulated
-    :raises NothingThere: it is a sign for a body, and there is none
-    :raises NotRecognised: no meaning is likely enough; the message names the three likeliest
-    """
-    guesses = guess_meanings(samples, scene, settings)
-    if not is_likely(guesses, settings):
-        raise not_recognised(guesses)
-    return reading_of(guesses, 0)
-
-
-def interpret_strokes(
-    strokes: Sequence[Floats], scene: SceneQuery, settings: DrawingSettings
-) -> Reading:
-    """
-    Return the most likely meaning of several strokes that are one figure: an x, a square.
-
-    :param strokes: as `interpret_stroke` takes them, in any order, each in either direction
-    :raises Refusal: as `interpret_stroke` does
-    """
-    return interpret_stroke(joined_strokes(strokes), scene, settings)
-
-
 def guess_meanings(
     samples: Floats, scene: SceneQuery, settings: DrawingSettings
 ) -> tuple[Guess, ...]:
     """
     Return the most likely meanings of a stroke, at most `MOST_GUESSES`, the likeliest first.
 
-    :param samples: as in `interpret_stroke`
+    :param samples: (n, 2) float64: positions of the pen in the world, in order [m]; or (n, 3), the
+        third column the time of each, by which they are ordered where it differs
+    :param scene: the world that it was drawn over
+    :param settings: of drawing
     :raises Malformed: there are no samples, or one is not finite
     :raises BadSize: the stroke is too small to be anything, or too large
     """

@@ -45,18 +45,6 @@ def boxes_overlap(a: Floats, b: Floats) -> Flags:
     return overlap
 
 
-def overlapping_pairs(boxes: Floats, first: Flags) -> tuple[Ints, Ints]:
-    """
-    Return the pairs of boxes that overlap, each pair once.
-
-    :param boxes: (n, 4) float64: left, bottom, right, top [m]
-    :param first: (n,) bool: one box of each pair is among these
-    :return: (p,) and (p,) rows, the lower one first
-    """
-    ones, others = zip(*pairs_in_parts(boxes, first), strict=True)
-    return np.concatenate(ones), np.concatenate(others)
-
-
 def pairs_in_parts(
     boxes: Floats, first: Flags, *, most: int | None = None
 ) -> Iterator[tuple[Ints, Ints]]:

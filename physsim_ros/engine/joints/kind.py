@@ -27,7 +27,7 @@ from typing import Any, NamedTuple
 
 from physsim_ros.engine.islands import Rows
 from physsim_ros.engine.joints import engine_memory
-from physsim_ros.model.arrays import Flags, Floats
+from physsim_ros.model.arrays import Floats
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.scene import Joint
 from physsim_ros.model.transform import Point
@@ -143,5 +143,4 @@ class Kind(NamedTuple):
     set_targets: Callable[[Batch, Motion], None] | None = None
 
 
-Bools = Flags
 EQUAL = (0.0, 0.0)

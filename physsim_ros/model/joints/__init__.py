@@ -26,15 +26,12 @@ from physsim_ros.model.joints.properties import (
     joint_properties_from,
     JointProperties,
 )
-from physsim_ros.model.joints.schema import JointSchema, Property
 
 __all__ = [
     'JOINT_KEYS',
     'PROPERTIES',
     'JointKind',
     'JointProperties',
-    'JointSchema',
-    'Property',
     'joint_properties_from',
     'kind_from',
 ]

@@ -23,10 +23,9 @@ import numpy as np
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes.interpretation import (
-    interpret_stroke,
-    interpret_strokes,
     Reading,
 )
+from physsim_ros.drawing.strokes.stroke_order import joined_strokes
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import BadProperty, NothingThere, NotRecognised, Refusal
 from physsim_ros.model.joints import JointKind
@@ -36,7 +35,8 @@ from physsim_ros.model.shapes import Box, Chain, Disc, Polygon
 from physsim_ros.simulation.world import World
 import pytest
 
-from ...building import DISC, NOWHERE, spawn
+from ..single_stroke import interpret_stroke
+from ...building import body_at, DISC, NOWHERE, spawn
 
 SETTINGS = DrawingSettings()
 ANGLE = np.linspace(0.0, 2.0 * math.pi, 60)
@@ -183,7 +183,7 @@ def test_any_closed_outline_is_a_solid(world: World) -> None:
 
     assert reading.meaning == 'polygon'
     carry_out(world, reading)
-    assert world.body_at((0.5, 0.5)) == 'drawn/0'
+    assert body_at(world, (0.5, 0.5)) == 'drawn/0'
 
 
 def test_what_is_drawn_takes_velocity_and_colour_from_the_settings(world: World) -> None:
@@ -539,7 +539,7 @@ def test_four_lines_in_any_order_and_direction_are_a_rectangle(
     sides = [np.linspace(*corners[[side, side + 1]], 20) for side in range(4)]
     strokes = [sides[side][:: 1 if side % 2 else -1] for side in order]
 
-    reading = interpret_strokes(strokes, SceneQuery(world.snapshot()), SETTINGS)
+    reading = interpret_stroke(joined_strokes(strokes), SceneQuery(world.snapshot()), SETTINGS)
 
     assert reading.meaning == 'rectangle'
 
@@ -549,7 +549,7 @@ def test_two_lines_across_each_other_on_a_body_are_an_x(world: World) -> None:
     lines = [np.linspace((-0.3, -0.3), (0.3, 0.3), 20), np.linspace((-0.3, 0.3), (0.3, -0.3), 20)]
 
     for strokes in (lines, lines[::-1], [lines[0], lines[1][::-1]]):
-        reading = interpret_strokes(strokes, SceneQuery(world.snapshot()), SETTINGS)
+        reading = interpret_stroke(joined_strokes(strokes), SceneQuery(world.snapshot()), SETTINGS)
         assert reading.meaning == 'anchor'
 
 
@@ -559,7 +559,7 @@ def test_a_shaft_and_a_head_are_an_arrow_in_two_strokes_and_in_three(world: Worl
     head = np.vstack((left[::-1], right))
 
     for strokes in ([shaft, head], [head, shaft], [shaft, left, right], [right, shaft, left]):
-        reading = interpret_strokes(strokes, SceneQuery(world.snapshot()), SETTINGS)
+        reading = interpret_stroke(joined_strokes(strokes), SceneQuery(world.snapshot()), SETTINGS)
         assert reading.meaning == 'gravity'
         (request,) = reading.requests
         assert isinstance(request, Configure)
@@ -570,7 +570,9 @@ def test_seven_lines_are_a_polygon(world: World) -> None:
     corners = [(math.cos(a), math.sin(a)) for a in 2.0 * math.pi * np.arange(8) / 7]
     sides = [np.linspace(a, b, 15) for a, b in itertools.pairwise(corners)]
 
-    reading = interpret_strokes(sides[::2] + sides[1::2], SceneQuery(world.snapshot()), SETTINGS)
+    reading = interpret_stroke(
+        joined_strokes(sides[::2] + sides[1::2]), SceneQuery(world.snapshot()), SETTINGS
+    )
 
     assert reading.meaning == 'polygon'
     (request,) = reading.requests

@@ -35,8 +35,9 @@ from ...building import spawn
 @pytest.mark.parametrize('seed', range(5))
 @pytest.mark.parametrize('few', [0, 10**9])
 @pytest.mark.parametrize('far', [0.0, 1e11])
+@pytest.mark.parametrize('most', [None, 100])
 def test_every_pair_of_boxes_that_overlap_is_found_once(
-    monkeypatch: pytest.MonkeyPatch, seed: int, few: int, far: float
+    monkeypatch: pytest.MonkeyPatch, seed: int, few: int, far: float, most: int | None
 ) -> None:
     monkeypatch.setattr(broad_phase, '_FEW_PAIRS', few)
     pick = np.random.default_rng(seed)
@@ -45,9 +46,11 @@ def test_every_pair_of_boxes_that_overlap_is_found_once(
     boxes = np.concatenate((low, low + 10.0 ** pick.uniform(-3.0, 1.5, (300, 2))), axis=1)
     first = pick.uniform(size=300) < 0.3
 
-    one, other = broad_phase.overlapping_pairs(boxes, first)
-
-    found = list(zip(one.tolist(), other.tolist(), strict=True))
+    found = [
+        pair
+        for one, other in broad_phase.pairs_in_parts(boxes, first, most=most)
+        for pair in zip(one.tolist(), other.tolist(), strict=True)
+    ]
     expected = {
         (a, b)
         for a, b in itertools.combinations(range(300), 2)
