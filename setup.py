@@ -65,7 +65,7 @@ setup(
     ],
     zip_safe=False,
     python_requires='>=3.11',
-    # What package.xml cannot name, and nothing of ROS: a sourced installation brings that itself.
+    # Packages that package.xml cannot name; those of ROS come with a sourced installation.
     install_requires=[
         'numpy>=2',
         # As recent as Rerun wants it.

@@ -89,7 +89,7 @@ class Client:
         """Publish a request, let the world carry it out, and return all that it answers."""
         before = len(self.events)
         self.publish(topic, message)
-        # What has arrived is carried out twice, so that a second answer would be heard.
+        # Requests that have arrived are carried out twice, so that a second answer would be heard.
         for _ in range(2):
             self.physsim.settle()
             self.physsim.node.apply_requests()

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""What tests over ROS share. Imported late: the core's tests run where there is no ROS."""
+"""Fixtures of the tests over ROS, imported late: the core's tests run where there is no ROS."""
 
 from __future__ import annotations
 

@@ -38,8 +38,8 @@ from pymunk._chipmunk_cffi import ffi, lib
 
 # ruff: noqa: SLF001
 
-# What is read and written of the engine's contact point: what it tells the points of a pair apart
-# by, and its impulses along and across the normal.
+# Fields of the engine's contact point that are read and written: the hash that tells the points of
+# a pair apart, and the impulses along and across the normal.
 _POINT = np.dtype(
     {
         'names': ['hash', 'jnAcc', 'jtAcc'],

@@ -34,7 +34,7 @@ FAR_BEHIND = 0.5
 
 class Backlog(NamedTuple):
     """
-    What waits in the node, and what it remembers.
+    Messages, requests and answers that wait in the node, and the memory of its past.
 
     :ivar message_delay: time that messages wait before they are handled [s]
     :ivar waiting_requests: number of requests that wait for the next frame
@@ -117,7 +117,7 @@ class FrameStatistics:
         :param late_frames: since the node started
         :param viewer: state of the viewer, in one sentence
         :param viewer_failure: why a viewer or recording that was asked for has no frames
-        :param backlog: what waits in the node
+        :param backlog: of the node
         """
         late, self._late_reported = late_frames - self._late_reported, late_frames
         undecodable = backlog.undecodable - self._undecodable_reported

@@ -147,7 +147,7 @@ def _options(arguments: Sequence[str]) -> argparse.Namespace:
 
 
 class _List(argparse.Action):
-    """Tells the shipped drawings, and exits."""
+    """Prints the shipped drawings, and exits."""
 
     def __init__(self, option_strings: Sequence[str], dest: str, help: str) -> None:  # noqa: A002
         super().__init__(option_strings, dest, nargs=0, help=help)

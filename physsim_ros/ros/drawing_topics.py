@@ -99,7 +99,7 @@ class DrawingTopics:
     @contextmanager
     def _drawing_on_snapshot(self, topic: str, field: str) -> Iterator[Snapshot]:
         """
-        Give the snapshot that a click or stroke refers to, and refuse one that cannot be drawn.
+        Yield the snapshot that a click or stroke refers to, and refuse one that cannot be drawn.
 
         :param field: of the message, for the refusal
         """

@@ -97,7 +97,7 @@ class FrameOutputs:
         self._show(frame)
 
     def publish_nothing_new(self) -> None:
-        """Publish the last frame to who has not got it; called at ticks without a frame."""
+        """Publish the last frame to late subscribers; called at ticks without a frame."""
         if self.frame is not None and self.frame.preview != self._session.preview:
             # Only the preview has changed: an unfinished gesture was dropped.
             self._show(replace(self.frame, answers=(), moved=False))

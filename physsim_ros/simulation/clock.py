@@ -41,7 +41,7 @@ class Clock:
         self._physics_rate = physics_rate
         self._frame_steps = frame_steps
         self._speed = speed
-        # Where the time line is nailed down: at that steady time [ns], that step.
+        # The steady time [ns] and the step from which steps are counted.
         self._anchor: tuple[int, float] | None = None
         # Frames that were due and could not be made in time.
         self.late_frames = 0

@@ -199,7 +199,7 @@ class History:
             self._drop_old()
 
     def lies_ahead(self, step: int, serial: int) -> bool:
-        """Return whether anything is known of the time after a moment."""
+        """Return whether there are steps or requests after a moment."""
         return self.head > step or serial < self._dropped + len(self._entries)
 
     def add_entry(self, entry: Entry) -> None:

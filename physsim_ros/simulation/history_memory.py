@@ -13,7 +13,7 @@
 # limitations under the License.
 
 """
-History memory: one budget in bytes for all that remembers the past.
+History memory: the budget of the past in bytes, one for all of its stores.
 
 Law: when it is spent the oldest goes, and the least of it first: what can be computed again, what
 is only shown, what is not in force, and last the past of the course in force.
@@ -49,7 +49,7 @@ _RELIEF = 1 / 2
 
 
 class Store(Protocol):
-    """A part of what remembers the past."""
+    """A part of the past: frames, ghosts, courses, tails, timelines or a history."""
 
     @property
     def size(self) -> int:
@@ -61,7 +61,7 @@ class Store(Protocol):
 
 class HistoryMemory:
     """
-    The budget of all that remembers the past.
+    The budget of the past.
 
     :param megabytes: memory that it may take [MB]
     :raises BadProperty: that is out of range
@@ -91,7 +91,7 @@ class HistoryMemory:
 
     @property
     def in_megabytes(self) -> tuple[float, float]:
-        """Return what was taken at the last count, and what may be [MB]."""
+        """Return the memory that the past took at the last count, and its budget [MB]."""
         return self.used / MEGABYTE, self._megabytes
 
     @property
@@ -108,8 +108,8 @@ class HistoryMemory:
         """
         Drop the oldest until everything fits.
 
-        :param frames: what can be computed again; it goes first
-        :param stores: all else, in the order in which it goes
+        :param frames: which a replay makes again; they go first
+        :param stores: the others, in the order in which they go
         :return: whether anything but frames was lost, once until less than half is taken again
         """
         self.used = frames.size + sum(store.size for store in stores)

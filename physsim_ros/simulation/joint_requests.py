@@ -42,7 +42,7 @@ _SAME = 1e-9
 # an axle means it.
 _NEAR_SHARE, _NEAR = 0.35, 0.1
 
-# Where the background is, which never moves.
+# Pose of the background, which never moves.
 BACKGROUND = (0.0, 0.0, 0.0)
 _STRAIGHT = {JointKind.SPRING, JointKind.ROD, JointKind.ROPE}
 
@@ -228,7 +228,12 @@ def _seat(
 
 
 def _phase(space: Space, a: str, b: str, said: JointProperties) -> float:
-    """Return the phase that is asked for, as many turns off as the bodies are; or as it is now."""
+    """
+    Return the phase of a gear [rad].
+
+    :param said: with the phase, to which as many whole turns are added as the bodies have made;
+        without it, the phase is the present one
+    """
     ratio = 1.0 if said.ratio is None else said.ratio
     now = ratio * _pose(space, b)[2] - _pose(space, a)[2]
     if said.phase is None:

@@ -13,7 +13,7 @@
 # limitations under the License.
 
 """
-The past: the timeline in force, and all that remembers what was shown, left or undone.
+The past: the timeline in force, and all that was shown, left or undone.
 
 Laws: a cached frame is one of the course in force, a ghost one of a course that was left; after
 each frame all of them, with what undo and redo need, are within one budget of memory.
@@ -201,7 +201,11 @@ class Past:
         self.frame_cache = self._new_frame_cache()
 
     def reset(self) -> bool:
-        """Return to the state that was loaded last, at time 0, and whether it was not there."""
+        """
+        Return to the state that was loaded last, at time 0.
+
+        :return: whether anything had happened since
+        """
         if not self._undo.reset():
             return False
         self.frame_cache = self._new_frame_cache()
@@ -209,7 +213,7 @@ class Past:
 
     def undo(self) -> str:
         """
-        Go back to the moment before the last gesture, and return that gesture in words.
+        Go back to the moment before the last gesture, and return the phrase for it.
 
         :raises OutOfHistory: there is none in the history
         """

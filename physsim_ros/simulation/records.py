@@ -48,7 +48,7 @@ class Entry:
     :param step: at which it did
     :param request: that was applied
     :param gesture: requests of one gesture are undone together
-    :param shown: whether that step has been shown with it; what came to a running world shows only
+    :param shown: whether that step has been shown with it; a request to a running world shows only
         in the next frame
     :param subject: name of the body or joint concerned, or ''
     :param size: memory that the log takes for it [bytes]

@@ -26,33 +26,18 @@ from typing import Generic, NamedTuple, TypeVar
 
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import OutOfHistory
-from physsim_ros.model.requests import Grab
+from physsim_ros.simulation.gesture_phrase import gesture_phrase
 from physsim_ros.simulation.history_memory import Store
 from physsim_ros.simulation.memory_size import world_size
-from physsim_ros.simulation.records import Entry, Tail
+from physsim_ros.simulation.records import Tail
 from physsim_ros.simulation.timeline import Timeline
-
-# What requests are called whose classes' names are no words for it.
-_WORDS = {
-    'changebody': 'change',
-    'configure': 'settings',
-    'deletebodies': 'delete of several',
-    'grab': 'drag',
-    'grabtoplace': 'place',
-    'movebodies': 'move',
-    'restore': 'load',
-    'deleteall': 'delete of many',
-    'unjoin': 'delete',
-    'unjoinall': 'delete of many',
-}
-
 
 _Stored = TypeVar('_Stored', bound='Tail | _StoredTimeline')
 
 
 class UndoStack(Generic[_Stored]):
     """
-    What was in force once and can be again, the latest last.
+    Tails and timelines that an undo or a reset replaced, the last of them on top.
 
     :ivar size: memory that it takes [bytes]
     """
@@ -66,23 +51,23 @@ class UndoStack(Generic[_Stored]):
 
     @property
     def last(self) -> _Stored:
-        """Return what was added last."""
+        """Return the tail or timeline on top."""
         return self._stored[-1][0]
 
     def add(self, stored: _Stored) -> None:
-        """Add something, as the last."""
+        """Put a tail or timeline on top."""
         size = stored.size
         self.size += size
         self._stored.append((stored, size))
 
     def pop(self) -> _Stored:
-        """Return what was added last, and keep it no more."""
+        """Remove and return the tail or timeline on top."""
         stored, size = self._stored.pop()
         self.size -= size
         return stored
 
     def drop_oldest(self) -> int:
-        """Drop what was added first; return the memory that it took [bytes]."""
+        """Drop the lowest tail or timeline; return the memory that it took [bytes]."""
         if not self._stored:
             return 0
         _, size = self._stored.popleft()
@@ -90,14 +75,14 @@ class UndoStack(Generic[_Stored]):
         return size
 
     def clear(self) -> None:
-        """Drop everything."""
+        """Drop all tails and timelines."""
         self._stored.clear()
         self.size = 0
 
 
 class Undo:
     """
-    The timeline in force, and what undo, redo and reset need to replace it.
+    The timeline in force, and the tails and timelines that undo and redo put in its place.
 
     :param begin: makes a timeline that begins with a state
     :param state: that the first one begins with
@@ -116,7 +101,7 @@ class Undo:
 
     @property
     def stores(self) -> tuple[Store, ...]:
-        """Return what remembers the past, in the order in which it goes when memory is short."""
+        """Return the stores of the past, in the order in which they drop their oldest."""
         timeline = self.timeline
         return timeline.courses, self.undone, self.before_resets, timeline.history
 
@@ -127,11 +112,15 @@ class Undo:
         self._beginning, self.timeline = state, self._begin(state)
 
     def clear_undone(self) -> None:
-        """Drop what could be redone: another request was applied."""
+        """Drop what was undone: another request was applied, so that there is no redo."""
         self.undone.clear()
 
     def reset(self) -> bool:
-        """Return to the state that was loaded last, at time 0, and whether it was not there."""
+        """
+        Return to the state that was loaded last, at time 0.
+
+        :return: whether anything had happened since
+        """
         history = self.timeline.history
         if history.head == 0 and self.timeline.moment[1] == 0:
             # Nothing has happened since the beginning.
@@ -146,7 +135,8 @@ class Undo:
         """
         Go back to the moment before the last request that changed the world.
 
-        :return: the undone gesture in words, and the step from which on frames differ; None is all
+        :return: the phrase for the undone gesture, and the step from which on frames differ; None
+            is all
         :raises OutOfHistory: there is none in the history
         """
         try:
@@ -163,18 +153,18 @@ class Undo:
 
     def undo_words(self, serial: int) -> str:
         """
-        Return what `undo` would do, in words; '' if nothing.
+        Return the phrase for the gesture that `undo` would undo; '' if there is none.
 
         :param serial: number of requests made until the moment that is shown
         """
         undone = self.timeline.history.last_gesture(serial)
         if undone is not None:
-            return f'undo {_described(*undone)}'
+            return f'undo {gesture_phrase(*undone)}'
         return 'undo reset' if self.before_resets and self._is_begun else ''
 
     @property
     def redo_words(self) -> str:
-        """Return the words for the request that `redo` would repeat; '' if there is none."""
+        """Return the phrase for the gesture that `redo` would repeat; '' if there is none."""
         if not self.undone:
             return ''
         undone = self.undone.last
@@ -186,16 +176,16 @@ class Undo:
         return self.timeline.moment[1] == 0 and self.timeline.history.oldest == 0
 
     def _described_tail(self, tail: Tail) -> str:
-        """Return the gesture in words that was undone with a tail, the last one."""
+        """Return the phrase for the gesture that was undone with the tail on top."""
         entry = tail.entries[0]
-        return _described(entry, tail.serial - self.timeline.moment[1])
+        return gesture_phrase(entry, tail.serial - self.timeline.moment[1])
 
     def redo(self) -> int | None:
         """
-        Return to where the last undo was asked for.
+        Return to the moment at which the last undo was asked for.
 
         :return: the step from which on frames differ; None is all
-        :raises OutOfHistory: nothing was undone, or something else was done since
+        :raises OutOfHistory: nothing was undone, or another request was applied since
         """
         if not self.undone:
             raise OutOfHistory('there is nothing to redo', field='history')
@@ -233,17 +223,3 @@ class _StoredTimeline(NamedTuple):
         timeline = self.timeline
         world = world_size(timeline.world.scene)
         return timeline.history.size + timeline.courses.size + world
-
-
-def _described(entry: Entry, count: int) -> str:
-    """
-    Return a gesture in words.
-
-    :param entry: its first request
-    :param count: of its requests
-    """
-    kind = type(entry.request).__name__.lower()
-    words = f'{_WORDS.get(kind, kind)} {entry.subject}'.rstrip()
-    # All moves of a hand are one drag.
-    more = count > 1 and not isinstance(entry.request, Grab)
-    return f'{words} and {count - 1} more' if more else words

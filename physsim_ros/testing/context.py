@@ -37,7 +37,7 @@ _PEERS = ('ROS_DISCOVERY_SERVER', 'ROS_STATIC_PEERS')
 
 @contextmanager
 def own_context(monkeypatch: pytest.MonkeyPatch) -> Iterator[Context]:
-    """Give a context whose nodes find each other and no others, whatever their domain is."""
+    """Yield a context whose nodes find each other and no others, whatever their domain is."""
     # Endpoints of one participant are matched without discovery.
     monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'OFF')
     for name in _PEERS:

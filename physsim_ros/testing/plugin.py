@@ -49,7 +49,7 @@ def physsim(
     request: pytest.FixtureRequest, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> Iterator[PhysSim]:
     """
-    Give a world with its own context and domain, whose time the test advances.
+    Yield a world with its own context and domain, whose time the test advances.
 
     Where the test fails, a recording of it is kept in its `tmp_path`.
     """

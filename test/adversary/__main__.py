@@ -17,8 +17,8 @@
 
 A world runs as people start it. Rounds of random requests, and scenes at full size, are each
 followed by some quiet seconds with the same world, in which memory, threads, descriptors, child
-processes and late frames are measured. What grows, is late, diverges or is not answered is a
-fault, and the exit code is 1.
+processes and late frames are measured. Growth, lateness, divergence and a missing answer are
+faults, and the exit code is 1.
 """
 
 from __future__ import annotations

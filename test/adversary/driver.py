@@ -124,7 +124,7 @@ class Driver:
         self._wait(lambda: 'late frames' in self.values, 'diagnostics')
         return int(self.values['late frames'])
 
-    # What is done
+    # Actions
 
     def publish_scene(self, requests: list[Spawn]) -> None:
         """Publish requests for bodies as markers."""

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""What a process takes, sample by sample, and whether that grows."""
+"""Memory, threads and descriptors of a process, sample by sample, and whether they grow."""
 
 from __future__ import annotations
 
@@ -89,7 +89,7 @@ class Monitor:
         return rise / spread
 
     def faults(self) -> list[str]:
-        """Return what has grown, or was late, as sentences."""
+        """Return a sentence about each quantity that has grown, and about late frames."""
         if not self.samples:
             return ['not one round was finished']
         third = max(1, len(self.samples) // 3)

@@ -27,7 +27,7 @@ from physsim_ros.simulation.simulation import Simulation
 from ..simulation.test_time_machine import requests, spawns
 
 PERIOD = 1e9 / 60
-# What the engine never sees.
+# Requests that the engine never sees.
 REFUSED: list[Request] = [
     Delete(name='nobody/0'),
     Spawn(name='a/0', shape=Disc(radius=0.3), pose=(0.0, 3.0, 0.0), frame='nowhere'),
@@ -163,7 +163,7 @@ TestDisturbances.settings = settings(
     max_examples=40,
     stateful_step_count=20,
     deadline=None,
-    # What fails is long, and to make it shorter takes minutes.
+    # A failing example is long, and to shrink it takes minutes.
     phases=[Phase.explicit, Phase.reuse, Phase.generate],
     suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large],
 )

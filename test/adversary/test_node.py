@@ -45,7 +45,7 @@ def gesture(physsim, number):
 
 
 class Disturber:
-    """What others do to a node, which changes nothing in the end."""
+    """Disturbances of a node by others, which change nothing in the end."""
 
     def __init__(self, physsim, client, seed):
         self.physsim, self.client, self.random = physsim, client, random.Random(seed)

@@ -13,7 +13,7 @@
 # limitations under the License.
 
 """
-What pages of the sketchpad cost the world's loop, and how soon a stroke is a body.
+The cost of pages of the sketchpad in the world's loop, and how soon a stroke is a body.
 
 The pages are sockets in another process, which read all that comes. Two equal worlds take turns,
 frame by frame, one with pages and one without: the cost is the median of the differences of their

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Whatever is clicked with whatever tool, it is drawn or refused, and the world can go on."""
+"""Any click with any tool is drawn or refused, and the world can go on."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ from physsim_ros.model.requests import Request, Spawn
 from physsim_ros.model.shapes import Box, Disc
 from physsim_ros.simulation.world import World
 
-# Where people click: near one another and near bodies; and where only programs do.
+# Coordinates of clicks [m]: near one another and near bodies, as people click; and any.
 near = st.integers(-8, 8).map(lambda eighths: eighths / 8)
 number = st.one_of(near, st.floats(-5, 5), st.floats())
 point = st.tuples(number, number)

@@ -65,7 +65,7 @@ class Studio:
         for frame in self.simulation.advance(self._now):
             self.frame = frame
             answers += frame.answers
-        # What lay ahead of a change in the past is dropped, which is told too.
+        # A change in the past begins a course, which is an event too.
         return tuple(answer for answer in answers if answer.topic == '~/test')
 
     def x(self, name: str = 'a/0') -> float:

@@ -237,7 +237,7 @@ class Disturber:
         self._hold('release', name)
 
     def _hold(self, topic: str, name: str) -> None:
-        # Where the body is, by its own frame; it may have gone by then, which is refused.
+        # The origin of the body's own frame; a body that is gone by then is refused.
         point = PointStamped()
         point.header.frame_id = name
         self._traveller.ask(topic, point)

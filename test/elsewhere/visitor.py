@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""What the programs here share: they know the world by its topics alone, as anybody's would."""
+"""The base of the programs here, which know the world by its topics alone, as anybody's would."""
 
 from __future__ import annotations
 
@@ -115,7 +115,7 @@ class Visitor:
         self._clients[service] = self.node.create_client(kind, service)
 
     def request(self, service: str, request: Any) -> Any:
-        """Return what a service answers."""
+        """Return the response of a service."""
         client = self._clients[service]
         self.spin_until(client.service_is_ready, service)
         future = client.call_async(request)

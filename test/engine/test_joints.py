@@ -150,7 +150,7 @@ def test_a_click_gives_the_joint_the_lowest_free_name(request_: Any, kind: str) 
     assert world.apply(request_(point=(0.4, 0.0)))[0] == f'{kind}/1'
 
 
-# What they hold
+# Constraints
 
 
 @pytest.mark.parametrize('kind', [kind for kind in KINDS if kind.points == 1])
@@ -351,7 +351,7 @@ def test_a_body_does_not_become_too_light_for_its_springs() -> None:
     assert world.digest() == before
 
 
-# What becomes of them
+# Removal
 
 
 @pytest.mark.parametrize('kind', KINDS)

@@ -55,7 +55,7 @@ from ..building import (
 )
 
 REST = (0.0, 0.0, 0.0)
-# What 240 sums of a second leave of float64 [m, m/s].
+# Rounding error of the 240 sums of a second in float64 [m, m/s].
 ROUNDING = 1e-10
 YARD = WorldSettings(bounds=(-20.0, 0.0, 20.0, 40.0))
 
@@ -267,7 +267,7 @@ def test_a_stack_that_loses_its_footing_falls_as_one(
     world.apply(request_)
     world.step(240)
 
-    # What the stack still swayed, and not what it has borne.
+    # To the rest of the sway of the stack; the weight that it has borne is gone.
     after, now = gravity[1], world.snapshot()
     assert now.twists[-10:, 1] == pytest.approx(after, abs=1e-4)
     assert now.poses[-10:, 1] == pytest.approx(before.poses[-10:, 1] + after / 2, abs=1e-4)

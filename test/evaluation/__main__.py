@@ -43,7 +43,7 @@ _REFUSED = 'refused'
 
 
 class Tally:
-    """What became of the strokes."""
+    """Counts of the readings of strokes, right and wrong."""
 
     def __init__(self) -> None:
         self.readings: dict[str, Counter[str]] = defaultdict(Counter)

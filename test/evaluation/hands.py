@@ -15,7 +15,7 @@
 """
 Hands: they draw a figure with tremor, haste, hooks and all that pens and screens add.
 
-Every figure is drawn by a hand of its own. What a hand does is drawn from wide ranges, each
+Every figure is drawn by a hand of its own. Its habits are drawn from wide ranges, each
 effect often absent, so that there are tidy hands, hasty ones, old ones and mice among them.
 """
 
@@ -233,7 +233,7 @@ def _paced(way: Floats, somebody: Hand, rng: Random) -> tuple[Floats, Floats]:
 
 
 def _wandering(times: Floats, somebody: Hand, rng: Random) -> Floats:
-    """Return what the hand adds: drift below 2 Hz, tremor about 9 Hz, noise without memory."""
+    """Return the deviation of a hand: drift below 2 Hz, tremor about 9 Hz, white noise."""
     total = rng.normal(0.0, somebody.noise, (len(times), 2))
     for spread, low, high in ((somebody.drift, 0.2, 2.0), (somebody.tremor, 6.0, 12.0)):
         for axis in (0, 1):

@@ -155,7 +155,7 @@ def _scribbled(figure: Figure, somebody: Hand, rng: Random) -> list[Placed]:
 
 
 def _squiggle(rng: Random) -> Figure:
-    """Return what means nothing: a signature, a letter, a knot."""
+    """Return a figure without a meaning: a signature, a letter, a knot."""
     angle = np.linspace(0.0, 2.0 * math.pi, 200)
     way = sum(
         np.column_stack(

@@ -226,7 +226,7 @@ def test_strokes_that_have_times_keep_their_samples(tmp_path: Path) -> None:
     assert stroke.tolist() == [[0.0, 0.0, 0.0], [2.0, 4.0, 0.5], [6.0, 8.0, 2.0]]
 
 
-# What is no drawing
+# Refusals
 
 
 @pytest.mark.parametrize(

@@ -963,7 +963,7 @@ def test_a_name_that_no_file_can_have_is_refused(
     assert list(folder.iterdir()) == []
 
 
-# Where files are
+# Places of files
 
 
 def test_a_plain_name_is_a_file_of_the_world_directory_before_a_shipped_one(folder: Path) -> None:

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""What the scenes of the laws have in common."""
+"""Worlds, bodies and materials that the scenes of the laws share."""
 
 import math
 

@@ -211,8 +211,8 @@ def _impulse(velocity, masses, arms, normal, elasticity, friction):
 # How far the paths are off centre [m], how the box that comes with a corner is tilted [°], and how
 # it slips [m/s]: on both sides of the cone at a friction of 0.3.
 OBLIQUE = list(itertools.product((-0.35, 0.1, 0.3), (20, 45, 70), (-1.0, -0.1, 0.0, 0.3, 1.0)))
-# Where a sweep leaves more than this of the error of a sticking impulse, ten do not reach 1e-4
-# (0.38 to the tenth is 6e-5) and the bound is wider. At twenty the law holds for those too.
+# Share of the error of a sticking impulse that a sweep may leave [1]: with more, ten do not reach
+# 1e-4 (0.38 to the tenth is 6e-5) and the bound is wider. At twenty the law holds for those too.
 COUPLED = 0.38
 
 

@@ -235,8 +235,8 @@ class Player:
             for request in self._until(step):
                 self.sim.perform(request)
             self._now += 16_666_667
-            # What counts is how a step was shown last: with what was asked there where time
-            # stood still then, else without it.
+            # The last frame of a step counts: with the requests made at it where time stood still
+            # then, else without them.
             for frame in self.sim.advance(self._now):
                 self.first[frame.snapshot.step] = frame.snapshot
             if self.sim.step in digests_at:
@@ -258,7 +258,7 @@ class Player:
 
     def bits(self, shown):
         """Return in how many bits that differs from the first time."""
-        # What no frame of the first time ended with counts from the second on.
+        # A step at which no frame of the first time ended is compared from its second frame on.
         first = self.first.setdefault(shown.step, shown)
         assert shown.scene.names == first.scene.names
         assert shown.stamp == first.stamp
@@ -296,7 +296,7 @@ def test_any_step_is_reached_again_and_played_on_from(report, scene):
     report.check(26, f'{scene}: played on from there', played, 0, 0, 'bits')
 
 
-# What has not been shown the first time is made again, and the same as what is shown later.
+# A step that was not shown the first time is replayed, and equal whenever it is shown.
 @pytest.mark.parametrize('speed', [0.25, 1.0], ids=['kept', 'made again'])
 def test_each_step_is_shown_backward_as_it_was(report, scene, speed):
     player = Player(SCENES[scene])
@@ -339,7 +339,7 @@ def _loaded(path):
 
 
 def _elsewhere(paths):
-    """Return what another process gets of saved worlds."""
+    """Return the digests of saved worlds that go on in another process."""
     program = (
         'import sys; from test.laws.test_rewind import load_and_go_on; '
         'load_and_go_on(*sys.argv[1:])'

@@ -32,7 +32,7 @@ def _mirrored(vector, axis):
 
 
 def _mirrored_shape(shape, axis):
-    """Return what a shape is in the mirror, at yaw 0."""
+    """Return the mirror image of a shape, at yaw 0."""
 
     def points(these):
         return tuple(tuple(_mirrored(point, axis)) for point in these)

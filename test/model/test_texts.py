@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""What others wrote is repeated cut and printable."""
+"""Texts that others wrote are repeated abbreviated and printable."""
 
 from __future__ import annotations
 

@@ -47,7 +47,7 @@ class Hand:
     def click(self, x: float, y: float, frame: str = '') -> Event:
         """Click, and return the one answer."""
         events = self.client.ask('/clicked_point', point(x, y, frame))
-        # What lay ahead of the first change in the past is dropped, and that is told too.
+        # The first change in the past begins a course, and that is an event too.
         (event,) = (each for each in events if each.name == 'clicked_point')
         self.physsim.step(self._frames)
         return event
@@ -70,7 +70,7 @@ def hand(client: Client, request: pytest.FixtureRequest) -> Hand:
     (result,) = physsim.node.set_parameters([Parameter('gravity', value=[0.0, 0.0])])
     assert result.successful
     if request.param == 'past':
-        # What is done in the first second has not been done yet at half of it.
+        # A body that was spawned after one second is not there yet at half of it.
         physsim.step(60)
         physsim.spawn(disc('later/0', at=(1.0, 1.0)))
         physsim.step(60)
@@ -89,7 +89,7 @@ def refused(event: Event, code: str) -> None:
 
 
 def markers_of(physsim: PhysSim, client: Client) -> dict[str, Marker]:
-    """Return what is drawn of the bodies now, by name."""
+    """Return the markers of the bodies now, by name."""
     pictures = client.listen(MarkerArray, '~/markers', KEPT)
     client.spin_until(lambda: pictures)
     return {f'{marker.ns}/{marker.id}': marker for marker in pictures[-1].markers}

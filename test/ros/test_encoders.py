@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""What the encoders write is what rclpy writes for the same message built of objects."""
+"""Encoders write the bytes that rclpy writes for the same message built of objects."""
 
 from __future__ import annotations
 

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Whatever a message holds, it is answered once, and the world goes on with finite numbers."""
+"""A message with any content is answered once, and the world goes on with finite numbers."""
 
 from __future__ import annotations
 
@@ -98,7 +98,7 @@ said = st.dictionaries(st.sampled_from(KEYS), st.sampled_from(VALUES), max_size=
     lambda said: '{' + ', '.join(f'{key}: {value}' for key, value in said.items()) + '}'
 )
 texts = st.one_of(said, st.sampled_from(NASTY_TEXTS), st.text(max_size=20))
-# What may be odd about a marker, field by field.
+# Odd values of a marker, field by field.
 ODD: dict[str, st.SearchStrategy[Any]] = {
     'header': headers,
     'ns': namespaces,
@@ -136,7 +136,7 @@ def markers(draw: Any) -> Marker:
     return message
 
 
-# What may be odd about the marker of a joint.
+# Odd values of the marker of a joint.
 ODD_JOINT = {key: ODD[key] for key in ('header', 'ns', 'id', 'action')} | {
     'points': st.lists(st.one_of(spots, places), max_size=4),
     'text': st.one_of(st.sampled_from(NASTY_TEXTS), st.text(max_size=20)),

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""What the node sends: seen from another process, which knows nothing of this package."""
+"""Messages of the node, as another process sees them that knows nothing of this package."""
 
 from __future__ import annotations
 
@@ -115,7 +115,7 @@ def frames_of(stamps: list[int]) -> list[int]:
     return frames
 
 
-# What it offers
+# Topics and services
 
 
 def test_topics_have_the_types_and_qos_of_the_contract(seen: dict[str, Any]) -> None:
@@ -149,7 +149,7 @@ def test_services_answer_another_process(seen: dict[str, Any]) -> None:
     assert all(message for _, message in seen['calls'])
 
 
-# What it answers
+# Answers
 
 
 def test_each_request_from_outside_is_answered_once(seen: dict[str, Any]) -> None:
@@ -160,7 +160,7 @@ def test_each_request_from_outside_is_answered_once(seen: dict[str, Any]) -> Non
     assert all(message for _, _, _, message, *_ in seen['events'])
 
 
-# What it sends
+# Streams
 
 
 def test_bodies_are_listed_in_spawn_order(seen: dict[str, Any]) -> None:

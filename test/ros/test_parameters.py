@@ -190,7 +190,7 @@ def test_the_description_is_there_over_ros_too(client: Client) -> None:
     assert all(descriptor.description for descriptor in response.descriptors)
 
 
-# What is refused
+# Refusals
 
 
 @pytest.mark.parametrize('name', FIXED)
@@ -298,7 +298,7 @@ def test_many_are_taken_together_or_not_at_all(physsim: PhysSim, client: Client)
     assert physsim.node.simulation.world.settings.friction == 0.5
 
 
-# What is coerced
+# Conversions
 
 
 # 1 is beyond what `beautify` may be.
@@ -368,7 +368,7 @@ def test_lists_of_whole_numbers_and_empty_ones_are_taken(physsim: PhysSim, clien
     assert value_of(physsim, 'bounds') == [-9.0, 0.0, 9.0, 9.0]
     set_('gravity', ParameterValue(type=whole, integer_array_value=[1, -2]))
     assert value_of(physsim, 'gravity') == [1.0, -2.0]
-    # What an empty list comes as depends on who sends it.
+    # The type of an empty list depends on its sender.
     for kind in range(
         ParameterType.PARAMETER_BYTE_ARRAY, ParameterType.PARAMETER_STRING_ARRAY + 1
     ):
@@ -438,7 +438,7 @@ def test_any_publish_rate_that_divides_the_physics_rate_is_good(
     assert (values['physics_rate'], values['publish_rate']) == (physics, publish)
 
 
-# What takes effect
+# Effects
 
 
 def test_gravity_takes_effect_at_once(physsim: PhysSim) -> None:
@@ -509,7 +509,7 @@ def test_parameters_tell_what_a_loaded_world_has_set(physsim: PhysSim, tmp_path:
     assert value_of(physsim, 'bounds') == [-1.0, -1.0, 1.0, 1.0]
     assert value_of(physsim, 'iterations') == 20
     assert value_of(physsim, 'friction') == 0.25
-    # What the file does not name stays.
+    # Settings that the file does not name stay.
     assert value_of(physsim, 'density') == 7.0
 
 

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""What cannot be done is refused once, by its stable code, and changes nothing."""
+"""A request that cannot be applied is refused once, by its code, and changes nothing."""
 
 from __future__ import annotations
 

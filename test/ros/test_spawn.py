@@ -28,7 +28,7 @@ from visualization_msgs.msg import Marker, MarkerArray
 from ..client import Client, Event
 from ..messages import box, command, delete, delete_all, disc, ELL, marker, polygon
 
-# What rests sinks in by the engine's slop of 5 mm, and a little while it is pressed [m].
+# Depth to which a resting body sinks in [m]: the engine's slop of 5 mm, more while it is pressed.
 SINKS = 0.007
 CENTERS = ((0.0, 0.0), (1.0, 0.0))
 TRIANGLE = ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0))

@@ -99,7 +99,7 @@ class Journey:
     def tick(self, periods: int = 1) -> list[tuple[int, str]]:
         """Let wall time go by, and return the frames that were shown."""
         for _ in range(periods):
-            # What has been sent arrives before it.
+            # Messages that were sent arrive before it.
             self.physsim.settle()
             self._now += PERIOD
             self.physsim.node.tick(round(self._now))
@@ -312,7 +312,7 @@ def test_any_time_is_sought_and_played_on_from(journey: Journey) -> None:
         assert answer == Event(0, '~/seek', '', answer.message, 'ok', '')
         ((there, bits),) = journey.shown()
         assert abs(there - stamp) <= STEP / 2 + 1
-        # Where it was shown the first time, and in each frame after that.
+        # As it was shown the first time, and in each frame after that.
         journey.compare([(there, bits)], 0)
         # To a millisecond.
         assert float(answer.message.split()[1]) == pytest.approx(seconds(there), abs=1e-3)
@@ -421,7 +421,7 @@ def test_a_request_in_the_past_begins_a_branch(journey: Journey, way: str) -> No
     assert told[-2:] == [('~/spawn', 0), ('branch', 0)]
     assert 'new/0' in journey.physsim.names
     assert journey.seek(now + PERIOD).code == 'out_of_history'
-    # What lies behind is what it was.
+    # The past is as it was.
     journey.shown()
     for stamp in sorted(journey.first)[:50:7]:
         journey.seek(stamp)
@@ -1128,7 +1128,7 @@ def test_somebody_elsewhere_travels_through_time(outside: Outside, seed: int) ->
     assert seen['other'][0] == pytest.approx(middle + PERIOD, abs=2)
     assert seen['undo'][0], seen['undo']
     assert 'other/0' in seen['undo'][1]
-    # What lay ahead of it is gone, but not what was so then.
+    # The steps ahead of it are gone, but not the moment itself.
     assert seen['after undo'] == [middle, first.get(middle, seen['after undo'][1])]
     assert seen['redo'][0], seen['redo']
     assert seen['after redo'] == seen['other']

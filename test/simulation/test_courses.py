@@ -259,11 +259,3 @@ def test_the_status_tells_time_state_and_words() -> None:
     assert sim.status.course == 2
     sim.undo()
     assert (sim.status.course, sim.status.redo) == (1, 'redo reset')
-
-
-def test_an_array_of_requests_is_one_gesture_in_words() -> None:
-    sim = Simulation(speed=0.0)
-    for number in range(3):
-        sim.submit(spawning(f'a/{number}', BOX, (2.0 * number, 0, 0)), topic='', joined=number > 0)
-    sim.settle()
-    assert sim.status.undo == 'undo spawn a/0 and 2 more'

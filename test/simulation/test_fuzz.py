@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Whatever is asked, in whatever order: the world stays sound, and a refusal changes nothing."""
+"""After any requests in any order the world is sound, and a refusal changes nothing."""
 
 from collections.abc import Callable
 import math

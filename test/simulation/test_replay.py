@@ -208,7 +208,7 @@ def test_what_is_half_made_again_ends_no_earlier_than_time_has_come_since(driven
     driven.simulation.seek(round(4.8 * SECOND))
     driven.settle()
     driven.run(1.0, 0.2)
-    # What lies before the seek begins to be made again, up to now.
+    # Frames before the seek begin to be replayed, up to now.
     driven.run(-1.0, 0.05)
     driven.run(8.0, 0.1)
     frames = driven.run(-1.0, 1.0)
@@ -295,7 +295,7 @@ def test_redo_returns_to_where_undo_was_asked_for(driven: Driven) -> None:
     assert (driven.simulation.step, driven.simulation.world.digest()) == (step, digest)
 
 
-# What makes a frame without a step, and changes nothing.
+# Requests and refusals that make a frame without a step, and change nothing.
 IDLE: list[Callable[[Driven], object]] = [
     lambda driven: driven.ask(Delete(name='nobody/0')),
     lambda driven: driven.ask(DeleteAll(namespace='nobody')),
@@ -698,7 +698,7 @@ def test_all_that_go_on_from_what_was_saved_go_on_alike(driven: Driven, frames: 
         np.testing.assert_array_equal(snapshot.twists, expected.twists)
 
 
-# Where requests meet checkpoints
+# Requests at checkpoints
 
 
 def collide(driven: Driven) -> None:

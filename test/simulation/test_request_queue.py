@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""What waits is bounded, is answered once each, and of seeks in a row the last is carried out."""
+"""The queue is bounded, each request is answered, and of seeks in a row the last is made."""
 
 from physsim_ros.model.requests import Spawn
 from physsim_ros.model.shapes import Disc

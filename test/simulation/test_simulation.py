@@ -311,7 +311,7 @@ def test_load_replaces_the_world_and_time_goes_on() -> None:
     assert snapshot.scene.names == ('a/0', 'a/1')
     assert np.array_equal(snapshot.poses, world.snapshot().poses)
     assert np.array_equal(snapshot.twists, world.snapshot().twists)
-    # What is left of a lifetime counts from here.
+    # The rest of a lifetime counts from here.
     assert snapshot.scene.bodies[0].expires == 10 * FRAME + 2400 - 24
 
 
@@ -464,7 +464,7 @@ def test_speed_changes_nothing_but_when_frames_come() -> None:
             sim.submit(box, topic='~/spawn')
         sim.submit(Command(names=('a/5',), wrenches=((1.0, 2.0, 0.1),)), topic='~/command')
         calls = 0
-        # So often that a fractional speed makes no more than a step at a time.
+        # Ticks come so often that a fractional speed makes no more than a step at a time.
         while sim.world.step_count < 32 * FRAME:
             sim.advance(round(calls * PERIOD / 8))
             calls += 1

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Whatever is asked in whatever order, every step of the past is what it was, to the bit."""
+"""After any requests in any order, every step of the past is as it was, to the bit."""
 
 from __future__ import annotations
 
@@ -183,7 +183,7 @@ class TimeMachine(RuleBasedStateMachine):
         # Checkpoints come every 3 s; here time is short.
         return Simulation(history=5.0, checkpoints=self.checkpoints)
 
-    # What is asked
+    # Requests
 
     @rule(request=requests)
     def ask_while_it_stands(self, request: Request) -> None:
@@ -192,7 +192,7 @@ class TimeMachine(RuleBasedStateMachine):
         self.simulation.submit(request, topic='')
         frame = self.simulation.settle()
         assert frame is not None
-        # What has changed anything will be done again.
+        # A request that has changed anything is in the log, to be replayed.
         changed = self.simulation.world.digest() != digest
         assert not changed or self.simulation.past.timeline.serial > made
         self.after_request(frame, step, accepted=not frame.answers[0].code)
@@ -286,7 +286,7 @@ class TimeMachine(RuleBasedStateMachine):
 
     @rule()
     def undo(self) -> None:
-        # What is undone is what came before the moment that is shown.
+        # The undone gesture is the last before the moment that is shown.
         self.simulation.world.digest()
         timeline = self.simulation.past.timeline
         undone = timeline.history.last_gesture(timeline.serial)
@@ -324,7 +324,7 @@ class TimeMachine(RuleBasedStateMachine):
             np.testing.assert_array_equal(one.poses, two.poses)
             np.testing.assert_array_equal(one.twists, two.twists)
 
-    # What must hold
+    # Invariants
 
     def look(self, frame: Frame | None) -> None:
         assert frame is not None
@@ -359,7 +359,7 @@ TestTimeMachine.settings = settings(
     max_examples=200,
     stateful_step_count=20,
     deadline=None,
-    # What fails is long, and to make it shorter takes minutes.
+    # A failing example is long, and to shrink it takes minutes.
     phases=[Phase.explicit, Phase.reuse, Phase.generate],
     suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large],
 )

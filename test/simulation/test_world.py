@@ -600,7 +600,7 @@ def test_an_anchored_body_still_answers_to_changes(born: bool) -> None:
     assert body_at(world, (-4.0, 2.4)) == 'a/0'
     assert body_at(world, (-5.4, 1.0)) is None
 
-    # Where it is now, others land on it.
+    # Other bodies land on it at its new pose.
     spawn(world, 'b/0', Disc(radius=0.2), (-4.0, 3.0, 0.0), elasticity=0.0)
     world.step(240)
     assert pose(world, 'b/0')[1] == pytest.approx(2.7, abs=0.006)

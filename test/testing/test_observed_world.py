@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""What a test reads of a world, by name."""
+"""A test reads poses, twists, contacts and forces of a world by name."""
 
 from __future__ import annotations
 

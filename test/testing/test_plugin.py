@@ -107,7 +107,7 @@ def test_nothing_of_ros_is_imported():
 
 def run_pytest(directory: Path, *words: str, **environment: str) -> str:
     """Run the tests of somebody else's project, and return what was printed."""
-    # Where the package is installed the plugin comes by itself, as for everybody.
+    # An installed package brings its plugin by itself, as for everybody.
     found = entry_points(group='pytest11', name='physsim')
     plugin = [] if found else ['-p', 'physsim_ros.testing']
     # colcon hands its arguments on by this variable, which is inherited.

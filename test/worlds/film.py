@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""What the tests of the worlds have in common: a world by its name, and what became of it."""
+"""A shipped world by its name, and its frames over some seconds, for the tests of worlds."""
 
 from pathlib import Path
 
@@ -70,7 +70,7 @@ class Film:
         return self.twists[:, self.names.index(name)]
 
     def weight(self, *namespaces):
-        """Return what all bodies of these namespaces weigh together [kg]."""
+        """Return the mass of all bodies of these namespaces together [kg]."""
         bodies = self.frames[0].scene.bodies
         return sum(body.total_mass for body in bodies if body.name.partition('/')[0] in namespaces)
 

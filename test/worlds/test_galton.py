@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""What lies in the bins of the Galton board is a binomial distribution."""
+"""Balls in the bins of the Galton board have a binomial distribution."""
 
 from math import comb, sqrt
 
@@ -68,5 +68,5 @@ def test_the_bins_fit_a_binomial(bins):
 
 
 def test_left_and_right_are_even(bins):
-    # What one in a thousand fair boards exceeds: 3.3 standard deviations of the mean.
+    # One in a thousand fair boards exceeds 3.3 standard deviations of the mean.
     assert abs(bins.mean() - ROWS / 2) < 3.3 * sqrt(ROWS / 4 / len(bins))

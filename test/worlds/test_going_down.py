@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""What slides, rolls or falls over does so in the order that it is famous for."""
+"""Bodies slide, roll and fall over in the order that each scene is famous for."""
 
 import math
 

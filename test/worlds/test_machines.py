@@ -82,7 +82,7 @@ def test_its_wheels_move_along_their_guides_only(car, wheel):
     aside = cos * apart[:, 0] + sin * apart[:, 1]
     travel = cos * apart[:, 1] - sin * apart[:, 0]
 
-    # Where the road ends its chassis alone is stopped, for a step, short of what it goes in one.
+    # At the end of the road the chassis alone is stopped, for a step, by less than a step's way.
     driving = chassis[:, 0] < 28.5
     assert driving.sum() > 600
     assert_allclose(aside[driving], aside[0], atol=5e-3)
@@ -133,7 +133,7 @@ def test_the_catapult_throws_as_far_as_speed_and_angle_say():
     vx, vy = speed[flying, :2]
     landing = first((stone[:, 1] < 1.0) & (stone[:, 0] > 0.0))
 
-    # Where it is one metre above the ground, by the parabola.
+    # The parabola is one metre above the ground then.
     time = (vy + math.sqrt(vy**2 + 2 * G * (y - 1.0))) / G
     assert_allclose(stone[landing, 0], x + vx * time, atol=vx / 60)
     assert stone[landing, 0] - stone[0, 0] > 17.0

@@ -106,7 +106,7 @@ class SweptBoxes:
         if corners[first].sum() * corners.sum() <= BUDGET:
             return first
         for cut in range(_CUTS):
-            # What is near a body, times what is as fast as it among that: the pairs of its island.
+            # Corners of bodies near a body, times those of fast ones: the pairs of its island.
             cost = count_candidates(self.boxes, first, corners)
             cost *= count_candidates(self.boxes, first, np.where(first, corners, 0.0))
             rows = np.flatnonzero(cost > BUDGET)

@@ -67,7 +67,7 @@ def pen(tool: Tool, **settings: object) -> DrawingSession:
 def draw(
     tool: Tool, *points: Point, world: World | None = None, **settings: object
 ) -> tuple[Request, ...]:
-    """Return what the last of the clicks asks for; those before ask for nothing."""
+    """Return the requests of the last of the clicks; those before have none."""
     world = World(settings=WEIGHTLESS) if world is None else world
     hand = pen(tool, **settings)
     *earlier, last = points
@@ -243,7 +243,7 @@ def test_joints_count_apart_from_bodies() -> None:
     assert names == ['drawn/0', 'drawn/1']
 
 
-# What is there already
+# Tools for bodies and joints that are there
 
 
 @pytest.mark.parametrize(
@@ -314,7 +314,7 @@ def test_without_a_tool_a_click_is_ignored() -> None:
     assert 'ignored' in step.message
 
 
-# What nobody can have meant
+# Refusals
 
 
 @pytest.mark.parametrize(

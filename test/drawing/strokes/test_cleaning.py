@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""What pens add to a stroke is gone before it is read."""
+"""Rests, spikes and jumps of pens are gone before a stroke is read."""
 
 import numpy as np
 from physsim_ros.drawing.strokes.cleaning import clean_samples, GRAIN

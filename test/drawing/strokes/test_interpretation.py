@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""What strokes mean in a world, each in its own."""
+"""The meanings of strokes, each in a world of its own."""
 
 from collections.abc import Sequence
 import itertools

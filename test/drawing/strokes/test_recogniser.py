@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""What strokes look like, drawn by ruler and by many hands."""
+"""The forms of strokes are recognised, drawn by ruler and by many hands."""
 
 import math
 

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""What touches is told once a pair, with its place, its normal and the impulse of the frame."""
+"""Touching pairs are reported once each, with point, normal and the impulse of the frame."""
 
 from dataclasses import replace
 from itertools import pairwise
@@ -142,7 +142,7 @@ def test_the_earlier_spawned_comes_first_and_the_normal_leads_from_it(*, swapped
     assert world.snapshot().scene.names == ('b/9', 'a/0')
     # The upper one may have tilted by what the solver leaves.
     assert contacts.normals[0] == pytest.approx((0.0, up), abs=1e-6)
-    # What the first gives the second: the lower one lifts, the upper one presses.
+    # The impulse on the second: the lower one lifts, the upper one presses.
     weight = G * FRAME * DT
     assert contacts.impulses[0] == pytest.approx((0.0, up * weight), abs=0.01 * weight)
     assert contacts.points[0] == pytest.approx((0.0, 0.5), abs=0.006)

@@ -1,0 +1,79 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+A gesture as a phrase, by which undo and redo name it: `spawn ball/0 and 2 more`.
+
+Law: a phrase is a verb and its object, so that it reads well after `undo`, `redo` and `undid`.
+"""
+
+from __future__ import annotations
+
+from physsim_ros.model.requests import (
+    ChangeBody,
+    Command,
+    Configure,
+    DeleteAll,
+    DeleteBodies,
+    Grab,
+    GrabToPlace,
+    LetGo,
+    MoveBodies,
+    Restore,
+    Unjoin,
+    UnjoinAll,
+)
+from physsim_ros.simulation.records import Entry
+
+# Verbs of the requests that are not named by their own.
+_VERBS = {
+    ChangeBody: 'change',
+    Configure: 'change',
+    DeleteAll: 'delete',
+    DeleteBodies: 'delete',
+    Grab: 'drag',
+    GrabToPlace: 'place',
+    LetGo: 'drag',
+    MoveBodies: 'move',
+    Restore: 'load',
+    Unjoin: 'delete',
+    UnjoinAll: 'delete',
+}
+# Objects of the requests that concern no single body or joint.
+_OBJECTS = {
+    Command: 'several bodies',
+    Configure: 'settings',
+    DeleteAll: 'all bodies',
+    DeleteBodies: 'several bodies',
+    MoveBodies: 'several bodies',
+    Restore: 'world',
+    UnjoinAll: 'all joints',
+}
+
+
+def gesture_phrase(entry: Entry, count: int) -> str:
+    """
+    Return the phrase for a gesture.
+
+    :param entry: its first request
+    :param count: number of its requests
+    """
+    request = entry.request
+    verb = _VERBS.get(type(request), type(request).__name__.lower())
+    phrase = f'{verb} {entry.subject or _OBJECTS.get(type(request), "")}'.rstrip()
+    if isinstance(request, DeleteAll | UnjoinAll) and request.namespace is not None:
+        phrase += f' of {request.namespace or "no namespace"}'
+    # All moves of a hand are one drag.
+    more = count > 1 and not isinstance(request, Grab)
+    return f'{phrase} and {count - 1} more' if more else phrase

@@ -1,0 +1,85 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Undo and redo name a gesture by a verb and its object."""
+
+from physsim_ros.model.requests import (
+    ChangeBody,
+    Configure,
+    Delete,
+    DeleteAll,
+    DeleteBodies,
+    Grab,
+    MoveBodies,
+    Pin,
+    Request,
+    Restore,
+    UnjoinAll,
+)
+from physsim_ros.simulation.simulation import Simulation
+import pytest
+
+from ..building import BOX, spawning
+
+
+@pytest.fixture
+def sim() -> Simulation:
+    """Return a paused world of two boxes."""
+    sim = Simulation(speed=0.0)
+    for number in range(2):
+        sim.perform(spawning(f'a/{number}', BOX, (2.0 * number, 0.0, 0.0)))
+    return sim
+
+
+@pytest.mark.parametrize(
+    ('request_', 'phrase'),
+    [
+        (ChangeBody(name='a/0', color=(1.0, 0.0, 0.0, 1.0)), 'change a/0'),
+        (Configure(changes={'damping': 0.5}), 'change settings'),
+        (Delete(name='a/0'), 'delete a/0'),
+        (DeleteBodies(names=('a/0',)), 'delete a/0'),
+        (DeleteBodies(names=('a/0', 'a/1')), 'delete several bodies'),
+        (DeleteAll(), 'delete all bodies'),
+        (DeleteAll(namespace='a'), 'delete all bodies of a'),
+        (MoveBodies(names=('a/0', 'a/1'), by=(1.0, 0.0)), 'move several bodies'),
+        (Grab(hand='me', point=(0.0, 0.0)), 'place a/0'),
+    ],
+)
+def test_a_gesture_is_named_by_verb_and_object(
+    sim: Simulation, request_: Request, phrase: str
+) -> None:
+    sim.perform(request_)
+
+    assert sim.status.undo == f'undo {phrase}'
+    assert sim.undo().startswith(f'undid {phrase}, ')
+    assert sim.status.redo == f'redo {phrase}'
+
+
+def test_a_loaded_world_is_named_as_one(sim: Simulation) -> None:
+    sim.perform(Restore(state=sim.save()))
+    assert sim.status.undo == 'undo load world'
+
+
+def test_the_joints_of_a_namespace_are_named_by_it(sim: Simulation) -> None:
+    sim.perform(Pin(point=(0.0, 0.0)))
+    sim.perform(UnjoinAll(namespace='pin'))
+    assert sim.status.undo == 'undo delete all joints of pin'
+
+
+def test_requests_of_one_gesture_are_counted() -> None:
+    sim = Simulation(speed=0.0)
+    for number in range(3):
+        sim.submit(spawning(f'a/{number}', BOX, (2.0 * number, 0, 0)), topic='', joined=number > 0)
+    sim.settle()
+    assert sim.status.undo == 'undo spawn a/0 and 2 more'
