@@ -53,7 +53,7 @@ class Incoming(NamedTuple):
 
     :ivar page: number of the page
     :ivar request: identifier of the message; '' for the server's own
-    :ivar message: what is to be done
+    :ivar message: of the page, checked
     """
 
     page: int

@@ -283,6 +283,6 @@ class PageSession:
         code: str = '',
         values: tuple[tuple[str, str], ...] = (),
     ) -> None:
-        """Answer this page alone, about what is nobody else's business."""
+        """Answer this page alone, since no other page is concerned."""
         answer = Answer(topic='page', message=message, code=code, values=values, asker=asker)
         self._send(answer_content(answer, request_of(asker)))

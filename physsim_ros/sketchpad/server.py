@@ -172,7 +172,7 @@ class Server:
         self._thread.join(_CLOSING)
 
     def _schedule(self) -> None:
-        """Have the server's thread send what is there, once for all that comes until then."""
+        """Have the server's thread send the newest frame and all messages of the outbox, once."""
         if self._scheduled or not self._thread.is_alive():
             return
         self._scheduled = True

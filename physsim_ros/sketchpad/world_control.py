@@ -26,7 +26,7 @@ from physsim_ros.simulation.simulation import Simulation
 
 
 class WorldControl(Protocol):
-    """What the node does for its pages."""
+    """The actions of a node that its pages ask for."""
 
     @property
     def simulation(self) -> Simulation:

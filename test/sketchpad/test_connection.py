@@ -53,7 +53,7 @@ def test_the_page_says_that_the_server_is_gone_and_comes_back_with_it(
     world.interrupt()
     alert = sheet.page.get_by_role('alert')
     alert.get_by_text('gone').wait_for()
-    # What is drawn meanwhile is not lost in silence.
+    # A stroke drawn meanwhile is not lost in silence.
     sheet.drag(*circle(1.0, 5.0, 0.8))
     sheet.page.locator('.note.refusal').get_by_text('Not done').wait_for()
     port = re.search(r':(\d+)/', first)[1]

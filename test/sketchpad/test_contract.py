@@ -71,7 +71,7 @@ MEASURE = """() => {
 
 
 def poor(sheet: Sheet) -> dict[str, float]:
-    """Return what is shown with too little contrast."""
+    """Return the ratios of the texts and colours with too little contrast."""
     found: dict[str, float] = sheet.page.evaluate(MEASURE)
     assert len(found) > 20
     return {name: ratio for name, ratio in found.items() if ratio < CONTRAST}
@@ -205,7 +205,7 @@ def test_hints_lead_from_a_first_body_to_a_changed_past(chromium: Any, address: 
     sheet.press('Delete')
     sheet.page.mouse.click(*sheet.place(*sheet.pose('box/0')[:2]))
     hint.get_by_text('went before').wait_for()
-    # What is known is not taught again.
+    # A step that was done is not taught again.
     sheet.page.reload()
     sheet.wait('Object.keys(physsim.bodies).length > 0')
     assert 'Draw a circle' not in hint.inner_text()

@@ -260,7 +260,7 @@ def test_a_page_that_does_not_read_is_skipped(browser: Browser) -> None:
         sleeper.sendall(f'GET /ws HTTP/1.1\r\n{lines}\r\n'.encode())
         sleeper.settimeout(20.0)
         assert b'101' in sleeper.recv(12)
-        # So many bodies that the frames to come are more than any buffer of a socket holds.
+        # The frames of these bodies are more than the buffers of any socket.
         boxes = '\n'.join(
             f'  - {{name: box/{each}, box: {{width: 1, height: 1}}, at: [{2 * each}, 0]}}'
             for each in range(500)

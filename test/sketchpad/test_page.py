@@ -252,7 +252,7 @@ def test_a_refusal_stands_at_its_place(sheet: Sheet) -> None:
     x, y = sheet.place(-4.0, 3.2)
     assert abs(box['x'] + box['width'] / 2 - x) < 5
     assert 0 < y - box['y'] - box['height'] < 40
-    # What has no place is said, and no more.
+    # A refusal without a place is shown in the status line alone.
     sheet.press('Redo')
     sheet.page.get_by_role('status').get_by_text('nothing to redo').wait_for()
     assert note.count() == 0

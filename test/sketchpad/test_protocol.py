@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""What a page gets is what the world is, and what it sends becomes the world's own requests."""
+"""Frames of a page are those of the world, and its messages become the world's own requests."""
 
 import json
 import math

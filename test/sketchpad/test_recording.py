@@ -193,9 +193,24 @@ def chromium() -> Iterator[Any]:
         browser.close()
 
 
+def screenshot(page: Any) -> bytes | None:
+    """Return the picture of a page; None where Chromium could not capture it under load."""
+    sync_api = pytest.importorskip('playwright.sync_api')
+    try:
+        png: bytes = page.screenshot(timeout=MILLISECONDS)
+    except sync_api.Error as error:
+        # `Page.captureScreenshot` of Chromium, where a frame is not drawn in time.
+        if 'Unable to capture screenshot' not in error.message:
+            raise
+        return None
+    return png
+
+
 def shows_bodies(page: Any) -> bool:
     """Return whether the colours of the world's bodies are on a page."""
-    png = page.screenshot(timeout=MILLISECONDS)
+    png = screenshot(page)
+    if png is None:
+        return False
     picture = np.asarray(Image.open(io.BytesIO(png)).convert('RGB')).astype(int)
     return all(
         (np.abs(picture - color).max(axis=2) <= COLOR_TOLERANCE).sum() > SOME_PIXELS

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /**
- * The page: one object that knows its parts, what is chosen, and which tool is in hand.
+ * The page: one object that knows its parts, the chosen bodies, and the tool in use.
  *
  * Start reading here; each part is a file. The world moves on the server alone (world_state.js).
  */
@@ -43,10 +43,10 @@ export class App {
     document.body.classList.toggle('view', this.viewOnly);
     /** @type {Set<string>} names of the bodies that are chosen */
     this.chosen = new Set();
-    /** @type {Record<string, any>} of what is drawn next */
+    /** @type {Record<string, any>} properties of the next drawings */
     this.material = {density: 1, friction: 0.5, elasticity: 0.5};
     this.arrows = {velocities: false, contacts: false, forces: true};
-    /** @type {Map<string, () => void>} what is to be sent with the next frame of the page */
+    /** @type {Map<string, () => void>} to be done with the next frame of the page, by key */
     this.soon = new Map();
     this.hovered = '';
     this.framed = false;

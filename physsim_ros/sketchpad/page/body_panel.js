@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The panel of what is chosen: properties of a body, its velocity as an arrow, its plots. */
+/** The panel of the chosen bodies: properties of a body, its velocity as an arrow, its plots. */
 
 import {find, iconButton, make} from './dom.js';
 import {Plots} from './plots.js';
@@ -57,7 +57,7 @@ export class BodyPanel {
   }
 
   /**
-   * Move the view where the panel covers what is chosen.
+   * Move the view where the panel covers the chosen body.
    * @param {number} row
    */
   #uncover(row) {
@@ -77,7 +77,7 @@ export class BodyPanel {
         textContent: 'Delete bodies', onclick: () => this.app.deleteChosen()}))]);
   }
 
-  /** What is drawn next, and gravity. */
+  /** Show the material of the next drawings, and gravity. */
   showMaterial() {
     this.app.choose([]);
     const {app} = this, {gravity} = app.world.scene, strength = Math.hypot(...gravity);

@@ -35,7 +35,7 @@ export class BodyView {
 
   /**
    * @param {string} color
-   * @returns {CanvasPattern} slanted lines, as on a drawing of what is fixed
+   * @returns {CanvasPattern} slanted lines, as in drawings of fixed parts
    */
   #hatch(color) {
     const tile = new OffscreenCanvas(8, 8);

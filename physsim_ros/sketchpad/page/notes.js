@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** What is said: the last answer in a quiet line, and notes at a place of the world. */
+/** Answers: the last one in a quiet line, and notes at a place of the world. */
 
 import {find, make} from './dom.js';
 

@@ -42,7 +42,7 @@ export class Plots {
     this.app.askForParts();
   }
 
-  /** @param {Record<string, any>} body with columns of what is kept of its past */
+  /** @param {Record<string, any>} body with the columns of its past */
   #addPast({name, time = [], x, y, vx, vy, w}) {
     if (name !== this.name) return;
     const first = this.samples[0]?.time ?? Infinity;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Time: the buttons, the slider over what is kept with the courses that were left, the clock. */
+/** Time: the buttons, the slider over the history, with the courses that were left, the clock. */
 
 import {find, iconButton, make} from './dom.js';
 
@@ -56,7 +56,7 @@ export class TimeBar {
     this.call(this.app.world.paused ? 'play' : 'pause');
   }
 
-  /** Pause a world that runs back, so that what is done in it is not taken back at once. */
+  /** Pause a world that runs back, so that a change of it is not taken back at once. */
   endRewind() {
     if (this.app.world.frame.speed < 0) this.call('pause');
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** What a button does, beside it, as soon as it is pointed at or reached by Tab. */
+/** Tips: the title of a button, beside it, as soon as it is pointed at or reached by Tab. */
 
 import {make} from './dom.js';
 

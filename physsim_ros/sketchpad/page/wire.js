@@ -22,7 +22,7 @@
  *   runner_up_confidence: number, guesses: [string, number][], outline: Point[],
  *   built: boolean}} Reading of a stroke */
 /**
- * What the world is after a step, a column for each quantity; rows as in the scene.
+ * The state of the world after a step, a column for each quantity; rows as in the scene.
  * @typedef {{epoch: number, time: number, speed: number, ghost: boolean,
  *   x: Float32Array, y: Float32Array, yaw: Float32Array,
  *   velocities?: {x: Float32Array, y: Float32Array, spin: Float32Array},

@@ -99,7 +99,7 @@ export class WorldState {
     return -1;
   }
 
-  /** @returns {number[]} xmin, ymin, xmax, ymax of what there is [m] */
+  /** @returns {number[]} xmin, ymin, xmax, ymax of bounds or bodies [m] */
   extent() {
     const {bounds, bodies} = this.scene;
     if (bounds.length) return bounds;

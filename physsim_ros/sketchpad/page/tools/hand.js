@@ -25,7 +25,7 @@ export class Hand {
     this.timer = 0;
   }
 
-  /** @returns {boolean} whether wheel, R and a second finger turn what is held */
+  /** @returns {boolean} whether wheel, R and a second finger turn the body */
   get turns() {
     return this.state === 'holding' && this.app.world.paused;
   }

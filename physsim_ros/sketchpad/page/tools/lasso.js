@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The lasso: a loop chooses the bodies in it; what is chosen is moved by dragging it. */
+/** The lasso: a loop chooses the bodies in it; the chosen bodies are moved by dragging one. */
 
 import {inside} from '../body_path.js';
 
