@@ -9,10 +9,10 @@ import {find} from './dom.js';
 /** Id, text, and the button that is pointed at. @type {[string, string, string][]} */
 const STEPS = [
   ['draw', 'Draw a circle, a box, a line: it comes to life.', ''],
-  ['throw', 'Now take the hand, and throw it.', 'Hand'],
+  ['throw', 'A small circle over two bodies is an axle. Or take the hand, and throw one.', 'Hand'],
   ['rewind', 'Nothing is lost: rewind, or drag the time line.', 'Rewind'],
   ['change', 'This is the past. Draw or move something here, and it goes otherwise.', ''],
-  ['ghost', 'Dashed: how it went before, where that differs. The ring on the time line goes back there.', 'Play'],
+  ['ghost', 'Dashed: how it went before. The ring on the time line goes back there.', 'Play'],
 ];
 const KEY = 'physsim-hints';
 const TOOL_SHOWN = 7000, USED_SHOWN = 2500, LAST_SHOWN = 12000; // ms: how a tool is used, when it was used, the last step

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The canvas: grid, ghost, bodies, joints, arrows, and on top what the tool in hand draws. */
+/** The canvas: grid, bodies, ghost, joints, arrows, and on top what the tool in hand draws. */
 
 import {BodyView} from './body_view.js';
 import {drawGrid} from './grid_view.js';
@@ -67,8 +67,8 @@ export class SceneView {
     ctx.fillRect(0, 0, camera.width, camera.height);
     drawGrid(ctx, camera, palette, this.insets);
     this.#drawBounds();
-    if (world.ghost) this.#drawGhost(world.ghost, world.ghostScene.bodies);
     for (let row = 0; row < world.count; row++) this.bodies.draw(world.frame, row, world.scene.bodies[row]);
+    if (world.ghost) this.#drawGhost(world.ghost, world.ghostScene.bodies);
     this.#toPixels();
     if (world.count) new JointView(ctx, world, camera, palette).draw();
     this.#drawArrows();
@@ -89,23 +89,25 @@ export class SceneView {
   }
 
   /**
+   * Dashed outlines over the bodies, so that they are seen where both courses agree, too; in the colour of
+   * the ring on the time line that goes back to their course.
    * @param {Frame} frame
    * @param {Body[]} bodies
    */
   #drawGhost(frame, bodies) {
-    const {ctx, camera} = this;
-    ctx.globalAlpha = 0.8;
+    const {ctx, camera, palette} = this, pixel = 1 / camera.scale;
     bodies.forEach((body, row) => {
       if (body.anchored || row >= frame.x.length) return;
-      const look = this.bodies.look(body);
+      const {path} = this.bodies.look(body);
       this.bodies.toBody(frame, row);
-      ctx.strokeStyle = look.fill;
-      ctx.lineWidth = 1.5 / camera.scale;
-      ctx.setLineDash([5 / camera.scale, 4 / camera.scale]);
-      ctx.stroke(look.path);
+      for (const [color, width] of /** @type {const} */ ([[palette.paper, 3.5], [palette.force, 1.8]])) {
+        ctx.strokeStyle = color;
+        ctx.lineWidth = width * pixel;
+        ctx.setLineDash([5 * pixel, 5 * pixel]);
+        ctx.stroke(path);
+      }
     });
     ctx.setLineDash([]);
-    ctx.globalAlpha = 1;
     this.#toPixels();
   }
 

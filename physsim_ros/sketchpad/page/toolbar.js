@@ -9,7 +9,7 @@ import {Pen} from './tools/pen.js';
 
 /** Groups of tools: id, name, key, hint. @type {[string, string, string, string][][]} */
 export const TOOLS = [[
-  ['pen', 'Pen', 'p', 'Draw freely: circles, boxes, lines, zigzags, an x to anchor'],
+  ['pen', 'Pen', 'p', 'Draw freely: circles, boxes, lines; a zigzag is a spring, a small circle an axle, an x anchors'],
   ['hand', 'Hand', 'h', 'Drag and throw bodies; tap one to change it'],
   ['lasso', 'Lasso', 's', 'Choose several bodies; drag them, or delete them'],
 ], [
