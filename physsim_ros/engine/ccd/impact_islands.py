@@ -194,18 +194,21 @@ class ImpactIslands:
         changed: list[int] = []
         boxes = self._swept.boxes
         passed, count = np.empty_like(boxes), 0
+        # Islands with an earlier impact that is put off to the next round.
+        waiting: set[int] = set()
         for impact in impacts:
-            rows = [
-                member
-                for row in impact[1:]
-                if self._movable[row]
-                for member in self._members.get(int(self._islands[row]), [row])
-            ]
+            islands = [int(self._islands[row]) for row in impact[1:] if self._movable[row]]
+            rows = [row for island in islands for row in self._members.get(island, [island])]
             # After an earlier impact nearby this one may not take place.
-            if not boxes_overlap(boxes[rows][:, None], passed[:count]).any():
-                end = count + len(rows)
-                passed[count:end], count = boxes[rows], end
-                changed += self._join(impact)
+            if (
+                not waiting.isdisjoint(islands)
+                or boxes_overlap(boxes[rows][:, None], passed[:count]).any()
+            ):
+                waiting.update(islands)
+                continue
+            end = count + len(rows)
+            passed[count:end], count = boxes[rows], end
+            changed += self._join(impact)
         return np.array(changed, np.int64)
 
     def _join(self, impact: Impact) -> list[int]:
