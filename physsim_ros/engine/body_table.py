@@ -58,6 +58,7 @@ class SceneColumns(NamedTuple):
     :ivar safe_depths: (n,) float64: how far it may be entered in a step unseen [m]
     :ivar turning_radii: (n,) float64: how far out its turning counts for continuous collision [m]
     :ivar corners: (n,) float64: of its pieces, the cost of continuous collision
+    :ivar pieces: (n,) float64: count of the pieces of each body
     :ivar half_widths: (n,) float64: of the thinnest piece of each body [m]
     :ivar groups: (n,) int64: bodies of one group pass through each other; 0 is none
     :ivar joined: (j, 2) intp: rows of the two bodies of each joint
@@ -80,6 +81,7 @@ class SceneColumns(NamedTuple):
     safe_depths: Floats
     turning_radii: Floats
     corners: Floats
+    pieces: Floats
     half_widths: Floats
     groups: Ints
     joined: Rows
@@ -238,6 +240,7 @@ def _columns_of(scene: Scene, dt: float) -> SceneColumns:
         safe_depths=safe_depths(bodies),
         turning_radii=np.array([turning_radius(body) for body in bodies]),
         corners=np.array([corner_count(body) for body in bodies], np.float64),
+        pieces=np.array([len(body.shape.form.pieces) for body in bodies], np.float64),
         half_widths=np.array([body.shape.form.inner for body in bodies]),
         groups=np.array([body.group for body in bodies], np.int64),
         joined=joined,

@@ -20,7 +20,7 @@ The pipeline: one step of the engine, stage by stage in this order.
 3. Mouse joints: the forces of hands are added.
 4. Resting damping: the solver's error is removed from what friction locks in place.
 5. Continuous collision: fast bodies are advanced to where they first touch something.
-6. Tight boxes: the engine's broad phase is told where fast bodies will be.
+6. Tight boxes: the engine's broad phase is told where fast bodies of a crowd will be.
 7. Joints: the target velocity of constraints is set to the centripetal term.
 8. Pymunk's step: positions, narrow phase, solver, sleeping. In the middle of it: contact
    projection as two shapes begin to touch, and impact propagation before the solver runs.

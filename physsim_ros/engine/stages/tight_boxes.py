@@ -21,11 +21,16 @@ they are (Munk2D as in Pymunk 7.3.1): 12,000 discs of 20 km/s that touch nothing
 930 MB and steps of 1.6 s, 40 lists of 900 spheres of 1 km/s steps of 40 to 60 s. That is so in a
 free fall of some minutes, too. With this stage: 52 MB and 0.07 s, and 1 s.
 
-**Method.** A body whose way would be many times its own width is put where the coming step ends,
-and its shapes are indexed there at rest: the tree's box is extended by a tenth of its size only
-(`GetBB`), and the engine finds it valid. Position, angle and velocity are as they were to the bit.
+**Method.** A body whose extended boxes may overlap so many others that it costs less to index it
+in each step is indexed where the coming step ends, at rest: the tree's box is extended by a tenth
+of its size only (`GetBB`), and the engine finds it valid. Position, angle and velocity are as they
+were to the bit. The others are counted in the grid of `ccd.broad_phase`; no pair is listed.
 
-**Cost.** Nothing below that speed; 5 us a body and step above it.
+**Scope.** It depends on what is near a body, as the horizons of `ccd.swept_boxes` do: a crowd that
+falls, a single fast body, and one that slides over tiles are left to the engine.
+
+**Cost.** Some 1 us for the count of each body that is fast enough for so many pairs (22 m/s with a
+half width of 5 cm), and 3 to 5 us for each that is indexed, in each step.
 
 Without it `test/engine/stages/test_tight_boxes.py` fails. It can go once Pymunk has
 `cpBBTreeSetVelocityFunc`.
@@ -35,19 +40,28 @@ from __future__ import annotations
 
 import numpy as np
 from physsim_ros.engine.body import index_at_rest
+from physsim_ros.engine.ccd.broad_phase import count_candidates
 from physsim_ros.engine.step_context import StepContext
 
 # The engine extends a box by the way of so long [s].
 EXTENSION = 0.1
-# Least extension, in half widths of a body's thinnest piece, that is avoided: boxes of that length
-# overlap some hundred others in a dense crowd.
-MOST = 16.0
+# Pairs of the pieces of a body and of what is near it, from which it is indexed anew: the engine
+# goes through so many in 3 to 5 us, and keeps 56 kB for them.
+MOST_PAIRS = 1000.0
 
 
 def tighten_boxes(context: StepContext) -> None:
-    """Have the engine's broad phase bound fast bodies where the coming step ends."""
-    table = context.table
-    speeds = np.hypot(context.twists[:, 0], context.twists[:, 1])
-    fast = speeds * EXTENSION > MOST * table.columns.half_widths
-    for row in np.flatnonzero(fast).tolist():
+    """Have the engine's broad phase bound fast bodies in a crowd where the coming step ends."""
+    table, columns = context.table, context.table.columns
+    ways = context.twists[:, :2] * EXTENSION
+    # A box of k half widths overlaps k² / 2 others at most, where bodies of a size fill the plane.
+    most = (ways**2).sum(axis=1) / (2.0 * columns.half_widths**2)
+    fast = columns.pieces * np.minimum(most, columns.pieces.sum()) > MOST_PAIRS
+    if not fast.any():
+        return
+    starts, reach = context.poses[:, :2], columns.reach[:, None]
+    low, high = starts + np.minimum(ways, 0.0), starts + np.maximum(ways, 0.0)
+    boxes = np.concatenate((low - reach, high + reach), axis=1)
+    pairs = columns.pieces * count_candidates(boxes, fast, columns.pieces)
+    for row in np.flatnonzero(pairs > MOST_PAIRS).tolist():
         index_at_rest(table.bodies[row].engine, ahead=context.dt)
