@@ -17,6 +17,6 @@ A world and its time: requests go in, frames come out, any past step can be gone
 
 No physics (that is `engine`), no files, topics or threads. Start with `simulation`, the front,
 then `request_handler`, `playback` (the moment that is shown) and `past` (what is kept for going
-back: `timeline`, `history`, `replay`, `undo`); then `world`, with `body_requests`,
-`joint_requests` and `hand_requests`.
+back: `timeline`, `history` with its `request_log`, `replay`, `undo`); then `world`, with
+`body_requests`, `joint_requests` and `hand_requests`.
 """

@@ -24,15 +24,12 @@ replayed, forward, while those after them are shown, backward.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from dataclasses import replace
-from typing import NamedTuple
+from collections.abc import Callable
 
 import numpy as np
-from physsim_ros.model.scene import Scene
-from physsim_ros.model.snapshot import Answer, Contacts, Snapshot
+from physsim_ros.model.snapshot import Answer, Snapshot
+from physsim_ros.simulation.frame_segment import CachedFrame, FrameSegment, SegmentReplay
 from physsim_ros.simulation.history import History
-from physsim_ros.simulation.memory_size import frame_size, scene_size
 from physsim_ros.simulation.records import Mark
 from physsim_ros.simulation.replay import Replay
 from physsim_ros.simulation.world import World
@@ -42,60 +39,6 @@ from physsim_ros.simulation.world import World
 _LEAST_SEGMENTS = 2
 # The memory that a body may take in a frame on average [bytes]: a pose.
 _BODY = 24
-
-
-class CachedFrame(NamedTuple):
-    """
-    The state after a step, as it was shown.
-
-    :ivar snapshot: of the world
-    :ivar contacts: since the frame before; None where contacts were not recorded
-    """
-
-    snapshot: Snapshot
-    contacts: Contacts | None
-
-    def copy(self) -> CachedFrame:
-        """Return a copy without the cached properties of its snapshot."""
-        return self._replace(snapshot=replace(self.snapshot))
-
-
-def size_of_frames(frames: Iterable[CachedFrame]) -> int:
-    """Return the memory that frames take [bytes], with each scene once."""
-    frames = list(frames)
-    scenes = {id(frame.snapshot.scene): frame.snapshot.scene for frame in frames}
-    size = sum(frame_size(*frame) for frame in frames)
-    return size + sum(map(scene_size, scenes.values()))
-
-
-class _Segment:
-    """The frames between two checkpoints, by step."""
-
-    def __init__(self) -> None:
-        self.frames: dict[int, CachedFrame] = {}
-        self.size = 0
-        # The scene of the frame that was added last.
-        self._scene: Scene | None = None
-
-    def add(self, frame: CachedFrame) -> None:
-        old = self.frames.get(frame.snapshot.step)
-        self.size += frame_size(*frame) - (0 if old is None else frame_size(*old))
-        if frame.snapshot.scene is not self._scene:
-            self._scene = frame.snapshot.scene
-            self.size += scene_size(self._scene)
-        self.frames[frame.snapshot.step] = frame.copy()
-
-    def pop_from(self, step: int) -> list[CachedFrame]:
-        """Drop the frames from a step on, and return them."""
-        popped = [self.frames.pop(each) for each in [*self.frames] if each >= step]
-        if popped:
-            self.size = size_of_frames(self.frames.values())
-        return popped
-
-    def has(self, step: int, *, watching: bool) -> bool:
-        """Return whether it has the frame of a step, with contacts if `watching`."""
-        frame = self.frames.get(step)
-        return frame is not None and (frame.contacts is not None or not watching)
 
 
 class FrameCache:
@@ -115,14 +58,14 @@ class FrameCache:
         self._history = history
         self._frame_steps = frame_steps
         self.budget = budget
-        self._segments: dict[Mark, _Segment] = {}
+        self._segments: dict[Mark, FrameSegment] = {}
         # The step that is shown.
         self._shown = 0
         # Number of bodies in the last frame.
         self._bodies = 0
         # The world that replays the segment which is shown next in a rewind.
         self._replay = Replay(World(physics_rate=physics_rate, frame_steps=frame_steps), history)
-        self._segment_replay: _SegmentReplay | None = None
+        self._segment_replay: SegmentReplay | None = None
 
     @property
     def size(self) -> int:
@@ -150,7 +93,7 @@ class FrameCache:
         """Add a frame that has just been shown."""
         self._bodies = len(frame.snapshot.poses)
         mark, _ = self._history.segment(frame.snapshot.step)
-        self._segments.setdefault(mark, _Segment()).add(frame)
+        self._segments.setdefault(mark, FrameSegment()).add(frame)
         self._evict(frame.snapshot.step)
 
     def with_first_contacts(self, frame: CachedFrame) -> CachedFrame:
@@ -245,12 +188,12 @@ class FrameCache:
 
     def _begin_segment(
         self, mark: Mark, end: int, stride: int, *, watching: bool
-    ) -> _SegmentReplay:
+    ) -> SegmentReplay:
         """Begin the replay of a segment, or return the one under way if it has what is asked."""
         replay = self._segment_replay
         if replay is None or not replay.suits(mark, end, stride, watching=watching):
             self._replay.world.watching = watching
-            replay = self._segment_replay = _SegmentReplay(self._replay, mark, end, stride)
+            replay = self._segment_replay = SegmentReplay(self._replay, mark, end, stride)
         return replay
 
     def _evict(self, step: int) -> None:
@@ -279,58 +222,6 @@ class FrameCache:
         marks = sorted(self._segments, key=lambda mark: mark.moment)
         last = self._segments.pop(marks[-1] if marks[-1].step > self._shown else marks[0])
         return last.size
-
-
-class _SegmentReplay:
-    """
-    The replay of a segment.
-
-    :param replay: that makes the steps
-    :param mark: the checkpoint it begins with
-    :param end: its last step
-    :param stride: steps from one frame to the next
-    """
-
-    def __init__(self, replay: Replay, mark: Mark, end: int, stride: int) -> None:
-        self.mark = mark
-        self.segment = _Segment()
-        self._replay = replay
-        self._end = end
-        self._stride = stride
-        self._watching = replay.world.watching
-        replay.resume(mark)
-        replay.replay_shown(mark.step)
-        self._add_frame()
-
-    def suits(self, mark: Mark, end: int, stride: int, *, watching: bool) -> bool:
-        """Return whether it goes from a checkpoint to a step, with all frames of a stride."""
-        same = self.mark == mark and self._end == end
-        return same and self._stride <= stride and (self._watching or not watching)
-
-    @property
-    def steps_left(self) -> int:
-        """Return how many steps remain."""
-        return self._end - self._replay.world.step_count
-
-    def replay_steps(self, steps: int, is_overdue: Callable[[], bool]) -> None:
-        """Make so many more steps, no more than remain, until it is overdue."""
-        replay = self._replay
-        goal = min(self._end, replay.world.step_count + steps)
-        while (at := replay.world.step_count) < goal:
-            stop = min(self._end, at - at % self._stride + self._stride)
-            replay.replay_shown(stop)
-            self._add_frame()
-            if is_overdue():
-                break
-        if self.steps_left == 0:
-            replay.check_digest()
-
-    def _add_frame(self) -> None:
-        world = self._replay.world
-        snapshot = world.snapshot()
-        self.segment.add(
-            CachedFrame(snapshot, world.contacts(snapshot) if world.watching else None)
-        )
 
 
 def _same(one: Snapshot, other: Snapshot) -> bool:

@@ -27,7 +27,7 @@ from collections.abc import Callable
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import NO_CONTACTS
 from physsim_ros.simulation.clock import Clock
-from physsim_ros.simulation.frame_cache import CachedFrame
+from physsim_ros.simulation.frame_segment import CachedFrame
 from physsim_ros.simulation.past import Past
 from physsim_ros.simulation.records import Moment
 from physsim_ros.simulation.world import World
@@ -83,7 +83,7 @@ class Playback:
         timeline = self._past.timeline
         if self._shown is None:
             return timeline.moment
-        return self.step, timeline.history.serial_shown_at(self.step)
+        return self.step, timeline.history.log.serial_shown_at(self.step)
 
     @property
     def time(self) -> str:

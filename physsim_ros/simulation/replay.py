@@ -77,11 +77,11 @@ class Replay:
 
     def replay_shown(self, step: int) -> None:
         """Replay up to a step of the past, with the requests that it was shown with."""
-        self.replay_to(step, self.history.serial_shown_at(step))
+        self.replay_to(step, self.history.log.serial_shown_at(step))
 
     def _replay_to_stop(self, end: int) -> None:
         """Replay up to the next step with a request or a checkpoint, or to the end."""
-        self._apply_logged(self.history.serial_at(self._world.step_count))
+        self._apply_logged(self.history.log.serial_at(self._world.step_count))
         self._enter_checkpoint()
         self._make_steps(end)
 
@@ -99,11 +99,11 @@ class Replay:
                 self._report(
                     'joint_broken', f'{name} broke at {force:.3g} N and was removed', name
                 )
-        self._apply_logged(self.history.serial_shown_at(stop))
+        self._apply_logged(self.history.log.serial_shown_at(stop))
 
     def _apply_logged(self, serial: int) -> None:
         """Apply the logged requests of this step again, up to a serial."""
-        for entry in self.history.entries_between(self.serial, serial):
+        for entry in self.history.log.entries_between(self.serial, serial):
             self._enter_checkpoint()
             try:
                 self._world.replay(entry.request)

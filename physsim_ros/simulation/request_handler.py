@@ -99,7 +99,7 @@ class RequestHandler:
         for grip in timeline.world.grips:
             if grip.hand not in self.hands:
                 # Undone together with the request before.
-                gesture = timeline.history.gesture_before(timeline.serial, self.queue.gesture)
+                gesture = timeline.history.log.gesture_before(timeline.serial, self.queue.gesture)
                 self._apply_to_world(LetGo(hand=grip.hand), gesture)
                 message = f'{grip.hand} is silent and has let go of {grip.body}'
                 self.answers.append(

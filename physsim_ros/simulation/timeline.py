@@ -21,19 +21,16 @@ before, until a request changes its course; a request that is refused changes no
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import replace
+from collections.abc import Iterator, Sequence
 import itertools
-from typing import NamedTuple
 
 from physsim_ros.model.errors import OutOfHistory, Refusal
-from physsim_ros.model.requests import Configure, Request, Restore
-from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.requests import Request
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.courses import Courses
 from physsim_ros.simulation.history import History
-from physsim_ros.simulation.records import Entry, Mark, Moment, Tail
-from physsim_ros.simulation.replay import Replay
+from physsim_ros.simulation.records import Entry, Mark, Tail
+from physsim_ros.simulation.seekable_replay import SeekableReplay
 from physsim_ros.simulation.world import World
 
 # The share of the time between two checkpoints in which the bodies for the next one are made
@@ -41,25 +38,9 @@ from physsim_ros.simulation.world import World
 _AHEAD = 0.75
 
 
-class _Seek(NamedTuple):
-    """
-    A way through the past that is not finished.
-
-    :ivar begin: moment from which on contacts are those of the goal's frame
-    :ivar goal: moment that is shown
-    :ivar with_contacts: whether the contacts of that frame are yet to be shown
-    """
-
-    begin: Moment
-    goal: Moment
-    with_contacts: bool
-
-
-class Timeline(Replay):
+class Timeline(SeekableReplay):
     """
     A world and its history, which new steps and requests are added to.
-
-    A seek is done bit by bit, by `continue_seek`; who asks for the world finishes it.
 
     :param world: at its beginning
     :param length: steps that are kept
@@ -85,35 +66,7 @@ class Timeline(Replay):
             world, History(first, length=length, spacing=spacing, log_limit=log_limit)
         )
         self._resumed = first.moment
-        self._seek: _Seek | None = None
         self._spacing = spacing
-
-    @property
-    def world(self) -> World:
-        """Return the world, at this moment."""
-        self.continue_seek()
-        return self._world
-
-    @property
-    def settings(self) -> WorldSettings:
-        """Return the settings of the world at this moment."""
-        if self._seek is None:
-            return self._world.settings
-        goal = self._seek.goal
-        mark = self.history.checkpoint_before(*goal)
-        settings = mark.key.scene.settings
-        for entry in self.history.entries_between(mark.serial, goal[1]):
-            match entry.request:
-                case Configure(changes=changes):
-                    settings = replace(settings, **changes)
-                case Restore(state=state):
-                    settings = state.settings
-        return settings
-
-    @property
-    def moment(self) -> Moment:
-        """Return step and serial, those of the goal while a seek is under way."""
-        return super().moment if self._seek is None else self._seek.goal
 
     def watch_contacts(self, watching: bool) -> None:  # noqa: FBT001 - a state, not a mode
         """Record contacts from now on, or not."""
@@ -156,7 +109,7 @@ class Timeline(Replay):
 
     def note_shown(self) -> None:
         """Note that this moment is shown, with all requests until now."""
-        self.history.note_shown(*self.moment)
+        self.history.log.note_shown(*self.moment)
 
     def advance(self, steps: int) -> None:
         """Advance by so many steps: by replay up to the head, and further."""
@@ -165,28 +118,10 @@ class Timeline(Replay):
             if self.world.step_count < self.history.head:
                 self._replay_to_stop(min(end, self.history.head))
             else:
-                self._apply_logged(self.history.serial_at(self.world.step_count))
+                self._apply_logged(self.history.log.serial_at(self.world.step_count))
                 self._make_checkpoint()
                 self._make_steps(end)
                 self.history.note_step(self.world.step_count)
-
-    def seek(self, step: int, *, with_contacts: bool = True) -> None:
-        """
-        Go to a step of the history, as it was shown.
-
-        :param with_contacts: whether the contacts of its frame are yet to be shown
-
-        :raises OutOfHistory: it is kept no more, or has not come yet
-        """
-        history, dt = self.history, self._world.dt
-        if not history.oldest <= step <= history.head:
-            raise OutOfHistory(
-                f'{step * dt:.3f} s is not in the history, which reaches from '
-                f'{history.oldest * dt:.3f} to {history.head * dt:.3f} s',
-                field='clock',
-            )
-        moment = step, history.serial_shown_at(step)
-        self.seek_moment(*moment, with_contacts=with_contacts)
 
     def keep_within(self, length: int, log_limit: int) -> bool:
         """
@@ -215,45 +150,6 @@ class Timeline(Replay):
         self.seek(history.oldest)
         return False
 
-    def seek_moment(self, step: int, serial: int, *, with_contacts: bool = True) -> None:
-        """Go to a moment of the past, from the nearest checkpoint or from here."""
-        history, frame = self.history, self._world.frame_steps
-        # Its contacts are those of one frame, as they were the first time.
-        begin = max(history.oldest, step - (step % frame or frame))
-        start = begin, history.serial_shown_at(begin)
-        first = (step, serial)
-        if self._world.watching:
-            first = min(first, start)
-        mark = history.checkpoint_before(*first)
-        # A seek that this one takes the place of has come to a moment of the history, too.
-        if not mark.moment <= super().moment <= first:
-            self.resume(mark)
-        self._seek = _Seek(start, (step, serial), with_contacts)
-
-    def continue_seek(self, is_overdue: Callable[[], bool] = lambda: False) -> bool:
-        """
-        Replay towards the moment that was sought.
-
-        :param is_overdue: whether to go on another time
-        :return: whether the world is there
-        """
-        seek, self._seek = self._seek, None
-        if seek is None:
-            return True
-        world, (begin, serial) = self._world, seek.begin
-        if world.step_count < begin:
-            while world.step_count < begin:
-                self._replay_to_stop(min(begin, world.step_count + world.frame_steps))
-                if is_overdue():
-                    self._seek = seek
-                    return False
-            self._apply_logged(serial)
-        world.clear_contacts()
-        self.replay_to(*seek.goal)
-        if not seek.with_contacts:
-            world.clear_contacts()
-        return True
-
     def undo(self) -> Tail:
         """
         Go back to the moment before the last gesture.
@@ -262,7 +158,7 @@ class Timeline(Replay):
         :raises OutOfHistory: there is none
         """
         now = self.moment
-        undone = self.history.last_gesture(now[1])
+        undone = self.history.log.last_gesture(now[1])
         if undone is None:
             raise OutOfHistory('there is nothing to undo', field='history')
         step, serial = undone[0].step, now[1] - undone[1]
@@ -286,7 +182,7 @@ class Timeline(Replay):
             self.courses.exchange(course, tail)
         history = self.history
         step = max(history.oldest, min(now[0], history.head))
-        moment = step, history.serial_shown_at(step)
+        moment = step, history.log.serial_shown_at(step)
         # Not from here: these steps may be of the course that is left.
         self.resume(history.checkpoint_before(*moment))
         self.seek_moment(*moment)
@@ -307,14 +203,14 @@ class Timeline(Replay):
         :return: that step; and for each request what `apply` returns, or its refusal
         """
         now = self.moment
-        starts = [self.history.gesture_start(each, now[1]) for each in gestures]
+        starts = [self.history.log.gesture_start(each, now[1]) for each in gestures]
         found = [start for start in starts if start is not None]
         step, serial = min(found, key=lambda start: start[1], default=now)
         gesture = gestures[0]
         self.courses.drop_after((step, serial))
         later = [
             each
-            for each in self.history.entries_between(serial, now[1])
+            for each in self.history.log.entries_between(serial, now[1])
             if each.gesture not in gestures
         ]
         self.history.cut(step, serial, now=now)

@@ -127,7 +127,7 @@ class Undo:
             return False
         self._store_timeline(self.before_resets)
         self.undone.clear()
-        self._beginning = history.last_loaded or self._beginning
+        self._beginning = history.log.last_loaded or self._beginning
         self.timeline = self._begin(self._beginning)
         return True
 
@@ -157,7 +157,7 @@ class Undo:
 
         :param serial: number of requests made until the moment that is shown
         """
-        undone = self.timeline.history.last_gesture(serial)
+        undone = self.timeline.history.log.last_gesture(serial)
         if undone is not None:
             return f'undo {gesture_phrase(*undone)}'
         return 'undo reset' if self.before_resets and self._is_begun else ''

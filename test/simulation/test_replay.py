@@ -41,7 +41,7 @@ from physsim_ros.model.requests import (
 )
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer, Frame
-from physsim_ros.simulation.frame_cache import CachedFrame
+from physsim_ros.simulation.frame_segment import CachedFrame
 from physsim_ros.simulation.records import Entry
 from physsim_ros.simulation.simulation import CHECKPOINTS, Simulation
 from physsim_ros.simulation.world import World

@@ -261,7 +261,7 @@ class TimeMachine(RuleBasedStateMachine):
     @rule()
     def undo_and_redo(self) -> None:
         step, digest = self.simulation.step, self.simulation.world.digest()
-        if not self.simulation.past.timeline.history.last_gesture(
+        if not self.simulation.past.timeline.history.log.last_gesture(
             self.simulation.past.timeline.serial
         ):
             return
@@ -273,7 +273,7 @@ class TimeMachine(RuleBasedStateMachine):
     @rule(frames=st.integers(0, 20))
     def undo_and_go_on_and_redo(self, frames: int) -> None:
         step, digest = self.simulation.step, self.simulation.world.digest()
-        if not self.simulation.past.timeline.history.last_gesture(
+        if not self.simulation.past.timeline.history.log.last_gesture(
             self.simulation.past.timeline.serial
         ):
             return
@@ -289,7 +289,7 @@ class TimeMachine(RuleBasedStateMachine):
         # The undone gesture is the last before the moment that is shown.
         self.simulation.world.digest()
         timeline = self.simulation.past.timeline
-        undone = timeline.history.last_gesture(timeline.serial)
+        undone = timeline.history.log.last_gesture(timeline.serial)
         if undone is not None:
             self.simulation.undo()
             assert self.simulation.step == undone[0].step

@@ -1,0 +1,144 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Frames between two checkpoints: what a rewind through them shows, kept or replayed.
+
+Law: frames are replayed forward from the first checkpoint, with the requests that each step was
+shown with; where the replay does not end with the digest of the second one, that is reported.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import replace
+from typing import NamedTuple
+
+from physsim_ros.model.scene import Scene
+from physsim_ros.model.snapshot import Contacts, Snapshot
+from physsim_ros.simulation.memory_size import frame_size, scene_size
+from physsim_ros.simulation.records import Mark
+from physsim_ros.simulation.replay import Replay
+
+
+class CachedFrame(NamedTuple):
+    """
+    The state after a step, as it was shown.
+
+    :ivar snapshot: of the world
+    :ivar contacts: since the frame before; None where contacts were not recorded
+    """
+
+    snapshot: Snapshot
+    contacts: Contacts | None
+
+    def copy(self) -> CachedFrame:
+        """Return a copy without the cached properties of its snapshot."""
+        return self._replace(snapshot=replace(self.snapshot))
+
+
+def size_of_frames(frames: Iterable[CachedFrame]) -> int:
+    """Return the memory that frames take [bytes], with each scene once."""
+    frames = list(frames)
+    scenes = {id(frame.snapshot.scene): frame.snapshot.scene for frame in frames}
+    size = sum(frame_size(*frame) for frame in frames)
+    return size + sum(map(scene_size, scenes.values()))
+
+
+class FrameSegment:
+    """
+    The frames between two checkpoints.
+
+    :ivar frames: by their steps
+    :ivar size: memory that they take [bytes]
+    """
+
+    def __init__(self) -> None:
+        self.frames: dict[int, CachedFrame] = {}
+        self.size = 0
+        # The scene of the frame that was added last.
+        self._scene: Scene | None = None
+
+    def add(self, frame: CachedFrame) -> None:
+        """Add a frame, in place of the one of the same step."""
+        old = self.frames.get(frame.snapshot.step)
+        self.size += frame_size(*frame) - (0 if old is None else frame_size(*old))
+        if frame.snapshot.scene is not self._scene:
+            self._scene = frame.snapshot.scene
+            self.size += scene_size(self._scene)
+        self.frames[frame.snapshot.step] = frame.copy()
+
+    def pop_from(self, step: int) -> list[CachedFrame]:
+        """Drop the frames from a step on, and return them."""
+        popped = [self.frames.pop(each) for each in [*self.frames] if each >= step]
+        if popped:
+            self.size = size_of_frames(self.frames.values())
+        return popped
+
+    def has(self, step: int, *, watching: bool) -> bool:
+        """Return whether it has the frame of a step, with contacts if `watching`."""
+        frame = self.frames.get(step)
+        return frame is not None and (frame.contacts is not None or not watching)
+
+
+class SegmentReplay:
+    """
+    The replay of a segment.
+
+    :param replay: that makes the steps
+    :param mark: the checkpoint it begins with
+    :param end: its last step
+    :param stride: steps from one frame to the next
+    """
+
+    def __init__(self, replay: Replay, mark: Mark, end: int, stride: int) -> None:
+        self.mark = mark
+        self.segment = FrameSegment()
+        self._replay = replay
+        self._end = end
+        self._stride = stride
+        self._watching = replay.world.watching
+        replay.resume(mark)
+        replay.replay_shown(mark.step)
+        self._add_frame()
+
+    def suits(self, mark: Mark, end: int, stride: int, *, watching: bool) -> bool:
+        """Return whether it goes from a checkpoint to a step, with all frames of a stride."""
+        same = self.mark == mark and self._end == end
+        return same and self._stride <= stride and (self._watching or not watching)
+
+    @property
+    def steps_left(self) -> int:
+        """Return how many steps remain."""
+        return self._end - self._replay.world.step_count
+
+    def replay_steps(self, steps: int, is_overdue: Callable[[], bool]) -> None:
+        """Make so many more steps, no more than remain, until it is overdue."""
+        replay = self._replay
+        goal = min(self._end, replay.world.step_count + steps)
+        while (at := replay.world.step_count) < goal:
+            stop = min(self._end, at - at % self._stride + self._stride)
+            replay.replay_shown(stop)
+            self._add_frame()
+            if is_overdue():
+                break
+        if self.steps_left == 0:
+            replay.check_digest()
+
+    def _add_frame(self) -> None:
+        world = self._replay.world
+        snapshot = world.snapshot()
+        self.segment.add(
+            CachedFrame(snapshot, world.contacts(snapshot) if world.watching else None)
+        )
