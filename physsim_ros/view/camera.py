@@ -34,8 +34,11 @@ PIXELS = 50
 DISTANCE = 20.0
 # Area before there are bodies: left, bottom, right, top [m].
 _EMPTY = (-10.0, 0.0, 10.0, 12.0)
-# Margin around the bodies, in shares of the longer side of their area.
-_MARGIN = 0.08
+# Margin around bounds or bodies [units]: the coordinates of the grid are left of it and below, the
+# legend above.
+MARGIN = 1.2
+# Room of bodies to move, where there are no bounds, in shares of the longer side of their area.
+_ROOM = 0.05
 # Distance from the area at which a body moves the camera, in shares of the longer side.
 _TOLERANCE = 0.5
 
@@ -49,23 +52,25 @@ class Camera:
     """
 
     def __init__(self) -> None:
-        self._area: Bounds = _EMPTY
+        # Left, bottom, right, top of the bounds or of the bodies [m].
+        self._content: Bounds = _EMPTY
         self._aimed = False
 
     @property
     def unit(self) -> float:
         """Length that is drawn as 50 pixels [m]: about 1 m for a world of 20 m."""
-        left, bottom, right, top = self._area
-        return PIXELS * max((right - left) / WIDTH, (top - bottom) / HEIGHT)
+        left, bottom, right, top = self._content
+        across, up = WIDTH / PIXELS - 2 * MARGIN, HEIGHT / PIXELS - 2 * MARGIN
+        return max((right - left) / across, (top - bottom) / up)
 
     @property
     def area(self) -> Bounds:
-        """Left, bottom, right, top of what it shows [m]."""
-        return self._area
+        """Left, bottom, right, top of what it shows, with the margin [m]."""
+        return _widened(self._content, MARGIN * self.unit)
 
     def show_bounds(self, bounds: Bounds) -> None:
         """Aim at the boundary of the world: left, bottom, right, top [m]."""
-        self._area, self._aimed = _widened(bounds, _MARGIN / 2), True
+        self._content, self._aimed = bounds, True
 
     def show_bodies(self, extent: Bounds, ends: Floats) -> None:
         """
@@ -75,14 +80,15 @@ class Camera:
         :param ends: (j, 2, 2) float64: points of the joints [m]
         """
         left, bottom, right, top = extent = _around(extent, ends)
-        near = _widened(self._area, _TOLERANCE)
+        near = _widened(self._content, _TOLERANCE * _longer_side(self._content))
         inside = left >= near[0] and bottom >= near[1] and right <= near[2] and top <= near[3]
         if not self._aimed or not inside:
-            self._area, self._aimed = _widened(extent, _MARGIN), True
+            self._content = _widened(extent, _ROOM * _longer_side(extent))
+            self._aimed = True
 
     def transform(self) -> rr.ComponentColumnList:
         """Return the pose of the camera, as columns of one row."""
-        left, bottom, right, top = self._area
+        left, bottom, right, top = self._content
         eye = ((left + right) / 2, (bottom + top) / 2, DISTANCE * self.unit)
         # Straight down: the x axis of the image is that of the world, its y axis is reversed.
         return rr.Transform3D.columns(translation=[eye], mat3x3=[np.diag((1.0, -1.0, -1.0))])
@@ -106,7 +112,11 @@ def _around(area: Bounds, ends: Floats) -> Bounds:
     return left, bottom, right, top
 
 
-def _widened(area: Bounds, share: float) -> Bounds:
+def _longer_side(area: Bounds) -> float:
     left, bottom, right, top = area
-    more = share * max(right - left, top - bottom)
+    return max(right - left, top - bottom)
+
+
+def _widened(area: Bounds, more: float) -> Bounds:
+    left, bottom, right, top = area
     return left - more, bottom - more, right + more, top + more

@@ -31,8 +31,11 @@ _LABELLED = 5
 # Half the width and height of the grid [units]: twice what the camera shows, in narrow views too.
 _ACROSS, _UP = 32.0, 26.0
 _FAINT, _CLEAR = (228, 229, 224), (203, 205, 200)
-# Distance of the labels from the lower edge of the area: they hang below their points [units].
-_ABOVE = 0.7
+# Places of the labels in the margin of the camera: of the upper edges of those below, over the
+# lower edge of the area; of the middles of those at the left, from its left edge [units].
+_ABOVE, _ASIDE = 0.85, 0.55
+# Half the height of a label, which hangs below its point [units].
+_HALF = 0.27
 
 
 def grid_columns(
@@ -60,16 +63,15 @@ def grid_columns(
         # Negative radii are ui points.
         radii=[-0.5 if number else -1.0 for number in numbers],
     )
-    edge = _ABOVE * unit
     labelled = [
-        ((n * spacing, bottom + edge, z), n)
+        ((n * spacing, bottom + _ABOVE * unit, z), n)
         for n in columns
-        if n % _LABELLED == 0 and n * spacing > left + 2 * edge
+        if n % _LABELLED == 0 and n * spacing > left + _ASIDE * unit
     ]
     labelled += [
-        ((left + 1.4 * edge, n * spacing, z), n)
+        ((left + _ASIDE * unit, n * spacing + _HALF * unit, z), n)
         for n in rows
-        if n % _LABELLED == 0 and bottom + edge < n * spacing < top - 2 * edge
+        if n % _LABELLED == 0 and bottom + unit < n * spacing < top - unit
     ]
     points = rr.Points3D.columns(
         positions=[point for point, _ in labelled],

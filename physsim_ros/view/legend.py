@@ -23,17 +23,17 @@ from physsim_ros.view.camera import PIXELS
 from physsim_ros.view.colors import INK
 from physsim_ros.view.contact_arrows import COLOR, ForceScale
 from physsim_ros.view.frame_batch import FrameBatch
-from physsim_ros.view.joint_glyphs import full_scale_force, PULL, PUSH, SLATE
+from physsim_ros.view.joint_colors import full_scale_force, PULL, PUSH, SLATE
 import rerun as rr
 
 # In pixels of the image of the camera, so that they stay when the camera moves.
 _ARROW, _BAR, _LABELS = (f'world/camera/legend/{name}' for name in ('arrow', 'bar', 'labels'))
 # Left end of the arrow, and middle of the bar [pixels].
-_ARROW_AT, _BAR_AT = (300.0, 14.0), (620.0, 14.0)
+_ARROW_AT, _BAR_AT = (300.0, 8.0), (620.0, 8.0)
 # Half the length of the bar [pixels], and its number of colours.
 _HALF, _COLORS = 100.0, 11
 # Distance of labels from the arrow and the bar [pixels].
-_BELOW = 6.0
+_BELOW = 4.0
 
 
 class Legend:

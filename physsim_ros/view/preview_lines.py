@@ -22,13 +22,16 @@ import numpy as np
 from physsim_ros.model.arrays import Singles
 from physsim_ros.model.preview import NO_PREVIEW
 from physsim_ros.model.transform import Point
+from physsim_ros.view.colors import INK
 from physsim_ros.view.frame_batch import FrameBatch
 import rerun as rr
 
-LINES, POINTS = 'world/preview/lines', 'world/preview/points'
+LINES, POINTS, LABEL = (f'world/preview/{name}' for name in ('lines', 'points', 'label'))
 # Duration of the preview of a stroke [frames].
 LINGER = 180
 _COLOR = (230, 51, 128)
+# Distance of the label, which hangs below its point, from the highest point [units].
+_ABOVE = 0.7
 
 
 class PreviewLines:
@@ -44,16 +47,19 @@ class PreviewLines:
         self._sent = self._current = NO_PREVIEW
         self._since = 0
         lines = rr.LineStrips3D.from_fields(radii=rr.Radius.ui_points(1.5), colors=[_COLOR])
-        points = rr.Points3D.from_fields(
-            radii=rr.Radius.ui_points(3.0), colors=[_COLOR], show_labels=True
+        points = rr.Points3D.from_fields(radii=rr.Radius.ui_points(3.0), colors=[_COLOR])
+        label = rr.Points3D.from_fields(
+            radii=rr.Radius.ui_points(0.0), colors=[INK], show_labels=True
         )
         recording.log(LINES, lines, static=True)
         recording.log(POINTS, points, static=True)
+        recording.log(LABEL, label, static=True)
 
-    def send(self, batch: FrameBatch, *, height: float, repeat: int) -> None:
+    def send(self, batch: FrameBatch, *, unit: float, height: float, repeat: int) -> None:
         """
         Send previews that have changed, end after `LINGER` frames, or are due again.
 
+        :param unit: length of a unit of the view [m]
         :param height: z of the lines [m]
         :param repeat: period of sending a preview again [frames]
         """
@@ -70,11 +76,13 @@ class PreviewLines:
             lines = [_raised(line, height) for line in preview.lines]
             strips = rr.LineStrips3D.columns(strips=lines).partition([len(lines)])
             self._recording.send_columns(LINES, times, strips)
-            # The label has a point of its own.
-            places = [*preview.points, *([preview.top] if preview.label else [])]
-            labels = ['' for _ in preview.points] + [preview.label] * bool(preview.label)
-            dots = rr.Points3D.columns(positions=_raised(places, height), labels=labels)
-            self._recording.send_columns(POINTS, times, dots.partition([len(places)]))
+            points = rr.Points3D.columns(positions=_raised(preview.points, height))
+            self._recording.send_columns(POINTS, times, points.partition([len(preview.points)]))
+            words = [preview.label] if preview.label else []
+            x, y = preview.top
+            top = _raised([(x, y + _ABOVE * unit)] * len(words), height)
+            label = rr.Points3D.columns(positions=top, labels=words).partition([len(words)])
+            self._recording.send_columns(LABEL, times, label)
 
 
 def _raised(points: Sequence[Point], height: float) -> Singles:

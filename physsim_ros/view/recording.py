@@ -150,7 +150,7 @@ class FrameRecorder:
         send_velocities(self._recording, batch, _ARROWS * unit)
         self._traces.send(batch, context.traced, _JOINTS * unit)
         self._hands.send(batch, _PREVIEW * unit)
-        self._previews.send(batch, height=_PREVIEW * unit, repeat=REPEAT)
+        self._previews.send(batch, unit=unit, height=_PREVIEW * unit, repeat=REPEAT)
         self._plots.send(batch)
         send_events(self._recording, batch)
         self._run_states.send(batch)

@@ -64,7 +64,7 @@ def frame(of, poses, *, step=0, **changes):
 
 @dataclass
 class Row:
-    """What an entity was sent at a frame."""
+    """A component of an entity at a frame."""
 
     recorded: int
     stamp: int
@@ -347,7 +347,9 @@ def test_the_grid_has_a_line_at_every_whole_metre_and_says_which(recording):
     places = recording.last('world/grid/metres', 'Points3D:positions')
     labels = recording.last('world/grid/metres', 'Points3D:labels')
     for (x, y, _), label in zip(places, labels, strict=True):
-        assert label in {f'{x:g} m', f'{y:g} m'}
+        # Labels hang below their points: those at the left are raised by half their height.
+        assert label in {f'{x:g} m', f'{math.floor(y):g} m'}
+        assert x < -10.0 or y < 0.0, 'a label covers the world'
 
 
 def test_what_has_been_deleted_is_cleared(recording):
@@ -564,8 +566,8 @@ def test_what_is_half_drawn_lies_over_the_world_until_it_is_dropped(recording):
     ((start, end),) = shown.value
     assert [*start[:2], *end[:2]] == [0, 0, 3, 4]
     assert len(cleared.value) == 0
-    labels = recording.rows('world/preview/points', 'Points3D:labels')
-    assert [[*row.value] for row in labels] == [['', 'wall'], []]
+    labels = recording.rows('world/preview/label', 'Points3D:labels')
+    assert [[*row.value] for row in labels] == [['wall'], []]
 
 
 def test_the_reading_of_a_stroke_is_seen_for_a_while(recording):
