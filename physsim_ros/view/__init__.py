@@ -21,11 +21,14 @@ takes a second to import, is imported only by the thread of a worker.
 """
 
 from physsim_ros.view.frame_context import FrameContext
-from physsim_ros.view.joint_glyphs import joint_strips, JointLines, segment_corners, symbol_size
+from physsim_ros.view.joint_colors import JointColors
+from physsim_ros.view.joint_glyphs import joint_strips, symbol_size
+from physsim_ros.view.joint_lines import JointLines, segment_corners
 from physsim_ros.view.viewer import Viewer, ViewerMode
 
 __all__ = [
     'FrameContext',
+    'JointColors',
     'JointLines',
     'Viewer',
     'ViewerMode',

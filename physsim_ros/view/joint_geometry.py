@@ -28,7 +28,9 @@ from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.view import columns
 from physsim_ros.view.body_mesh import JOINT_INK, JOINT_LINE
-from physsim_ros.view.joint_glyphs import is_rigid, JointLines
+from physsim_ros.view.joint_colors import JointColors
+from physsim_ros.view.joint_glyphs import is_rigid
+from physsim_ros.view.joint_lines import JointLines
 from physsim_ros.view.joint_symbols import Form, symbol_sizes, symbols_of
 from physsim_ros.view.mesh import MeshBuilder
 from physsim_ros.view.mesh_group import MeshGroup
@@ -57,6 +59,7 @@ class JointGeometry:
         self._scene = scene
         least = _LEAST * unit
         self._lines = JointLines(scene, least=least, chosen=lambda strip: not is_rigid(strip))
+        self._colors = JointColors(scene)
         self._height, self._radius = height, JOINT_LINE * unit
         self._bodies = np.unique(scene.joint_rows[scene.joint_rows >= 0])
         sizes = symbol_sizes(scene, least)
@@ -149,6 +152,6 @@ class JointGeometry:
 
     def _levels(self, snapshots: list[Snapshot], joints: NDArray[np.intp]) -> NDArray[np.uint8]:
         """Return the colours of some joints in each frame, (f * k, 4) uint8."""
-        colors = np.stack([self._lines.colors(each) for each in snapshots])[:, joints]
+        colors = np.stack([self._colors.at(each) for each in snapshots])[:, joints]
         levels: NDArray[np.uint8] = np.rint(colors * 255).astype(np.uint8)
         return levels.reshape(-1, 4)

@@ -13,29 +13,21 @@
 # limitations under the License.
 
 """
-Joints as line strips: coils, rods, ropes, axles, motors, tracks, toothed wheels.
+The glyphs of joints by kind: coils, rods, ropes, axles, motors, tracks, toothed wheels.
 
-Laws: the corners of the strips are computed once a scene, relative to the two points of a joint;
-their positions follow from the poses by array operations. The colour is that of the joint's force:
-slate at 0; red where it pulls, blue where it pushes, amber where it does neither along a line, at
-`break_force` or at twice the weight of the heaviest body.
+A glyph is some line strips, whose corners are relative to the two points of a joint.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 import math
 
 import numpy as np
-from numpy.typing import NDArray
-from physsim_ros.model.arrays import Floats
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
-from physsim_ros.model.scene import Body, Joint, Scene
-from physsim_ros.model.snapshot import Snapshot
-from physsim_ros.model.transform import turned
-from physsim_ros.view.round_numbers import nice_number
+from physsim_ros.model.scene import Body, Joint
 
 # The smallest and the largest half size of a symbol [m].
 SMALL, _LARGE = 0.03, 0.15
@@ -44,16 +36,6 @@ _COILS, _COIL_STEPS, _CIRCLE, _ROPE = 7, 8, 16, 12
 _TEETH = 8
 # Half the length of the track of a slider without limits [half sizes of its symbol].
 _TRACK = 8.0
-# Colours at no force, and at the full-scale force: red, green, blue.
-SLATE, PULL, PUSH = (0.25, 0.3, 0.38), (0.84, 0.1, 0.12), (0.1, 0.35, 0.9)
-_AMBER = (0.93, 0.6, 0.13)
-# Kinds whose force is along their line.
-_ALONG = {JointKind.ROD, JointKind.SPRING, JointKind.ROPE}
-# Full-scale force of a joint without `break_force`: in weights of the heaviest body; and the least
-# one [N].
-_FULL_SCALE, _LEAST = 2.0, 1e-3
-# Standard gravity [m/s²], for worlds without one.
-_WEIGHT = 9.81
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,114 +67,6 @@ def is_rigid(strip: Strip) -> bool:
         (each.along, each.across, each.sag, each.on_b) == (first.along, 0.0, 0.0, first.on_b)
         for each in strip
     )
-
-
-class JointLines:
-    """
-    The line strips of all joints of a scene.
-
-    :param scene: with the joints
-    :param least: half the size of the smallest symbol [m]
-    :param chosen: tells which strips; those of all others are left out
-
-    :ivar seats: (j, 2, 2) float64: points of the joints in the frames of a and b [m]
-    :ivar owner: (s,) intp: index of the joint of each strip
-    :ivar lengths: (s,) intp: number of corners of each strip
-    """
-
-    def __init__(
-        self,
-        scene: Scene,
-        *,
-        least: float = SMALL,
-        chosen: Callable[[Strip], bool] = lambda _: True,
-    ) -> None:
-        self._scene = scene
-        bodies = dict(zip(scene.names, scene.bodies, strict=True))
-        corners: list[Corner] = []
-        joints: list[int] = []
-        owner: list[int] = []
-        lengths: list[int] = []
-        for number, joint in enumerate(scene.joints):
-            for strip in joint_strips(joint, symbol_size(joint, bodies, least=least)):
-                if not chosen(strip):
-                    continue
-                corners += strip
-                joints += [number] * len(strip)
-                owner.append(number)
-                lengths.append(len(strip))
-        self.owner, self.lengths = np.array(owner, np.intp), np.array(lengths, np.intp)
-        self._joints = np.array(joints, np.intp)
-        self._along = np.array([each.along for each in corners], np.float64)[:, None]
-        self._across = np.array([each.across for each in corners], np.float64)[:, None]
-        self._sag = np.array([each.sag for each in corners], np.float64)[:, None]
-        self._arms = np.array([each.arm for each in corners], np.float64).reshape(-1, 2)
-        on_b = np.array([each.on_b for each in corners], np.intp)
-        self._rows = scene.joint_rows[self._joints, on_b]
-        self.seats = _drawn_seats(scene)
-        self._full_scale = np.array(
-            [joint.properties.break_force or full_scale_force(scene) for joint in scene.joints]
-        )
-        self._along_line = np.array([joint.kind in _ALONG for joint in scene.joints], dtype=bool)
-        self._rope_lengths = np.array(
-            [joint.rest_length if joint.kind is JointKind.ROPE else 0.0 for joint in scene.joints]
-        )
-        gravity = np.array(scene.settings.gravity)
-        strength = float(np.hypot(*gravity))
-        self._down = gravity / strength if strength > 0 else np.array((0.0, -1.0))
-
-    def points(self, poses: Floats) -> Floats:
-        """
-        Return the two points of each joint.
-
-        :param poses: (..., n, 3) float64: of the bodies, x, y [m], yaw [rad]
-        :return: (..., j, 2, 2) float64 [m]
-        """
-        background = np.zeros((*poses.shape[:-2], 1, 3))
-        frames = np.concatenate((poses, background), axis=-2)[..., self._scene.joint_rows, :]
-        return frames[..., :2] + turned(self.seats, frames[..., 2])
-
-    def corners(self, poses: Floats) -> Floats:
-        """
-        Return all corners of all strips, one strip after the other.
-
-        :param poses: (..., n, 3) float64: of the bodies, x, y [m], yaw [rad]
-        :return: (..., c, 2) float64 [m]
-        """
-        points = self.points(poses)
-        first, span = points[..., 0, :], points[..., 1, :] - points[..., 0, :]
-        length = np.hypot(span[..., 0], span[..., 1])
-        side = np.stack((-span[..., 1], span[..., 0]), axis=-1)
-        side /= np.maximum(length, 1e-9)[..., None]
-        # Depth of a shallow arc: https://en.wikipedia.org/wiki/Parabola#Arc_length.
-        slack = np.maximum(0.0, self._rope_lengths - length)
-        depth = np.sqrt(3 / 8 * slack * self._rope_lengths)[..., None] * self._down
-        joints = self._joints
-        background = np.zeros((*poses.shape[:-2], 1))
-        yaw = np.concatenate((poses[..., 2], background), axis=-1)[..., self._rows]
-        corners: Floats = first[..., joints, :] + self._along * span[..., joints, :]
-        corners += self._across * side[..., joints, :] + self._sag * depth[..., joints, :]
-        return corners + turned(self._arms, yaw)
-
-    def colors(self, snapshot: Snapshot) -> NDArray[np.float32]:
-        """
-        Return red, green, blue and alpha of each joint, (j, 4) float32.
-
-        :param snapshot: with the forces; where they are unknown, they count as 0
-        """
-        count = len(self._scene.joints)
-        forces, compressed = snapshot.forces, snapshot.compressed
-        if len(forces) != count:
-            forces = np.zeros(count)
-        if len(compressed) != count:
-            compressed = np.zeros(count, dtype=bool)
-        share = np.clip(forces / self._full_scale, 0.0, 1.0)[:, None]
-        full = np.where(
-            self._along_line[:, None], np.where(compressed[:, None], PUSH, PULL), _AMBER
-        )
-        colors = np.ones((count, 4), dtype=np.float32)
-        colors[:, :3] = (1.0 - share) * np.array(SLATE) + share * full
-        return colors
 
 
 def symbol_size(joint: Joint, bodies: dict[str, Body], *, least: float = SMALL) -> float:
@@ -289,36 +163,3 @@ def _track(joint: Joint, size: float) -> list[Strip]:
     corners = ((1.5, 1), (-1.5, 1), (-1.5, -1), (1.5, -1), (1.5, 1))
     block = [Corner(arm=at(x * size, y * size * 0.8), on_b=True) for x, y in corners]
     return [rail, *stops, block]
-
-
-def _drawn_seats(scene: Scene) -> Floats:
-    """Return the points of joints in body frames, (j, 2, 2) float64 [m]; of gears, centroids."""
-    seats = scene.seats[:, :4].reshape(-1, 2, 2).copy()
-    for number, joint in enumerate(scene.joints):
-        if joint.kind is JointKind.GEAR:
-            for side, row in enumerate(scene.joint_rows[number].tolist()):
-                if row >= 0:
-                    seats[number, side] = scene.centroids[row]
-    return seats
-
-
-def full_scale_force(scene: Scene) -> float:
-    """
-    Return the force at the end of the colour scale, of joints without `break_force` [N].
-
-    It is a round number, at least twice the weight of the heaviest body.
-    """
-    gravity = math.hypot(*scene.settings.gravity) or _WEIGHT
-    greatest = _FULL_SCALE * gravity * float(scene.inertia[:, 0].max(initial=0.0))
-    return nice_number(max(greatest, _LEAST))
-
-
-def segment_corners(lengths: Sequence[int]) -> NDArray[np.intp]:
-    """Return the two corners of each segment, of strips of so many corners each, (2 s,) intp."""
-    pairs: list[int] = []
-    first = 0
-    for length in lengths:
-        for number in range(first, first + length - 1):
-            pairs += (number, number + 1)
-        first += length
-    return np.array(pairs, np.intp)

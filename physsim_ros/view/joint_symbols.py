@@ -28,7 +28,8 @@ import numpy as np
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.transform import Point
-from physsim_ros.view.joint_glyphs import is_rigid, joint_strips, JointLines, Strip, symbol_size
+from physsim_ros.view.joint_glyphs import is_rigid, joint_strips, Strip, symbol_size
+from physsim_ros.view.joint_lines import JointLines
 
 # Strips in the frame of a body, rounded to a micrometre so that equal symbols are equal [m].
 Form = tuple[tuple[Point, ...], ...]

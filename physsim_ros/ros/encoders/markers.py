@@ -41,7 +41,13 @@ from physsim_ros.ros.encoders.marker_symbols import (
     wall_symbol,
 )
 from physsim_ros.ros.encoders.scene_encoder import POSE_COLUMNS, pose_columns
-from physsim_ros.view import joint_strips, JointLines, segment_corners, symbol_size
+from physsim_ros.view import (
+    joint_strips,
+    JointColors,
+    JointLines,
+    segment_corners,
+    symbol_size,
+)
 from visualization_msgs.msg import Marker
 
 # A marker from its pose on: pose, scale, color, lifetime, frame_locked, number of points.
@@ -219,6 +225,7 @@ class _JointColumns:
 
     def __init__(self, scene: Scene, starts: Sequence[int]) -> None:
         self._lines = JointLines(scene)
+        self._colors = JointColors(scene)
         self._corners = segment_corners(self._lines.lengths.tolist())
         counts = np.bincount(self._lines.owner, 2 * self._lines.lengths - 2)
         offsets: list[int] = []
@@ -250,7 +257,7 @@ class _JointColumns:
         points = np.concatenate((ends[self._points], corners))
         template.doubles[self._offsets] = points[:, 0]
         template.doubles[self._offsets + 1] = points[:, 1]
-        colors = np.repeat(self._lines.colors(snapshot), 2, axis=0)
+        colors = np.repeat(self._colors.at(snapshot), 2, axis=0)
         for channel in range(4):
             template.floats[self._color_offsets + channel] = colors[:, channel]
 

@@ -1,0 +1,87 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+The colours of joints by their forces.
+
+The colour is slate at no force; red where the force pulls, blue where it pushes, amber where it
+does neither along a line, at `break_force` or at twice the weight of the heaviest body.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+from physsim_ros.model.joints import JointKind
+from physsim_ros.model.scene import Scene
+from physsim_ros.model.snapshot import Snapshot
+from physsim_ros.view.round_numbers import nice_number
+
+# Colours at no force, and at the full-scale force: red, green, blue.
+SLATE, PULL, PUSH = (0.25, 0.3, 0.38), (0.84, 0.1, 0.12), (0.1, 0.35, 0.9)
+_AMBER = (0.93, 0.6, 0.13)
+# Kinds whose force is along their line.
+_ALONG = {JointKind.ROD, JointKind.SPRING, JointKind.ROPE}
+# Full-scale force of a joint without `break_force`: in weights of the heaviest body; and the least
+# one [N].
+_FULL_SCALE, _LEAST = 2.0, 1e-3
+# Standard gravity [m/s²], for worlds without one.
+_WEIGHT = 9.81
+
+
+class JointColors:
+    """
+    The colours of all joints of a scene.
+
+    :param scene: with the joints
+    """
+
+    def __init__(self, scene: Scene) -> None:
+        self._full_scale = np.array(
+            [joint.properties.break_force or full_scale_force(scene) for joint in scene.joints]
+        )
+        self._along_line = np.array([joint.kind in _ALONG for joint in scene.joints], dtype=bool)
+
+    def at(self, snapshot: Snapshot) -> NDArray[np.float32]:
+        """
+        Return red, green, blue and alpha of each joint, (j, 4) float32.
+
+        :param snapshot: with the forces; where they are unknown, they count as 0
+        """
+        count = len(self._full_scale)
+        forces, compressed = snapshot.forces, snapshot.compressed
+        if len(forces) != count:
+            forces = np.zeros(count)
+        if len(compressed) != count:
+            compressed = np.zeros(count, dtype=bool)
+        share = np.clip(forces / self._full_scale, 0.0, 1.0)[:, None]
+        full = np.where(
+            self._along_line[:, None], np.where(compressed[:, None], PUSH, PULL), _AMBER
+        )
+        colors = np.ones((count, 4), dtype=np.float32)
+        colors[:, :3] = (1.0 - share) * np.array(SLATE) + share * full
+        return colors
+
+
+def full_scale_force(scene: Scene) -> float:
+    """
+    Return the force at the end of the colour scale, of joints without `break_force` [N].
+
+    It is a round number, at least twice the weight of the heaviest body.
+    """
+    gravity = math.hypot(*scene.settings.gravity) or _WEIGHT
+    greatest = _FULL_SCALE * gravity * float(scene.inertia[:, 0].max(initial=0.0))
+    return nice_number(max(greatest, _LEAST))
