@@ -77,7 +77,7 @@ def body_mesh(body: Body, unit: float, symbols: Form = ()) -> Mesh:
             _add_piece(builder, piece, 0.0, color)
         _add_edges(builder, body.shape, width, edge)
     else:
-        # What is common to two pieces has no outline.
+        # The area that two pieces share has no outline.
         for piece in form.pieces:
             _add_piece(builder, piece, 0.0, edge)
         for piece in form.pieces:

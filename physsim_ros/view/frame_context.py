@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""What a program knows at a frame beside the frame itself."""
+"""Values of the program at a frame, which are not in the frame itself."""
 
 from __future__ import annotations
 

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""What a worker logs frames to: a sink, and the endpoint that opens it."""
+"""Sinks, which workers log frames to, and the endpoints that open them."""
 
 from __future__ import annotations
 

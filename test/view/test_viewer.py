@@ -167,7 +167,7 @@ def viewers():
 
 
 class Events:
-    """What a viewer has told so far."""
+    """The answers of a viewer so far."""
 
     def __init__(self, viewer):
         self._viewer = viewer
@@ -493,7 +493,7 @@ def test_a_page_server_that_ends_at_once_is_not_started_again(viewers, monkeypat
 
     assert 'no page could be served' in Events(viewer).wait_for('viewer_lost').message
     assert len(started) == 1
-    # Who has a viewer can still look.
+    # The address is for a viewer that is installed elsewhere.
     assert viewer.is_open
     assert 'any Rerun viewer at rerun+http://127.0.0.1:' in viewer.state
 
