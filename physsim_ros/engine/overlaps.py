@@ -28,16 +28,16 @@ piece, since their centres are apart.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from functools import lru_cache
+from collections.abc import Callable, Sequence
 import math
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from physsim_ros.engine.ccd.broad_phase import pairs_in_parts
 from physsim_ros.engine.ccd.time_of_impact import SLOP
 from physsim_ros.model.arrays import Flags, Floats, Ints
-from physsim_ros.model.shapes import Capsule, Circle, Convex, Piece, Shape
+from physsim_ros.model.shapes import Capsule, Circle, Convex, Form, Piece, Shape
 from physsim_ros.model.transform import next_vertices, Pose, rotated, turned
 
 # Candidates compared at once: some 30 MB.
@@ -66,15 +66,34 @@ class Cores(NamedTuple):
     yaws: Floats
 
 
-@lru_cache(maxsize=4096)
-def cores_of(shape: Shape) -> Cores:
-    """Return the cores of the pieces of a shape, in the body's frame."""
-    cores = [_core(piece) for piece in shape.form.pieces]
-    centers, halves, yaws = zip(*cores, strict=True)
+_Value = TypeVar('_Value')
+
+
+def _cached_by_form(function: Callable[[Form], _Value]) -> Callable[[Form], _Value]:
+    """Cache the value of a function for each form, as long as there are shapes of that form."""
+    values: WeakKeyDictionary[Form, _Value] = WeakKeyDictionary()
+
+    def value_of(form: Form) -> _Value:
+        if form not in values:
+            values[form] = function(form)
+        return values[form]
+
+    return value_of
+
+
+@_cached_by_form
+def _cores_of(form: Form) -> Cores:
+    """Return the cores of the pieces of a form, in the body's frame."""
+    centers, halves, yaws = zip(*map(_core, form.pieces), strict=True)
     return Cores(np.array(centers), np.array(halves), np.array(yaws))
 
 
-@lru_cache(maxsize=4096)
+@_cached_by_form
+def _only_core(form: Form) -> tuple[tuple[float, float], tuple[float, float], float]:
+    """Return the core of a form of one piece: centre, half length and width, yaw."""
+    return _core(form.pieces[0])
+
+
 def _core(piece: Piece) -> tuple[tuple[float, float], tuple[float, float], float]:
     match piece:
         case Circle(center, radius):
@@ -129,7 +148,7 @@ def laid_out(shapes: Sequence[Shape], poses: Floats) -> Layout:
     :param shapes: of the bodies
     :param poses: (n, 3) float64: of the bodies' origins, in the same order [m, rad]
     """
-    parts = [cores_of(shape) for shape in shapes]
+    parts = [_cores_of(shape.form) for shape in shapes]
     bodies = np.repeat(np.arange(len(parts)), [len(part.yaws) for part in parts])
     if not parts:
         return Layout(Cores(np.empty((0, 2)), np.empty((0, 2)), np.empty(0)), bodies)
@@ -161,16 +180,20 @@ def count_overlaps(layout: Layout, first: Flags, fixed: Flags, *, most: int) -> 
     return count
 
 
-@lru_cache(maxsize=4096)
 def count_inside(shape: Shape) -> int:
     """Count the pairs of pieces of one shape that overlap, of which the engine has a list too."""
-    if len(shape.form.pieces) == 1:
+    return _count_inside(shape.form)
+
+
+@_cached_by_form
+def _count_inside(form: Form) -> int:
+    count = len(form.pieces)
+    if count == 1:
         return 0
-    layout = laid_out([shape], np.zeros((1, 3)))
     # As if each piece were a body.
-    pieces = np.arange(len(layout.bodies))
-    none = np.zeros(len(pieces), np.bool_)
-    return count_overlaps(layout._replace(bodies=pieces), ~none, none, most=len(pieces) ** 2)
+    layout = Layout(_cores_of(form), np.arange(count))
+    none = np.zeros(count, np.bool_)
+    return count_overlaps(layout, ~none, none, most=count**2)
 
 
 def _overlap(cores: Cores, one: Ints, other: Ints) -> Flags:
@@ -193,7 +216,7 @@ def core_boxes(shape: Shape, pose: Pose) -> list[Box]:
         boxes = _boxes(laid_out([shape], np.array([pose])).cores).tolist()
         return [(left, bottom, right, top) for left, bottom, right, top in boxes]
     # Without arrays, which take ten times as long for one piece.
-    (x, y), (length, width), yaw = _core(shape.form.pieces[0])
+    (x, y), (length, width), yaw = _only_core(shape.form)
     x, y = rotated((x, y), pose[2])
     cos, sin = abs(math.cos(yaw + pose[2])), abs(math.sin(yaw + pose[2]))
     dx, dy = length * cos + width * sin, length * sin + width * cos

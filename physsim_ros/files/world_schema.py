@@ -23,7 +23,7 @@ from physsim_ros.model.settings import WorldSettings
 
 FORMAT = 1
 # Limits protect the node, whatever files say.
-LIMITS = ('max_bodies', 'max_shapes', 'max_overlaps')
+LIMITS = ('max_bodies', 'max_shapes', 'max_overlaps', 'max_joints')
 SETTINGS = [each.name for each in fields(WorldSettings) if each.name not in LIMITS]
 PROPERTIES = [each.name for each in fields(Properties)]
 # Parameters of the node that are no settings of a world.

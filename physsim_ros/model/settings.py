@@ -49,6 +49,7 @@ class WorldSettings:
     :param max_bodies: greatest number of bodies
     :param max_shapes: greatest number of their convex pieces
     :param max_overlaps: greatest number of pairs of pieces that overlap at once by a request
+    :param max_joints: greatest number of joints
     :raises Malformed: a number is not finite or an array has the wrong length
     :raises BadProperty: a value is out of range
     """
@@ -65,6 +66,7 @@ class WorldSettings:
     max_bodies: int = 20000
     max_shapes: int = 50000
     max_overlaps: int = 20000
+    max_joints: int = 20000
 
     def __post_init__(self) -> None:
         for name, check in _CHECKS.items():
@@ -106,6 +108,7 @@ RANGES: dict[str, Within | Whole] = {
     'max_shapes': Whole(0, 1_000_000),
     # 10,000,000 contacts take a minute a step.
     'max_overlaps': Whole(0, 10_000_000),
+    'max_joints': Whole(0, 1_000_000),
 }
 _CHECKS: Checks = {'gravity': _gravity, 'bounds': _bounds, **RANGES}
 

@@ -15,8 +15,8 @@
 """
 Capacity: how much a world may hold, checked before the engine has it.
 
-Law: what is spawned, changed, moved, released or loaded is refused as `world_full` if the pieces
-or the pairs of them that overlap at once would be more than the settings allow.
+Law: what is spawned, changed, moved, released or loaded is refused as `world_full` if the pieces,
+the pairs of them that overlap at once, or the joints would be more than the settings allow.
 
 A body that is spawned or moved alone is counted by what its box meets in the engine's own tree,
 which is too many; the sum of these is a bound. Only where the bound exceeds the limit, the
@@ -25,16 +25,19 @@ overlaps of the whole world are counted (`engine.overlaps`).
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 
 import numpy as np
 from physsim_ros.engine.body import RigidBody
+from physsim_ros.engine.joints.joint_set import JointSet
 from physsim_ros.engine.overlaps import core_boxes, count_inside, count_overlaps, laid_out
 from physsim_ros.engine.space import Space
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import WorldFull
-from physsim_ros.model.scene import Body
+from physsim_ros.model.names import WORLD
+from physsim_ros.model.scene import Body, Joint
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Shape
 from physsim_ros.model.transform import Pose
@@ -45,6 +48,8 @@ _INSIDE = 10
 # Pieces and overlaps in a world for each piece of requests after which the overlaps are counted
 # anew within a step: a count takes some 3 µs for each, a request a third of a millisecond more.
 _PIECE = 100
+# Joints of one body [1]: a new one takes a microsecond for each of them.
+MOST_ON_BODY = 1000
 
 
 class Capacity:
@@ -138,6 +143,20 @@ class Capacity:
             raise _too_many(before + added, most)
         self._bound = before + added
 
+    def check_joint(self, joints: JointSet, joint: Joint) -> None:
+        """
+        Refuse a joint for which there is no place, unless it replaces one of its name.
+
+        :param joints: of the world
+        :raises WorldFull: there is none
+        """
+        if not self.checking:
+            return
+        if joint.name not in joints.by_name:
+            _check_joints(len(joints.by_name) + 1, self.settings.max_joints)
+        for body in (joint.a, joint.b):
+            _check_on_body(joints.count_on(body, joint), body)
+
     def check_state(self, state: WorldState) -> None:
         """
         Refuse a state that is too large.
@@ -150,6 +169,10 @@ class Capacity:
             sum(len(each.body.shape.form.pieces) for each in state.bodies),
             state.settings.max_shapes,
         )
+        _check_joints(len(state.joints), state.settings.max_joints)
+        ends = Counter(end for joint in state.joints for end in (joint.a, joint.b))
+        for body, count in ends.items():
+            _check_on_body(count, body)
         most = state.settings.max_overlaps
         count = self._count([(each.body, each.pose) for each in state.bodies], most=most)
         if count > most:
@@ -194,6 +217,16 @@ def _inside(body: Body) -> int:
 def _check_shapes(count: int, most: int) -> None:
     if count > most:
         raise WorldFull(f'the world would hold {count} convex pieces; max_shapes is {most}')
+
+
+def _check_joints(count: int, most: int) -> None:
+    if count > most:
+        raise WorldFull(f'the world would hold {count} joints; max_joints is {most}')
+
+
+def _check_on_body(count: int, body: str) -> None:
+    if count > MOST_ON_BODY and body != WORLD:
+        raise WorldFull(f'{body} would have {count} joints; a body has at most {MOST_ON_BODY}')
 
 
 def _too_many(count: int, most: int) -> WorldFull:

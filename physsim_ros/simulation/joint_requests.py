@@ -33,6 +33,7 @@ from physsim_ros.model.requests import Axle, Join, JointRequest, Pin, Unjoin, Un
 from physsim_ros.model.scene import Joint, Seat
 from physsim_ros.model.texts import nearest_name
 from physsim_ros.model.transform import Point, Pose, rotated
+from physsim_ros.simulation.capacity import Capacity
 from physsim_ros.simulation.lookup import body_of_name, points_in_world
 
 # Points that lie so near to where a joint is drawn are where it is [m]: what is drawn comes back
@@ -47,7 +48,9 @@ BACKGROUND = (0.0, 0.0, 0.0)
 _STRAIGHT = {JointKind.SPRING, JointKind.ROD, JointKind.ROPE}
 
 
-def apply_joint_request(space: Space, request: JointRequest) -> tuple[str, str]:
+def apply_joint_request(
+    space: Space, request: JointRequest, capacity: Capacity
+) -> tuple[str, str]:
     """
     Carry out a request for joints.
 
@@ -56,7 +59,7 @@ def apply_joint_request(space: Space, request: JointRequest) -> tuple[str, str]:
     """
     match request:
         case Join(points=points, frame=frame):
-            return join(space, request, points_in_world(space, points, frame))
+            return join(space, request, points_in_world(space, points, frame), capacity)
         case Unjoin(name=name):
             return unjoin(space, name)
         case UnjoinAll(namespace=namespace):
@@ -64,10 +67,12 @@ def apply_joint_request(space: Space, request: JointRequest) -> tuple[str, str]:
         case Pin(point=point, frame=frame) | Axle(point=point, frame=frame):
             kind = JointKind.PIN if isinstance(request, Pin) else JointKind.AXLE
             (point,) = points_in_world(space, (point,), frame)
-            return pin(space, kind, point)
+            return pin(space, kind, point, capacity)
 
 
-def join(space: Space, request: Join, points: tuple[Point, ...]) -> tuple[str, str]:
+def join(
+    space: Space, request: Join, points: tuple[Point, ...], capacity: Capacity
+) -> tuple[str, str]:
     """
     Make a joint, or change the one of that name.
 
@@ -91,6 +96,7 @@ def join(space: Space, request: Join, points: tuple[Point, ...]) -> tuple[str, s
         seat = _seat(request.kind, points, _pose(space, a), _pose(space, b), phase)
     joint = Joint(name=request.name, kind=request.kind, a=a, b=b, seat=seat, properties=said)
     if old is None or old.joint != joint:
+        capacity.check_joint(space.joints, joint)
         space.joints.check_springs({}, joint)
         # Only then: what hangs on it would stir.
         space.join(joint)
@@ -101,7 +107,7 @@ def join(space: Space, request: Join, points: tuple[Point, ...]) -> tuple[str, s
     return request.name, f'joined {a} to {other} by {which}'
 
 
-def pin(space: Space, kind: JointKind, point: Point) -> tuple[str, str]:
+def pin(space: Space, kind: JointKind, point: Point, capacity: Capacity) -> tuple[str, str]:
     """
     Join the two topmost bodies under a point, or the only one and the background.
 
@@ -113,7 +119,8 @@ def pin(space: Space, kind: JointKind, point: Point) -> tuple[str, str]:
     number = 0
     while f'{kind}/{number}' in space.joints.by_name:
         number += 1
-    return join(space, Join(name=f'{kind}/{number}', kind=kind, points=(point,)), (point,))
+    request = Join(name=f'{kind}/{number}', kind=kind, points=(point,))
+    return join(space, request, (point,), capacity)
 
 
 def unjoin(space: Space, name: str) -> tuple[str, str]:

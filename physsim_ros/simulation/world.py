@@ -186,7 +186,7 @@ class World:
 
     def _carry_out(self, request: Request) -> tuple[str, str]:
         if isinstance(request, JointRequest):
-            return joint_requests.apply_joint_request(self._space, request)
+            return joint_requests.apply_joint_request(self._space, request, self._capacity)
         if isinstance(request, HandRequest):
             return hand_requests.apply_hand_request(self._space, request, self._capacity)
         if isinstance(request, BodyRequest):

@@ -17,6 +17,7 @@
 from __future__ import annotations
 
 import math
+import tracemalloc
 
 import numpy as np
 from physsim_ros.model.joints import JointKind
@@ -104,3 +105,20 @@ def test_a_machine_among_bodies_that_come_goes_on_as_one_that_knows_nothing() ->
         spawn(world, 'stone/0', Disc(radius=0.1), (0.6, 0.0, 0.0))
         world.step(60)
     assert known.digest() == fresh.digest()
+
+
+def test_a_thousand_joints_of_one_body_are_linear_in_memory() -> None:
+    # Its rows would fill a band of 2,000 by 2,000, from 4 million pairs.
+    world = World()
+    spawn(world, 'hub/0', Disc(radius=1.0), (0.0, 0.0, 0.0))
+    for number in range(1000):
+        at = (0.9 * math.cos(number), 0.9 * math.sin(number))
+        world.apply(Join(name=f'axle/{number}', kind=JointKind.AXLE, points=(at,), a='hub/0'))
+
+    tracemalloc.start()
+    world.step(24)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+
+    assert peak < 20e6  # 290 MB with all pairs of rows
+    assert world.snapshot().poses[0] == pytest.approx((0.0, 0.0, 0.0), abs=1e-3)

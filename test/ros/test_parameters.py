@@ -76,6 +76,7 @@ CONTRACT: dict[str, tuple[Any, str]] = {
     'max_bodies': (20000, 'live'),
     'max_shapes': (50000, 'live'),
     'max_overlaps': (20000, 'live'),
+    'max_joints': (20000, 'live'),
 }
 # The contract's ranges: the ends are good, what lies just beyond is not.
 RANGES: dict[str, tuple[Any, Any]] = {
@@ -93,6 +94,7 @@ RANGES: dict[str, tuple[Any, Any]] = {
     'max_bodies': (0, None),
     'max_shapes': (0, None),
     'max_overlaps': (0, None),
+    'max_joints': (0, None),
 }
 LIVE = [name for name, (_, kind) in CONTRACT.items() if kind == 'live']
 FIXED = [name for name, (_, kind) in CONTRACT.items() if kind == 'read-only']

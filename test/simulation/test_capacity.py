@@ -14,17 +14,21 @@
 
 """A world refuses what it has no place for, before the engine has it, and changes nothing."""
 
+from dataclasses import replace
 from typing import Any
+from weakref import ref
 
 import numpy as np
 from physsim_ros.engine.overlaps import count_inside, count_overlaps, laid_out
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.errors import WorldFull
+from physsim_ros.model.joints import JointKind
 from physsim_ros.model.requests import (
     Anchor,
     ChangeBody,
     Command,
     Configure,
+    Join,
     MoveBodies,
     Release,
     Request,
@@ -33,6 +37,8 @@ from physsim_ros.model.requests import (
 )
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Compound, Disc, Shape
+from physsim_ros.model.shapes.mass_properties import form_of
+from physsim_ros.simulation import capacity
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
 import pytest
@@ -203,3 +209,35 @@ def test_an_anchored_body_is_anchored_wherever_it_is() -> None:
 def test_cores_of_one_piece_and_of_many_are_alike() -> None:
     world = row(1)
     assert flooded(world, [Spawn(name='b/0', shape=Disc(radius=0.5))]) == 0
+
+
+def axles(count: int) -> list[Request]:
+    """Return requests for axles of one body."""
+    return [
+        Join(name=f'axle/{number}', kind=JointKind.AXLE, points=((0.0, 0.1 * number),), a='a/0')
+        for number in range(count)
+    ]
+
+
+@pytest.mark.parametrize('in_all', [True, False])
+def test_joints_are_counted(monkeypatch: pytest.MonkeyPatch, *, in_all: bool) -> None:
+    world = World(settings=WorldSettings(max_joints=4 if in_all else 100))
+    spawn(world, 'a/0', DISC, (0.0, 0.0, 0.0))
+    if not in_all:
+        monkeypatch.setattr(capacity, 'MOST_ON_BODY', 4)
+
+    assert flooded(world, axles(7)) == 3
+    assert flooded(world, [*axles(4), Restore(state=world.save())]) == 0
+    state = replace(world.save(), settings=WorldSettings(max_joints=3))
+    monkeypatch.setattr(capacity, 'MOST_ON_BODY', 3)
+    assert flooded(world, [Restore(state=state)]) == 1
+
+
+def test_what_was_counted_for_a_shape_goes_with_it() -> None:
+    discs = Compound(element=DISC, centers=((0.0, 0.0), (7.0, 0.0)))
+    form = ref(discs.form)
+    assert count_inside(discs) == 0
+
+    del discs
+    form_of.cache_clear()
+    assert form() is None

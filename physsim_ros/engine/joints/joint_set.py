@@ -79,6 +79,11 @@ class JointSet:
         """Return whether a body has joints."""
         return body in self._on
 
+    def count_on(self, body: str, joint: Joint) -> int:
+        """Return the number of a body's joints once a joint on it has come, or is replaced."""
+        names = self._on.get(body, {})
+        return len(names) + (joint.name not in names)
+
     def joints_on(self, bodies: Iterable[str], joint: Joint | None) -> list[Joint]:
         """
         Return the joints on some bodies, in the order in which they were made.

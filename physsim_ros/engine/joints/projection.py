@@ -28,6 +28,10 @@ J M^-1 J^T has an entry where two rows share a dynamic body, so that chains and 
 band in the order of Cuthill and McKee; LAPACK's banded Cholesky (`dpbsv`) solves it. Bounds
 (ropes, limits) are rows while they are violated. Islands share no body, thus no entry. One step is
 enough for most; an island that turns fast gets more.
+An island whose band would be wider than `WIDEST`, as a random network of joints, has its rows
+solved one by one: the mass of a body is split among its rows (Tonge, Benevolenski and Voroshilov,
+"Mass Splitting for Jitter-Free Parallel Rigid Body Simulation", SIGGRAPH 2012), which converges
+more slowly, at a cost that is linear.
 Cost: an evaluation of C and J for each kind of joint, and n b^2 for n rows of bandwidth b.
 Without it chains and beams come apart (laws 14, 15, 20, 22, 23, 33).
 """
@@ -63,6 +67,9 @@ MOST_TURN = 0.25
 # The furthest that a body moves in a Newton step, in sums of all gaps of its island: joints that
 # contradict each other have nearly singular equations, whose solutions are of any size.
 MOST_LEVERAGE = 10.0
+# Rows that the band of an island may span. With n b^2 operations for n rows, 20,000 joints take a
+# third of a second a Newton step; a net of 40 by 40 rods spans 80.
+WIDEST = 128
 
 
 class Projection:
@@ -94,20 +101,41 @@ class Projection:
         self._inverse = inverse[self._sides]
         self._widest = FASTEST_CORRECTION * dt
         count = len(self._owner)
-        left, right = _sharing(self._sides, self._inverse.any(axis=1))
+        dynamic = self._inverse.any(axis=1)
+        # Rows of one island have one number, and so have its dynamic bodies.
+        self._islands, self._island = _islands(self._sides, dynamic, count)
+        self._bodies = len(inverse)
+        rows_on = np.bincount(self._sides[dynamic], minlength=self._bodies)
+        # Of each row: its body with the most rows is an island's least band.
+        wide = self._widened((rows_on[self._sides] * dynamic).reshape(2, -1).max(axis=0))
+        left, right = _sharing(self._sides, dynamic, split=np.tile(wide, 2))
         order = _narrow_order(left % count, right % count, count) if count else none
         place = np.empty(count, np.intp)
         place[order] = np.arange(count)
         self._order, self._place = order, place
-        # Rows of one island have one number, and so have its dynamic bodies.
-        self._islands, self._island = _islands(left % count, right % count, count)
-        self._bodies = len(inverse)
-        below = place[left % count] >= place[right % count]
-        self._left, self._right = left[below], right[below]
+        reach = np.zeros(count, np.intp)
+        np.maximum.at(reach, right % count, np.abs(place[left % count] - place[right % count]))
+        wide |= self._widened(reach)
+        entries = place[left % count] >= place[right % count]
+        entries &= ~wide[right % count] | (left == right)
+        self._left, self._right = left[entries], right[entries]
+        # The parts into which the mass of a body is split.
+        parts = np.where(np.tile(wide, 2), rows_on[self._sides], 1)
+        self._parts = parts[self._right]
         offset = place[self._left % count] - place[self._right % count]
         self._shape = int(offset.max(initial=0)) + 1, count
         # Lower form of LAPACK: entry (i, j) of the matrix stands at [i - j, j].
         self._at = offset * count + place[self._right % count]
+
+    def _widened(self, reach: Rows) -> Flags:
+        """
+        Return which rows are of islands with too wide a band.
+
+        :param reach: (r,) intp: how far each row is from others that share a body
+        """
+        wide = np.zeros(self._islands, np.bool_)
+        wide[self._island[reach > WIDEST]] = True
+        return wide[self._island]
 
     def close(self, poses: Floats, yielded: Sequence[int]) -> None:
         """
@@ -144,7 +172,7 @@ class Projection:
         """
         jacobian[~np.concatenate((active, active))] = 0.0
         moved = jacobian * self._inverse
-        shared = np.einsum('ij,ij->i', moved[self._left], jacobian[self._right])
+        shared = np.einsum('ij,ij->i', moved[self._left], jacobian[self._right]) * self._parts
         matrix = np.bincount(self._at, shared, self._shape[0] * self._shape[1])
         matrix = matrix.reshape(self._shape)
         matrix[0] *= 1.0 + REGULARISATION
@@ -195,26 +223,40 @@ class Projection:
         return np.concatenate(gaps), np.concatenate((*first, *other))
 
 
-def _sharing(sides: Rows, dynamic: Rows) -> tuple[Rows, Rows]:
+def _sharing(sides: Rows, dynamic: Flags, *, split: Flags) -> tuple[Rows, Rows]:
     """
     Return the pairs of sides that move the same dynamic body, each with itself too.
 
     :param sides: (2 r,) intp: the body of each
     :param dynamic: (2 r,) bool: whether that is dynamic
+    :param split: (2 r,) bool: sides that are in no pair but with themselves
     """
-    moving = np.flatnonzero(dynamic)
+    moving = np.flatnonzero(dynamic & ~split)
     order = moving[np.argsort(sides[moving], kind='stable')]
     groups = np.split(order, np.flatnonzero(np.diff(sides[order])) + 1)
+    alone = np.flatnonzero(dynamic & split)
     left = [np.repeat(group, len(group)) for group in groups]
     right = [np.tile(group, len(group)) for group in groups]
-    return np.concatenate(left), np.concatenate(right)
+    return np.concatenate((*left, alone)), np.concatenate((*right, alone))
 
 
-def _islands(one: Rows, other: Rows, count: int) -> tuple[int, Rows]:
-    """Return the number of islands, and the island of each row."""
-    graph = coo_array((np.ones(len(one)), (one, other)), shape=(count, count))
-    islands, island = connected_components(graph, directed=False)
-    return islands, island
+def _islands(sides: Rows, dynamic: Flags, count: int) -> tuple[int, Rows]:
+    """
+    Return the number of islands, and the island of each row.
+
+    :param sides: (2 r,) intp: the body of each
+    :param dynamic: (2 r,) bool: whether that is dynamic, and joins its rows to an island
+    :param count: of rows
+    """
+    # A graph of rows and bodies, with an edge where a row moves a body.
+    _, bodies = np.unique(sides, return_inverse=True)
+    rows = np.arange(2 * count) % max(1, count)
+    ends = rows[dynamic], count + bodies[dynamic]
+    size = count + int(bodies.max(initial=-1)) + 1
+    graph = coo_array((np.ones(len(ends[0])), ends), shape=(size, size))
+    _, label = connected_components(graph, directed=False)
+    islands, island = np.unique(label[:count], return_inverse=True)
+    return len(islands), island
 
 
 def _narrow_order(one: Rows, other: Rows, count: int) -> Rows:

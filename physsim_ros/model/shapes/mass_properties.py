@@ -35,7 +35,8 @@ _CENTERED = 1e-12
 MOST_FORMS = 256
 
 
-@dataclass(frozen=True, slots=True)
+# Shapes are compared by what they are made of; of a form, others keep what they derive from it.
+@dataclass(frozen=True, slots=True, eq=False, weakref_slot=True)
 class Form:
     """
     The pieces of a shape, its mass properties and its extent, in the body's frame.

@@ -145,6 +145,7 @@ _MEANINGS = {
     'max_bodies': 'a spawn past it is refused',
     'max_shapes': 'convex pieces of all bodies; a request past it is refused',
     'max_overlaps': 'pairs of pieces that would overlap at once; a request past it is refused',
+    'max_joints': 'a joint past it is refused',
 }
 
 
