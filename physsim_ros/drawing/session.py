@@ -237,15 +237,16 @@ def submit_reading(
     :param field: of its message, to be named by a refusal
     :param asker: key of the message that asked
     """
-    simulation.tell(replace(reading_answer(reading, topic=topic), asker=asker))
+    queue = simulation.requests
+    queue.tell(replace(reading_answer(reading, topic=topic), asker=asker))
     if reading.amends:
         simulation.amend(reading.amends, reading.requests, topic=topic, field=field, asker=asker)
         session.note_gesture(reading.amends[0])
         return
     for number, request in enumerate(reading.requests):
-        simulation.submit(request, topic=topic, joined=number > 0, field=field, asker=asker)
+        queue.submit(request, topic=topic, joined=number > 0, field=field, asker=asker)
     if reading.requests:
-        session.note_gesture(simulation.gesture)
+        session.note_gesture(queue.gesture)
 
 
 def reading_answer(reading: Reading, *, topic: str) -> Answer:

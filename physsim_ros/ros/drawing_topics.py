@@ -81,10 +81,11 @@ class DrawingTopics:
         with self._drawing_on_snapshot(topic, field) as snapshot:
             point, frame = conversions.point_in_frame(message, frame_id=self._frame_id)
             result = self._session.click(point, frame, snapshot)
+            queue = self._simulation.requests
             if result.message:
-                self._simulation.tell(Answer(topic=topic, message=result.message))
+                queue.tell(Answer(topic=topic, message=result.message))
             for number, request in enumerate(result.requests):
-                self._simulation.submit(request, topic=topic, joined=number > 0, field=field)
+                queue.submit(request, topic=topic, joined=number > 0, field=field)
 
     def _stroke(self, message: bytes) -> None:
         with self._drawing_on_snapshot('~/stroke', 'poses') as snapshot:
@@ -106,5 +107,5 @@ class DrawingTopics:
         try:
             yield self._current_snapshot()
         except Refusal as refusal:
-            self._simulation.refuse(refusal, topic=topic, subject='', field=field)
+            self._simulation.requests.refuse(refusal, topic=topic, subject='', field=field)
         self._publish_preview()

@@ -25,13 +25,12 @@ from contextlib import ExitStack
 from pathlib import Path
 import time
 
-from diagnostic_msgs.msg import DiagnosticArray
 from physsim_ros.drawing import DrawingSession, Tool
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.requests import DeleteAll
 from physsim_ros.model.snapshot import Answer, Frame, Snapshot
 from physsim_ros.ros import parameters
-from physsim_ros.ros.diagnostics import Backlog
+from physsim_ros.ros.diagnostics_publisher import DiagnosticsPublisher
 from physsim_ros.ros.drawing_topics import DrawingTopics
 from physsim_ros.ros.frame_outputs import FrameOutputs
 from physsim_ros.ros.live_parameters import LiveParameters
@@ -46,9 +45,6 @@ from physsim_ros.ros.world_files import WorldFiles
 from physsim_ros.simulation.simulation import Simulation
 from rclpy.context import Context
 from rclpy.parameter import Parameter
-
-# From one message on `/diagnostics` to the next [ns].
-DIAGNOSTICS_PERIOD = 1_000_000_000
 
 # Time of a tick after which no further publish period is simulated in it [ns]: requests, services
 # and signals wait so long at most, which a person hardly notices. At speed 64 a frame has 64.
@@ -125,8 +121,6 @@ class PhysSimNode(NodeWithoutQosEvents):
             },
             on_change=self.outputs.publish_preview,
         )
-        self._diagnostics = self.create_publisher(DiagnosticArray, '/diagnostics', 10)
-        self._diagnostics_due = 0
         if self._values['world_file']:
             self.world_files.begin_with()
             self._live_parameters.mirror_settings()
@@ -138,7 +132,10 @@ class PhysSimNode(NodeWithoutQosEvents):
     def _create_subscriptions(self) -> None:
         frame_id = self._values['frame_id']
         self.requests = RequestSubscriptions(self, self._refuse_message)
-        RequestTopics(self.requests, self.simulation, frame_id)
+        self._diagnostics = DiagnosticsPublisher(
+            self, self.simulation, self.outputs, self.requests
+        )
+        RequestTopics(self.requests, self.simulation.requests, frame_id)
         self._drawing_topics = DrawingTopics(
             self.requests,
             self.simulation,
@@ -172,7 +169,7 @@ class PhysSimNode(NodeWithoutQosEvents):
         create_services(
             self,
             actions,
-            simulation,
+            simulation.requests,
             self._reply_pacer,
             on_success=self._note_change,
         )
@@ -229,9 +226,8 @@ class PhysSimNode(NodeWithoutQosEvents):
         """
         began = time.perf_counter_ns()
         self._reply_pacer.flush()
-        if self._started and now_ns >= self._diagnostics_due:
-            self._diagnostics_due = now_ns + DIAGNOSTICS_PERIOD
-            self._publish_diagnostics()
+        if self._started:
+            self._diagnostics.publish_due(now_ns, message_delay=self.message_delay)
         self._handle_pages()
         self._update_contact_recording()
         frames = self.simulation.advance(
@@ -299,7 +295,7 @@ class PhysSimNode(NodeWithoutQosEvents):
     # Answers
 
     def _refuse_message(self, refusal: Refusal, topic: str) -> None:
-        self.simulation.refuse(refusal, topic=topic, subject='')
+        self.simulation.requests.refuse(refusal, topic=topic, subject='')
 
     def _refuse_command(self, refusal: Refusal, topic: str) -> None:
         """Publish a refusal outside of a frame, after the answers to earlier requests."""
@@ -346,30 +342,3 @@ class PhysSimNode(NodeWithoutQosEvents):
     def _serve_pages(self) -> None:
         self._handle_pages()
         self.apply_requests()
-
-    # Diagnostics
-
-    def _publish_diagnostics(self) -> None:
-        for answer in self.outputs.viewer.poll():
-            self.outputs.report_answer(answer)
-        if self.frame is None or self._diagnostics.get_subscription_count() == 0:
-            return
-        events = self.outputs.topics.events
-        self._diagnostics.publish(
-            self.outputs.statistics.report(
-                self.frame.snapshot,
-                node=self.get_fully_qualified_name(),
-                speed=self.simulation.speed,
-                late_frames=self.simulation.late_frames,
-                viewer=self.outputs.viewer.state,
-                viewer_failure=self.outputs.viewer.failure,
-                backlog=Backlog(
-                    message_delay=self.message_delay,
-                    waiting_requests=self.simulation.waiting_requests,
-                    undecodable=self.requests.undecodable,
-                    waiting_answers=events.waiting,
-                    stopped_listener=events.stopped,
-                    history_memory=self.simulation.past.memory.in_megabytes,
-                ),
-            )
-        )

@@ -31,7 +31,7 @@ from physsim_ros.model.requests import Anchor, Axle, Pin, Release, Request
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.ros import conversions
 from physsim_ros.ros.subscriptions import RequestSubscriptions
-from physsim_ros.simulation.simulation import Simulation
+from physsim_ros.simulation.request_queue import RequestQueue
 from sensor_msgs.msg import MultiDOFJointState
 from visualization_msgs.msg import InteractiveMarkerFeedback, Marker, MarkerArray
 
@@ -54,14 +54,14 @@ class RequestTopics:
     The topics of which each message is a request; of `~/spawn_array`, several.
 
     :param subscriptions: of the node
-    :param simulation: to which requests are submitted
+    :param requests: the queue that they are submitted to
     :param frame_id: name of the world frame
     """
 
     def __init__(
-        self, subscriptions: RequestSubscriptions, simulation: Simulation, frame_id: str
+        self, subscriptions: RequestSubscriptions, requests: RequestQueue, frame_id: str
     ) -> None:
-        self._simulation = simulation
+        self._requests = requests
         self._frame_id = frame_id
         for topic, (kind, convert) in _TOPICS.items():
             field = 'point' if kind is PointStamped else ''
@@ -72,7 +72,7 @@ class RequestTopics:
     def _spawn_array(self, message: MarkerArray) -> None:
         topic = '~/spawn_array'
         if not message.markers:
-            self._simulation.tell(Answer(topic=topic, message='the array is empty'))
+            self._requests.tell(Answer(topic=topic, message='the array is empty'))
         for number, marker in enumerate(message.markers):
             self._submit(marker, topic=topic, convert=conversions.body_request, joined=number > 0)
 
@@ -95,6 +95,6 @@ class RequestTopics:
             request = convert(message, frame_id=self._frame_id)
         except Refusal as refusal:
             subject = conversions.subject_of(message, joint=topic == '~/join')
-            self._simulation.refuse(refusal, topic=topic, subject=subject, joined=joined)
+            self._requests.refuse(refusal, topic=topic, subject=subject, joined=joined)
             return
-        self._simulation.submit(request, topic=topic, joined=joined, field=field)
+        self._requests.submit(request, topic=topic, joined=joined, field=field)

@@ -26,7 +26,7 @@ from collections.abc import Callable, Mapping
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.ros.reply_pacer import ReplyPacer, SERVICE_QOS
-from physsim_ros.simulation.simulation import Simulation
+from physsim_ros.simulation.request_queue import RequestQueue
 from rclpy.node import Node
 from std_srvs.srv import Trigger
 
@@ -37,7 +37,7 @@ Action = Callable[[], str]
 def create_services(
     node: Node,
     actions: Mapping[str, Action],
-    simulation: Simulation,
+    requests: RequestQueue,
     pacer: ReplyPacer,
     *,
     on_success: Callable[[], None],
@@ -47,17 +47,17 @@ def create_services(
 
     :param node: that offers them
     :param actions: by the names of the services
-    :param simulation: to which the answers are told
+    :param requests: the queue that their answers are added to
     :param pacer: of their replies
     :param on_success: called after each service that was not refused
     """
     for name, action in actions.items():
-        callback = _callback(action, f'~/{name}', simulation, on_success)
+        callback = _callback(action, f'~/{name}', requests, on_success)
         pacer.add(node.create_service(Trigger, f'~/{name}', callback, qos_profile=SERVICE_QOS))
 
 
 def _callback(
-    action: Action, topic: str, simulation: Simulation, on_success: Callable[[], None]
+    action: Action, topic: str, requests: RequestQueue, on_success: Callable[[], None]
 ) -> Callable[..., Trigger.Response]:
     """Return the callback of a service, which replies and tells the same sentence as an event."""
 
@@ -66,11 +66,11 @@ def _callback(
             response.message = action()
             response.success = True
             on_success()
-            simulation.tell(Answer(topic=topic, message=response.message))
+            requests.tell(Answer(topic=topic, message=response.message))
         except Refusal as refusal:
             response.message = f'{refusal.code}: {refusal}'
             response.success = False
-            simulation.refuse(refusal, topic=topic, subject='')
+            requests.refuse(refusal, topic=topic, subject='')
         return response
 
     return callback

@@ -85,14 +85,14 @@ class TimeControl:
             except Refusal as refusal:
                 refuse(refusal, topic)
             else:
-                self._simulation.tell(Answer(topic=topic, message=message))
+                self._simulation.requests.tell(Answer(topic=topic, message=message))
 
         def set_speed(message: Float64) -> None:
             perform('~/speed', lambda: self.set_speed(message.data))
 
         def seek(message: Clock) -> None:
             stamp = message.clock.sec * 10**9 + message.clock.nanosec
-            self._simulation.submit_seek(stamp, topic='~/seek')
+            self._simulation.requests.submit_seek(stamp, topic='~/seek')
             self._on_seek()
 
         subscriptions.add(Float64, '~/speed', set_speed)

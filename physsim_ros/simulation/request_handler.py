@@ -36,22 +36,22 @@ class RequestHandler:
 
     :param past: whose timeline has the world
     :param playback: of it
+    :param queue: requests that wait
 
-    :ivar queue: requests that wait
     :ivar hands: that drag bodies
     :ivar answers: that wait for the next frame
     """
 
-    def __init__(self, past: Past, playback: Playback) -> None:
-        self.queue = RequestQueue()
+    def __init__(self, past: Past, playback: Playback, queue: RequestQueue) -> None:
         self.hands = Hands()
         self.answers: list[Answer] = []
         self._past = past
         self._playback = playback
+        self._queue = queue
 
     def apply_waiting(self) -> None:
         """Apply the requests that wait, and collect their answers."""
-        for waiting in self.queue.take_all():
+        for waiting in self._queue.take_all():
             request = waiting.request
             if isinstance(request, Answer):
                 self.answers.append(request)
@@ -99,7 +99,7 @@ class RequestHandler:
         for grip in timeline.world.grips:
             if grip.hand not in self.hands:
                 # Undone together with the request before.
-                gesture = timeline.history.log.gesture_before(timeline.serial, self.queue.gesture)
+                gesture = timeline.history.log.gesture_before(timeline.serial, self._queue.gesture)
                 self._apply_to_world(LetGo(hand=grip.hand), gesture)
                 message = f'{grip.hand} is silent and has let go of {grip.body}'
                 self.answers.append(

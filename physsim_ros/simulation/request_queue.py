@@ -80,9 +80,9 @@ class Waiting:
 
 class RequestQueue:
     """
-    Requests that wait.
+    Requests, refusals and answers that wait.
 
-    :ivar gesture: number of the last gesture
+    :ivar gesture: number of the last gesture that was submitted
     """
 
     def __init__(self) -> None:
@@ -101,13 +101,22 @@ class RequestQueue:
         self.gesture += 1
         return self.gesture
 
-    def add_request(
-        self, request: Request, *, topic: str, joined: bool, field: str, asker: str
+    def submit(
+        self,
+        request: Request,
+        *,
+        topic: str,
+        joined: bool = False,
+        field: str = '',
+        asker: str = '',
     ) -> None:
         """
-        Add a request.
+        Add a request; nothing moves until the next frame, which carries the answer.
 
-        :param joined: whether it belongs to the gesture of the one before
+        :param topic: where it comes from
+        :param joined: whether it belongs to the one before, and is undone together with it
+        :param field: the one field that it was made of, to be named by a refusal; '' is none
+        :param asker: key of the message that asks, which the answer names; '' for none
         """
         if isinstance(request, MoveHand) and request.hand in self._moves:
             self._moves[request.hand].request = request
@@ -115,7 +124,7 @@ class RequestQueue:
         subject, size = _subject_of(request), _size_of(request)
         if len(self) >= MOST_WAITING or self._size + size > MOST_BYTES:
             refusal = Busy(f'{len(self)} requests wait; this one was one too many')
-            self.add_refusal(
+            self.refuse(
                 refusal, topic=topic, subject=subject, joined=joined, field=field, asker=asker
             )
             return
@@ -129,22 +138,37 @@ class RequestQueue:
             case Grab(hand=hand) | LetGo(hand=hand):
                 self._moves.pop(hand, None)
 
-    def add_seek(self, seek: Seek, *, topic: str) -> None:
-        """Add a seek; one that waits just before it is answered, and not carried out."""
+    def submit_seek(self, stamp: int, *, topic: str) -> None:
+        """
+        Add a seek to a simulation time [ns]; of those in a row the last is carried out.
+
+        :param topic: where it comes from
+        """
         if self._waiting and isinstance(self._waiting[-1].request, Seek):
             last = self._waiting[-1]
-            message = f'superseded by a seek to {seek.stamp * 1e-9:.3f} s'
+            message = f'superseded by a seek to {stamp * 1e-9:.3f} s'
             last.request = Answer(topic=last.topic, message=message, asker=last.asker)
-        self._waiting.append(Waiting(seek, topic, '', self.gesture))
+        self._waiting.append(Waiting(Seek(stamp), topic, '', self.gesture))
 
-    def add_refusal(
-        self, refusal: Refusal, *, topic: str, subject: str, joined: bool, field: str, asker: str
+    def refuse(
+        self,
+        refusal: Refusal,
+        *,
+        topic: str,
+        subject: str,
+        joined: bool = False,
+        field: str = '',
+        asker: str = '',
     ) -> None:
-        """Add the refusal of a message that is no request; parameters as of `add_request`."""
+        """
+        Add the refusal of a message that is no request; other parameters are those of `submit`.
+
+        :param subject: name of the body or joint that the message names, or ''
+        """
         gesture = self.gesture if joined else self.begin_gesture()
         self._waiting.append(Waiting(refusal, topic, subject, gesture, field, asker))
 
-    def add_answer(self, answer: Answer) -> None:
+    def tell(self, answer: Answer) -> None:
         """Add an answer without a request, so that answers keep their order."""
         self._waiting.append(Waiting(answer, answer.topic, answer.subject, self.gesture))
 

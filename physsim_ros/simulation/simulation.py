@@ -33,7 +33,7 @@ from physsim_ros.simulation.history_memory import DEFAULT_MEMORY, HistoryMemory
 from physsim_ros.simulation.past import Past
 from physsim_ros.simulation.playback import Playback
 from physsim_ros.simulation.request_handler import RequestHandler
-from physsim_ros.simulation.request_queue import Seek
+from physsim_ros.simulation.request_queue import RequestQueue
 from physsim_ros.simulation.world import World
 
 # Frames in one call: the one that is due, and one to make up for a late one.
@@ -55,6 +55,7 @@ class Simulation:
     :param checkpoints: from one checkpoint to the next [s]
     :raises BadProperty: publish_rate does not divide physics_rate, or the memory is out of range
 
+    :ivar requests: the queue of those that wait for the next frame
     :ivar past: its timeline in force, with cached frames, ghosts and their budget of memory
     """
 
@@ -87,7 +88,8 @@ class Simulation:
             memory=HistoryMemory(history_memory),
         )
         self._playback = Playback(self.past, speed=speed)
-        self._handler = RequestHandler(self.past, self._playback)
+        self.requests = RequestQueue()
+        self._handler = RequestHandler(self.past, self._playback, self.requests)
 
     # Reading
 
@@ -144,11 +146,6 @@ class Simulation:
         self._playback.changed = True
 
     @property
-    def waiting_requests(self) -> int:
-        """Count of requests, refusals and answers that wait for the next frame."""
-        return len(self._handler.queue)
-
-    @property
     def late_frames(self) -> int:
         """Count of frames that the machine could not make in time."""
         return self._playback.clock.late_frames
@@ -159,46 +156,6 @@ class Simulation:
 
     # Requests
 
-    def submit(
-        self,
-        request: Request,
-        *,
-        topic: str,
-        joined: bool = False,
-        field: str = '',
-        asker: str = '',
-    ) -> None:
-        """
-        Queue a request; nothing moves until the next frame, which carries the answer.
-
-        :param topic: where it comes from
-        :param joined: whether it belongs to the one before, and is undone together with it
-        :param field: the one field that it was made of, to be named by a refusal; '' is none
-        :param asker: key of the message that asks, which the answer names; '' for none
-        """
-        self._handler.queue.add_request(
-            request, topic=topic, joined=joined, field=field, asker=asker
-        )
-
-    def tell(self, answer: Answer) -> None:
-        """Queue an answer without a request, so that answers keep their order."""
-        self._handler.queue.add_answer(answer)
-
-    def refuse(
-        self,
-        refusal: Refusal,
-        *,
-        topic: str,
-        subject: str,
-        joined: bool = False,
-        field: str = '',
-        asker: str = '',
-    ) -> None:
-        """Queue the refusal of a message that is no request, so that answers keep their order."""
-        self._handler.queue.add_refusal(
-            refusal, topic=topic, subject=subject, joined=joined, field=field, asker=asker
-        )
-
     def perform(self, request: Request) -> str:
         """
         Apply a request now, after those that wait, and return what was done as a sentence.
@@ -206,7 +163,7 @@ class Simulation:
         :raises Refusal: and nothing is changed
         """
         self._handler.apply_waiting()
-        message = self._handler.apply(request, self._handler.queue.begin_gesture())[1]
+        message = self._handler.apply(request, self.requests.begin_gesture())[1]
         self._playback.changed = True
         return message
 
@@ -239,11 +196,6 @@ class Simulation:
         self._playback.note_jump()
         return 'back at the beginning, time 0' if done else 'at the beginning, time 0'
 
-    @property
-    def gesture(self) -> int:
-        """Return the number of the last gesture that was submitted, for `amend`."""
-        return self._handler.queue.gesture
-
     def amend(
         self,
         gestures: Sequence[int],
@@ -258,7 +210,7 @@ class Simulation:
 
         The world is simulated again from there up to this moment. Each request is answered.
 
-        :param gestures: numbers of these, as `gesture` was after each was submitted
+        :param gestures: numbers of these, as `requests.gesture` was after each was submitted
         :param topic: where the requests come from
         :param field: of the message that they were made of, to be named by a refusal
         :param asker: whom the answers are for
@@ -317,14 +269,6 @@ class Simulation:
         self._handler.apply_waiting()
         return self._handler.seek(stamp)
 
-    def submit_seek(self, stamp: int, *, topic: str) -> None:
-        """
-        Queue a seek to a simulation time [ns]; of those in a row the last is carried out.
-
-        :param topic: where it comes from
-        """
-        self._handler.queue.add_seek(Seek(stamp), topic=topic)
-
     # Time
 
     def continue_seek(self, is_overdue: Callable[[], bool] = lambda: False) -> bool:
@@ -350,7 +294,7 @@ class Simulation:
         :return: the frames, in the order in which they are shown; none where nothing is due and
             nothing has changed
         """
-        if self.speed > 0 or self._handler.queue:
+        if self.speed > 0 or self.requests:
             self._playback.seek_shown()
         if not self.continue_seek(is_overdue):
             return ()

@@ -136,8 +136,9 @@ class PageSession:
 
     def _submit_all(self, requests: Iterable[Request], topic: str, asker: str) -> None:
         """Submit requests that are undone together."""
+        queue = self._world.simulation.requests
         for number, request in enumerate(requests):
-            self._world.simulation.submit(request, topic=topic, joined=number > 0, asker=asker)
+            queue.submit(request, topic=topic, joined=number > 0, asker=asker)
 
     # Drawing
 
@@ -270,10 +271,10 @@ class PageSession:
             self._tell(Answer(topic=topic, message=message, asker=asker))
 
     def _refuse(self, refusal: Refusal, topic: str, asker: str) -> None:
-        self._world.simulation.refuse(refusal, topic=topic, subject='', asker=asker)
+        self._world.simulation.requests.refuse(refusal, topic=topic, subject='', asker=asker)
 
     def _tell(self, answer: Answer) -> None:
-        self._world.simulation.tell(answer)
+        self._world.simulation.requests.tell(answer)
 
     def _answer(
         self,

@@ -56,7 +56,7 @@ class Disturbances(RuleBasedStateMachine):
     def request(self, request: Request) -> None:
         answers = []
         for simulation in (self.straight, self.disturbed):
-            simulation.submit(request, topic='')
+            simulation.requests.submit(request, topic='')
             frame = simulation.settle()
             assert frame is not None
             answers.append([each for each in frame.answers if not each.topic])
@@ -123,7 +123,7 @@ class Disturbances(RuleBasedStateMachine):
 
     @rule(request=st.sampled_from(REFUSED))
     def refuse(self, request: Request) -> None:
-        self.disturbed.submit(request, topic='')
+        self.disturbed.requests.submit(request, topic='')
         frame = self.disturbed.settle()
         assert frame is not None
         assert frame.answers[-1].code

@@ -49,7 +49,7 @@ class Desk:
 
     def spawn(self, *requests: Request) -> None:
         for request in requests:
-            self.simulation.submit(request, topic='t')
+            self.simulation.requests.submit(request, topic='t')
         self._settle()
 
     def draw(self, way: Way | Floats, *, after: float = 0.3) -> Reading:

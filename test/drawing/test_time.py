@@ -56,7 +56,7 @@ class Studio:
         self.tick()
 
     def ask(self, request: Any) -> None:
-        self.simulation.submit(request, topic='~/test')
+        self.simulation.requests.submit(request, topic='~/test')
 
     def tick(self) -> tuple[Answer, ...]:
         """Let a sixtieth of a second pass, and return what is answered."""

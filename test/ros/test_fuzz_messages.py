@@ -240,9 +240,9 @@ class Fuzzed:
             request = CONVERT[topic](message, frame_id='world')
         except Refusal as refusal:
             subject = conversions.subject_of(message, joint=topic == '~/join')
-            self.simulation.refuse(refusal, topic=topic, subject=subject)
+            self.simulation.requests.refuse(refusal, topic=topic, subject=subject)
         else:
-            self.simulation.submit(request, topic=topic)
+            self.simulation.requests.submit(request, topic=topic)
         frame = self.simulation.settle()
         assert frame is not None
         (answer,) = frame.answers

@@ -31,7 +31,7 @@ def world_after(*timed: tuple[int, Request], frames: int) -> Simulation:
     for frame in range(frames):
         for at, request in timed:
             if at == frame:
-                simulation.submit(request, topic='t')
+                simulation.requests.submit(request, topic='t')
         simulation.advance_frame()
     return simulation
 
@@ -41,10 +41,10 @@ def test_an_amended_world_is_where_it_would_have_come_with_those_requests() -> N
     later = spawning('t/2', DISC, (0.1, 3.0, 0.0))
     straight = world_after((2, ball), (30, later), frames=90)
     other = world_after((2, wall), frames=10)
-    gesture = other.gesture
+    gesture = other.requests.gesture
     for frame in range(10, 90):
         if frame == 30:
-            other.submit(later, topic='t')
+            other.requests.submit(later, topic='t')
         other.advance_frame()
 
     other.amend([gesture], [ball], topic='t')
@@ -55,7 +55,7 @@ def test_an_amended_world_is_where_it_would_have_come_with_those_requests() -> N
 
 def test_the_amended_gesture_is_undone_as_one() -> None:
     simulation = world_after((2, spawning('t/0', BOX)), frames=5)
-    gesture = simulation.gesture
+    gesture = simulation.requests.gesture
     simulation.advance_frame()
 
     simulation.amend([gesture], [spawning('t/1', DISC), spawning('t/2', DISC)], topic='t')
@@ -66,9 +66,9 @@ def test_the_amended_gesture_is_undone_as_one() -> None:
 
 def test_what_the_amended_past_refuses_later_is_dropped() -> None:
     simulation = world_after((2, spawning('t/0', BOX)), frames=5)
-    gesture = simulation.gesture
-    simulation.submit(Delete(name='t/0'), topic='t')
-    simulation.submit(Configure(changes={'damping': 0.5}), topic='t')
+    gesture = simulation.requests.gesture
+    simulation.requests.submit(Delete(name='t/0'), topic='t')
+    simulation.requests.submit(Configure(changes={'damping': 0.5}), topic='t')
     simulation.advance_frame()
 
     simulation.amend([gesture], [spawning('t/1', DISC)], topic='t')
@@ -80,7 +80,9 @@ def test_what_the_amended_past_refuses_later_is_dropped() -> None:
 def test_a_refused_request_is_answered_and_the_others_hold() -> None:
     simulation = world_after((2, spawning('t/0', BOX)), frames=5)
 
-    simulation.amend([simulation.gesture], [Delete(name='no/1'), spawning('t/1', DISC)], topic='t')
+    simulation.amend(
+        [simulation.requests.gesture], [Delete(name='no/1'), spawning('t/1', DISC)], topic='t'
+    )
 
     frame = simulation.settle()
     assert frame is not None
@@ -90,9 +92,9 @@ def test_a_refused_request_is_answered_and_the_others_hold() -> None:
 
 def test_several_gestures_become_one() -> None:
     simulation = world_after((2, spawning('t/0', BOX)), frames=5)
-    first = simulation.gesture
-    simulation.submit(spawning('t/1', BOX, (3.0, 5.0, 0.0)), topic='t')
-    second = simulation.gesture
+    first = simulation.requests.gesture
+    simulation.requests.submit(spawning('t/1', BOX, (3.0, 5.0, 0.0)), topic='t')
+    second = simulation.requests.gesture
     simulation.advance_frame()
 
     simulation.amend([first, second], [spawning('t/2', DISC)], topic='t')
@@ -106,7 +108,7 @@ def test_gestures_that_changed_nothing_are_amended_by_what_is_made_now() -> None
     simulation = world_after((2, spawning('t/0', BOX)), frames=5)
     step = simulation.step
 
-    simulation.amend([simulation.gesture + 7], [spawning('t/1', DISC)], topic='t')
+    simulation.amend([simulation.requests.gesture + 7], [spawning('t/1', DISC)], topic='t')
 
     assert simulation.step == step
     assert simulation.world.snapshot().scene.names == ('t/0', 't/1')

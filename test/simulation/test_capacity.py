@@ -184,7 +184,7 @@ def test_a_lower_limit_holds_for_what_comes_then() -> None:
 def test_what_was_accepted_once_is_accepted_in_every_replay() -> None:
     simulation = Simulation(settings=FEW, speed=1.0)
     for request in one_pose(5):
-        simulation.submit(request, topic='~/spawn')
+        simulation.requests.submit(request, topic='~/spawn')
     simulation.advance_frame()
     simulation.perform(Configure(changes={'max_overlaps': 0}))
     for _ in range(30):

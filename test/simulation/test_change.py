@@ -87,7 +87,7 @@ def test_several_are_deleted_with_one_gesture() -> None:
     sim = Simulation(settings=NOWHERE)
     for number in range(4):
         sim.perform(spawning_at(number))
-    sim.submit(DeleteBodies(names=('a/0', 'a/2')), topic='')
+    sim.requests.submit(DeleteBodies(names=('a/0', 'a/2')), topic='')
     frame = sim.settle()
     assert frame is not None
     assert frame.snapshot.scene.names == ('a/1', 'a/3')

@@ -80,6 +80,8 @@ def test_the_joints_of_a_namespace_are_named_by_it(sim: Simulation) -> None:
 def test_requests_of_one_gesture_are_counted() -> None:
     sim = Simulation(speed=0.0)
     for number in range(3):
-        sim.submit(spawning(f'a/{number}', BOX, (2.0 * number, 0, 0)), topic='', joined=number > 0)
+        sim.requests.submit(
+            spawning(f'a/{number}', BOX, (2.0 * number, 0, 0)), topic='', joined=number > 0
+        )
     sim.settle()
     assert sim.status.undo == 'undo spawn a/0 and 2 more'

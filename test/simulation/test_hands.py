@@ -206,13 +206,13 @@ def test_a_sleeping_body_wakes_and_the_hand_keeps_it_awake() -> None:
 def test_a_hand_loses_a_body_that_it_can_move_no_more(request_: Spawn) -> None:
     sim = Simulation(settings=NOWHERE)
     sim.perform(spawning('a/0', DISC))
-    sim.submit(Grab(hand='h', point=(0.0, 0.0)), topic=TOPIC)
+    sim.requests.submit(Grab(hand='h', point=(0.0, 0.0)), topic=TOPIC)
     sim.advance_frame()
     sim.perform(request_)
 
     assert sim.advance_frame().snapshot.grips == ()
     for request in (MoveHand(hand='h', point=(1.0, 1.0)), LetGo(hand='h')):
-        sim.submit(request, topic=TOPIC)
+        sim.requests.submit(request, topic=TOPIC)
     assert sim.advance_frame().answers == (Answer(topic=TOPIC, message='h holds no body'),)
 
 
@@ -237,12 +237,12 @@ def drag(sim: Simulation, *, frames: int = 120) -> None:
     for number in range(frames):
         angle = number / 15
         point = (2.0 * math.sin(angle), 1.5 - math.cos(angle))
-        sim.submit(
+        sim.requests.submit(
             MoveHand(hand='h', point=point) if number else Grab(hand='h', point=(0.0, 0.5)),
             topic=TOPIC,
         )
         sim.advance_frame()
-    sim.submit(LetGo(hand='h'), topic=TOPIC)
+    sim.requests.submit(LetGo(hand='h'), topic=TOPIC)
     for _ in range(frames):
         sim.advance_frame()
 
@@ -290,7 +290,7 @@ def test_only_the_grab_and_its_end_are_answered() -> None:
         *(MoveHand(hand='h', point=(x / 10, 0.0)) for x in range(10)),
         LetGo(hand='h'),
     ):
-        sim.submit(request, topic=TOPIC)
+        sim.requests.submit(request, topic=TOPIC)
         frames.append(sim.advance_frame())
 
     assert [answer.message for frame in frames for answer in frame.answers] == [
@@ -302,9 +302,9 @@ def test_only_the_grab_and_its_end_are_answered() -> None:
 def test_a_thousand_moves_between_two_frames_are_logged_as_one() -> None:
     sim = Simulation(settings=NOWHERE)
     sim.perform(spawning('a/0', DISC))
-    sim.submit(Grab(hand='h', point=(0.0, 0.0)), topic=TOPIC)
+    sim.requests.submit(Grab(hand='h', point=(0.0, 0.0)), topic=TOPIC)
     for number in range(1001):
-        sim.submit(MoveHand(hand='h', point=(number / 1000, 0.0)), topic=TOPIC)
+        sim.requests.submit(MoveHand(hand='h', point=(number / 1000, 0.0)), topic=TOPIC)
     frame = sim.advance_frame()
 
     assert frame.snapshot.grips[0].target == (1.0, 0.0)
@@ -325,7 +325,7 @@ def test_moves_do_not_pass_what_a_hand_does_in_between() -> None:
         Grab(hand='h', point=(0.0, 0.1)),
         MoveHand(hand='h', point=(0.0, 0.2)),
     ):
-        sim.submit(request, topic=TOPIC)
+        sim.requests.submit(request, topic=TOPIC)
 
     (grip,) = sim.advance_frame().snapshot.grips
     assert (grip.anchor, grip.target) == ((0.0, 0.1), (0.0, 0.2))
@@ -334,11 +334,11 @@ def test_moves_do_not_pass_what_a_hand_does_in_between() -> None:
 def test_a_silent_hand_lets_go_after_five_seconds_of_running_time() -> None:
     sim = Simulation(settings=NOWHERE)
     sim.perform(spawning('a/0', DISC))
-    sim.submit(Grab(hand='h', point=(0.0, 0.0)), topic=TOPIC)
+    sim.requests.submit(Grab(hand='h', point=(0.0, 0.0)), topic=TOPIC)
     answers = []
     for number in range(400):
         if number == 60:
-            sim.submit(MoveHand(hand='h', point=(0.5, 0.0)), topic=TOPIC)
+            sim.requests.submit(MoveHand(hand='h', point=(0.5, 0.0)), topic=TOPIC)
         for frame in sim.advance(round(number * PERIOD)):
             answers += [(number, answer.message) for answer in frame.answers]
 
@@ -353,7 +353,7 @@ def test_a_silent_hand_lets_go_after_five_seconds_of_running_time() -> None:
 def test_a_pause_is_no_silence() -> None:
     sim = Simulation(settings=NOWHERE)
     sim.perform(spawning('a/0', DISC))
-    sim.submit(Grab(hand='h', point=(0.0, 0.0)), topic=TOPIC)
+    sim.requests.submit(Grab(hand='h', point=(0.0, 0.0)), topic=TOPIC)
     sim.advance(0)
     sim.speed = 0.0
     for seconds in range(1, 60):
@@ -367,15 +367,15 @@ def test_a_hand_that_grabbed_at_another_time_changes_nothing() -> None:
     sim = Simulation(settings=NOWHERE)
     sim.perform(spawning('a/0', DISC))
     sim.advance_frame()
-    sim.submit(Grab(hand='h', point=(0.0, 0.0)), topic=TOPIC)
+    sim.requests.submit(Grab(hand='h', point=(0.0, 0.0)), topic=TOPIC)
     for _ in range(60):
         sim.advance_frame()
     end = sim.world.stamp
     sim.seek(10**9 // 2)
     before = sim.world.digest()
 
-    sim.submit(MoveHand(hand='h', point=(7.0, 0.0)), topic=TOPIC)
-    sim.submit(LetGo(hand='h'), topic=TOPIC)
+    sim.requests.submit(MoveHand(hand='h', point=(7.0, 0.0)), topic=TOPIC)
+    sim.requests.submit(LetGo(hand='h'), topic=TOPIC)
     frame = sim.settle()
 
     assert frame is not None
@@ -390,7 +390,7 @@ def test_a_hand_that_grabbed_at_another_time_changes_nothing() -> None:
 def test_a_branch_has_no_hands_of_the_course_that_it_left() -> None:
     sim = Simulation(settings=NOWHERE)
     sim.perform(spawning('a/0', DISC))
-    sim.submit(Grab(hand='h', point=(0.0, 0.0)), topic=TOPIC)
+    sim.requests.submit(Grab(hand='h', point=(0.0, 0.0)), topic=TOPIC)
     for _ in range(60):
         sim.advance_frame()
     sim.seek(10**9 // 2)
@@ -403,12 +403,12 @@ def test_a_branch_has_no_hands_of_the_course_that_it_left() -> None:
 def test_a_hand_lives_through_a_change_of_course(action: str) -> None:
     sim = Simulation(settings=NOWHERE)
     sim.perform(spawning('a/0', DISC))
-    sim.submit(Grab(hand='h', point=(0.0, 0.0)), topic=TOPIC)
+    sim.requests.submit(Grab(hand='h', point=(0.0, 0.0)), topic=TOPIC)
     sim.advance_frame()
     getattr(sim, action)()
 
     for request in (MoveHand(hand='h', point=(7.0, 0.0)), LetGo(hand='h')):
-        sim.submit(request, topic=TOPIC)
+        sim.requests.submit(request, topic=TOPIC)
     frame = sim.advance_frame()
 
     assert [answer.message for answer in frame.answers][-1] == 'h holds no body'
@@ -427,13 +427,13 @@ def paused(*spawns: Spawn) -> Simulation:
 
 def test_in_a_paused_world_the_body_is_placed_and_turned() -> None:
     sim = paused(spawning('a/0', BOX, (0.0, 3.0, 0.0), velocity=(1.0, 2.0)))
-    sim.submit(Grab(hand='h', point=(0.4, 3.0)), topic=TOPIC)
-    sim.submit(MoveHand(hand='h', point=(5.4, 4.0)), topic=TOPIC)
+    sim.requests.submit(Grab(hand='h', point=(0.4, 3.0)), topic=TOPIC)
+    sim.requests.submit(MoveHand(hand='h', point=(5.4, 4.0)), topic=TOPIC)
     (frame,) = sim.advance(0)
     assert frame.snapshot.poses[0] == pytest.approx([5.0, 4.0, 0.0])
 
-    sim.submit(MoveHand(hand='h', point=(5.4, 4.0), yaw=math.pi / 2), topic=TOPIC)
-    sim.submit(LetGo(hand='h'), topic=TOPIC)
+    sim.requests.submit(MoveHand(hand='h', point=(5.4, 4.0), yaw=math.pi / 2), topic=TOPIC)
+    sim.requests.submit(LetGo(hand='h'), topic=TOPIC)
     (frame,) = sim.advance(1)
 
     assert frame.snapshot.poses[0] == pytest.approx([5.4, 3.6, math.pi / 2])
@@ -445,11 +445,11 @@ def test_placing_is_one_gesture_and_the_same_bits_again() -> None:
     sim = paused(FLOOR, spawning('a/0', BOX, (0.0, 0.5, 0.0)), spawning('a/1', BOX, (0, 1.5, 0)))
     sim.advance_frame()
     before = sim.world.digest()
-    sim.submit(Grab(hand='h', point=(0.0, 1.5)), topic=TOPIC)
+    sim.requests.submit(Grab(hand='h', point=(0.0, 1.5)), topic=TOPIC)
     for number in range(10):
-        sim.submit(MoveHand(hand='h', point=(number / 5, 1.5)), topic=TOPIC)
+        sim.requests.submit(MoveHand(hand='h', point=(number / 5, 1.5)), topic=TOPIC)
         sim.advance(number)
-    sim.submit(LetGo(hand='h'), topic=TOPIC)
+    sim.requests.submit(LetGo(hand='h'), topic=TOPIC)
     for _ in range(60):
         sim.advance_frame()
     last, end = sim.world.digest(), sim.world.stamp
@@ -465,8 +465,10 @@ def test_in_a_paused_world_a_wall_can_be_placed_but_what_moves_comes_first() -> 
     wall = spawning('wall/0', BOX, anchored=True)
     sim = paused(spawning('a/0', DISC), wall)
     for number, (hand, point) in enumerate((('g', (0.0, 0.0)), ('h', (0.45, 0.45)))):
-        sim.submit(Grab(hand=hand, point=point), topic=TOPIC)
-        sim.submit(MoveHand(hand=hand, point=(point[0] + 3.0, point[1] + number)), topic=TOPIC)
+        sim.requests.submit(Grab(hand=hand, point=point), topic=TOPIC)
+        sim.requests.submit(
+            MoveHand(hand=hand, point=(point[0] + 3.0, point[1] + number)), topic=TOPIC
+        )
 
     (frame,) = sim.advance(0)
 
@@ -475,12 +477,12 @@ def test_in_a_paused_world_a_wall_can_be_placed_but_what_moves_comes_first() -> 
 
 def test_a_body_grabbed_in_a_paused_world_is_dragged_when_time_goes_on() -> None:
     sim = paused(spawning('a/0', DISC, (0.0, 3.0, 0.0)))
-    sim.submit(Grab(hand='h', point=(0.0, 3.0)), topic=TOPIC)
+    sim.requests.submit(Grab(hand='h', point=(0.0, 3.0)), topic=TOPIC)
     sim.advance(0)
     sim.speed = 1.0
     for number in range(60):
         sim.advance(round(number * PERIOD))
-    sim.submit(MoveHand(hand='h', point=(1.0, 3.0)), topic=TOPIC)
+    sim.requests.submit(MoveHand(hand='h', point=(1.0, 3.0)), topic=TOPIC)
     for number in range(60, 120):
         sim.advance(round(number * PERIOD))
 
@@ -492,11 +494,11 @@ def test_a_body_is_not_placed_where_too_much_would_overlap() -> None:
     sim = Simulation(speed=0.0, settings=WorldSettings(max_overlaps=60))
     for number in range(2):
         sim.perform(spawning(f'a/{number}', heap, (9.0 * number, 0.0, 0.0)))
-    sim.submit(Grab(hand='h', point=(9.0, 0.0)), topic=TOPIC)
+    sim.requests.submit(Grab(hand='h', point=(9.0, 0.0)), topic=TOPIC)
     sim.advance(0)
     before = sim.world.digest()
 
-    sim.submit(MoveHand(hand='h', point=(0.0, 0.0)), topic=TOPIC)
+    sim.requests.submit(MoveHand(hand='h', point=(0.0, 0.0)), topic=TOPIC)
     (frame,) = sim.advance(1)
 
     assert [answer.code for answer in frame.answers] == ['world_full']

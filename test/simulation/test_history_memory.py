@@ -44,7 +44,7 @@ def command(sim: Simulation, number: int, *, joined: bool = False) -> None:
     # New strings each time, as they come off the wire.
     names = tuple(f'{name:s}'[:2] + name[2:] for name in NAMES)
     request = Command(names=names, twists=TWISTS[number % 64])
-    sim.submit(request, topic='~/command', joined=joined)
+    sim.requests.submit(request, topic='~/command', joined=joined)
 
 
 def told(sim: Simulation, frames: int) -> list[str]:
@@ -117,7 +117,9 @@ def test_the_estimate_for_bodies_and_frames_is_near_what_they_take(make) -> None
     for number in range(240):
         for part in range(3):
             shape = make(0.2 + 1e-6 * (3 * number + part))
-            sim.submit(Spawn(name=NAMES[part], shape=shape, pose=(part, 9.0, 0.0)), topic='')
+            sim.requests.submit(
+                Spawn(name=NAMES[part], shape=shape, pose=(part, 9.0, 0.0)), topic=''
+            )
         sim.advance_frame()
     gc.collect()
     after, _ = tracemalloc.get_traced_memory()

@@ -32,7 +32,7 @@ def past() -> tuple[Simulation, dict[int, str]]:
     """Return a simulation with two seconds without a checkpoint in them, and its digests."""
     simulation = Simulation(settings=FLOOR)
     for number in range(4):
-        simulation.submit(
+        simulation.requests.submit(
             spawning(f'disc/{number}', DISC, (0.3 * number, 3.0 * number + 1.0, 0.0)), topic=''
         )
     digests = {}
@@ -69,7 +69,7 @@ def test_requests_wait_for_the_end_of_a_seek_and_apply_there(
     simulation, _ = past
     simulation.speed = 0.0
     simulation.seek(SECOND)
-    simulation.submit(spawning('late/0', DISC, (5.0, 1.0, 0.0)), topic='~/spawn')
+    simulation.requests.submit(spawning('late/0', DISC, (5.0, 1.0, 0.0)), topic='~/spawn')
     _, frame = ticks_to_a_frame(simulation, 0)
     assert [answer.subject for answer in frame.answers if answer.topic == '~/spawn'] == ['late/0']
     assert frame.snapshot.step == 240

@@ -27,12 +27,12 @@ PERIOD_NS = round(1e9 / 60)
 def test_contacts_of_the_past_are_those_shown_where_a_request_woke_bodies():
     simulation = Simulation(history=60.0)
     simulation.watch_contacts(True)
-    simulation.submit(Configure(changes={'bounds': (-5.0, 0.0, 5.0, 12.0)}), topic='')
+    simulation.requests.submit(Configure(changes={'bounds': (-5.0, 0.0, 5.0, 12.0)}), topic='')
     for number in range(6):
         box, pose = Box(width=0.5, height=0.5), (number * 0.5 - 3.0, 0.25, 0.0)
-        simulation.submit(Spawn(name=f'box/{number}', shape=box, pose=pose), topic='')
+        simulation.requests.submit(Spawn(name=f'box/{number}', shape=box, pose=pose), topic='')
     ball = Spawn(name='ball/0', shape=Disc(radius=0.3), pose=(3.0, 2.0, 0.0))
-    simulation.submit(ball, topic='')
+    simulation.requests.submit(ball, topic='')
     now, shown = 0, {}
 
     def run(frames):
@@ -53,7 +53,7 @@ def test_contacts_of_the_past_are_those_shown_where_a_request_woke_bodies():
 
     # The row is asleep, and the request wakes it.
     run(150)
-    simulation.submit(Command(names=('box/2',), twists=((0.0, 0.5, 0.0),)), topic='')
+    simulation.requests.submit(Command(names=('box/2',), twists=((0.0, 0.5, 0.0),)), topic='')
     simulation.settle()
     run(60)
     # Nothing that was shown is kept: the past is simulated again.

@@ -80,7 +80,7 @@ class Driven:
             self.shown[frame.snapshot.step] = frame
 
     def ask(self, request: Request, *, joined: bool = False) -> None:
-        self.simulation.submit(request, topic='~/test', joined=joined)
+        self.simulation.requests.submit(request, topic='~/test', joined=joined)
 
     def settle(self) -> Frame:
         frame = self.simulation.settle()

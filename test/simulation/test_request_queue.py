@@ -26,7 +26,7 @@ SPAWN = Spawn(name='a/0', shape=Disc(radius=0.2), pose=(0.0, 9.0, 0.0))
 
 def spawn(sim: Simulation, number: int) -> None:
     request = Spawn(name=f'a/{number}', shape=Disc(radius=0.2), pose=(number, 9.0, 0.0))
-    sim.submit(request, topic='~/spawn')
+    sim.requests.submit(request, topic='~/spawn')
 
 
 def test_of_seeks_in_a_row_the_last_is_carried_out_and_each_is_answered(
@@ -41,7 +41,7 @@ def test_of_seeks_in_a_row_the_last_is_carried_out_and_each_is_answered(
     seek = sim.past.timeline.seek
     monkeypatch.setattr(sim.past.timeline, 'seek', lambda step: (sought.append(step), seek(step)))
     for number in range(1000):
-        sim.submit_seek(round((0.2 + number / 1000) * SECOND), topic='~/seek')
+        sim.requests.submit_seek(round((0.2 + number / 1000) * SECOND), topic='~/seek')
 
     frame = sim.settle()
 
@@ -57,10 +57,10 @@ def test_a_request_between_two_seeks_is_made_where_the_first_one_goes() -> None:
     sim = Simulation(speed=0.0)
     for _ in range(120):
         sim.advance_frame()
-    sim.submit_seek(SECOND, topic='~/seek')
+    sim.requests.submit_seek(SECOND, topic='~/seek')
     spawn(sim, 7)
-    sim.submit_seek(9 * SECOND, topic='~/seek')
-    sim.submit_seek(SECOND // 2, topic='~/seek')
+    sim.requests.submit_seek(9 * SECOND, topic='~/seek')
+    sim.requests.submit_seek(SECOND // 2, topic='~/seek')
 
     frame = sim.settle()
 
@@ -77,7 +77,7 @@ def test_a_request_between_two_seeks_is_made_where_the_first_one_goes() -> None:
 def test_a_seek_to_where_nothing_is_kept_is_refused() -> None:
     sim = Simulation(speed=0.0)
     sim.settle()
-    sim.submit_seek(9 * SECOND, topic='~/seek')
+    sim.requests.submit_seek(9 * SECOND, topic='~/seek')
 
     assert sim.settle() is None
     (answer,) = sim.take_answers()

@@ -58,13 +58,13 @@ def test_a_publish_rate_has_to_divide_the_physics_rate() -> None:
 
 def test_requests_are_answered_in_order_and_one_each() -> None:
     sim = simulation()
-    sim.submit(spawning('a/0'), topic='~/spawn')
-    sim.submit(Delete(name='a/1'), topic='~/spawn')
-    sim.submit(spawning('a/1', DISC, (5.0, 0.0, 0.0)), topic='~/spawn_array')
-    sim.submit(Command(names=('a/1',), twists=((1.0, 0.0, 0.0),)), topic='~/command')
-    sim.submit(Anchor(point=(9.0, 9.0)), topic='~/anchor')
-    sim.submit(Anchor(point=(0.0, 0.0)), topic='~/anchor')
-    sim.submit(DeleteAll(namespace='b'), topic='~/spawn')
+    sim.requests.submit(spawning('a/0'), topic='~/spawn')
+    sim.requests.submit(Delete(name='a/1'), topic='~/spawn')
+    sim.requests.submit(spawning('a/1', DISC, (5.0, 0.0, 0.0)), topic='~/spawn_array')
+    sim.requests.submit(Command(names=('a/1',), twists=((1.0, 0.0, 0.0),)), topic='~/command')
+    sim.requests.submit(Anchor(point=(9.0, 9.0)), topic='~/anchor')
+    sim.requests.submit(Anchor(point=(0.0, 0.0)), topic='~/anchor')
+    sim.requests.submit(DeleteAll(namespace='b'), topic='~/spawn')
 
     frames = periods(sim, 3)
 
@@ -93,9 +93,9 @@ def test_requests_are_answered_in_order_and_one_each() -> None:
 
 def test_what_could_not_be_a_request_is_answered_in_its_place() -> None:
     sim = simulation()
-    sim.submit(spawning('a/0'), topic='~/spawn')
-    sim.refuse(Malformed('no number', field='pose'), topic='~/spawn', subject='a/1')
-    sim.submit(spawning('a/2'), topic='~/spawn')
+    sim.requests.submit(spawning('a/0'), topic='~/spawn')
+    sim.requests.refuse(Malformed('no number', field='pose'), topic='~/spawn', subject='a/1')
+    sim.requests.submit(spawning('a/2'), topic='~/spawn')
 
     told = [(answer.subject, answer.code) for answer in answers(periods(sim, 1))]
 
@@ -110,7 +110,7 @@ def test_what_could_not_be_a_request_is_answered_in_its_place() -> None:
 )  # fmt: skip
 def test_a_refusal_names_the_body_that_it_is_about(request_: object, subject: str) -> None:
     sim = simulation()
-    sim.submit(request_, topic='~/topic')
+    sim.requests.submit(request_, topic='~/topic')
 
     (answer,) = answers(periods(sim, 1))
 
@@ -120,7 +120,7 @@ def test_a_refusal_names_the_body_that_it_is_about(request_: object, subject: st
 
 def test_nothing_moves_before_the_next_frame() -> None:
     sim = simulation()
-    sim.submit(spawning('a/0'), topic='~/spawn')
+    sim.requests.submit(spawning('a/0'), topic='~/spawn')
 
     assert len(sim.world) == 0
     periods(sim, 1)
@@ -151,7 +151,7 @@ def test_a_paused_world_carries_out_requests_and_shows_them() -> None:
     periods(sim, 1)
     assert periods(sim, 60, since=1) == []
 
-    sim.submit(spawning('a/0', DISC, velocity=(1.0, 0.0)), topic='~/spawn')
+    sim.requests.submit(spawning('a/0', DISC, velocity=(1.0, 0.0)), topic='~/spawn')
     (frame,) = periods(sim, 60, since=61)
 
     assert (frame.moved, frame.speed) == (False, 0.0)
@@ -164,7 +164,7 @@ def test_a_refused_request_is_answered_while_paused() -> None:
     sim = simulation(speed=0.0)
     periods(sim, 1)
 
-    sim.submit(Delete(name='a/0'), topic='~/spawn')
+    sim.requests.submit(Delete(name='a/0'), topic='~/spawn')
 
     (frame,) = periods(sim, 5, since=1)
     assert [answer.code for answer in frame.answers] == ['unknown_body']
@@ -209,7 +209,7 @@ def test_late_frames_are_counted_and_no_step_is_skipped() -> None:
 
 def test_an_answer_is_told_once() -> None:
     sim = simulation()
-    sim.submit(spawning('a/0'), topic='~/spawn')
+    sim.requests.submit(spawning('a/0'), topic='~/spawn')
     sim.advance(0)
 
     frames = sim.advance(round(3 * PERIOD))
@@ -220,7 +220,7 @@ def test_an_answer_is_told_once() -> None:
 
 def test_advance_frame_goes_on_by_a_period_whatever_the_speed() -> None:
     sim = simulation(speed=0.0)
-    sim.submit(spawning('a/0'), topic='~/spawn')
+    sim.requests.submit(spawning('a/0'), topic='~/spawn')
 
     frame = sim.advance_frame()
 
@@ -242,7 +242,7 @@ def test_settle_carries_out_what_was_asked_and_goes_nowhere() -> None:
     sim = simulation()
     sim.advance(0)
     assert sim.settle() is None
-    sim.submit(spawning('a/0'), topic='~/spawn')
+    sim.requests.submit(spawning('a/0'), topic='~/spawn')
 
     frame = sim.settle()
 
@@ -254,7 +254,7 @@ def test_settle_carries_out_what_was_asked_and_goes_nowhere() -> None:
 
 def test_perform_is_at_once_after_those_that_wait() -> None:
     sim = simulation()
-    sim.submit(spawning('a/0'), topic='~/spawn')
+    sim.requests.submit(spawning('a/0'), topic='~/spawn')
 
     assert sim.perform(Delete(name='a/0')) == 'deleted a/0'
 
@@ -298,7 +298,7 @@ def saved(settings: WorldSettings) -> World:
 
 def test_load_replaces_the_world_and_time_goes_on() -> None:
     sim = simulation()
-    sim.submit(spawning('b/0'), topic='~/spawn')
+    sim.requests.submit(spawning('b/0'), topic='~/spawn')
     periods(sim, 11)
     world = saved(WorldSettings(gravity=(0.0, -1.0)))
 
@@ -326,7 +326,7 @@ def test_reset_returns_to_what_was_loaded_at_time_0() -> None:
 
     for _ in range(2):
         periods(sim, 7)
-        sim.submit(spawning('b/0'), topic='~/spawn')
+        sim.requests.submit(spawning('b/0'), topic='~/spawn')
         sim.perform(Configure(changes={'damping': 0.5, 'gravity': (1.0, 1.0)}))
         sim.watch_contacts(True)
         message = sim.reset()
@@ -340,7 +340,7 @@ def test_reset_returns_to_what_was_loaded_at_time_0() -> None:
 
 def test_reset_without_a_load_empties_the_world() -> None:
     sim = simulation()
-    sim.submit(spawning('a/0'), topic='~/spawn')
+    sim.requests.submit(spawning('a/0'), topic='~/spawn')
     periods(sim, 5)
     sim.perform(Configure(changes={'gravity': (0.0, -9.0)}))
 
@@ -354,7 +354,7 @@ def test_reset_without_a_load_empties_the_world() -> None:
 def test_reset_answers_those_that_wait_first() -> None:
     sim = simulation()
     sim.advance(0)
-    sim.submit(spawning('a/0'), topic='~/spawn')
+    sim.requests.submit(spawning('a/0'), topic='~/spawn')
 
     sim.reset()
 
@@ -409,7 +409,7 @@ def test_what_is_loaded_goes_the_same_way_whenever_that_is() -> None:
 
 def test_contacts_come_where_somebody_watches() -> None:
     sim = simulation(settings=WorldSettings(bounds=(-5.0, 0.0, 5.0, 9.0)))
-    sim.submit(spawning('a/0', BOX, (0.0, 0.5, 0.0)), topic='~/spawn')
+    sim.requests.submit(spawning('a/0', BOX, (0.0, 0.5, 0.0)), topic='~/spawn')
     assert {frame.contacts for frame in periods(sim, 30)} == {None}
 
     sim.watch_contacts(True)
@@ -423,8 +423,8 @@ def test_contacts_come_where_somebody_watches() -> None:
 
 def test_a_lost_body_is_told_of() -> None:
     sim = simulation(settings=WorldSettings(gravity=(0.0, 0.0), command_timeout=0.0))
-    sim.submit(spawning('a/0', DISC, mass=1e-9), topic='~/spawn')
-    sim.submit(Command(names=('a/0',), wrenches=((1e12, 0.0, 0.0),)), topic='~/command')
+    sim.requests.submit(spawning('a/0', DISC, mass=1e-9), topic='~/spawn')
+    sim.requests.submit(Command(names=('a/0',), wrenches=((1e12, 0.0, 0.0),)), topic='~/command')
 
     told = answers(periods(sim, 5))
 
@@ -439,7 +439,7 @@ def test_a_lost_body_is_told_of() -> None:
 def test_a_frame_that_takes_too_long_ends_at_the_next_period_and_makes_the_same_steps() -> None:
     slow, fast = (Simulation(speed=64.0) for _ in range(2))
     for simulation in (slow, fast):
-        simulation.submit(spawning('a/0', DISC), topic='~/spawn')
+        simulation.requests.submit(spawning('a/0', DISC), topic='~/spawn')
     now = 0
 
     while slow.step < 256:
@@ -461,8 +461,10 @@ def test_speed_changes_nothing_but_when_frames_come() -> None:
         sim = simulation(speed, settings)
         for number in range(6):
             box = spawning(f'a/{number}', BOX, (0.2 * number, 0.6 + 1.1 * number, 0.1))
-            sim.submit(box, topic='~/spawn')
-        sim.submit(Command(names=('a/5',), wrenches=((1.0, 2.0, 0.1),)), topic='~/command')
+            sim.requests.submit(box, topic='~/spawn')
+        sim.requests.submit(
+            Command(names=('a/5',), wrenches=((1.0, 2.0, 0.1),)), topic='~/command'
+        )
         calls = 0
         # Ticks come so often that a fractional speed makes no more than a step at a time.
         while sim.world.step_count < 32 * FRAME:

@@ -174,9 +174,11 @@ class TimeMachine(RuleBasedStateMachine):
         self.seen: dict[int, Frame] = {}
         # The same of each course, when it was in force last.
         self.seen_on: dict[int, dict[int, Frame]] = {}
-        self.simulation.submit(Configure(changes={'bounds': (-4.0, 0.0, 4.0, 9.0)}), topic='')
+        self.simulation.requests.submit(
+            Configure(changes={'bounds': (-4.0, 0.0, 4.0, 9.0)}), topic=''
+        )
         for spawn in several:
-            self.simulation.submit(spawn, topic='')
+            self.simulation.requests.submit(spawn, topic='')
         self.look(self.simulation.settle())
 
     def new(self) -> Simulation:
@@ -189,7 +191,7 @@ class TimeMachine(RuleBasedStateMachine):
     def ask_while_it_stands(self, request: Request) -> None:
         step, digest = self.simulation.step, self.simulation.world.digest()
         made = self.simulation.past.timeline.serial
-        self.simulation.submit(request, topic='')
+        self.simulation.requests.submit(request, topic='')
         frame = self.simulation.settle()
         assert frame is not None
         # A request that has changed anything is in the log, to be replayed.
@@ -200,7 +202,7 @@ class TimeMachine(RuleBasedStateMachine):
     @rule(request=requests)
     def ask_while_it_runs(self, request: Request) -> None:
         step = self.simulation.step
-        self.simulation.submit(request, topic='')
+        self.simulation.requests.submit(request, topic='')
         frame = self.simulation.advance_frame()
         accepted = not next(each for each in frame.answers if each.topic == '').code
         if accepted:
@@ -211,7 +213,7 @@ class TimeMachine(RuleBasedStateMachine):
     def ask_while_it_goes_back(self, request: Request) -> None:
         self.run(-1.0, 3)
         step = self.simulation.step
-        self.simulation.submit(request, topic='')
+        self.simulation.requests.submit(request, topic='')
         frame = self.simulation.settle()
         assert frame is not None
         self.after_request(frame, step, accepted=not frame.answers[0].code)
@@ -227,10 +229,10 @@ class TimeMachine(RuleBasedStateMachine):
     @rule(hand=hands, name=names, to=points, frames=st.integers(1, 20))
     def drag(self, hand: str, name: str, to: tuple[float, float], frames: int) -> None:
         snapshot, step = self.simulation.world.snapshot(), self.simulation.step
-        self.simulation.submit(Grab(hand=hand, point=(0.0, 0.0), frame=name), topic='')
+        self.simulation.requests.submit(Grab(hand=hand, point=(0.0, 0.0), frame=name), topic='')
         for number in range(frames):
             point = (to[0], to[1] + number / 10)
-            self.simulation.submit(MoveHand(hand=hand, point=point), topic='')
+            self.simulation.requests.submit(MoveHand(hand=hand, point=point), topic='')
             frame = self.simulation.advance_frame()
             if number == 0 and snapshot.scene.names.count(name):
                 self.drop_after(step)
@@ -367,7 +369,7 @@ TestTimeMachine.settings = settings(
 
 def test_a_restored_world_is_one_of_the_requests() -> None:
     first, second = Simulation(), Simulation()
-    first.submit(Spawn(name='a/0', shape=SHAPES[0], pose=(0.0, 3.0, 0.0)), topic='')
+    first.requests.submit(Spawn(name='a/0', shape=SHAPES[0], pose=(0.0, 3.0, 0.0)), topic='')
     for _ in range(30):
         first.advance_frame()
     second.perform(Restore(state=first.save()))

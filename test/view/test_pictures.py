@@ -151,7 +151,7 @@ def test_bodies_are_where_they_were_in_the_past_in_a_branch_and_now(film):
     run(30, 'past')
     simulation.speed = 1.0
     stone = spawn('stone/0', Disc(radius=0.6), (0.0, 1.5, 0.0), BLUE)
-    simulation.submit(stone, topic='~/spawn')
+    simulation.requests.submit(stone, topic='~/spawn')
     run(60, 'branch')
 
     pictures = {mark: film.look(mark) for mark in ('first', 'past', 'branch')}

@@ -44,7 +44,7 @@ def scene(name):
     frame = sim.advance_frame()
     for stroke in load_drawing(find_drawing(name)):
         for request in pen.stroke(stroke, '', frame.snapshot).requests:
-            sim.submit(request, topic='~/stroke')
+            sim.requests.submit(request, topic='~/stroke')
         frame = sim.settle() or frame
     return sim
 

@@ -221,11 +221,11 @@ def test_rewinding_through_falling_asleep_and_waking_gives_the_same_bits() -> No
     sim = Simulation(settings=YARD)
     for number in range(3):
         pose_of = (0.0, 0.5 + number, 0.0)
-        sim.submit(spawning(f'stack/{number}', BOX, pose_of), topic='~/spawn')
+        sim.requests.submit(spawning(f'stack/{number}', BOX, pose_of), topic='~/spawn')
     asleep = course(sim, 1200)
     assert len(sleepers(sim.world)) == 3
     ball = spawning('ball/0', Disc(radius=0.2), (-3.0, 1.5, 0.0), velocity=(9.0, 0.0))
-    sim.submit(ball, topic='~/spawn')
+    sim.requests.submit(ball, topic='~/spawn')
     awake = course(sim, 1800)
 
     for back in (1300, 900, 200):

@@ -1,0 +1,92 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+The publisher of `/diagnostics`, once a second.
+
+Law: a viewer or recording that has failed is reported whether anybody subscribes or not.
+"""
+
+from __future__ import annotations
+
+from diagnostic_msgs.msg import DiagnosticArray
+from physsim_ros.ros.diagnostics import Backlog
+from physsim_ros.ros.frame_outputs import FrameOutputs
+from physsim_ros.ros.subscriptions import RequestSubscriptions
+from physsim_ros.simulation.simulation import Simulation
+from rclpy.node import Node
+
+# From one message to the next [ns].
+_PERIOD = 1_000_000_000
+
+
+class DiagnosticsPublisher:
+    """
+    The publisher of the diagnostics of a node.
+
+    :param node: that owns it
+    :param simulation: of the node
+    :param outputs: of the node, with the statistics of frames
+    :param subscriptions: of requests
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        simulation: Simulation,
+        outputs: FrameOutputs,
+        subscriptions: RequestSubscriptions,
+    ) -> None:
+        self._name = node.get_fully_qualified_name()
+        self._simulation = simulation
+        self._outputs = outputs
+        self._subscriptions = subscriptions
+        self._publisher = node.create_publisher(DiagnosticArray, '/diagnostics', 10)
+        self._due = 0
+
+    def publish_due(self, now_ns: int, *, message_delay: float) -> None:
+        """
+        Publish the diagnostics if a second is over; called at each tick.
+
+        :param now_ns: steady time, monotonic [ns]
+        :param message_delay: time that messages wait before they are handled [s]
+        """
+        if now_ns < self._due:
+            return
+        self._due = now_ns + _PERIOD
+        outputs = self._outputs
+        for answer in outputs.viewer.poll():
+            outputs.report_answer(answer)
+        if outputs.frame is None or self._publisher.get_subscription_count() == 0:
+            return
+        simulation, events = self._simulation, outputs.topics.events
+        backlog = Backlog(
+            message_delay=message_delay,
+            waiting_requests=len(simulation.requests),
+            undecodable=self._subscriptions.undecodable,
+            waiting_answers=events.waiting,
+            stopped_listener=events.stopped,
+            history_memory=simulation.past.memory.in_megabytes,
+        )
+        self._publisher.publish(
+            outputs.statistics.report(
+                outputs.frame.snapshot,
+                node=self._name,
+                speed=simulation.speed,
+                late_frames=simulation.late_frames,
+                viewer=outputs.viewer.state,
+                viewer_failure=outputs.viewer.failure,
+                backlog=backlog,
+            )
+        )
