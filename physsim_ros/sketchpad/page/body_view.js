@@ -6,9 +6,15 @@ import {pathOf, spanOf} from './body_path.js';
 /** @typedef {import('./wire.js').Point} Point */
 /** @typedef {import('./wire.js').Body} Body */
 /** @typedef {import('./wire.js').Frame} Frame */
-/** @typedef {{path: Path2D, radius: number, dark: boolean, fill: string, line: string, tiny: string}} Look */
+/** @typedef {{path: Path2D, reach: number, radius: number, inner: number, plain: boolean, dark: boolean,
+ *   fill: string, line: string, tiny: string}} Appearance
+ *   reach: of the farthest point from the body's origin, radius: of it from the centroid, inner: of a circle
+ *   round the centroid within the body [m]; plain: neither anchored, kinematic nor sensor */
 
-const SMALL = 5; // px: half the size below which a body has neither outline nor mark
+// Half of the size of a body [px]. Below SMALL it has no outline, below MARKED no mark; below MEDIUM its
+// outline is the rim that a smaller filling leaves free: without a GPU, a stroke costs twice a filling.
+const SMALL = 4, MARKED = 8, MEDIUM = 11;
+const RIM = 1.2, MARK = 1.8; // px
 
 export class BodyView {
   /**
@@ -22,15 +28,15 @@ export class BodyView {
     this.ink = '';
     /** @type {CanvasPattern[]} */
     this.hatches = [];
-    /** @type {WeakMap<Body, Look>} */
-    this.looks = new WeakMap();
+    /** @type {WeakMap<Body, Appearance>} */
+    this.appearances = new WeakMap();
   }
 
   /** @param {import('./theme.js').Palette} palette */
   repaint({ink}) {
     this.ink = ink;
     this.hatches = [this.#hatch('#111'), this.#hatch('#eee')]; // on light bodies, and on dark ones
-    this.looks = new WeakMap();
+    this.appearances = new WeakMap();
   }
 
   /**
@@ -52,31 +58,49 @@ export class BodyView {
   }
 
   /**
+   * Draw in the frame of a body from now on.
    * @param {Frame} frame
    * @param {number} row
-   * @param {Point} by [m]
+   * @param {Point} by displacement [m]
    */
-  toBody(frame, row, by = [0, 0]) {
+  setTransform(frame, row, by = [0, 0]) {
     const {camera, ratio} = this, scale = camera.scale * ratio;
     const cos = scale * Math.cos(frame.yaw[row]), sin = scale * Math.sin(frame.yaw[row]);
     const [px, py] = camera.toPage(frame.x[row] + by[0], frame.y[row] + by[1]);
     this.ctx.setTransform(cos, -sin, -sin, -cos, px * ratio, py * ratio);
   }
 
-  /** @param {Body} body */
-  look(body) {
-    let look = this.looks.get(body);
-    if (!look) {
-      const points = spanOf(body.shape), [x, y] = body.centroid;
-      const radius = Math.max(...points.map(([px, py]) => Math.hypot(px - x, py - y)));
+  /**
+   * @param {Body} body
+   * @returns {Appearance}
+   */
+  appearance(body) {
+    const {shape, color, centroid: [x, y]} = body;
+    let appearance = this.appearances.get(body);
+    if (!appearance) {
+      const radius = Math.max(...spanOf(shape).map(([px, py]) => Math.hypot(px - x, py - y)));
       const night = document.documentElement.dataset.theme === 'dark';
-      const dark = Math.max(...body.color.slice(0, 3)) < 0.45, fill = css(body.color);
-      const line = css(body.color, night ? 0.45 : -0.4);
-      // Without its outline a dark body could not be told from a dark paper.
-      look = {path: pathOf(body.shape), radius, fill, dark, line, tiny: night && dark ? line : fill};
-      this.looks.set(body, look);
+      const dark = Math.max(...color.slice(0, 3)) < 0.45, fill = css(color);
+      const line = css(color, night ? 0.45 : -0.4), inner = innerRadius(body, radius);
+      const plain = !(body.anchored || body.kinematic || body.sensor);
+      appearance = {path: pathOf(shape), reach: radius + Math.hypot(x, y), radius, inner, plain, dark, fill, line,
+        // Without its outline a dark body could not be told from a dark paper.
+        tiny: night && dark ? line : fill};
+      this.appearances.set(body, appearance);
     }
-    return look;
+    return appearance;
+  }
+
+  /**
+   * @param {Frame} frame
+   * @param {number} row
+   * @param {Appearance} appearance of that body
+   * @returns {boolean} whether it may be on the page; no body at NaN is
+   */
+  isOnPage(frame, row, appearance) {
+    const {camera} = this, reach = appearance.reach * camera.scale;
+    const [x, y] = camera.toPage(frame.x[row], frame.y[row]);
+    return x > -reach && y > -reach && x < camera.width + reach && y < camera.height + reach;
   }
 
   /**
@@ -85,43 +109,70 @@ export class BodyView {
    * @param {Body} body
    */
   draw(frame, row, body) {
-    const {ctx, camera} = this;
-    const look = this.look(body), pixel = 1 / camera.scale, small = look.radius < SMALL * pixel;
-    const [px, py] = camera.toPage(frame.x[row], frame.y[row]);
-    const reach = (look.radius + Math.hypot(...body.centroid)) * camera.scale;
-    if (!(px > -reach && py > -reach && px < camera.width + reach && py < camera.height + reach)) return;
-    this.toBody(frame, row);
-    if (body.shape.kind === 'chain') {
-      this.#drawChain(body, look, pixel);
-      return;
+    const {ctx, camera} = this, appearance = this.appearance(body);
+    if (!this.isOnPage(frame, row, appearance)) return;
+    this.setTransform(frame, row);
+    const size = appearance.radius * camera.scale, pixel = 1 / camera.scale;
+    if (body.shape.kind === 'chain') this.#drawChain(body, appearance, pixel);
+    else if (size < SMALL) {
+      ctx.fillStyle = appearance.tiny;
+      ctx.fill(appearance.path);
+    } else {
+      if (size < MEDIUM && appearance.plain) this.#drawMedium(body, appearance, 1 - RIM / size);
+      else this.#drawLarge(body, appearance, pixel);
+      if (body.anchored) this.#drawRim(appearance, pixel);
+      else if (size >= MARKED) this.#drawMark(body, appearance, pixel);
     }
-    ctx.strokeStyle = look.line;
-    ctx.lineWidth = 3 * pixel;
-    ctx.lineJoin = 'round';
-    ctx.setLineDash(body.kinematic || body.sensor ? [6 * pixel, 4 * pixel] : []);
-    // Filled last, so that pieces of one body have one outline.
-    if (!small) ctx.stroke(look.path);
-    ctx.setLineDash([]);
-    ctx.fillStyle = small ? look.tiny : look.fill;
-    ctx.globalAlpha = body.sensor ? 0.35 : 1;
-    ctx.fill(look.path, 'nonzero');
-    ctx.globalAlpha = 1;
-    if (small) return;
-    if (body.anchored) {
-      this.#drawRim(look, pixel);
-      return;
-    }
-    ctx.lineWidth = 1.8 * pixel;
-    // The turning mark; the centre keeps the body's colour.
-    const [cx, cy] = body.centroid, inner = insideOf(body, look.radius);
-    ctx.beginPath();
-    ctx.moveTo(cx + 0.45 * inner, cy);
-    ctx.lineTo(cx + 0.85 * inner, cy);
-    ctx.stroke();
   }
 
   /**
-   * @param {{path: Path2D, dark: boolean}} look
+   * @param {Body} body
+   * @param {Appearance} appearance
+   * @param {number} share of the size that is filled
+   */
+  #drawMedium({centroid: [x, y]}, {path, line, fill}, share) {
+    const {ctx} = this;
+    ctx.fillStyle = line;
+    ctx.fill(path);
+    ctx.translate(x * (1 - share), y * (1 - share));
+    ctx.scale(share, share);
+    ctx.fillStyle = fill;
+    ctx.fill(path);
+  }
+
+  /**
+   * @param {Body} body
+   * @param {Appearance} appearance
+   * @param {number} pixel [m]
+   */
+  #drawLarge({kinematic, sensor}, {path, line, fill}, pixel) {
+    const {ctx} = this;
+    ctx.strokeStyle = line;
+    ctx.lineWidth = 3 * pixel;
+    ctx.lineJoin = 'round';
+    if (kinematic || sensor) ctx.setLineDash([6 * pixel, 4 * pixel]);
+    // Filled last, so that pieces of one body have one outline.
+    ctx.stroke(path);
+    ctx.setLineDash([]);
+    ctx.fillStyle = fill;
+    ctx.globalAlpha = sensor ? 0.35 : 1;
+    ctx.fill(path, 'nonzero');
+    ctx.globalAlpha = 1;
+  }
+
+  /**
+   * The mark that turns with a body; the centre keeps the body's colour.
+   * @param {Body} body
+   * @param {Appearance} appearance
+   * @param {number} pixel [m]
+   */
+  #drawMark({centroid: [x, y]}, {inner, line}, pixel) {
+    this.ctx.fillStyle = line;
+    this.ctx.fillRect(x + 0.45 * inner, y - MARK / 2 * pixel, 0.4 * inner, MARK * pixel);
+  }
+
+  /**
+   * @param {Appearance} appearance
    * @param {number} pixel [m]
    */
   #drawRim({path, dark}, pixel) {
@@ -137,18 +188,18 @@ export class BodyView {
 
   /**
    * @param {Body} body
-   * @param {{path: Path2D, fill: string, line: string}} look
+   * @param {Appearance} appearance
    * @param {number} pixel [m]
    */
-  #drawChain({shape, anchored}, look, pixel) {
+  #drawChain({shape, anchored}, {path, line, fill}, pixel) {
     const {ctx} = this, width = Math.max(shape.thickness, 2 * pixel);
     ctx.lineCap = ctx.lineJoin = 'round';
-    ctx.strokeStyle = look.line;
+    ctx.strokeStyle = line;
     ctx.lineWidth = width + 2 * pixel;
-    ctx.stroke(look.path);
-    ctx.strokeStyle = look.fill;
+    ctx.stroke(path);
+    ctx.strokeStyle = fill;
     ctx.lineWidth = width;
-    ctx.stroke(look.path);
+    ctx.stroke(path);
     if (!anchored) return;
     ctx.strokeStyle = this.ink;
     ctx.lineWidth = 1.2 * pixel;
@@ -175,7 +226,7 @@ function css([red, green, blue, alpha], share = 0) {
  * @param {number} radius of its farthest point [m]
  * @returns {number} radius of a circle round the centroid that is within the body [m]
  */
-function insideOf({shape, centroid: [x, y]}, radius) {
+function innerRadius({shape, centroid: [x, y]}, radius) {
   if (!shape.outline) return shape.radius ?? radius / 3;
   return 0.9 * Math.min(...shape.outline.map(([ax, ay], i) => {
     const [bx, by] = shape.outline[(i + 1) % shape.outline.length];

@@ -12,6 +12,7 @@ import {readPalette, watchTheme} from './theme.js';
 
 const NEWTONS = 10; // of a contact's arrow of one metre
 const HEAD = 9; // px: of an arrow
+const DASHED = 9; // px: half of the size from which on the outline of a ghost is dashed
 
 export class SceneView {
   /**
@@ -98,14 +99,19 @@ export class SceneView {
     const {ctx, camera, palette} = this, pixel = 1 / camera.scale;
     bodies.forEach((body, row) => {
       if (body.anchored || row >= frame.x.length) return;
-      const {path} = this.bodies.look(body);
-      this.bodies.toBody(frame, row);
-      for (const [color, width] of /** @type {const} */ ([[palette.paper, 3.5], [palette.force, 1.8]])) {
-        ctx.strokeStyle = color;
-        ctx.lineWidth = width * pixel;
-        ctx.setLineDash([5 * pixel, 5 * pixel]);
-        ctx.stroke(path);
+      const appearance = this.bodies.appearance(body);
+      if (!this.bodies.isOnPage(frame, row, appearance)) return;
+      this.bodies.setTransform(frame, row);
+      const small = appearance.radius * camera.scale < DASHED;
+      ctx.setLineDash(small ? [] : [5 * pixel, 5 * pixel]);
+      if (!small) {
+        ctx.strokeStyle = palette.paper;
+        ctx.lineWidth = 3.5 * pixel;
+        ctx.stroke(appearance.path);
       }
+      ctx.strokeStyle = palette.force;
+      ctx.lineWidth = (small ? 1.2 : 1.8) * pixel;
+      ctx.stroke(appearance.path);
     });
     ctx.setLineDash([]);
     this.#toPixels();
@@ -190,14 +196,14 @@ export class SceneView {
   /**
    * @param {number} row of a body that is chosen or pointed at
    * @param {string} color
-   * @param {Point} by how far from its place [m]
+   * @param {Point} by displacement [m]
    */
   outline(row, color, by = [0, 0]) {
     const {ctx, camera, world} = this, body = world.scene.bodies[row];
-    this.bodies.toBody(world.frame, row, by);
+    this.bodies.setTransform(world.frame, row, by);
     ctx.strokeStyle = color;
     ctx.lineWidth = (body.shape.kind === 'chain' ? body.shape.thickness : 0) + 3 / camera.scale;
-    ctx.stroke(this.bodies.look(body).path);
+    ctx.stroke(this.bodies.appearance(body).path);
     this.#toPixels();
   }
 }
