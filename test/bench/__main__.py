@@ -19,6 +19,7 @@ import sys
 
 from . import (
     capacity,
+    chromium_page,
     crowd,
     frames,
     joints,
@@ -42,6 +43,7 @@ crowd.table()
 joints.table()
 rewinding.table()
 pages.table()
+chromium_page.table()
 picture.table()
 recording_page.table()
 startup.table()

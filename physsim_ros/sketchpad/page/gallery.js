@@ -59,7 +59,7 @@ export class Gallery {
     const action = (/** @type {string} */ label, /** @type {() => void} */ onclick) =>
       make('button', {type: 'button', textContent: label, onclick});
     this.show('Save', form, make('div', {className: 'row'},
-      action('Download file', async () => download('world.yaml', new Blob([await this.#text()]))),
+      action('Download file', () => this.#download()),
       action('Copy link', () => this.#copyLink()),
       action('Picture (PNG)', () => this.app.view.canvas.toBlob((png) => png && download('world.png', png)))));
     name.select();
@@ -81,13 +81,20 @@ export class Gallery {
     if (ok) this.app.frameNext();
   }
 
-  /** @returns {Promise<string>} the world as a file */
+  /** @returns {Promise<?string>} the world as a file; null where it is refused, as too large */
   async #text() {
-    return (await this.app.connection.ask('share')).values.yaml;
+    return (await this.app.connection.ask('share')).values.yaml ?? null;
+  }
+
+  async #download() {
+    const text = await this.#text();
+    if (text !== null) download('world.yaml', new Blob([text]));
   }
 
   async #copyLink() {
-    const link = `${location.origin}/#world=${await packText(await this.#text())}`;
+    const world = await this.#text();
+    if (world === null) return;
+    const link = `${location.origin}/#world=${await packText(world)}`;
     if (link.length > LONGEST_LINK) {
       this.app.notes.say('This world is too large for a link: download it as a file.', {ok: false});
       return;
