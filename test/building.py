@@ -118,6 +118,11 @@ def body(world: World, name: str) -> Body:
     return scene.bodies[scene.names.index(name)]
 
 
+def names(world: World) -> tuple[str, ...]:
+    """Return the names of all bodies, in spawn order."""
+    return world.snapshot().scene.names
+
+
 def body_at(world: World, point: Point) -> str | None:
     """Return the topmost body that covers a point of the world [m]."""
     bodies = world._space.bodies  # noqa: SLF001 - as a click finds them, without changing any

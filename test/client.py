@@ -23,6 +23,7 @@ from typing import Any, NamedTuple
 from diagnostic_msgs.msg import DiagnosticStatus
 from physsim_ros.ros.qos_safe_node import NodeWithoutQosEvents
 from physsim_ros.testing import PhysSim
+from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 from std_srvs.srv import Trigger
 
@@ -117,3 +118,9 @@ class Client:
         self.spin_until(future.done)
         self.node.destroy_client(client)
         return future.result()
+
+
+def set_parameter(physsim: PhysSim, name: str, value: object) -> None:
+    """Set a parameter of the node of a world."""
+    (result,) = physsim.node.set_parameters([Parameter(name, value=value)])
+    assert result.successful, result.reason

@@ -206,10 +206,6 @@ def weighted(
     return world
 
 
-def total_energy(snapshot: Snapshot) -> float:
-    return snapshot.kinetic_energy + snapshot.potential_energy + snapshot.elastic_energy
-
-
 @pytest.mark.parametrize('physics_rate', [60.0, 240.0])
 @pytest.mark.parametrize('stiffness', [4.0, 40.0])
 def test_a_weight_at_balance_on_its_spring_stays(stiffness: float, physics_rate: float) -> None:
@@ -258,7 +254,7 @@ def test_a_weight_on_a_stretched_spring_swings_as_far_as_it_was_pulled() -> None
         exact = -0.2 * math.cos(omega * world.step_count / 240.0)
         # Half a step of the fastest that it goes.
         assert now.poses[0, 1] == pytest.approx(exact, abs=0.2 * omega / 480.0 * 1.01)
-        assert total_energy(now) == pytest.approx(total_energy(start), abs=0.01 * 0.2)
+        assert energy(now) == pytest.approx(energy(start), abs=0.01 * 0.2)
 
 
 def test_two_bodies_that_a_spring_joins_fly_together_exactly() -> None:

@@ -20,9 +20,8 @@ import math
 
 from physsim_ros.testing import PhysSim, Refused
 import pytest
-from rclpy.parameter import Parameter
 
-from ..client import Client, Event
+from ..client import Client, Event, set_parameter
 from ..messages import box, command, disc, ELL, polygon
 
 G = 9.81
@@ -33,11 +32,6 @@ def weightless(physsim: PhysSim) -> PhysSim:
     """Give a world without gravity."""
     set_parameter(physsim, 'gravity', [0.0, 0.0])
     return physsim
-
-
-def set_parameter(physsim: PhysSim, name: str, value: object) -> None:
-    (result,) = physsim.node.set_parameters([Parameter(name, value=value)])
-    assert result.successful, result.reason
 
 
 def test_a_command_is_answered_once(physsim: PhysSim, client: Client) -> None:

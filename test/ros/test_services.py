@@ -21,20 +21,14 @@ from pathlib import Path
 
 from physsim_ros.testing import PhysSim
 import pytest
-from rclpy.parameter import Parameter
 from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
 
-from ..client import Client, Event
+from ..client import Client, Event, set_parameter
 from ..messages import box, command, delete, disc, ELL, marker, polygon
 
 # One frame at speed 1 [ns]
 PERIOD = 1e9 / 60.0
-
-
-def set_parameter(physsim: PhysSim, name: str, value: object) -> None:
-    (result,) = physsim.node.set_parameters([Parameter(name, value=value)])
-    assert result.successful, result.reason
 
 
 def parameter(physsim: PhysSim, name: str) -> object:

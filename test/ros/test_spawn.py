@@ -22,10 +22,9 @@ from typing import Any
 from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon, Triangles
 from physsim_ros.testing import PhysSim
 import pytest
-from rclpy.parameter import Parameter
 from visualization_msgs.msg import Marker, MarkerArray
 
-from ..client import Client, Event
+from ..client import Client, Event, set_parameter
 from ..messages import box, command, delete, delete_all, disc, ELL, marker, polygon
 
 # Depth to which a resting body sinks in [m]: the engine's slop of 5 mm, more while it is pressed.
@@ -70,11 +69,6 @@ def body_of(physsim: PhysSim, name: str) -> Any:
     """Return the description of a body."""
     scene = physsim.node.simulation.world.snapshot().scene
     return scene.bodies[scene.names.index(name)]
-
-
-def set_parameter(physsim: PhysSim, name: str, value: object) -> None:
-    (result,) = physsim.node.set_parameters([Parameter(name, value=value)])
-    assert result.successful, result.reason
 
 
 def accepted(events: list[Event], name: str, subject: str) -> None:

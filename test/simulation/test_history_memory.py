@@ -67,7 +67,7 @@ def test_a_flood_of_commands_takes_no_more_than_the_budget(paused: bool) -> None
     tracemalloc.start()
     before, _ = tracemalloc.get_traced_memory()
     digests, events = {}, []
-    for number in range(900):
+    for number in range(450):
         for part in range(4):
             command(sim, number + part)
         if paused:

@@ -358,7 +358,7 @@ class TimeMachine(RuleBasedStateMachine):
 
 TestTimeMachine = TimeMachine.TestCase
 TestTimeMachine.settings = settings(
-    max_examples=200,
+    max_examples=100,
     stateful_step_count=20,
     deadline=None,
     # A failing example is long, and to shrink it takes minutes.

@@ -1,0 +1,273 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""A saved world that was edited by hand: motion and impulses count where nothing was changed."""
+
+import base64
+import math
+from pathlib import Path
+from typing import Any
+import zlib
+
+from hypothesis import given, settings
+from hypothesis import strategies as st
+import numpy as np
+from physsim_ros.files.base64_array import pack
+from physsim_ros.model.checkpoint import WorldState
+from physsim_ros.model.errors import BadWorldFile
+from physsim_ros.model.requests import Command, Restore
+from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.shapes import Disc
+from physsim_ros.simulation.world import World
+import pytest
+import yaml
+
+from .world_files import (
+    edited,
+    load,
+    restored,
+    save,
+)
+from ..building import body, DISC, ELL, pose, spawn, stack, twist
+
+
+@pytest.fixture
+def flying(folder: Path) -> Path:
+    """Return the file of an off-centre body in flight, with a wrench on it, and another."""
+    world = World()
+    spawn(world, 'a/0', ELL, (1.0, 2.0, 0.3), velocity=(3.0, 4.0), spin=5.0)
+    spawn(world, 'a/1', DISC, (9.0, 2.0, 0.3), velocity=(3.0, 4.0), spin=5.0)
+    world.apply(Command(names=('a/0',), wrenches=((0.5, 0.0, 0.1),)))
+    world.step(24)
+    return save(world, folder)
+
+
+def test_a_body_that_was_moved_in_the_file_is_where_the_file_says(flying: Path) -> None:
+    before = restored(load(flying))
+
+    world = edited(flying, {'at': [7.0, 8.0, 0.9]})
+
+    assert pose(world, 'a/0') == pytest.approx((7.0, 8.0, 0.9), abs=1e-12)
+    assert twist(world, 'a/0') == pytest.approx(twist(before, 'a/0'), abs=1e-12)
+    assert np.array_equal(pose(world, 'a/1'), pose(before, 'a/1'))
+    # The wrench goes on for as long as it had left.
+    assert world.save().bodies[0].wrench_steps == 120 - 24
+
+
+def test_a_velocity_that_was_changed_in_the_file_holds(flying: Path) -> None:
+    before = restored(load(flying))
+
+    world = edited(flying, {'velocity': [0.0, 0.0], 'spin': 0.0})
+
+    assert pose(world, 'a/0') == pytest.approx(pose(before, 'a/0'), abs=1e-12)
+    assert twist(world, 'a/0') == pytest.approx((0.0, 0.0, 0.0), abs=1e-12)
+
+
+def test_a_shape_or_colour_that_was_changed_in_the_file_keeps_the_motion(flying: Path) -> None:
+    before = restored(load(flying))
+
+    world = edited(flying, {'circle': {'radius': 2.0}, 'color': '#ff0000'}, 'a/1')
+
+    assert body(world, 'a/1').shape == Disc(radius=2.0)
+    assert np.array_equal(pose(world, 'a/1'), pose(before, 'a/1'))
+    assert np.array_equal(twist(world, 'a/1'), twist(before, 'a/1'))
+
+
+def test_another_gravity_in_the_file_keeps_the_true_velocities(flying: Path) -> None:
+    before = restored(load(flying))
+
+    content = yaml.safe_load(flying.read_text()) | {'gravity': [5.0, 0.0]}
+    flying.write_text(yaml.safe_dump(content))
+    world = restored(load(flying))
+
+    assert world.snapshot().twists == pytest.approx(before.snapshot().twists, abs=1e-12)
+    world.step(24)
+    assert twist(world, 'a/1') == pytest.approx(twist(before, 'a/1') + np.array((0.5, 0, 0)))
+
+
+def test_another_physics_rate_keeps_the_true_velocities(flying: Path) -> None:
+    before = restored(load(flying))
+
+    state = load(flying, rate=1000.0)
+    world = World(physics_rate=1000.0)
+    world.apply(Restore(state=state))
+
+    assert world.snapshot().twists == pytest.approx(before.snapshot().twists, abs=1e-12)
+    world.step(500)
+    before.step(120)
+    # The free one flies exactly, at any rate.
+    assert pose(world, 'a/1') == pytest.approx(pose(before, 'a/1'), abs=1e-9)
+
+
+def test_a_body_that_was_anchored_in_the_file_needs_no_more_than_that(folder: Path) -> None:
+    world = World()
+    spawn(world, 'a/0', DISC, (1.0, 2.0, 0.3))
+    path = save(world, folder)
+
+    again = edited(path, {'anchored': True})
+
+    assert body(again, 'a/0').anchored
+    again.step(24)
+    assert pose(again, 'a/0').tolist() == [1.0, 2.0, 0.3]
+
+
+@pytest.fixture
+def resting(folder: Path) -> Path:
+    """Return the file of a stack at rest, with what the engine remembers of its contacts."""
+    world = World(settings=WorldSettings(bounds=(-8.0, 0.0, 8.0, 30.0)))
+    stack(world, 5)
+    world.step(960)
+    return save(world, folder)
+
+
+def remembering(path: Path, changes: dict[str, Any]) -> WorldState:
+    content = yaml.safe_load(path.read_text())
+    content['memory'].update(changes)
+    path.write_text(yaml.safe_dump({k: v for k, v in content.items() if v is not None}))
+    return load(path)
+
+
+def packed(*rows: object, kind: type = np.int64) -> str:
+    return pack(np.array(rows, dtype=kind))
+
+
+@pytest.mark.parametrize(
+    ('changes', 'field'),
+    [
+        ({'walls': -1}, 'walls'),
+        ({'walls': 2.5}, 'walls'),
+        ({'walls': True}, 'walls'),
+        ({'walls': None}, 'walls'),
+        ({'following': 2**62}, 'following'),
+        ({'following': 'many'}, 'following'),
+        ({'ids': 'none of them'}, 'ids'),
+        ({'ids': None}, 'ids'),
+        ({'ids': base64.b64encode(zlib.compress(b'five!')).decode()}, 'ids'),
+        ({'pairs': packed(1, 2, 3)}, 'pairs'),
+        ({'pairs': packed(1, 2)}, 'memory'),
+        ({'hashes': packed(1)}, 'memory'),
+        ({'impulses': packed((1.0, 2.0), kind=np.float64)}, 'memory'),
+        ({'impulses': packed(*[(math.nan, 0.0)] * 10, kind=np.float64)}, 'memory'),
+        ({'impulses': packed(*[(math.inf, 0.0)] * 10, kind=np.float64)}, 'memory'),
+        ({'ids': [1, 2]}, 'ids'),
+        ({'impulse': packed(1)}, 'impulse'),
+    ],
+)
+def test_a_memory_that_is_none_is_refused(
+    changes: dict[str, Any], field: str, resting: Path
+) -> None:
+    assert remembering(resting, {}).memory is not None
+    with pytest.raises(BadWorldFile) as refused:
+        remembering(resting, changes)
+    assert refused.value.field == field
+
+
+def test_a_memory_without_one_of_its_keys_is_refused(resting: Path) -> None:
+    content = yaml.safe_load(resting.read_text())
+    for key in content['memory']:
+        left = {name: value for name, value in content['memory'].items() if name != key}
+        resting.write_text(yaml.safe_dump(content | {'memory': left}))
+        with pytest.raises(BadWorldFile) as refused:
+            load(resting)
+        assert refused.value.field == key
+
+
+@pytest.mark.parametrize(
+    'ids', [(), (1, 2), (-1, 0, 1, 2, 3), (0, 1, 2, 3, 10**9), (20, 20, 21, 22, 23)]
+)
+def test_a_memory_of_other_bodies_is_none(ids: tuple[int, ...], resting: Path) -> None:
+    state = remembering(resting, {'ids': packed(*ids)})
+    assert state.memory is None
+    restored(state).step(10)
+
+
+def test_a_memory_in_which_walls_and_bodies_share_numbers_is_none(resting: Path) -> None:
+    first = remembering(resting, {}).memory
+    assert first is not None
+    state = remembering(resting, {'walls': int(first.ids[0])})
+    assert state.memory is None
+    restored(state).step(10)
+
+
+def test_the_memory_may_be_deleted(resting: Path) -> None:
+    content = yaml.safe_load(resting.read_text())
+    del content['memory']
+    resting.write_text(yaml.safe_dump(content))
+    state = load(resting)
+    assert state.memory is None
+    assert len(state.bodies) == 5
+
+
+def test_a_body_that_is_gone_or_edited_leaves_no_memory(resting: Path) -> None:
+    content = yaml.safe_load(resting.read_text())
+    fewer = content | {'bodies': content['bodies'][:-1]}
+    resting.write_text(yaml.safe_dump(fewer))
+    assert load(resting).memory is None
+    content['bodies'][0]['at'] = [3.0, 3.0, 0.0]
+    resting.write_text(yaml.safe_dump(content))
+    assert load(resting).memory is None
+
+
+def test_a_body_that_was_cut_into_pieces_leaves_no_memory(resting: Path) -> None:
+    content = yaml.safe_load(resting.read_text())
+    lowest = content['bodies'][0]
+    width, height = lowest.pop('box').values()
+    # As wide, as high and as heavy at both ends, so that it goes on from where it was.
+    points = [[share * width, 0.0] for share in (-0.4, -0.2, 0.0, 0.2, 0.4)]
+    lowest['chain'] = {'points': points, 'thickness': height}
+    resting.write_text(yaml.safe_dump(content))
+    state = load(resting)
+    assert state.bodies[0].motion is not None
+    assert state.memory is None
+    restored(state).step(10)
+
+
+@settings(deadline=None)
+@given(
+    ids=st.lists(st.integers(0, 20), min_size=5, max_size=5, unique=True),
+    pairs=st.lists(
+        st.tuples(st.integers(-(2**63), 2**63 - 1), st.integers(0, 30)), min_size=8, max_size=8
+    ),
+    impulses=st.lists(
+        st.tuples(st.floats(-1e9, 1e9), st.floats(-1e9, 1e9)), min_size=8, max_size=8
+    ),
+    walls=st.integers(21, 36),
+)
+def test_whatever_is_remembered_the_world_goes_on(
+    ids: list[int],
+    pairs: list[tuple[int, int]],
+    impulses: list[tuple[float, float]],
+    walls: int,
+    tmp_path_factory: pytest.TempPathFactory,
+) -> None:
+    folder = tmp_path_factory.mktemp('remembered')
+    world = World(settings=WorldSettings(bounds=(-8.0, 0.0, 8.0, 30.0)))
+    stack(world, 5)
+    world.step(240)
+    path = save(world, folder)
+    state = remembering(
+        path,
+        {
+            'ids': packed(*ids),
+            'pairs': packed(*pairs),
+            'hashes': packed(*range(8), kind=np.uint64),
+            'impulses': packed(*impulses, kind=np.float64),
+            'walls': walls,
+            'following': 40,
+        },
+    )
+    assert state.memory is not None
+    going = restored(state)
+    going.step(20)
+    assert np.isfinite(going.snapshot().poses).all()

@@ -1,0 +1,354 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""World files are found by name, and written whole, below the world directory only."""
+
+import json
+import os
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from physsim_ros.files import (
+    find_world,
+    hides_shipped,
+    shipped_worlds,
+    user_worlds,
+)
+from physsim_ros.model.errors import BadWorldFile
+from physsim_ros.simulation.world import World
+import pytest
+
+from .world_files import assert_round_trip, load, restored, save, write
+from ..building import DISC, G, spawn
+
+# Places of files
+
+
+def test_a_plain_name_is_a_file_of_the_world_directory_before_a_shipped_one(folder: Path) -> None:
+    shipped = find_world('demo', world_dir=folder, confined=True)
+    assert find_world('demo.yaml', world_dir=folder, confined=True) == shipped
+    own = write(folder, 'format: 1', 'demo.yaml')
+
+    assert shipped == shipped_worlds() / 'demo.yaml'
+    assert find_world('demo', world_dir=folder, confined=True) == own
+
+
+@pytest.mark.parametrize(
+    ('name', 'hides'),
+    [('demo', True), ('demo.yaml', True), ('sub/demo.yaml', False), ('own', False)],
+)
+def test_only_what_the_name_of_a_shipped_world_now_means_hides_that(
+    folder: Path, name: str, hides: bool
+) -> None:
+    (folder / 'sub').mkdir()
+    saved = save(World(), folder, name)
+
+    assert hides_shipped(saved, world_dir=folder) is hides
+    meant = find_world('demo', world_dir=folder, confined=True)
+    assert (meant.resolve() == saved) is hides
+
+
+def test_saving_over_a_shipped_world_hides_none() -> None:
+    worlds = shipped_worlds()
+
+    assert not hides_shipped(worlds / 'demo.yaml', world_dir=worlds)
+
+
+def test_a_path_is_below_the_world_directory(folder: Path) -> None:
+    (folder / 'sub').mkdir()
+    path = write(folder / 'sub', 'format: 1', 'x.yaml')
+
+    for name in ('sub/x.yaml', 'sub/../sub/x.yaml', './sub/x.yaml', str(path)):
+        found = find_world(name, world_dir=folder, confined=True)
+        assert found.resolve() == path.resolve()
+
+
+def test_the_shipped_demo_loads_and_runs(folder: Path) -> None:
+    path = find_world('demo', world_dir=folder, confined=True)
+
+    world = restored(load(path))
+
+    assert len(world) >= 20
+    world.step(240)
+    assert np.isfinite(world.snapshot().poses).all()
+    assert_round_trip(world, folder)
+
+
+@pytest.mark.parametrize('path', sorted(shipped_worlds().glob('*.yaml')),
+                         ids=lambda path: path.stem)  # fmt: skip
+def test_every_shipped_world_loads_by_its_name(path: Path, folder: Path) -> None:
+    assert find_world(path.stem, world_dir=folder, confined=True) == path
+    assert load(path).bodies
+
+
+def test_a_file_outside_is_read_where_nobody_confines(folder: Path) -> None:
+    outside = write(folder.parent, 'format: 1', 'outside.yaml')
+
+    for name in ('../outside.yaml', str(outside)):
+        found = find_world(name, world_dir=folder, confined=False)
+        assert found.resolve() == outside.resolve()
+        with pytest.raises(BadWorldFile) as refused:
+            find_world(name, world_dir=folder, confined=True)
+        assert 'outside' in str(refused.value)
+
+
+def test_a_link_that_leads_outside_is_not_followed_where_confined(folder: Path) -> None:
+    outside = write(folder.parent, 'format: 1', 'outside.yaml')
+    (folder / 'link.yaml').symlink_to(outside)
+    (folder / 'sub').symlink_to(folder.parent, target_is_directory=True)
+
+    for name in ('link', 'link.yaml', 'sub/outside.yaml'):
+        assert find_world(name, world_dir=folder, confined=False).is_file()
+        with pytest.raises(BadWorldFile):
+            find_world(name, world_dir=folder, confined=True)
+        with pytest.raises(BadWorldFile):
+            save(World(), folder, name)
+    assert outside.read_text() == 'format: 1'
+
+
+def test_a_link_within_the_directory_is_followed(folder: Path) -> None:
+    path = write(folder, 'format: 1', 'real.yaml')
+    (folder / 'link.yaml').symlink_to(path)
+
+    assert find_world('link', world_dir=folder, confined=True).read_text() == 'format: 1'
+    save(World(), folder, 'link')
+    assert path.read_text().startswith('format: 1\ngravity')
+
+
+def test_links_in_a_circle_are_refused(folder: Path) -> None:
+    (folder / 'a.yaml').symlink_to(folder / 'b.yaml')
+    (folder / 'b.yaml').symlink_to(folder / 'a.yaml')
+
+    with pytest.raises(BadWorldFile):
+        find_world('a', world_dir=folder, confined=True)
+    with pytest.raises(BadWorldFile):
+        save(World(), folder, 'a')
+
+
+# Saving
+
+
+def test_a_world_is_saved_under_a_name_or_a_path(folder: Path) -> None:
+    (folder / 'sub').mkdir()
+
+    assert save(World(), folder, 'mine') == (folder / 'mine.yaml').resolve()
+    assert save(World(), folder, 'sub/x.yaml') == (folder / 'sub' / 'x.yaml').resolve()
+    assert save(World(), folder, str(folder / 'abs.yaml')) == (folder / 'abs.yaml').resolve()
+    assert sorted(path.name for path in folder.rglob('*')) == [
+        'abs.yaml', 'mine.yaml', 'sub', 'x.yaml'
+    ]  # fmt: skip
+
+
+def test_the_directory_of_worlds_is_made_when_a_world_is_saved(tmp_path: Path) -> None:
+    folder = tmp_path / 'data' / 'worlds'
+
+    with pytest.raises(BadWorldFile):
+        save(World(), folder, '../outside')
+    assert list(tmp_path.iterdir()) == []
+
+    assert save(World(), folder, 'mine').is_file()
+
+
+def test_the_worlds_of_a_user_are_in_the_data_directory(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv('HOME', str(tmp_path))
+    for data, base in (
+        (str(tmp_path / 'data'), tmp_path / 'data'),
+        ('', tmp_path / '.local/share'),
+        ('relative', tmp_path / '.local/share'),
+    ):
+        monkeypatch.setenv('XDG_DATA_HOME', data)
+        assert user_worlds() == base / 'physsim_ros' / 'worlds'
+
+
+@pytest.mark.parametrize(
+    'name',
+    ['.bashrc', '.w.yaml', '.ssh/w.yaml', 'sub/.w.yaml', 'w.yml', 'w.world', 'w.YAML', 'w.yaml.sh',
+     'hidden.yaml', 'hiding/w.yaml', 'w\n.yaml', 'w\x1b[2J.yaml'],
+)  # fmt: skip
+def test_only_visible_yaml_files_are_read_and_written(name: str, folder: Path) -> None:
+    for directory in ('sub', '.ssh'):
+        (folder / directory).mkdir()
+    (folder / 'hidden.yaml').symlink_to('.secret.yaml')
+    (folder / 'hiding').symlink_to('.ssh')
+    for place in (
+        '.bashrc',
+        '.w.yaml',
+        '.ssh/w.yaml',
+        'sub/.w.yaml',
+        'w.yml',
+        '.secret.yaml',
+        'w\n.yaml',
+    ):
+        write(folder, 'format: 1', place)
+    before = {path: path.is_file() and path.read_text() for path in folder.rglob('*')}
+
+    with pytest.raises(BadWorldFile):
+        save(World(), folder, name)
+    with pytest.raises(BadWorldFile):
+        find_world(name, world_dir=folder, confined=True)
+
+    assert {path: path.is_file() and path.read_text() for path in folder.rglob('*')} == before
+
+
+@pytest.mark.parametrize(
+    'text',
+    ['', 'format: 2', 'services: {}', '[format, 1]', 'name: format\nbodies: 1', '{format: [1]}',
+     '- format: 1', 'inner: {format: 1}', 'alias ll=ls', '\x00', '{' * 10_000],
+)  # fmt: skip
+def test_what_is_no_world_file_is_not_written_over(text: str, folder: Path) -> None:
+    path = write(folder, text, 'compose.yaml')
+
+    with pytest.raises(BadWorldFile) as refused:
+        save(World(), folder, 'compose')
+
+    assert 'no world file' in str(refused.value)
+    assert path.read_text() == text
+
+
+@pytest.mark.parametrize('text', ['format: 1', '# My world\n{bodies: [], format: 1}'])
+def test_a_world_file_that_is_written_over_keeps_its_mode(text: str, folder: Path) -> None:
+    path = write(folder, text)
+    for mode in (0o600, 0o664):
+        path.chmod(mode)
+        save(World(), folder)
+        assert path.stat().st_mode & 0o777 == mode
+
+
+@pytest.mark.parametrize('kind', ['FIFO', 'device', 'directory', 'of the kernel', 'huge'])
+def test_what_is_no_plain_file_is_refused_at_once(kind: str, folder: Path) -> None:
+    path = folder / 'w.yaml'
+    if kind == 'FIFO':
+        os.mkfifo(path)
+    elif kind == 'directory':
+        path.mkdir()
+    elif kind == 'huge':
+        with path.open('w') as file:
+            file.truncate(2**40)
+    else:
+        path.symlink_to('/dev/zero' if kind == 'device' else '/proc/self/environ')
+
+    for read in (load, lambda path: find_world(str(path), world_dir=folder, confined=False)):
+        if kind in ('of the kernel', 'huge') and read is not load:
+            continue
+        with pytest.raises(BadWorldFile) as refused:
+            read(path)
+        assert len(str(refused.value)) < 300
+    with pytest.raises(BadWorldFile):
+        save(World(), folder)
+
+
+def test_a_world_file_of_the_working_directory_is_read_at_start(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = write(folder.parent, 'format: 1', 'mine.yaml')
+    monkeypatch.chdir(folder.parent)
+
+    for name in ('mine.yaml', './mine.yaml'):
+        found = find_world(name, world_dir=folder, confined=False)
+        assert found.resolve() == path.resolve()
+        with pytest.raises(BadWorldFile):
+            find_world(name, world_dir=folder, confined=True)
+
+
+@pytest.mark.parametrize(
+    'name', ['$(touch x)/0', 'a: b/0', '`id`/0', '\uffff/0', '😀/0', 'a\\"b/0']
+)
+def test_names_are_quoted(name: str, folder: Path) -> None:
+    world = World()
+    spawn(world, name, DISC)
+    assert_round_trip(world, folder)
+
+    text = save(world, folder).read_text()
+
+    # YAML cannot have a noncharacter as it is.
+    quoted = json.dumps(name, ensure_ascii=name == '\uffff/0')
+    assert f'"name": {quoted}' in text
+
+
+@pytest.mark.parametrize(
+    'name', ['../w.yaml', '/w.yaml', 'sub/../../w.yaml', '.', './', '../worlds']
+)
+def test_nothing_is_written_outside_the_directory(name: str, folder: Path) -> None:
+    (folder / 'sub').mkdir()
+    before = sorted(folder.parent.rglob('*'))
+
+    with pytest.raises(BadWorldFile):
+        save(World(), folder, name)
+
+    assert sorted(folder.parent.rglob('*')) == before
+    assert not Path('/w.yaml').exists()
+
+
+def test_nothing_is_written_into_a_directory_that_is_not_there(folder: Path) -> None:
+    with pytest.raises(BadWorldFile):
+        save(World(), folder, 'sub/w.yaml')
+
+    assert list(folder.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ('module', 'function'), [(os, 'fsync'), (Path, 'replace'), (os, 'fchmod')]
+)
+def test_a_failing_write_leaves_the_old_file_and_nothing_else(
+    module: Any, function: str, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    world = World()
+    path = save(world, folder)
+    old = path.read_text()
+    spawn(world, 'a/0', DISC)
+
+    def fail(*_: object, **__: object) -> None:
+        raise OSError(28, 'No space left on device')
+
+    monkeypatch.setattr(module, function, fail)
+    with pytest.raises(BadWorldFile) as refused:
+        save(world, folder)
+    monkeypatch.undo()
+
+    assert 'No space left' in str(refused.value)
+    assert list(folder.iterdir()) == [path]
+    assert path.read_text() == old
+
+
+def test_a_bug_in_the_middle_of_a_write_leaves_the_old_file(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    world = World()
+    path = save(world, folder)
+    old = path.read_text()
+
+    def fail(*_: object, **__: object) -> None:
+        raise ZeroDivisionError
+
+    monkeypatch.setattr('physsim_ros.files.world_file.text_of', fail)
+    spawn(world, 'a/0', DISC)
+    with pytest.raises(ZeroDivisionError):
+        save(world, folder)
+
+    assert path.read_text() == old
+    assert list(folder.iterdir()) == [path]
+
+
+def test_saving_replaces_what_was_there(folder: Path) -> None:
+    world = World()
+    save(world, folder)
+    spawn(world, 'a/0', DISC, (0.0, -G, 0.0))
+
+    path = save(world, folder)
+
+    assert load(path) == world.save()
+    assert list(folder.iterdir()) == [path]

@@ -1,0 +1,406 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""A world file that cannot be loaded is refused, with its line, field and code."""
+
+import os
+from pathlib import Path
+from typing import Any
+
+from hypothesis import given, settings
+from hypothesis import strategies as st
+import numpy as np
+from physsim_ros.files import (
+    find_world,
+    load_mapping,
+    PARAMETERS,
+    SETTINGS,
+    shipped_worlds,
+)
+from physsim_ros.model.errors import BadWorldFile, Malformed
+from physsim_ros.ros.parameters import SPECS
+from physsim_ros.simulation.world import World
+import pytest
+import yaml
+
+from .world_files import load, refusal_of, restored, save, write
+
+# Refusals of what files say
+
+HEAD = 'format: 1\nbodies:\n'
+REFUSED = {
+    'nothing': ('', 'format'),
+    'no format': ('gravity: [0, 0]', 'format'),
+    'another format': ('format: 2', 'format'),
+    'a format in words': ('format: one', 'format'),
+    'a true format': ('format: true', 'format'),
+    'no format at all': ('format:', 'format'),
+    'half a character': ('format: 1\n"\\ud800": 1', 'world_file'),
+    'an unknown key': ('format: 1\ngravitation: [0, 0]', 'gravitation'),
+    'a setting that is not the files': ('format: 1\nmax_bodies: 7', 'max_bodies'),
+    'a key of another kind': ('format: 1\n5: 3', '5'),
+    'joints': ('format: 1\njoints: [{name: joint/0}]', 'points'),
+    'a setting out of range': ('format: 1\ndamping: 2', 'damping'),
+    'a setting of another kind': ('format: 1\niterations: many', 'iterations'),
+    'a setting without a value': ('format: 1\ngravity:', 'gravity'),
+    'gravity that is not finite': ('format: 1\ngravity: [0, .nan]', 'gravity'),
+    'three bounds': ('format: 1\nbounds: [0, 0, 1]', 'bounds'),
+    'bodies that are none': ('format: 1\nbodies: 3', 'bodies'),
+    'bodies by name': ('format: 1\nbodies: {a/0: {circle: {radius: 1}}}', 'bodies'),
+    'bodies in words': ('format: 1\nbodies: [a/0]', 'bodies'),
+    'a body without a name': (HEAD + '  - {circle: {radius: 1}}', 'name'),
+    'a name that is none': (HEAD + '  - {name: ball, circle: {radius: 1}}', 'name'),
+    'a name of another kind': (HEAD + '  - {name: [a/0], circle: {radius: 1}}', 'name'),
+    'an empty name': (HEAD + '  - {name: "", circle: {radius: 1}}', 'name'),
+    'a name twice': (HEAD + '  - {name: a/0, circle: {radius: 1}}\n' * 2, 'name'),
+    'no shape': (HEAD + '  - {name: a/0}', 'shape'),
+    'two shapes': (HEAD + '  - {name: a/0, circle: {radius: 1}, box: {width: 1, height: 1}}',
+                   'shape'),
+    'an unknown shape': (HEAD + '  - {name: a/0, disc: {radius: 1}}', 'disc'),
+    'a circle in a number': (HEAD + '  - {name: a/0, circle: 3}', 'circle'),
+    'a circle without a radius': (HEAD + '  - {name: a/0, circle: {}}', 'radius'),
+    'a circle with a diameter': (HEAD + '  - {name: a/0, circle: {diameter: 1}}', 'diameter'),
+    'a radius that is not finite': (HEAD + '  - {name: a/0, circle: {radius: .inf}}', 'radius'),
+    'a radius in words': (HEAD + '  - {name: a/0, circle: {radius: wide}}', 'radius'),
+    'a radius of nothing': (HEAD + '  - {name: a/0, circle: {radius: 0}}', 'radius'),
+    'a box without a height': (HEAD + '  - {name: a/0, box: {width: 1}}', 'height'),
+    'a polygon in words': (HEAD + '  - {name: a/0, polygon: triangle}', 'polygon'),
+    'a polygon by name': (HEAD + '  - {name: a/0, polygon: {a: [0, 0]}}', 'polygon'),
+    'a polygon that crosses itself': (
+        HEAD + '  - {name: a/0, polygon: [[0, 0], [1, 1], [1, 0], [0, 1]]}', 'points'),
+    'a corner of one number': (HEAD + '  - {name: a/0, polygon: [[0, 0], [1], [1, 1]]}',
+                               'polygon'),
+    'a corner in words': (HEAD + '  - {name: a/0, polygon: [[0, 0], [a, b], [1, 1]]}', 'polygon'),
+    'a chain without points': (HEAD + '  - {name: a/0, chain: {thickness: 1}}', 'points'),
+    'a chain without thickness': (HEAD + '  - {name: a/0, chain: {points: [[0, 0], [1, 0]]}}',
+                                  'thickness'),
+    'a compound of nothing': (HEAD + '  - {name: a/0, compound: {centers: [[0, 0]]}}', 'shape'),
+    'a compound of polygons': (
+        HEAD + '  - {name: a/0, compound: {polygon: [[0, 0], [1, 0], [0, 1]], centers: [[0, 0]]}}',
+        'polygon'),
+    'a place of one number': (HEAD + '  - {name: a/0, circle: {radius: 1}, at: [0]}', 'at'),
+    'a place of four numbers': (HEAD + '  - {name: a/0, circle: {radius: 1}, at: [0, 0, 0, 0]}',
+                                'at'),
+    'a place in words': (HEAD + '  - {name: a/0, circle: {radius: 1}, at: here}', 'at'),
+    'a yaw in words': (HEAD + '  - {name: a/0, circle: {radius: 1}, at: [0, 0, x]}', 'at'),
+    'a place too far': (HEAD + '  - {name: a/0, circle: {radius: 1}, at: [0, 1e8]}', 'pose'),
+    'a colour of seven digits': (HEAD + '  - {name: a/0, circle: {radius: 1}, color: "#1234567"}',
+                                 'color'),
+    'a colour with spaces': (HEAD + '  - {name: a/0, circle: {radius: 1}, color: "#12 34 56"}',
+                             'color'),
+    'a colour by name': (HEAD + '  - {name: a/0, circle: {radius: 1}, color: red}', 'color'),
+    'a colour that is too bright': (
+        HEAD + '  - {name: a/0, circle: {radius: 1}, color: [2, 0, 0, 1]}', 'color'),
+    'a lifetime in words': (HEAD + '  - {name: a/0, circle: {radius: 1}, lifetime: long}',
+                            'lifetime'),
+    'a lifetime without end': (HEAD + '  - {name: a/0, circle: {radius: 1}, lifetime: 1e308}',
+                               'lifetime'),
+    'an unknown property': (HEAD + '  - {name: a/0, circle: {radius: 1}, weight: 1}', 'weight'),
+    'a property out of range': (HEAD + '  - {name: a/0, circle: {radius: 1}, friction: -1}',
+                                'friction'),
+    'a property without a value': (HEAD + '  - {name: a/0, circle: {radius: 1}, mass: }', 'mass'),
+    'mass and density': (HEAD + '  - {name: a/0, circle: {radius: 1}, mass: 1, density: 1}',
+                         'mass'),
+    'an anchored body that moves': (
+        HEAD + '  - {name: a/0, circle: {radius: 1}, anchored: true, velocity: [1, 0]}',
+        'velocity'),
+    'an anchored body with saved motion': (
+        HEAD + '  - {name: a/0, circle: {radius: 1}, anchored: true, velocity: [1, 0], '
+        'motion: [0, 0, 0, 1, 0, 0, true]}', 'velocity'),
+    'a wrench for an anchored body': (
+        HEAD + '  - {name: a/0, circle: {radius: 1}, anchored: true, '
+        'wrench: {force: [1, 0], torque: 0}}', 'joint_names'),
+    'a wrench out of range': (
+        HEAD + '  - {name: a/0, circle: {radius: 1}, wrench: {force: [1e300, 0], torque: 0}}',
+        'wrench'),
+    'a wrench without a torque': (
+        HEAD + '  - {name: a/0, circle: {radius: 1}, wrench: {force: [1, 0]}}', 'torque'),
+    'a wrench for half a step': (
+        HEAD + '  - {name: a/0, circle: {radius: 1}, '
+        'wrench: {force: [1, 0], torque: 0, steps: 0.5}}', 'steps'),
+    'a wrench until long ago': (
+        HEAD + '  - {name: a/0, circle: {radius: 1}, '
+        'wrench: {force: [1, 0], torque: 0, steps: -1}}', 'steps'),
+    'a wrench of seconds in words': (
+        HEAD + '  - {name: a/0, circle: {radius: 1}, '
+        'wrench: {force: [1, 0], torque: 0, seconds: some}}', 'seconds'),
+    'a wrench of less than no time': (
+        HEAD + '  - {name: a/0, circle: {radius: 1}, '
+        'wrench: {force: [1, 0], torque: 0, seconds: -1}}', 'seconds'),
+    'a wrench for more than 300 years': (
+        HEAD + '  - {name: a/0, circle: {radius: 1}, '
+        'wrench: {force: [1, 0], torque: 0, steps: 10000000000000000}}', 'steps'),
+    'a wrench in words': (HEAD + '  - {name: a/0, circle: {radius: 1}, wrench: hard}', 'wrench'),
+    'six numbers of motion': (
+        HEAD + '  - {name: a/0, circle: {radius: 1}, motion: [0, 0, 0, 0, 0, true]}', 'motion'),
+    'motion in words': (HEAD + '  - {name: a/0, circle: {radius: 1}, motion: fast}', 'motion'),
+    'motion with a word at the end': (
+        HEAD + '  - {name: a/0, circle: {radius: 1}, motion: [0, 0, 0, 0, 0, 0, no]}', 'motion'),
+    'motion that is not finite': (
+        HEAD + '  - {name: a/0, circle: {radius: 1}, motion: [.nan, 0, 0, 0, 0, 0, true]}',
+        'motion'),
+    'motion out of this world': (
+        HEAD + '  - {name: a/0, circle: {radius: 1}, at: [1e300, 0], '
+        'motion: [1e300, 0, 0, 0, 0, 0, false]}', 'motion'),
+    'a motion that only the node writes': (
+        HEAD + '  - {name: a/0, circle: {radius: 1}, at: [1e300, 0], '
+        'motion: [0, 0, 0, 0, 0, 0, true]}', 'pose'),
+    'a body too many': (HEAD + '  - {name: a/0, circle: {radius: 1}}\n'
+                        '  - {name: a/1, circle: {radius: 1}}', ''),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(('text', 'field'), REFUSED.values(), ids=REFUSED.keys())
+def test_a_file_that_says_nonsense_is_refused_and_says_where(
+    text: str, field: str, folder: Path
+) -> None:
+    refusal = refusal_of(text, folder, max_bodies=1)
+
+    assert refusal.code == 'bad_world_file'
+    assert refusal.field == field
+
+
+NO_YAML = {
+    'an open brace': '{',
+    'a tab': '\tformat: 1',
+    'two colons': 'a: b: c',
+    'no mapping': '[format, 1]',
+    'one word': 'format',
+    'a control character': 'format: 1\n#\x07',
+    'two documents': 'format: 1\n---\nformat: 1',
+    'an unknown alias': 'format: *one',
+    'a tag': 'format: !!python/object:os.system 1',
+    'a date in a tag': 'format: !!timestamp soon',
+    'a number in a tag': 'format: !!int ""',
+    'a key that is a list': '{[1, 2]: 3}',
+    'a key twice': 'format: 1\nformat: 1',
+    'a number of thousands of digits': 'format: ' + '9' * 10_000,
+    'nested too deep': '[' * 20_000,
+    'indented too deep': '- ' * 20_000,
+}
+
+
+@pytest.mark.parametrize('text', NO_YAML.values(), ids=NO_YAML.keys())
+def test_what_is_no_yaml_mapping_is_refused(text: str, folder: Path) -> None:
+    assert refusal_of(text, folder).field == 'world_file'
+
+
+def test_an_unknown_key_names_the_nearest(folder: Path) -> None:
+    assert "'gravity'" in str(refusal_of('format: 1\ngravty: [0, 0]', folder))
+    text = HEAD + '  - {name: a/0, circle: {radius: 1}, elastic: 1}'
+    refusal = refusal_of(text, folder)
+    assert "'elasticity'" in str(refusal)
+    assert "'a/0'" in str(refusal)
+
+
+@pytest.mark.parametrize(
+    ('text', 'line'),
+    [
+        ('format: 1\nbodies:\n\t- {}', 3),
+        ('format: 1\nformat: 1', 2),
+        ('format: 1\n# é\x07', 2),
+        ('format: 1\ngravity: !!int ""\n\n', 2),
+        ('format: 1\ngravity: [0,\n\n', 2),
+        ('format: 1\n---\nformat: 1', 2),
+    ],
+)
+def test_what_is_no_yaml_says_in_which_line(text: str, line: int, folder: Path) -> None:
+    assert str(refusal_of(text, folder)).endswith(f', line {line}')
+
+
+def test_a_text_of_one_line_says_no_line() -> None:
+    with pytest.raises(Malformed) as refused:
+        load_mapping('a: b: c', field='text')
+    assert 'line' not in str(refused.value)
+
+
+def test_a_parameter_of_the_node_is_told_from_a_word_that_means_nothing(folder: Path) -> None:
+    assert 'parameter of the node' in str(refusal_of('format: 1\nspeed: 2', folder))
+    refusal = refusal_of('format: 1\nflavour: 2', folder)
+    assert str(refusal) == "w.yaml: there is no property 'flavour'"
+
+
+def test_the_parameters_that_no_file_holds_are_all_the_others_of_the_node() -> None:
+    assert set(SPECS) - set(SETTINGS) == PARAMETERS
+
+
+@pytest.mark.parametrize(
+    ('text', 'which'),
+    [
+        ('bodies: [{name: a/0, circle: {radius: 1}}, {circle: {radius: 1}}]', 'body number 2: '),
+        ('bodies: []\njoints: [{kind: axle}]', 'joint number 1: '),
+        ('bodies: []\njoints: [{name: 7, kind: axle}]', 'joint 7: '),
+    ],
+)
+def test_what_has_no_name_is_told_by_its_number(text: str, which: str, folder: Path) -> None:
+    assert which in str(refusal_of(f'format: 1\n{text}', folder))
+
+
+def test_a_refusal_says_which_body_it_is(folder: Path) -> None:
+    bodies = ''.join(f'  - {{name: a/{k}, circle: {{radius: {3 - k}}}}}\n' for k in range(5))
+
+    assert "body 'a/3'" in str(refusal_of(HEAD + bodies, folder))
+
+
+def test_a_value_that_unfolds_without_end_is_refused_at_once(folder: Path) -> None:
+    layers = ['a0: &a0 [x, x, x, x, x, x, x, x, x]']
+    layers += [f'a{k}: &a{k} [{", ".join([f"*a{k - 1}"] * 9)}]' for k in range(1, 30)]
+    name = ', '.join(layers)
+    refusal_of(f'format: 1\nbodies: [{{name: {{{name}}}, circle: {{radius: 1}}}}]', folder)
+
+    merges = ['m0: &m0 {mass: 1}']
+    merges += [
+        f'm{k}: &m{k} {{!!merge x: [{", ".join([f"*m{k - 1}"] * 9)}]}}' for k in range(1, 30)
+    ]
+    refusal_of('format: 1\n' + '\n'.join(merges), folder)
+
+
+def test_a_mapping_that_holds_itself_is_refused(folder: Path) -> None:
+    refusal_of('format: &a [*a]', folder)
+    refusal_of('format: 1\nbodies: &a [*a]', folder)
+    refusal_of('format: 1\nbodies: [&a {name: *a, circle: {radius: 1}}]', folder)
+
+
+# Refusals of files
+
+
+def test_a_file_that_is_not_there_is_refused(folder: Path) -> None:
+    with pytest.raises(BadWorldFile):
+        load(folder / 'nothing.yaml')
+    for name in ('nothing', 'nothing.yaml', 'sub/nothing', '/nothing.yaml', '.', '..', '../..'):
+        with pytest.raises(BadWorldFile):
+            find_world(name, world_dir=folder, confined=False)
+
+
+def test_where_a_world_is_not_there_those_that_are_are_named(folder: Path) -> None:
+    write(folder, 'format: 1', 'mine.yaml')
+    write(folder, 'format: 1', '.hidden.yaml')
+    with pytest.raises(BadWorldFile) as refused:
+        find_world('nothere', world_dir=folder, confined=True)
+    for path in shipped_worlds().glob('*.yaml'):
+        assert path.stem in str(refused.value)
+    assert 'mine' in str(refused.value)
+    assert 'hidden' not in str(refused.value)
+
+
+def test_a_directory_is_no_world(folder: Path) -> None:
+    (folder / 'sub.yaml').mkdir()
+
+    with pytest.raises(BadWorldFile):
+        load(folder / 'sub.yaml')
+    with pytest.raises(BadWorldFile):
+        find_world('sub', world_dir=folder, confined=True)
+    with pytest.raises(BadWorldFile):
+        save(World(), folder, 'sub')
+
+
+def test_a_file_that_is_no_text_is_refused(folder: Path) -> None:
+    path = folder / 'w.yaml'
+    path.write_bytes(b'format: 1\n\xff\xfe')
+
+    with pytest.raises(BadWorldFile) as refused:
+        load(path)
+    assert 'w.yaml' in str(refused.value)
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason='root may read everything')
+def test_a_file_that_may_not_be_read_is_refused(folder: Path) -> None:
+    path = write(folder, 'format: 1')
+    path.chmod(0)
+
+    with pytest.raises(BadWorldFile):
+        load(path)
+
+
+@pytest.mark.parametrize('name', ['', 'a' * 5000, 'a\0b', 'a\0b.yaml', '\ud800'])
+@pytest.mark.parametrize('confined', [False, True])
+def test_a_name_that_no_file_can_have_is_refused(
+    *, name: str, confined: bool, folder: Path
+) -> None:
+    with pytest.raises(BadWorldFile) as refused:
+        find_world(name, world_dir=folder, confined=confined)
+    assert refused.value.field == 'world_file'
+    with pytest.raises(BadWorldFile) as refused:
+        save(World(), folder, name)
+    assert refused.value.field == 'world_file'
+    assert list(folder.iterdir()) == []
+
+
+# Text of YAML
+
+
+@pytest.mark.parametrize(
+    ('text', 'value'),
+    [('1e5', 1e5), ('1E-3', 1e-3), ('.5', 0.5), ('-1.', -1.0), ('+2', 2), ('010', 10), ('08', 8),
+     ('1_000', '1_000'), ('1:30', '1:30'), ('0x10', '0x10'), ('yes', 'yes'), ('on', 'on'),
+     ('No', 'No'), ('true', True), ('FALSE', False), ('~', None), ('', None), ('null', None),
+     ('2026-01-01', '2026-01-01'), ('=', '='), ('<<', '<<'), ('.inf', float('inf')),
+     ('-.INF', float('-inf')), ("'1'", '1'), ('"true"', 'true'), ('1.5.2', '1.5.2'), ('.', '.'),
+     ('e5', 'e5'), ('!!float 1', 1.0), ('!!str 1', '1'), ('!!int "7"', 7)],
+)  # fmt: skip
+def test_plain_words_are_read_as_in_yaml_1_2(text: str, value: object) -> None:
+    result = load_mapping(f'key: {text}', field='text')['key']
+
+    assert result == value
+    assert type(result) is type(value)
+
+
+def test_not_a_number_is_read_as_one() -> None:
+    assert np.isnan(load_mapping('key: .nan', field='text')['key'])
+
+
+@pytest.mark.parametrize('text', ['', '   ', '# nothing', '---', '{}', 'null'])
+def test_no_text_is_an_empty_mapping(text: str) -> None:
+    assert load_mapping(text, field='text') == {}
+
+
+@settings(deadline=None, max_examples=300)
+@given(text=st.text(st.sampled_from('{}[]:,-!&*#|>%@`"\'?~ \n\tab01.e<=é'), max_size=40))
+def test_any_text_is_a_mapping_or_malformed(text: str) -> None:
+    try:
+        value = load_mapping(text, field='text')
+    except Malformed:
+        return
+
+    assert isinstance(value, dict)
+
+
+@settings(deadline=None, max_examples=150)
+@given(
+    content=st.recursive(
+        st.one_of(st.none(), st.booleans(), st.integers(), st.floats(), st.text(max_size=3)),
+        lambda inner: st.one_of(
+            st.lists(inner, max_size=3),
+            st.dictionaries(
+                st.sampled_from(['name', 'circle', 'radius', 'polygon', 'at', 'motion', 'wrench',
+                                 'color', 'mass', 'force', 'torque', 'compound', 'centers']),
+                inner, max_size=3,
+            ),
+        ),
+        max_leaves=12,
+    )
+)  # fmt: skip
+def test_any_nested_junk_is_loaded_or_refused(content: object, tmp_path_factory: Any) -> None:
+    folder = tmp_path_factory.getbasetemp()
+    for text in (
+        yaml.safe_dump(content),
+        yaml.safe_dump({'format': 1, 'bodies': content}),
+        yaml.safe_dump({'format': 1, 'bodies': [content]}),
+    ):
+        path = write(folder, text, 'junk.yaml')
+        try:
+            state = load(path)
+        except BadWorldFile:
+            continue
+        restored(state).step(1)

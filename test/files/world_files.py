@@ -1,0 +1,98 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Worlds written to files and loaded from them, as the tests of world files do."""
+
+from pathlib import Path
+from typing import Any
+
+from physsim_ros.files import (
+    load_world,
+    save_world,
+)
+from physsim_ros.model.checkpoint import WorldState
+from physsim_ros.model.errors import BadWorldFile
+from physsim_ros.model.requests import Restore
+from physsim_ros.model.settings import WorldSettings
+from physsim_ros.simulation.world import World
+import pytest
+import yaml
+
+RATE = 240.0
+COLORS = {
+    'exact in hexadecimal': (1.0, 128 / 255, 0.0, 1.0),
+    'see-through': (0.0, 51 / 255, 1.0, 51 / 255),
+    'no hexadecimal': (0.1, 0.2, 0.3, 0.4),
+}
+
+
+def write(folder: Path, text: str, name: str = 'w.yaml') -> Path:
+    path = folder / name
+    path.write_text(text, encoding='utf-8')
+    return path
+
+
+def load(path: Path, *, rate: float = RATE, **settings: Any) -> WorldState:
+    return load_world(path, settings=WorldSettings(**settings), physics_rate=rate)
+
+
+def loaded(text: str, folder: Path, **settings: Any) -> World:
+    """Return a world that goes on from a file of that text."""
+    return restored(load(write(folder, text), **settings))
+
+
+def restored(state: WorldState) -> World:
+    world = World(physics_rate=RATE)
+    world.apply(Restore(state=state))
+    return world
+
+
+def save(world: World | WorldState, folder: Path, name: str = 'w') -> Path:
+    state = world.save() if isinstance(world, World) else world
+    return save_world(state, name, world_dir=folder, physics_rate=RATE)
+
+
+def edited(path: Path, changes: dict[str, Any], name: str = 'a/0') -> World:
+    content = yaml.safe_load(path.read_text())
+    for entry in content['bodies']:
+        if entry['name'] == name:
+            entry.update(changes)
+    path.write_text(yaml.safe_dump(content, sort_keys=False))
+    return restored(load(path))
+
+
+def refusal_of(text: str, folder: Path, **settings: Any) -> BadWorldFile:
+    with pytest.raises(BadWorldFile) as refused:
+        load(write(folder, text), **settings)
+    assert str(refused.value).startswith('w.yaml')
+    assert len(str(refused.value)) < 1000
+    return refused.value
+
+
+def assert_round_trip(world: World, folder: Path) -> None:
+    """Assert that a world goes on alike from its file and from itself, to the bit."""
+    state = world.save()
+
+    path = save(state, folder)
+    again = load(path)
+
+    assert again == state
+    # And once more, since what is loaded may be saved.
+    assert load(save(again, folder, 'again')) == state
+    assert (folder / 'again.yaml').read_text() == path.read_text()
+    one, other = restored(state), restored(again)
+    assert one.digest() == other.digest()
+    one.step(120)
+    other.step(120)
+    assert one.digest() == other.digest()

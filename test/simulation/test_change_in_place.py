@@ -1,0 +1,353 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""A body that is spawned again, anchored or released is changed in place."""
+
+import math
+
+import numpy as np
+from physsim_ros.model.errors import (
+    NothingThere,
+)
+from physsim_ros.model.requests import (
+    Anchor,
+    Command,
+    Configure,
+    Delete,
+    Release,
+)
+from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.shapes import Box, Disc, Shape, Triangles
+from physsim_ros.simulation.world import World
+import pytest
+
+from ..building import (
+    body,
+    body_at,
+    BOX,
+    DISC,
+    ELL,
+    names,
+    pose,
+    SHAPES,
+    spawn,
+    spawning,
+    stack,
+    twist,
+)
+
+RED, BLUE = (1.0, 0.0, 0.0, 1.0), (0.0, 0.0, 1.0, 0.5)
+# A pose goes to the centre of mass and back: a few last bits of metres.
+ROUNDING = 1e-12
+
+
+# Change in place
+
+
+def test_a_change_keeps_what_is_not_said(world: World) -> None:
+    said = {'mass': 4.0, 'friction': 0.25, 'elasticity': 0.75, 'group': 5, 'sensor': True}
+    spawn(world, 'a/0', DISC, color=RED, lifetime=9.0, **said)
+    before = body(world, 'a/0')
+
+    answer = world.apply(spawning('a/0', BOX, (1.0, 2.0, 0.3)))
+
+    after = body(world, 'a/0')
+    assert answer == ('a/0', 'changed a/0')
+    assert after.shape == BOX
+    assert pose(world, 'a/0') == pytest.approx((1.0, 2.0, 0.3), abs=ROUNDING)
+    assert (after.color, after.expires) == (before.color, before.expires)
+    assert (after.mass, after.friction, after.elasticity) == (4.0, 0.25, 0.75)
+    assert (after.group, after.sensor) == (5, True)
+
+
+@pytest.mark.parametrize('shape', [DISC, BOX, ELL], ids=['same shape', 'box', 'ell'])
+def test_a_change_keeps_the_motion_in_the_middle_of_it(shape: Shape) -> None:
+    world = World()
+    spawn(world, 'a/0', DISC, velocity=(1.0, 5.0), spin=2.0)
+    world.step(24)
+    before = twist(world, 'a/0')
+
+    spawn(world, 'a/0', shape, (0.0, 7.0, 0.0))
+
+    assert before == pytest.approx((1.0, 5.0 - 0.981, 2.0), abs=1e-9)
+    assert twist(world, 'a/0') == pytest.approx(before, abs=1e-12)
+    # And it flies on as a projectile does.
+    world.step(24)
+    assert twist(world, 'a/0') == pytest.approx((1.0, 5.0 - 1.962, 2.0), abs=1e-9)
+
+
+def test_a_change_takes_over_what_is_said(world: World) -> None:
+    spawn(world, 'a/0', DISC, velocity=(1.0, 2.0), spin=3.0, mass=2.0)
+
+    spawn(world, 'a/0', DISC, velocity=(5.0, 6.0))
+    assert twist(world, 'a/0') == pytest.approx((5.0, 6.0, 3.0), abs=ROUNDING)
+    spawn(world, 'a/0', DISC, spin=0.0)
+    assert twist(world, 'a/0') == pytest.approx((5.0, 6.0, 0.0), abs=ROUNDING)
+    spawn(world, 'a/0', DISC, density=3.0, friction=0.5, color=BLUE, lifetime=0.5)
+
+    after = body(world, 'a/0')
+    assert (after.mass, after.density, after.friction) == (None, 3.0, 0.5)
+    assert (after.color, after.expires) == (BLUE, 120)
+    assert twist(world, 'a/0') == pytest.approx((5.0, 6.0, 0.0), abs=ROUNDING)
+
+
+def test_a_change_keeps_the_place_in_the_order_and_on_top(world: World) -> None:
+    for name in ('a/0', 'a/1', 'a/2'):
+        spawn(world, name, DISC)
+
+    spawn(world, 'a/0', BOX)
+    spawn(world, 'a/1', DISC, color=RED)
+
+    assert names(world) == ('a/0', 'a/1', 'a/2')
+    assert body_at(world, (0.0, 0.0)) == 'a/2'
+    assert len(world) == 3
+
+
+def test_a_recoloured_body_that_rests_does_not_stir() -> None:
+    settings = WorldSettings(bounds=(-9.0, 0.0, 9.0, 99.0))
+    world, other = World(settings=settings), World(settings=settings)
+    for each in (world, other):
+        stack(each, 5)
+        each.step(240)
+
+    spawn(world, 'stack/2', BOX, tuple(pose(world, 'stack/2').tolist()), color=RED)
+    for each in (world, other):
+        each.step(240)
+
+    assert body(world, 'stack/2').color == RED
+    assert np.array_equal(world.snapshot().poses, other.snapshot().poses)
+
+
+def test_a_change_that_changes_nothing_leaves_the_digest() -> None:
+    world = World()
+    spawn(world, 'a/0', BOX, velocity=(1.0, 0.0))
+    world.step(10)
+    before = world.digest()
+
+    spawn(world, 'a/0', BOX, tuple(pose(world, 'a/0').tolist()))
+
+    assert world.digest() == before
+
+
+def test_a_wrench_stays_through_a_change(world: World) -> None:
+    spawn(world, 'a/0', DISC, mass=2.0)
+    world.apply(Configure(changes={'command_timeout': 0.0}))
+    world.apply(Command(names=('a/0',), wrenches=((4.0, 0.0, 0.0),)))
+    world.step(120)
+
+    spawn(world, 'a/0', BOX, (0.0, 0.0, 0.0), mass=1.0)
+    assert twist(world, 'a/0') == pytest.approx((1.0, 0.0, 0.0), abs=1e-9)
+    world.step(120)
+
+    # 2 m/s² for half a second, then 4 m/s².
+    assert twist(world, 'a/0') == pytest.approx((3.0, 0.0, 0.0), abs=1e-9)
+
+
+def test_a_body_can_be_anchored_and_freed_by_a_change(world: World) -> None:
+    spawn(world, 'a/0', ELL, (1.0, 2.0, 0.7), velocity=(1.0, 0.0), spin=1.0)
+    spawn(world, 'a/0', ELL, (1.0, 2.0, 0.7), anchored=True)
+    world.step(24)
+    assert pose(world, 'a/0') == pytest.approx((1.0, 2.0, 0.7), abs=ROUNDING)
+    assert twist(world, 'a/0').tolist() == [0.0, 0.0, 0.0]
+
+    spawn(world, 'a/0', ELL, (1.0, 2.0, 0.7), anchored=False, velocity=(0.0, 1.0))
+
+    assert pose(world, 'a/0') == pytest.approx((1.0, 2.0, 0.7), abs=ROUNDING)
+    assert twist(world, 'a/0') == pytest.approx((0.0, 1.0, 0.0), abs=ROUNDING)
+
+
+# Anchoring and releasing by a point
+
+EDGES = [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)]
+
+
+@pytest.mark.parametrize('yaw', [0.0, 0.7, -2.0, math.pi])
+@pytest.mark.parametrize('anchored', [False, True])
+@pytest.mark.parametrize('edge', EDGES)
+def test_a_point_is_in_a_turned_box_up_to_each_edge(
+    yaw: float, anchored: bool, edge: tuple[float, float], world: World
+) -> None:
+    spawn(world, 'a/0', Box(width=2.0, height=1.0), (10.0, -3.0, yaw), anchored=anchored)
+    half = 1.0 if edge[0] else 0.5
+    cos, sin = math.cos(yaw), math.sin(yaw)
+
+    def at(distance: float) -> tuple[float, float]:
+        x, y = edge[0] * distance, edge[1] * distance
+        return 10.0 + cos * x - sin * y, -3.0 + sin * x + cos * y
+
+    assert body_at(world, at(half - 1e-6)) == 'a/0'
+    assert body_at(world, at(half + 1e-6)) is None
+
+
+@pytest.mark.parametrize('angle', [0.0, 0.7, 2.0, 4.0])
+def test_a_point_is_in_a_disc_up_to_its_rim(angle: float, world: World) -> None:
+    spawn(world, 'a/0', DISC, (1.0, 1.0, 0.0))
+    x, y = math.cos(angle), math.sin(angle)
+
+    assert body_at(world, (1.0 + 0.499999 * x, 1.0 + 0.499999 * y)) == 'a/0'
+    assert body_at(world, (1.0 + 0.500001 * x, 1.0 + 0.500001 * y)) is None
+
+
+@pytest.mark.parametrize('yaw', [0.0, 0.7])
+def test_a_point_in_the_notch_of_an_ell_is_outside_it(yaw: float, world: World) -> None:
+    spawn(world, 'a/0', ELL, (0.0, 0.0, yaw))
+    cos, sin = math.cos(yaw), math.sin(yaw)
+    for x, y, inside in (
+        (0.5, 1.5, True),
+        (1.5, 0.5, True),
+        (0.5, 0.5, True),
+        (1.5, 1.5, False),
+        (1.01, 1.01, False),
+        (0.99, 0.99, True),
+        (-0.01, 0.5, False),
+    ):
+        found = body_at(world, (cos * x - sin * y, sin * x + cos * y))
+        assert (found == 'a/0') is inside
+
+
+def test_a_point_on_the_seam_of_two_pieces_is_inside(world: World) -> None:
+    # Two triangles make a square; its middle lies on the side that they share.
+    square = Triangles(
+        vertices=((-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, -1.0), (1.0, 1.0), (-1.0, 1.0))
+    )
+    spawn(world, 'a/0', square)
+    spawn(world, 'a/1', ELL, (10.0, 0.0, 0.0))
+
+    assert body_at(world, (0.0, 0.0)) == 'a/0'
+    assert body_at(world, (0.5, 0.5)) == 'a/0'
+    for share in np.linspace(0.01, 0.99, 21).tolist():
+        # Any way from the inner corner of the ell to its outer ones is inside it.
+        for x, y in ((0.0, 0.0), (2.0, 0.0), (0.0, 2.0), (1.0, 0.0), (0.0, 1.0)):
+            point = (10.0 + 1.0 + share * (x - 1.0), 1.0 + share * (y - 1.0))
+            assert body_at(world, point) == 'a/1'
+
+
+def test_the_topmost_is_the_one_that_spawned_last(world: World) -> None:
+    for name in ('a/3', 'a/1', 'a/2'):
+        spawn(world, name, DISC)
+
+    assert body_at(world, (0.1, 0.1)) == 'a/2'
+    world.apply(Delete(name='a/2'))
+    assert body_at(world, (0.1, 0.1)) == 'a/1'
+
+
+def test_sensors_and_grouped_bodies_are_found_under_a_point(world: World) -> None:
+    spawn(world, 'a/0', DISC, sensor=True)
+    spawn(world, 'a/1', DISC, (3.0, 0.0, 0.0), group=1)
+
+    assert body_at(world, (0.0, 0.0)) == 'a/0'
+    assert body_at(world, (3.0, 0.0)) == 'a/1'
+
+
+def test_walls_are_no_bodies() -> None:
+    world = World(settings=WorldSettings(bounds=(-1.0, -1.0, 1.0, 1.0)))
+
+    assert body_at(world, (0.0, -1.5)) is None
+    with pytest.raises(NothingThere):
+        world.apply(Anchor(point=(0.0, -1.5)))
+
+
+@pytest.mark.parametrize('shape', SHAPES.values(), ids=SHAPES.keys())
+def test_an_anchored_body_stays_where_it_was_and_released_it_falls(shape: Shape) -> None:
+    world = World()
+    spawn(world, 'a/0', shape, (1.0, 5.0, 0.7), velocity=(1.0, 2.0), spin=3.0)
+    world.step(12)
+    held = pose(world, 'a/0')
+    x, y = shape.form.centroid
+    point = (0.5, 0.5) if shape is ELL else (-0.3, 0.0) if shape is SHAPES['discs'] else (x, y)
+    point = (0.0, 0.2) if shape is SHAPES['chain'] else point
+    point = (0.0, 0.0) if shape is SHAPES['boxes'] else point
+
+    assert world.apply(Anchor(point=point, frame='a/0')) == ('a/0', 'anchored a/0')
+    assert pose(world, 'a/0') == pytest.approx(held, abs=ROUNDING)
+    world.step(24)
+    assert pose(world, 'a/0') == pytest.approx(held, abs=ROUNDING)
+    assert twist(world, 'a/0').tolist() == [0.0, 0.0, 0.0]
+
+    assert world.apply(Release(point=point, frame='a/0')) == ('a/0', 'released a/0')
+    assert pose(world, 'a/0') == pytest.approx(held, abs=ROUNDING)
+    assert twist(world, 'a/0') == pytest.approx((0.0, 0.0, 0.0), abs=ROUNDING)
+    world.step(24)
+    # A fall of a tenth of a second: the free flight is exact.
+    assert pose(world, 'a/0') == pytest.approx(held - (0.0, 9.81 / 200, 0.0), abs=1e-9)
+
+
+def test_anchoring_twice_and_releasing_twice_is_no_mistake(world: World) -> None:
+    spawn(world, 'a/0', DISC, velocity=(1.0, 0.0))
+    assert world.apply(Release(point=(0.0, 0.0))) == ('a/0', 'released a/0')
+    assert twist(world, 'a/0').tolist() == [1.0, 0.0, 0.0]
+
+    world.apply(Anchor(point=(0.0, 0.0)))
+    before = world.digest()
+    assert world.apply(Anchor(point=(0.0, 0.0))) == ('a/0', 'anchored a/0')
+    assert world.digest() == before
+
+
+def test_only_the_topmost_body_is_anchored(world: World) -> None:
+    spawn(world, 'a/0', DISC)
+    spawn(world, 'a/1', DISC)
+
+    world.apply(Anchor(point=(0.0, 0.0)))
+
+    assert not body(world, 'a/0').anchored
+    assert body(world, 'a/1').anchored
+
+
+@pytest.mark.parametrize('born', [True, False], ids=['from birth', 'later'])
+def test_an_anchored_body_still_answers_to_changes(born: bool) -> None:
+    world = World()
+    spawn(world, 'a/0', BOX, (0.0, 0.0, 0.7), anchored=born)
+    if not born:
+        world.apply(Anchor(point=(0.0, 0.0)))
+
+    spawn(world, 'a/0', BOX, (4.0, 0.0, 0.7), color=RED)
+    assert body(world, 'a/0').color == RED
+    assert body(world, 'a/0').anchored
+    assert body_at(world, (4.0, 0.0)) == 'a/0'
+    assert body_at(world, (0.0, 0.0)) is None
+
+    spawn(world, 'a/0', Box(width=3.0, height=1.0), (4.0, 0.0, 0.0))
+    assert body_at(world, (5.4, 0.0)) == 'a/0'
+
+    world.apply(Command(names=('a/0',), poses=((-4.0, 1.0, math.pi / 2),)))
+    assert pose(world, 'a/0').tolist() == [-4.0, 1.0, math.pi / 2]
+    assert body_at(world, (-4.0, 2.4)) == 'a/0'
+    assert body_at(world, (-5.4, 1.0)) is None
+
+    # Other bodies land on it at its new pose.
+    spawn(world, 'b/0', Disc(radius=0.2), (-4.0, 3.0, 0.0), elasticity=0.0)
+    world.step(240)
+    assert pose(world, 'b/0')[1] == pytest.approx(2.7, abs=0.006)
+
+    world.apply(Release(point=(-4.0, 1.0)))
+    world.step(24)
+    assert pose(world, 'a/0')[1] < 1.0
+
+
+def test_an_anchored_body_is_never_moved_by_hits(world: World) -> None:
+    spawn(world, 'a/0', BOX, (0.1, 0.2, 0.7))
+    world.apply(Anchor(point=(0.1, 0.2)))
+    held = pose(world, 'a/0').tolist()
+    for number in range(8):
+        angle = 2 * math.pi * number / 8
+        x, y = math.cos(angle), math.sin(angle)
+        spawn(world, f'hit/{number}', DISC, (3 * x, 3 * y, 0.0), velocity=(-20 * x, -20 * y),
+              mass=100.0)  # fmt: skip
+
+    world.step(240)
+
+    assert pose(world, 'a/0').tolist() == held
+    assert twist(world, 'a/0').tolist() == [0.0, 0.0, 0.0]
+    speeds = np.hypot(*world.snapshot().twists[1:, :2].T)
+    assert (speeds > 1.0).all()

@@ -1,0 +1,404 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The same requests give the same bits; a refusal changes none; a saved state has them all."""
+
+from collections.abc import Callable
+from dataclasses import replace
+import math
+import os
+from pathlib import Path
+import subprocess
+import sys
+
+import numpy as np
+from physsim_ros.engine import body as rigid_body
+from physsim_ros.model.checks import FARTHEST
+from physsim_ros.model.errors import (
+    Anchored,
+    BadProperty,
+    Malformed,
+    NothingThere,
+    Refusal,
+    UnknownBody,
+    UnknownFrame,
+    WorldFull,
+)
+from physsim_ros.model.requests import (
+    Anchor,
+    Command,
+    Configure,
+    Delete,
+    DeleteAll,
+    Release,
+    Request,
+    Restore,
+)
+from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.shapes import Box, Disc
+from physsim_ros.simulation.simulation import Simulation
+from physsim_ros.simulation.world import World
+import pytest
+
+from ..building import (
+    body_at,
+    BOX,
+    DISC,
+    ELL,
+    names,
+    pose,
+    SHAPES,
+    spawn,
+    spawning,
+    stack,
+)
+
+RED, BLUE = (1.0, 0.0, 0.0, 1.0), (0.0, 0.0, 1.0, 0.5)
+
+
+# The same requests, the same bits
+
+
+def busy_world() -> World:
+    """Return a world with all shapes, roles, and everything that decides how it goes on."""
+    world = World(settings=WorldSettings(bounds=(-12.0, 0.0, 12.0, 30.0), damping=0.05))
+    stack(world, 4)
+    for number, shape in enumerate(SHAPES.values()):
+        spawn(world, f'mix/{number}', shape, (2.6 * number - 9.0, 6.0 + number, 0.4 * number),
+              velocity=(number - 3.0, -1.0), spin=number - 2.0)  # fmt: skip
+    spawn(world, 'peg/0', DISC, (3.0, 3.0, 0.0), anchored=True)
+    spawn(world, 'lift/0', BOX, (-6.0, 2.0, 0.1), kinematic=True, velocity=(0.5, 0.0))
+    spawn(world, 'gate/0', Box(width=4.0, height=4.0), (5.0, 5.0, 0.0), sensor=True,
+          anchored=True)  # fmt: skip
+    spawn(world, 'ghost/0', DISC, (7.0, 1.0, 0.0), group=3)
+    spawn(world, 'ghost/1', DISC, (7.2, 1.0, 0.0), group=3)
+    spawn(world, 'brief/0', DISC, (9.0, 1.0, 0.0), lifetime=0.6)
+    # In another order than they were spawned.
+    world.apply(Command(names=('mix/3', 'mix/1'), wrenches=((3.0, 1.0, 0.5), (-2.0, 0.0, 0.0))))
+    return world
+
+
+def chronicle() -> list[str]:
+    """Return digests along the way of a busy world."""
+    world = busy_world()
+    digests = [world.digest()]
+    for number in range(6):
+        world.step(20)
+        spawn(world, f'rain/{number}', Disc(radius=0.2), (0.1 * number, 12.0, 0.0))
+        if number == 2:
+            world.apply(Anchor(point=(0.0, 0.5)))
+            world.apply(Configure(changes={'gravity': (1.0, -9.81), 'iterations': 15}))
+        if number == 4:
+            world.apply(Delete(name='mix/2'))
+        digests.append(world.digest())
+    return digests
+
+
+def test_the_same_requests_give_the_same_digests() -> None:
+    first = chronicle()
+
+    assert chronicle() == first
+    assert len(set(first)) == len(first)
+
+
+@pytest.mark.parametrize('seed', ['0', '1234'])
+def test_the_same_requests_give_the_same_digests_in_another_process(seed: str) -> None:
+    program = 'from test.simulation.test_repeatability import chronicle; print(*chronicle())'
+    root = str(Path(__file__).parents[2])
+
+    done = subprocess.run(
+        [sys.executable, '-c', program],
+        env={**os.environ, 'PYTHONHASHSEED': seed, 'PYTHONPATH': root},
+        cwd=root,
+        stdout=subprocess.PIPE,
+        text=True,
+        check=True,
+        timeout=60,
+    )
+
+    assert done.stdout.split() == chronicle()
+
+
+def test_many_steps_are_as_many_times_one() -> None:
+    one_by_one, at_once = busy_world(), busy_world()
+
+    for count in (1, 3, 4, 7, 16, 33, 120):
+        at_once.step(count)
+        for _ in range(count):
+            one_by_one.step(1)
+        assert at_once.digest() == one_by_one.digest()
+
+
+@pytest.mark.parametrize('timeout', [1 / 240, 0.01, 0.03])
+def test_a_wrench_that_ends_between_frames_ends_alike_however_steps_are_counted_out(
+    timeout: float,
+) -> None:
+    worlds = []
+    for _ in range(2):
+        world = World(
+            settings=WorldSettings(bounds=(-9.0, 0.0, 9.0, 9.0), command_timeout=timeout)
+        )
+        spawn(world, 'a/0', BOX, (0.0, 0.52, 0.0))
+        world.apply(Command(names=('a/0',), wrenches=((3.0, -20.0, 0.5),)))
+        worlds.append(world)
+
+    for _ in range(10):
+        worlds[0].step(4)
+    for _ in range(40):
+        worlds[1].step(1)
+
+    assert worlds[0].digest() == worlds[1].digest()
+
+
+@pytest.mark.parametrize('looking', ['snapshot', 'save', 'digest', 'contacts', 'body_at'])
+def test_looking_changes_nothing(looking: str) -> None:
+    world, unseen = busy_world(), busy_world()
+    world.watching = looking == 'contacts'
+
+    for _ in range(30):
+        world.step(4)
+        unseen.step(4)
+        match looking:
+            case 'contacts':
+                world.contacts(world.snapshot())
+            case 'body_at':
+                body_at(world, (0.0, 0.5))
+            case _:
+                getattr(world, looking)()
+
+    assert world.digest() == unseen.digest()
+
+
+CHANGES: dict[str, Callable[[World], object]] = {
+    'a step': lambda world: world.step(1),
+    'a body': lambda world: spawn(world, 'new/0', DISC, (0.0, 20.0, 0.0)),
+    'a body less': lambda world: world.apply(Delete(name='mix/1')),
+    'a colour': lambda world: spawn(world, 'peg/0', DISC, (3.0, 3.0, 0.0), color=RED),
+    'a lifetime': lambda world: spawn(world, 'peg/0', DISC, (3.0, 3.0, 0.0), lifetime=9.0),
+    'a pose': lambda world: world.apply(Command(names=('mix/1',), poses=((0.0, 20.0, 0.0),))),
+    'a velocity': lambda world: world.apply(
+        Command(names=('mix/1',), twists=((1.0, 0.0, math.nextafter(1.0, 2.0)),))
+    ),
+    'a wrench': lambda world: world.apply(
+        Command(names=('mix/2',), wrenches=((0.0, 0.0, 1e-300),))
+    ),
+    'how long a wrench acts': lambda world: (
+        world.apply(Configure(changes={'command_timeout': 0.25})),
+        world.apply(Command(names=('mix/3',), wrenches=((3.0, 1.0, 0.5),))),
+        world.apply(Configure(changes={'command_timeout': 0.5})),
+    ),
+    'an anchor': lambda world: world.apply(Anchor(point=(0.0, 0.5))),
+    'gravity': lambda world: world.apply(Configure(changes={'gravity': (0.0, -9.8)})),
+    'iterations': lambda world: world.apply(Configure(changes={'iterations': 11})),
+    'a default': lambda world: world.apply(Configure(changes={'friction': 0.51})),
+}
+
+
+@pytest.mark.parametrize('change', CHANGES.values(), ids=CHANGES.keys())
+def test_whatever_decides_how_the_world_goes_on_is_in_the_digest(
+    change: Callable[[World], object],
+) -> None:
+    world = busy_world()
+    before = world.digest()
+
+    change(world)
+
+    assert world.digest() != before
+
+
+# A refusal changes nothing
+
+REFUSED: dict[str, tuple[Callable[[], Request], type[Refusal], str]] = {
+    'a body too many': (lambda: spawning('new/0'), WorldFull, ''),
+    'a body in no frame': (lambda: spawning('mix/0', frame='nobody/0'), UnknownFrame,
+                           'header.frame_id'),
+    'a body in the frame of the world by name': (lambda: spawning('mix/0', frame='world'),
+                                                 UnknownFrame, 'header.frame_id'),
+    'a body too far by its frame': (
+        lambda: spawning('mix/0', DISC, (FARTHEST, 0.0, 0.0), frame='far/0'), BadProperty, 'pose'),
+    'a body too heavy': (lambda: spawning('mix/0', Disc(radius=1e4), density=1e12), BadProperty,
+                         'density'),
+    'a body too light': (lambda: spawning('mix/0', Disc(radius=1e-3), density=1e-9), BadProperty,
+                         'density'),
+    'a body too heavy by the density it has': (lambda: spawning('dense/0', Disc(radius=10.0)),
+                                               BadProperty, 'density'),
+    'an anchored body with a velocity': (
+        lambda: spawning('peg/0', DISC, velocity=(1.0, 0.0)), Anchored, 'velocity'),
+    'an anchored body with a spin': (lambda: spawning('peg/0', DISC, spin=1.0), Anchored,
+                                     'velocity'),
+    'to anchor a moving body': (
+        lambda: spawning('mix/0', DISC, anchored=True, velocity=(0.0, 1.0)), Anchored, 'velocity'),
+    'to delete nobody': (lambda: Delete(name='nobody/0'), UnknownBody, 'name'),
+    'to delete the world': (lambda: Delete(name='world'), UnknownBody, 'name'),
+    'to anchor nothing': (lambda: Anchor(point=(0.0, 29.0)), NothingThere, 'point'),
+    'to release nothing': (lambda: Release(point=(0.0, 29.0)), NothingThere, 'point'),
+    'to anchor in no frame': (lambda: Anchor(point=(0.0, 0.0), frame='nobody/0'), UnknownFrame,
+                              'header.frame_id'),
+    'to release too far': (lambda: Release(point=(FARTHEST, 0.0), frame='far/0'), BadProperty,
+                           'pose'),
+    'to command nobody': (lambda: Command(names=('nobody/0',), poses=((0.0, 0.0, 0.0),)),
+                          UnknownBody, 'joint_names'),
+    'to command one body and nobody': (
+        lambda: Command(names=('mix/0', 'nobody/0'), poses=((0.0, 0.0, 0.0),) * 2), UnknownBody,
+        'joint_names'),
+    'to pose a body in no frame': (
+        lambda: Command(names=('mix/0',), poses=((0.0, 0.0, 0.0),), frame='nobody/0'),
+        UnknownFrame, 'header.frame_id'),
+    'to pose the second too far': (
+        lambda: Command(names=('mix/0', 'mix/1'), frame='far/0',
+                        poses=((0.0, 0.0, 0.0), (FARTHEST, 0.0, 0.0))), BadProperty, 'pose'),
+    'a twist for an anchored body': (
+        lambda: Command(names=('mix/0', 'peg/0'), twists=((1.0, 0.0, 0.0),) * 2), Anchored,
+        'joint_names'),
+    'a wrench for an anchored body': (
+        lambda: Command(names=('mix/0', 'peg/0'), wrenches=((1.0, 0.0, 0.0),) * 2,
+                        poses=((0.0, 0.0, 0.0),) * 2), Anchored, 'joint_names'),
+    'a wrench for a kinematic body': (
+        lambda: Command(names=('mix/0', 'lift/0'), wrenches=((1.0, 0.0, 0.0),) * 2,
+                        twists=((1.0, 0.0, 0.0),) * 2), BadProperty, 'wrench'),
+    'settings out of range': (lambda: Configure(changes={'friction': 0.1, 'damping': 2.0}),
+                              BadProperty, 'damping'),
+    'settings that are none': (lambda: Configure(changes={'gravity': (0.0, math.nan)}), Malformed,
+                               'gravity'),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(('make', 'error', 'field'), REFUSED.values(), ids=REFUSED.keys())
+@pytest.mark.parametrize('steps', [0, 30])
+def test_a_refusal_changes_nothing(
+    make: Callable[[], Request], error: type[Refusal], field: str, steps: int
+) -> None:
+    world, other = busy_world(), busy_world()
+    for each in (world, other):
+        spawn(each, 'far/0', DISC, (100.0, 0.0, 0.0), anchored=True)
+        spawn(each, 'dense/0', Disc(radius=0.01), (9.0, 9.0, 0.0), density=1e10)
+        each.apply(Configure(changes={'max_bodies': len(each)}))
+        each.step(steps)
+    before = world.digest()
+
+    with pytest.raises(Refusal) as refused:
+        world.apply(make())
+
+    assert type(refused.value) is error
+    assert refused.value.field == field
+    assert world.digest() == before
+    # Nor has it changed what no digest shows.
+    world.step(60)
+    other.step(60)
+    assert world.digest() == other.digest()
+    assert world.save() == other.save()
+
+
+# Saved states
+
+
+@pytest.mark.parametrize('steps', [0, 1, 100])
+def test_a_state_is_restored_into_the_same_digest(steps: int) -> None:
+    world = busy_world()
+    world.step(steps)
+    before = world.digest()
+
+    state = world.save()
+    assert world.digest() == before
+    world.apply(Restore(state=state))
+
+    assert world.digest() == before
+    assert world.save() == state
+
+
+def test_a_restored_world_is_built_once_and_is_its_first_checkpoint(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    world = World()
+    stack(world, 8)
+    state, built = replace(world.save(), memory=None), list[str]()
+    build = rigid_body.build
+    monkeypatch.setattr(
+        rigid_body, 'build', lambda body, serial: built.append(body.name) or build(body, serial)
+    )
+
+    simulation = Simulation()
+    simulation.begin(state)
+
+    assert built == [each.body.name for each in state.bodies]
+    digest = simulation.world.digest()
+    simulation.advance_frame()
+    simulation.seek(0)
+    assert simulation.world.digest() == digest
+
+
+def test_two_worlds_restored_from_one_state_go_on_alike_at_any_step() -> None:
+    world = busy_world()
+    world.step(100)
+    state = world.save()
+    first, second = World(), World()
+    second.step(37)
+
+    first.apply(Restore(state=state))
+    second.apply(Restore(state=state))
+    for _ in range(5):
+        first.step(40)
+        second.step(40)
+        assert first.save() == second.save()
+    assert np.array_equal(first.snapshot().poses, second.snapshot().poses)
+    assert first.step_count == second.step_count - 37
+
+
+def test_a_restored_world_goes_on_alike_with_the_requests_that_follow() -> None:
+    world = busy_world()
+    world.apply(Delete(name='mix/0'))
+    world.step(50)
+    state = world.save()
+    worlds = [World(), World()]
+
+    for each in worlds:
+        each.apply(Restore(state=state))
+    worlds[1].apply(Restore(state=worlds[1].save()))
+    for each in worlds:
+        # A colour that nobody chose, an end of a wrench and a lifetime are to come alike.
+        spawn(each, 'late/0', ELL, (0.0, 8.0, 0.0), lifetime=0.2)
+        each.apply(Command(names=('late/0', 'mix/1'), wrenches=((1.0, 0.0, 0.0),) * 2))
+        each.step(120)
+
+    assert worlds[0].digest() == worlds[1].digest()
+
+
+def test_restoring_replaces_everything_but_the_time() -> None:
+    world = World(settings=WorldSettings(max_bodies=7))
+    spawn(world, 'a/0', DISC)
+    state = world.save()
+    world.apply(Configure(changes={'gravity': (1.0, 0.0), 'bounds': (-9.0, -9.0, 9.0, 9.0)}))
+    spawn(world, 'a/1', DISC, (4.0, 0.0, 0.0))
+    world.step(10)
+
+    answer = world.apply(Restore(state=state))
+
+    assert answer == ('', 'loaded 1 bodies')
+    assert names(world) == ('a/0',)
+    assert world.settings == WorldSettings(max_bodies=7)
+    assert world.step_count == 10
+    # The walls have gone with the rest.
+    world.step(480)
+    assert pose(world, 'a/0')[1] < -10.0
+
+
+def test_a_saved_state_is_not_changed_by_what_follows() -> None:
+    world = busy_world()
+    state = world.save()
+    text = repr(state)
+
+    world.step(20)
+    world.apply(DeleteAll())
+
+    assert repr(state) == text
