@@ -28,8 +28,7 @@ from physsim_ros.engine.body import REST, RigidBody
 from physsim_ros.engine.space import Space
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.body_properties import Properties
-from physsim_ros.model.checks import check_pose, HEAVIEST, LIGHTEST
-from physsim_ros.model.colors import color_of
+from physsim_ros.model.checks import check_pose
 from physsim_ros.model.errors import Anchored, BadProperty, NothingThere, WorldFull
 from physsim_ros.model.names import split_name
 from physsim_ros.model.requests import ChangeBody, Command, MoveBodies, Spawn
@@ -37,6 +36,12 @@ from physsim_ros.model.scene import Body
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.transform import Point, Pose
 from physsim_ros.simulation import joint_requests
+from physsim_ros.simulation.body_description import (
+    changed_body,
+    changed_twist,
+    new_body,
+    spawn_changes,
+)
 from physsim_ros.simulation.capacity import Capacity
 from physsim_ros.simulation.lookup import body_of_name, pose_in_world
 
@@ -60,7 +65,7 @@ def spawn_body(
         check_count(len(space.bodies.by_name), capacity.settings)
     pose = pose_in_world(space, request.pose, request.frame)
     if old is not None:
-        changes = _spawn_changes(request, expires)
+        changes = spawn_changes(request, expires)
         _change(space, old, changes, pose, properties=request.properties, capacity=capacity)
         return name, f'changed {name}'
     body, twist = new_body(request, capacity.settings, expires)
@@ -77,28 +82,6 @@ def check_count(count: int, settings: WorldSettings) -> None:
     """
     if count >= settings.max_bodies:
         raise WorldFull(f'the world holds {count} bodies; it may hold {settings.max_bodies}')
-
-
-def new_body(request: Spawn, settings: WorldSettings, expires: int | None) -> tuple[Body, Pose]:
-    """
-    Return the body of a request, and its twist.
-
-    :param settings: of the world, the defaults of properties
-    :param expires: step at whose end it is removed; None is never
-    :raises Refusal: there is no such body
-    """
-    changes = _spawn_changes(request, expires)
-    body = _changed(_default_body(request, settings), changes, request.properties)
-    return body, _changed_twist(body, REST, request.properties)
-
-
-def _spawn_changes(request: Spawn, expires: int | None) -> dict[str, Any]:
-    changes: dict[str, Any] = {'shape': request.shape}
-    if request.color is not None:
-        changes['color'] = request.color
-    if expires is not None:
-        changes['expires'] = expires
-    return changes
 
 
 def change_body(space: Space, request: ChangeBody, capacity: Capacity) -> Done:
@@ -231,24 +214,6 @@ def _set_poses(space: Space, rigids: list[RigidBody], poses: list[Pose]) -> None
         space.set_pose(rigid, pose)
 
 
-def _default_body(request: Spawn, settings: WorldSettings) -> Body:
-    """Return a new body with the default material of the world."""
-    return Body(
-        name=request.name,
-        shape=request.shape,
-        color=color_of(request.name),
-        mass=None,
-        density=settings.density,
-        friction=settings.friction,
-        elasticity=settings.elasticity,
-        anchored=False,
-        kinematic=False,
-        group=0,
-        sensor=False,
-        expires=None,
-    )
-
-
 def _change(
     space: Space,
     old: RigidBody,
@@ -258,47 +223,9 @@ def _change(
     properties: Properties,
     capacity: Capacity,
 ) -> None:
-    body = _changed(old.body, changes, properties)
+    body = changed_body(old.body, changes, properties)
     twist = REST if old.body.anchored else space.twist_of(old)
-    twist = _changed_twist(body, twist, properties)
+    twist = changed_twist(body, twist, properties)
     if (body.shape, body.anchored, pose) != (old.body.shape, old.body.anchored, old.pose):
         capacity.check_body(space, body, pose, old=old)
     space.change(old, body, pose, twist)
-
-
-def _changed(old: Body, changes: dict[str, Any], properties: Properties) -> Body:
-    """
-    Return a body with other properties.
-
-    :raises BadProperty: it would be too light or too heavy
-    """
-    said = properties.explicit()
-    for motion in ('velocity', 'spin'):
-        said.pop(motion, None)
-    if properties.density is not None:
-        said['mass'] = None
-    body = replace(old, **changes, **said)
-    if not LIGHTEST <= body.total_mass <= HEAVIEST:
-        field = 'density' if body.mass is None else 'mass'
-        raise BadProperty(
-            f'the body would weigh {body.total_mass:g} kg; {LIGHTEST:g} to {HEAVIEST:g} kg can be '
-            'simulated',
-            field=field,
-        )
-    return body
-
-
-def _changed_twist(body: Body, twist: Pose, properties: Properties) -> Pose:
-    """
-    Return the twist of a body with other properties.
-
-    :param twist: that it has now
-    :raises Anchored: an anchored body is to move
-    """
-    moves = (properties.velocity or (0.0, 0.0)) != (0.0, 0.0) or bool(properties.spin)
-    if body.anchored and moves:
-        raise Anchored(f'{body.name} is anchored; it has no velocity', field='velocity')
-    if body.anchored:
-        return REST
-    vx, vy = twist[:2] if properties.velocity is None else properties.velocity
-    return vx, vy, twist[2] if properties.spin is None else properties.spin

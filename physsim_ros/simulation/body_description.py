@@ -1,0 +1,118 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+The description of a body that a request makes or changes, without a space.
+
+Law: a property that a request does not name is as it was; of a new body, the default of the world.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from physsim_ros.engine.body import REST
+from physsim_ros.model.body_properties import Properties
+from physsim_ros.model.checks import HEAVIEST, LIGHTEST
+from physsim_ros.model.colors import color_of
+from physsim_ros.model.errors import Anchored, BadProperty
+from physsim_ros.model.requests import Spawn
+from physsim_ros.model.scene import Body
+from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.transform import Pose
+
+
+def new_body(request: Spawn, settings: WorldSettings, expires: int | None) -> tuple[Body, Pose]:
+    """
+    Return the body of a request, and its twist.
+
+    :param settings: of the world, the defaults of properties
+    :param expires: step at whose end it is removed; None is never
+    :raises Refusal: there is no such body
+    """
+    changes = spawn_changes(request, expires)
+    body = changed_body(_default_body(request, settings), changes, request.properties)
+    return body, changed_twist(body, REST, request.properties)
+
+
+def spawn_changes(request: Spawn, expires: int | None) -> dict[str, Any]:
+    """
+    Return the fields of a body that a spawn request sets, by name, but for its properties.
+
+    :param expires: step at whose end it is removed; None leaves that as it is
+    """
+    changes: dict[str, Any] = {'shape': request.shape}
+    if request.color is not None:
+        changes['color'] = request.color
+    if expires is not None:
+        changes['expires'] = expires
+    return changes
+
+
+def changed_body(old: Body, changes: dict[str, Any], properties: Properties) -> Body:
+    """
+    Return a body with other properties.
+
+    :param changes: fields of the body that are no properties, by name
+    :raises BadProperty: it would be too light or too heavy
+    """
+    said = properties.explicit()
+    for motion in ('velocity', 'spin'):
+        said.pop(motion, None)
+    if properties.density is not None:
+        said['mass'] = None
+    body = replace(old, **changes, **said)
+    if not LIGHTEST <= body.total_mass <= HEAVIEST:
+        field = 'density' if body.mass is None else 'mass'
+        raise BadProperty(
+            f'the body would weigh {body.total_mass:g} kg; {LIGHTEST:g} to {HEAVIEST:g} kg can be '
+            'simulated',
+            field=field,
+        )
+    return body
+
+
+def changed_twist(body: Body, twist: Pose, properties: Properties) -> Pose:
+    """
+    Return the twist of a body with other properties.
+
+    :param twist: that it has now
+    :raises Anchored: an anchored body is to move
+    """
+    moves = (properties.velocity or (0.0, 0.0)) != (0.0, 0.0) or bool(properties.spin)
+    if body.anchored and moves:
+        raise Anchored(f'{body.name} is anchored; it has no velocity', field='velocity')
+    if body.anchored:
+        return REST
+    vx, vy = twist[:2] if properties.velocity is None else properties.velocity
+    return vx, vy, twist[2] if properties.spin is None else properties.spin
+
+
+def _default_body(request: Spawn, settings: WorldSettings) -> Body:
+    """Return a new body with the default material of the world."""
+    return Body(
+        name=request.name,
+        shape=request.shape,
+        color=color_of(request.name),
+        mass=None,
+        density=settings.density,
+        friction=settings.friction,
+        elasticity=settings.elasticity,
+        anchored=False,
+        kinematic=False,
+        group=0,
+        sensor=False,
+        expires=None,
+    )
