@@ -28,7 +28,7 @@ class Grip(NamedTuple):
     :ivar hand: name of the hand, unique in its world
     :ivar body: name of the body
     :ivar anchor: point of the body that is drawn to the hand, in the body's frame [m]
-    :ivar target: where the hand is, in the world [m]
+    :ivar target: position of the hand in the world [m]
     """
 
     hand: str

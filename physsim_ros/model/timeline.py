@@ -45,8 +45,8 @@ class TimelineStatus:
     :param now: simulation time that is shown [s]
     :param newest: the last simulation time that was reached [s]
     :param course: number of the course of events that is in force
-    :param undo: what `undo` would do, in words; '' is nothing
-    :param redo: what `redo` would do, in words; '' is nothing
+    :param undo: phrase for the gesture that `undo` would undo; '' is none
+    :param redo: phrase for the gesture that `redo` would repeat; '' is none
     :param courses: those that were left, in the order of their numbers
     """
 

@@ -30,7 +30,7 @@ from physsim_ros.simulation.request_queue import RequestQueue
 from rclpy.node import Node
 from std_srvs.srv import Trigger
 
-# Does what a service is for, and returns a message about it; raises a Refusal where it cannot.
+# Carries out a service, and returns a message about it; raises a Refusal where it cannot.
 Action = Callable[[], str]
 
 

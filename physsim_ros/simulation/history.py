@@ -202,7 +202,7 @@ class History:
             raise OutOfHistory('what was undone is kept no more', field='history')
 
     def _drop_old(self) -> None:
-        """Drop what is older than `length`, but the checkpoint before the oldest step."""
+        """Drop checkpoints older than `length`, but for the last one before the oldest step."""
         old = bisect_right(self._marks, self.head - self._length, key=lambda each: each.step) - 1
         if old > 0:
             self._drop_before(old)

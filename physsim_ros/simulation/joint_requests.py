@@ -222,7 +222,7 @@ def _check_members(space: Space, kind: JointKind, a: str, b: str) -> None:
 def _seat(
     kind: JointKind, points: tuple[Point, ...], pose_a: Pose, pose_b: Pose, phase: float
 ) -> Seat:
-    """Return where a joint that is drawn with these points sits."""
+    """Return the seat of a joint that is drawn with these points."""
     ux = uy = 0.0
     at_b = points[-1]
     if kind is JointKind.SLIDER:

@@ -83,7 +83,7 @@ class RequestHandler:
 
     def seek(self, stamp: int) -> str:
         """
-        Go to a simulation time [ns] now, and say so.
+        Go to a simulation time [ns] now, and return a message about it.
 
         :raises OutOfHistory: it is kept no more, or has not come yet
         """

@@ -113,7 +113,7 @@ class RequestQueue:
         """
         Add a request; nothing moves until the next frame, which carries the answer.
 
-        :param topic: where it comes from
+        :param topic: that it comes from
         :param joined: whether it belongs to the one before, and is undone together with it
         :param field: the one field that it was made of, to be named by a refusal; '' is none
         :param asker: key of the message that asks, which the answer names; '' for none
@@ -142,7 +142,7 @@ class RequestQueue:
         """
         Add a seek to a simulation time [ns]; of those in a row the last is carried out.
 
-        :param topic: where it comes from
+        :param topic: that it comes from
         """
         if self._waiting and isinstance(self._waiting[-1].request, Seek):
             last = self._waiting[-1]

@@ -158,7 +158,7 @@ class Simulation:
 
     def perform(self, request: Request) -> str:
         """
-        Apply a request now, after those that wait, and return what was done as a sentence.
+        Apply a request now, after those that wait, and return a message about it.
 
         :raises Refusal: and nothing is changed
         """
@@ -189,7 +189,7 @@ class Simulation:
         return self.world.save()
 
     def reset(self) -> str:
-        """Return to the state that was loaded last, at time 0; `undo` comes back from there."""
+        """Go to the state that was loaded last, at time 0; `undo` comes back. Return a message."""
         self._prepare_change()
         self._handler.hands.clear()
         done = self.past.reset()
@@ -211,7 +211,7 @@ class Simulation:
         The world is simulated again from there up to this moment. Each request is answered.
 
         :param gestures: numbers of these, as `requests.gesture` was after each was submitted
-        :param topic: where the requests come from
+        :param topic: that the requests come from
         :param field: of the message that they were made of, to be named by a refusal
         :param asker: whom the answers are for
         """
@@ -227,7 +227,7 @@ class Simulation:
 
     def undo(self) -> str:
         """
-        Go back to the moment before the last request that changed the world, and say so.
+        Go back to before the last gesture that changed the world; return a message about it.
 
         :raises OutOfHistory: there is none in the history
         """
@@ -238,9 +238,9 @@ class Simulation:
 
     def redo(self) -> str:
         """
-        Return to where the last undo was asked for, and say so.
+        Go to the moment at which the last undo was asked for; return a message about it.
 
-        :raises OutOfHistory: nothing was undone, or something else was done since
+        :raises OutOfHistory: nothing was undone, or another request was applied since
         """
         self._prepare_change()
         self.past.redo()
@@ -249,7 +249,7 @@ class Simulation:
 
     def return_to_course(self, number: int) -> str:
         """
-        Return to a course of events that was left, at the time that is shown or its last.
+        Go to a course that was left, at the time that is shown or its last; return a message.
 
         :param number: of the course
         :raises OutOfHistory: it is kept no more; nothing is changed
@@ -262,7 +262,7 @@ class Simulation:
 
     def seek(self, stamp: int) -> str:
         """
-        Go to a simulation time [ns], and say so.
+        Go to a simulation time [ns], and return a message about it.
 
         :raises OutOfHistory: it is kept no more, or has not come yet
         """

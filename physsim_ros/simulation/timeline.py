@@ -154,7 +154,7 @@ class Timeline(SeekableReplay):
         """
         Go back to the moment before the last gesture.
 
-        :return: what `redo` needs, the undone gesture first
+        :return: the tail that `redo` needs, the undone gesture first
         :raises OutOfHistory: there is none
         """
         now = self.moment

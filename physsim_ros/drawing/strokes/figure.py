@@ -68,7 +68,7 @@ class Figure:
     :param began: when its first stroke began [s]
     :param ended: when its last stroke ended [s]
     :param scene: over which the first one was drawn
-    :param guesses: what it may mean, the likeliest first
+    :param guesses: at its meaning, the likeliest first
     :param chosen: which of the guesses it was read with; None is none
     :param requests: of that reading
     :param gestures: numbers of the gestures with which these were submitted

@@ -43,7 +43,7 @@ class Grab(OfHand):
     """
     Have a hand grab the topmost movable body under a point; it lets go of any other body.
 
-    :param point: where the hand is [m]
+    :param point: position of the hand [m]
     :param frame: of the point: '' for the world, or a body's name
     """
 
@@ -65,7 +65,7 @@ class MoveHand(OfHand):
     """
     Move a hand, and draw the body to it that it has grabbed.
 
-    :param point: where the hand is now [m]
+    :param point: new position of the hand [m]
     :param yaw: of the body [rad], where it is placed; None keeps it
     :param frame: of the point and yaw: '' for the world, or a body's name
     """

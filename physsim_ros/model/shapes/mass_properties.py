@@ -64,7 +64,7 @@ def form_of(pieces: tuple[Piece, ...], *, whole: tuple[Piece, ...] | None = None
     Return pieces with their mass properties and extent.
 
     :param pieces: convex
-    :param whole: what mass and extent are taken of, if not of the pieces; may be concave
+    :param whole: pieces that mass and extent are of, which may be concave; None is `pieces`
     """
     whole = whole or pieces
     measures = [_mass_properties(piece) for piece in whole]
