@@ -21,7 +21,7 @@ a user's pan and zoom persist.
 
 from __future__ import annotations
 
-from physsim_ros.view import event_log, plots, run_state_track, traces, velocities
+from physsim_ros.view import event_log, name_labels, plots, run_state_track, traces, velocities
 from physsim_ros.view.colors import PAPER
 from physsim_ros.view.frame_batch import RECORDED
 import rerun.blueprint as rrb
@@ -54,6 +54,7 @@ def blueprint(*, paced: bool, traced: bool) -> rrb.Blueprint:
                 )
             ],
             # Shown by a click on the eye in the panel of the blueprint.
+            name_labels.PATH: [rrb.EntityBehavior(visible=False)],
             velocities.PATH: [rrb.EntityBehavior(visible=False)],
         },
     )
@@ -67,7 +68,8 @@ def blueprint(*, paced: bool, traced: bool) -> rrb.Blueprint:
         rrb.Vertical(
             world,
             rrb.Tabs(log, *plots.plot_views(paced=paced, traced=traced), active_tab=0),
-            row_shares=[3, 1],
+            # Below, all tracks of time are seen in a window of 900 pixels.
+            row_shares=[5, 2],
         ),
         rrb.BlueprintPanel(state='collapsed'),
         rrb.SelectionPanel(state='collapsed'),

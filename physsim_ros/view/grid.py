@@ -19,6 +19,8 @@ from __future__ import annotations
 import math
 
 from physsim_ros.model.settings import Bounds
+from physsim_ros.view.blueprint import WIDTH
+from physsim_ros.view.camera import PIXELS
 from physsim_ros.view.colors import INK
 from physsim_ros.view.round_numbers import nice_number
 import rerun as rr
@@ -63,10 +65,12 @@ def grid_columns(
         # Negative radii are ui points.
         radii=[-0.5 if number else -1.0 for number in numbers],
     )
+    # The right edge of the view, where the area is narrower than it.
+    edge = x + WIDTH / PIXELS / 2 * unit
     labelled = [
         ((n * spacing, bottom + _ABOVE * unit, z), n)
         for n in columns
-        if n % _LABELLED == 0 and n * spacing > left + _ASIDE * unit
+        if n % _LABELLED == 0 and left + _ASIDE * unit < n * spacing < edge - _ASIDE * unit
     ]
     labelled += [
         ((left + _ASIDE * unit, n * spacing + _HALF * unit, z), n)

@@ -41,6 +41,7 @@ from physsim_ros.view.joint_geometry import JointGeometry
 from physsim_ros.view.joint_track import JointTrack
 from physsim_ros.view.legend import Legend
 from physsim_ros.view.mesh_track import MeshTrack
+from physsim_ros.view.name_labels import NameLabels
 from physsim_ros.view.plots import Plots
 from physsim_ros.view.preview_lines import PreviewLines
 from physsim_ros.view.run_state_track import RunStateTrack
@@ -56,7 +57,7 @@ WALL_HALF = 0.1
 WALL = (89, 94, 102)
 WALLS = 'world/walls'
 # Heights above the plane, over all bodies [units].
-_JOINTS, _ARROWS, _PREVIEW = DEPTH + 0.01, DEPTH + 0.02, DEPTH + 0.03
+_JOINTS, _ARROWS, _PREVIEW, _NAMES = (DEPTH + each for each in (0.01, 0.02, 0.03, 0.04))
 
 
 class FrameRecorder:
@@ -80,6 +81,7 @@ class FrameRecorder:
         self._layout: tuple[bool, bool] | None = None
         self._send_styles()
         self._bodies = MeshTrack(recording)
+        self._names = NameLabels(recording)
         self._joints = JointTrack(recording)
         self._contacts = ContactArrows(recording)
         self._traces = Traces(recording)
@@ -145,6 +147,7 @@ class FrameRecorder:
         self._bodies.send_poses(bodies.groups, batch.poses, batch.times, moved)
         if due:
             self._send_geometry(batch, bodies, everything=repeat)
+        self._names.send_places(batch, moved, _NAMES * unit)
         self._joints.send(batch, moved)
         self._contacts.send(batch, height=_ARROWS * unit)
         send_velocities(self._recording, batch, _ARROWS * unit)
@@ -192,6 +195,7 @@ class FrameRecorder:
         """Send the components that change only with the scene."""
         times = batch.times_at([0])
         self._bodies.send_meshes(bodies.groups, times, everything=everything)
+        self._names.send_names(batch)
         self._joints.send_symbols(times, everything=everything)
         self._send_walls(batch.scene.settings.bounds, bodies.unit, times)
         self._recording.send_columns('world/camera', times, self._camera.transform())

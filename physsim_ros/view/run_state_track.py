@@ -64,8 +64,8 @@ _MARKED = {
     '~/timeline': 'return',
     'divergence': 'divergence',
 }
-# Duration of a mark [frames].
-_MARKED_FOR = 30
+# Duration of a mark [frames]: its word is seen whole in a recording of ten seconds.
+_MARKED_FOR = 60
 
 
 class RunStateTrack:

@@ -207,6 +207,17 @@ def test_bodies_that_look_alike_are_one_entity_and_each_has_its_own_size_and_nam
     assert [*recording.last('world/bodies/ball/0', 'name')] == ['ball/0', 'ball/1', 'ball/2']
 
 
+def test_every_body_has_its_name_at_its_centre(recording):
+    both = scene(body('box/0'), body('box/1'))
+
+    recording.draw(*(frame(both, [(0, 0, 0), (step, 2, 0)], step=4 * step) for step in range(7)))
+
+    assert [*recording.last('world/names', 'Points3D:labels')] == ['box/0', 'box/1']
+    rows = recording.rows('world/names', 'Points3D:positions')
+    assert [row.frame for row in rows] == [0, 6]
+    assert rows[-1].value[:, :2].tolist() == [[0, 0], [6, 2]]
+
+
 def test_a_disc_is_round(recording):
     recording.draw(frame(scene(body(shape=Disc(radius=100.0))), [(0, 0, 0)]))
 
