@@ -23,10 +23,14 @@ import sys
 import tempfile
 
 from physsim_ros.drawing import DrawingSession, DrawingSettings, Tool
+from physsim_ros.model.body_properties import Properties
+from physsim_ros.model.requests import MoveBodies, Spawn
+from physsim_ros.model.shapes import Box
 from physsim_ros.model.snapshot import Frame
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.view.frame_context import FrameContext
 from physsim_ros.view.recording import FrameRecorder
+from PIL import Image
 import rerun as rr
 
 from .page import draw_page
@@ -54,8 +58,10 @@ TIMES = {
     'worlds/pendulums': 6.0,
 }
 USUAL = 3.0
-# Duration [s] and rate [Hz] of the animation, and its width [pixels].
-ANIMATED, RATE, NARROW = 6.0, 15, 800
+# Rate of the animation [Hz], its width [pixels], and how long its last picture stays [ms].
+RATE, NARROW, REST = 15, 800, 900
+# Height of the title bar of the window [pixels].
+TITLE = 36
 # Frames in a batch of the recorder.
 BATCH = 60
 
@@ -114,31 +120,17 @@ def draw_drawing(viewer: HeadlessViewer, directory: Path) -> None:
     viewer.picture(now).save(DOCS / 'drawing.png', optimize=True)
 
 
-def draw_window(viewer: HeadlessViewer, directory: Path) -> None:
-    """Draw the whole window, and the animation of it."""
-    recording = Recording(directory / 'window.rrd')
-    frames = list(frames_until(scene('worlds/demo'), ANIMATED))
-    times = [recording.draw([frame]) for frame in frames]
-    recording.close()
-    viewer.open_recording(recording.path)
-    viewer.picture(times[132], view='').save(DOCS / 'demo.png', optimize=True)
-    pictures = [viewer.picture(time) for time in times[:: 60 // RATE]]
-    size = (NARROW, round(NARROW * pictures[0].height / pictures[0].width))
-    small = [picture.resize(size) for picture in pictures]
-    small[0].save(
-        DOCS / 'demo.webp',
-        save_all=True,
-        append_images=small[1:],
-        duration=1000 // RATE,
-        loop=0,
-        quality=70,
-        method=6,
+def car_story() -> list[Frame]:
+    """Return the frames of a car that drives on, goes back, and meets a wall that was moved."""
+    simulation = scene('drawings/car')
+    simulation.watch_contacts(True)
+    wall = Spawn(
+        name='wall/0',
+        shape=Box(width=0.3, height=1.7),
+        pose=(11.0, 6.4, 0.0),
+        color=(0.9, 0.3, 0.2, 1.0),
+        properties=Properties(anchored=True),
     )
-
-
-def draw_time(viewer: HeadlessViewer, directory: Path) -> None:
-    """Draw the tracks of time: play, pause, rewind, a branch."""
-    simulation = scene('worlds/demo')
     frames: list[Frame] = []
     now = 0
 
@@ -149,16 +141,37 @@ def draw_time(viewer: HeadlessViewer, directory: Path) -> None:
             now += 16_666_667
             frames.extend(simulation.advance(now))
 
+    simulation.submit(wall, topic='~/spawn')
+    run(200, 1.0)
+    run(65, -2.0)
+    simulation.submit(MoveBodies(names=('wall/0',), by=(0.0, -2.5)), topic='page')
     run(180, 1.0)
-    run(20, 0.0)
-    run(60, -1.0)
-    run(40, -2.0)
-    run(120, 1.0)
-    recording = Recording(directory / 'time.rrd')
-    last = recording.draw(frames)
+    return frames
+
+
+def draw_window(viewer: HeadlessViewer, directory: Path) -> None:
+    """Draw the whole window, the tracks of time in it, and the animation of the world."""
+    recording = Recording(directory / 'car.rrd')
+    times = [recording.draw([frame]) for frame in car_story()]
     recording.close()
     viewer.open_recording(recording.path)
-    viewer.picture(last, view='Time').save(DOCS / 'time.png', optimize=True)
+    window = viewer.picture(times[-1], view='')
+    window.crop((0, TITLE, *window.size)).save(DOCS / 'demo.png', optimize=True)
+    viewer.picture(times[-1], view='Time').save(DOCS / 'time.png', optimize=True)
+    pictures = [viewer.picture(time) for time in times[:: 60 // RATE]]
+    size = (NARROW, round(NARROW * pictures[0].height / pictures[0].width))
+    small = [picture.resize(size, Image.Resampling.LANCZOS) for picture in pictures]
+    durations = [1000 // RATE] * len(small)
+    durations[-1] = REST
+    small[0].save(
+        DOCS / 'demo.webp',
+        save_all=True,
+        append_images=small[1:],
+        duration=durations,
+        loop=0,
+        quality=70,
+        method=6,
+    )
 
 
 def main(chosen: list[str]) -> None:
@@ -166,7 +179,6 @@ def main(chosen: list[str]) -> None:
     pictures: dict[str, Callable[[HeadlessViewer, Path], None]] = {
         'drawing': draw_drawing,
         'window': draw_window,
-        'time': draw_time,
     }
     if not chosen or 'page' in chosen:
         draw_page(DOCS / 'page.webp')

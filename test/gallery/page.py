@@ -12,11 +12,14 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""The page, drawn on: an animation of a car that a pen draws, that rolls, and that goes back."""
+"""
+The page, drawn on: an animation of a car that a pen draws.
+
+It rolls, time goes back, a wall is moved, and it rolls against the wall.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from contextlib import ExitStack
 import io
 import itertools
@@ -38,8 +41,10 @@ bodies: []
 """
 # Rate of the animation [Hz], frames of the world in each of its pictures, and its width [pixels].
 RATE, FRAMES, NARROW = 12, 5, 800
-# Simulation time at which the slider is dragged back, and to which [s].
-END, BACK = 4.0, 0.2
+# Simulation times at which the slider is dragged back, to which, and at the end [s].
+TURN, BACK, END = 3.2, 0.8, 2.8
+# A wall that hangs over the road, and the distance by which it is moved down [m].
+WALL, DOWN = ((4.6, 6.4), (4.6, 4.4)), 2.8
 # How long the first and the last picture stay [ms].
 REST = 900
 
@@ -60,47 +65,88 @@ def circle(x: float, y: float, radius: float) -> Stroke:
 
 
 def car() -> list[Stroke]:
-    """Return the strokes of a road and a car above it."""
+    """Return the strokes of a road, a wall and a car."""
     wheels = [(-6.0, 5.9), (-4.2, 5.9)]
     return [
         line((-7.6, 4.6), (1.0, 1.4), (7.6, 1.4)),
+        line(*WALL),
         line((-6.6, 6.0), (-3.6, 6.0), (-3.6, 6.9), (-6.6, 6.9), (-6.6, 6.0)),
         *(circle(x, y, 0.5) for x, y in wheels),
         *(circle(x, y, 0.14) for x, y in wheels),
     ]
 
 
-def pictures(sheet: Sheet) -> Iterator[Image.Image]:
-    """Yield the pictures: strokes, the way down, and the way back by the slider."""
+class Film:
+    """
+    The pictures of a page that is worked.
 
-    def shot() -> Image.Image:
-        return Image.open(io.BytesIO(sheet.page.screenshot())).convert('RGB')
+    :param sheet: the page
+    """
 
-    sheet.press('Pen')
-    mouse = sheet.page.mouse
-    for stroke in car():
-        mouse.move(*sheet.place(*stroke[0]))
+    def __init__(self, sheet: Sheet) -> None:
+        self._sheet = sheet
+        self.pictures: list[Image.Image] = []
+
+    def shoot(self) -> None:
+        """Add a picture."""
+        picture = Image.open(io.BytesIO(self._sheet.page.screenshot()))
+        self.pictures.append(picture.convert('RGB'))
+
+    def draw(self, strokes: list[Stroke]) -> None:
+        """Draw strokes by the pen."""
+        self._sheet.press('Pen')
+        for stroke in strokes:
+            self._drag(stroke, every=8)
+            # Strokes that follow each other at once would be read as one figure.
+            self._sheet.page.wait_for_timeout(1000)
+            self.shoot()
+
+    def step_to(self, end: float) -> None:
+        """Step to a simulation time [s]."""
+        sheet = self._sheet
+        while (now := sheet.page.evaluate('physsim.time')) < end:
+            for _ in range(FRAMES):
+                sheet.press('Step')
+            sheet.wait('time => physsim.time > time', now + (FRAMES - 0.5) / 60)
+            self.shoot()
+
+    def slide_back(self, now: float, end: float) -> None:
+        """Drag the slider of time back, from one simulation time to another [s]."""
+        sheet = self._sheet
+        slider = sheet.page.get_by_role('slider', name='Time')
+        while now > end:
+            now -= 2 * FRAMES / 60
+            slider.fill(str(now))
+            slider.blur()
+            sheet.wait('time => Math.abs(physsim.time - time) < 0.02', now)
+            self.shoot()
+
+    def move_wall(self) -> None:
+        """Choose the wall by the lasso, and carry it down."""
+        sheet = self._sheet
+        sheet.press('Lasso')
+        x, y = WALL[0][0], (WALL[0][1] + WALL[1][1]) / 2
+        sheet.drag((x, y))
+        # Until the panel of the wall has opened.
+        sheet.page.wait_for_timeout(500)
+        self.shoot()
+        self._drag(line((x, y), (x, y - DOWN)), every=2)
+        # A tap beside the bodies chooses none, and closes the panel.
+        sheet.drag((0.0, 8.0))
+        sheet.press('Frame the world')
+        sheet.page.wait_for_timeout(500)
+        self.shoot()
+
+    def _drag(self, stroke: Stroke, *, every: int) -> None:
+        """Drag the mouse along a stroke, with a picture after every so many samples."""
+        mouse = self._sheet.page.mouse
+        mouse.move(*self._sheet.place(*stroke[0]))
         mouse.down()
-        for number, point in enumerate(stroke[1:]):
-            mouse.move(*sheet.place(*point))
-            if number % 8 == 7:
-                yield shot()
+        for number, point in enumerate(stroke[1:], 1):
+            mouse.move(*self._sheet.place(*point))
+            if number % every == 0:
+                self.shoot()
         mouse.up()
-        # Strokes that follow each other at once would be read as one figure.
-        sheet.page.wait_for_timeout(1000)
-        yield shot()
-    while (now := sheet.page.evaluate('physsim.time')) < END:
-        for _ in range(FRAMES):
-            sheet.press('Step')
-        sheet.wait('time => physsim.time > time', now + (FRAMES - 0.5) / 60)
-        yield shot()
-    slider = sheet.page.get_by_role('slider', name='Time')
-    while now > BACK:
-        now -= 2 * FRAMES / 60
-        slider.fill(str(now))
-        slider.blur()
-        sheet.wait('time => Math.abs(physsim.time - time) < 0.02', now)
-        yield shot()
 
 
 def draw_page(path: Path) -> None:
@@ -114,11 +160,16 @@ def draw_page(path: Path) -> None:
         _, address = started_world(outside, world_file=file, speed=0.0)
         browser = launched_chromium(closing.enter_context(sync_playwright()))
         sheet = Sheet(browser, address)
-        drawn = list(pictures(sheet))
+        film = Film(sheet)
+        film.draw(car())
+        film.step_to(TURN)
+        film.slide_back(TURN, BACK)
+        film.move_wall()
+        film.step_to(END)
         sheet.close()
         browser.close()
-    size = (NARROW, round(NARROW * drawn[0].height / drawn[0].width))
-    small = [each.resize(size, Image.Resampling.LANCZOS) for each in drawn]
+    size = (NARROW, round(NARROW * film.pictures[0].height / film.pictures[0].width))
+    small = [each.resize(size, Image.Resampling.LANCZOS) for each in film.pictures]
     times = [1000 // RATE] * len(small)
     times[0] = times[-1] = REST
     first, *others = small
