@@ -43,7 +43,7 @@ help:  ## list the targets
 run: $(STAMP)  ## start the demo world, and its page in the browser
 	@echo 'The world starts. Ctrl-C ends it. Where to look:'
 	@echo '  the page  draw with pen, mouse and fingers, at the address below'
-	@echo '  Rerun     opens by itself where there is a display, else at the address `web:` below'
+	@echo '  Rerun     opens by itself where there is a display, else by the button Rerun of the page'
 	@echo '  RViz      rviz2 -d config/physsim.rviz'
 	@echo '  Foxglove  layout config/foxglove.json'
 	@echo '  ros2      topics and services under /physsim'
