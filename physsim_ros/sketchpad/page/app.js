@@ -163,7 +163,7 @@ export class App {
   frame() {
     const {view, camera} = this, wide = !camera.narrow;
     const box = (/** @type {string} */ id) => find(id, HTMLElement).getBoundingClientRect();
-    view.insets = this.viewOnly ? {left: 0, top: 0, right: 0, bottom: 0} :
+    view.insets = this.viewOnly ? {left: 0, top: 0, right: 0, bottom: camera.height - box('bar').top} :
       {left: wide ? box('tools').right : 0, top: box('top').bottom, right: 0,
         bottom: camera.height - box(wide ? 'bar' : 'tools').top};
     const {left, top, right, bottom} = view.insets;
