@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /**
- * The page: one object that knows its parts, the chosen bodies, and the tool in use.
+ * The page: one object that knows its parts and the tool in use.
  *
  * Start reading here; each part is a file. The world moves on the server alone (world_state.js).
  */
@@ -18,6 +18,7 @@ import {Pointers} from './pointer.js';
 import {Readings} from './readings.js';
 import {Refusals} from './refusals.js';
 import {SceneView} from './scene_view.js';
+import {Selection} from './selection.js';
 import {switchTheme} from './theme.js';
 import {TimeBar} from './time_bar.js';
 import {Tips} from './tips.js';
@@ -41,21 +42,19 @@ export class App {
   constructor() {
     this.viewOnly = new URLSearchParams(location.search).has('view');
     document.body.classList.toggle('view', this.viewOnly);
-    /** @type {Set<string>} names of the bodies that are chosen */
-    this.chosen = new Set();
     /** @type {Record<string, any>} properties of the next drawings */
     this.material = {density: 1, friction: 0.5, elasticity: 0.5};
     this.arrows = {velocities: false, contacts: false, forces: true};
     /** @type {Map<string, () => void>} to be done with the next frame of the page, by key */
-    this.soon = new Map();
-    this.hovered = '';
+    this.frameActions = new Map();
     this.framed = false;
 
     this.connection = new Connection();
     this.world = new WorldState(this.connection);
     this.camera = new Camera();
     this.view = new SceneView(find('world', HTMLCanvasElement), this.world, this.camera);
-    this.view.overlays.push((view) => this.#drawChosen(view));
+    this.selection = new Selection(this);
+    this.view.overlays.push((view) => this.tool.draw(view));
     this.cursor = new Cursor(this);
     this.notes = new Notes(this);
     this.refusals = new Refusals(this);
@@ -128,11 +127,6 @@ export class App {
     connection.on('frame', () => {
       if (!this.framed && this.world.frame.epoch === this.world.scene.epoch) this.frame();
     });
-    connection.on('scene', () => {
-      for (const name of this.chosen) {
-        if (!this.world.scene.bodies.some((body) => body.name === name)) this.chosen.delete(name);
-      }
-    });
   }
 
   /** @param {string} address of the recording; '' where no viewer serves browsers */
@@ -183,65 +177,14 @@ export class App {
    * @param {string} key
    * @param {() => void} action
    */
-  eachFrame(key, action) {
-    if (!this.soon.has(key)) {
+  onNextFrame(key, action) {
+    if (!this.frameActions.has(key)) {
       requestAnimationFrame(() => {
-        this.soon.get(key)?.();
-        this.soon.delete(key);
+        this.frameActions.get(key)?.();
+        this.frameActions.delete(key);
       });
     }
-    this.soon.set(key, action);
-  }
-
-  /** @param {Touch} touch */
-  chooseAt({at, slop}) {
-    const row = this.world.bodyAt(at, slop);
-    this.choose(row < 0 ? [] : [this.world.scene.bodies[row].name]);
-  }
-
-  /** @param {string[]} names */
-  choose(names) {
-    this.chosen = new Set(names);
-    if (names.length === 1) this.panel.showBody(names[0]);
-    else if (names.length) this.panel.showMany(names);
-    else this.panel.close();
-    this.askForParts();
-    this.view.dirty = true;
-  }
-
-  deleteChosen() {
-    if (this.chosen.size) this.connection.send('delete', {names: [...this.chosen]});
-    this.choose([]);
-  }
-
-  /** @param {?Touch} touch */
-  hover(touch) {
-    const row = touch ? this.world.bodyAt(touch.at, touch.slop) : -1;
-    const name = row < 0 ? '' : this.world.scene.bodies[row].name;
-    this.view.canvas.classList.toggle('over', row >= 0);
-    if (name !== this.hovered) this.view.dirty = true;
-    this.hovered = name;
-    this.hoveredAt = touch?.page;
-  }
-
-  /** @param {SceneView} view */
-  #drawChosen(view) {
-    const {ctx, palette} = view;
-    for (const name of this.chosen) {
-      const row = this.world.row(name);
-      if (row >= 0) view.outline(row, palette.accent);
-    }
-    this.tool.draw(view);
-    if (!this.hovered || !this.hoveredAt) return;
-    if (this.tool.aims) view.outline(this.world.row(this.hovered), palette[this.tool.aims]);
-    const [x, y] = this.hoveredAt;
-    ctx.font = '13px system-ui, sans-serif';
-    ctx.textAlign = 'left';
-    ctx.lineWidth = 4;
-    ctx.strokeStyle = palette.paper;
-    ctx.strokeText(this.hovered, x + 16, y - 10);
-    ctx.fillStyle = palette.ink;
-    ctx.fillText(this.hovered, x + 16, y - 10);
+    this.frameActions.set(key, action);
   }
 
   #listBodies() {

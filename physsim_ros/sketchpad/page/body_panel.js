@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The panel of the chosen bodies: properties of a body, its velocity as an arrow, its plots. */
+/** The panel of the selected bodies: properties of a body, its velocity as an arrow, its plots. */
 
 import {find, iconButton, make} from './dom.js';
 import {Plots} from './plots.js';
@@ -49,7 +49,7 @@ export class BodyPanel {
       make('div', {className: 'row'},
         make('button', {type: 'button', textContent: 'Copy', onclick: () => this.copy()}),
         make('button', {type: 'button', className: 'danger', textContent: 'Delete body',
-          onclick: () => this.app.deleteChosen()})),
+          onclick: () => this.app.selection.deleteBodies()})),
       this.plots.element,
     ]);
     this.plots.watch(name);
@@ -57,7 +57,7 @@ export class BodyPanel {
   }
 
   /**
-   * Move the view where the panel covers the chosen body.
+   * Move the view where the panel covers the selected body.
    * @param {number} row
    */
   #uncover(row) {
@@ -74,12 +74,12 @@ export class BodyPanel {
     this.#show(`${names.length} bodies`, [
       make('p', {textContent: 'Drag them with the lasso.'}),
       make('div', {className: 'row'}, make('button', {type: 'button', className: 'danger',
-        textContent: 'Delete bodies', onclick: () => this.app.deleteChosen()}))]);
+        textContent: 'Delete bodies', onclick: () => this.app.selection.deleteBodies()}))]);
   }
 
   /** Show the material of the next drawings, and gravity. */
   showMaterial() {
-    this.app.choose([]);
+    this.app.selection.select([]);
     const {app} = this, {gravity} = app.world.scene, strength = Math.hypot(...gravity);
     const pull = range('Gravity [m/s²]', 0, 25, 0.1, strength, (value) => {
       const [x, y] = strength ? gravity.map((each) => each / strength) : [0, -1];
@@ -118,7 +118,7 @@ export class BodyPanel {
     });
     size.setAttribute('aria-expanded', String(this.element.classList.contains('tall')));
     this.element.replaceChildren(make('header', {}, make('h2', {textContent: title}), size,
-      iconButton('Close', 'close', () => this.app.choose([]))), ...content);
+      iconButton('Close', 'close', () => this.app.selection.select([]))), ...content);
     this.element.hidden = false;
   }
 
@@ -126,13 +126,13 @@ export class BodyPanel {
   #follow() {
     if (!this.name) return;
     const body = this.app.world.scene.bodies.find(({name}) => name === this.name);
-    if (!body) this.app.choose([]);
+    if (!body) this.app.selection.select([]);
     else if (JSON.stringify(body) !== this.shown && !this.element.contains(document.activeElement)) {
       queueMicrotask(() => this.showBody(this.name));
     }
   }
 
-  /** @returns {?{center: Point, tip: Point}} the velocity arrow of the chosen body [px] */
+  /** @returns {?{center: Point, tip: Point}} the velocity arrow of the selected body [px] */
   #arrow() {
     const {world, camera} = this.app, row = this.name ? world.row(this.name) : -1;
     const velocities = world.frame.velocities;

@@ -38,7 +38,7 @@ export class Cursor {
     this.x = Math.min(Math.max(this.x + dx * step, 0), camera.width);
     this.y = Math.min(Math.max(this.y + dy * step, 0), camera.height);
     this.app.tool.move(this.touch);
-    this.app.hover(this.touch);
+    this.app.selection.hover(this.touch);
     view.dirty = true;
   }
 

@@ -42,7 +42,7 @@ export class Gallery {
       onchange: async () => file.files?.[0] && this.#upload(await file.files[0].text())});
     this.show('Worlds', make('div', {className: 'row'},
       make('button', {type: 'button', textContent: 'Empty world', onclick: () => {
-        this.app.time.call('clear');
+        this.app.time.callService('clear');
         this.dialog.close();
       }}),
       make('label', {className: 'file'}, 'Open a file', file)), make('div', {className: 'cards'}, ...cards));

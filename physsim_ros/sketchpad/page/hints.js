@@ -27,13 +27,13 @@ export class Hints {
     this.timer = 0;
     this.ofTool = false; // the line says how the tool is used
     const {connection} = app;
-    connection.on('reading', ({built}) => built && this.done('draw'));
+    connection.on('reading', ({built}) => built && this.completeStep('draw'));
     connection.on('answer', ({request, ok, topic, subject}) => {
-      if (request && ok && topic === 'clicked_point' && subject) this.done('draw');
+      if (request && ok && topic === 'clicked_point' && subject) this.completeStep('draw');
     });
     connection.on('timeline', ({state, courses = []}) => {
-      if (state === 'rewinding' || state === 'in the past') this.done('rewind');
-      if (courses.length && this.step > 2) this.done('change');
+      if (state === 'rewinding' || state === 'in the past') this.completeStep('rewind');
+      if (courses.length && this.step > 2) this.completeStep('change');
     });
     connection.on('sent', ({type}) => {
       if (USES.includes(type) && this.ofTool) this.#return(USED_SHOWN);
@@ -42,7 +42,7 @@ export class Hints {
   }
 
   /** @param {string} id of the step that was done; those before are known then too */
-  done(id) {
+  completeStep(id) {
     const next = STEPS.findIndex(([each]) => each === id) + 1;
     if (next <= this.step) return;
     this.step = next;
@@ -68,7 +68,7 @@ export class Hints {
     this.#show(text);
     for (const each of document.querySelectorAll('.next')) each.classList.remove('next');
     if (button) document.querySelector(`button[aria-label="${button}"]`)?.classList.add('next');
-    if (id === 'ghost') this.timer = setTimeout(() => this.done('ghost'), LAST_SHOWN);
+    if (id === 'ghost') this.timer = setTimeout(() => this.completeStep('ghost'), LAST_SHOWN);
   }
 
   /** @param {string} text '' hides the line */

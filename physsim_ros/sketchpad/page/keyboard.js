@@ -24,17 +24,18 @@ export class Keyboard {
     document.addEventListener('keydown', (event) => this.#down(event));
     document.addEventListener('keyup', (event) => this.#up(event));
     addEventListener('blur', () => { app.pointers.space = false; });
-    const call = (/** @type {string} */ name) => () => app.time.call(name);
+    const callService = (/** @type {string} */ name) => () => app.time.callService(name);
     /** @type {Record<string, () => void>} */
     this.keys = {
       '?': () => this.show(), f: () => app.frame(), '+': () => this.#zoom(ZOOM), '-': () => this.#zoom(1 / ZOOM),
       r: () => app.tool.turn?.(TURN), R: () => app.tool.turn?.(-TURN),
       n: () => this.#next(1), N: () => this.#next(-1),
-      Delete: () => app.deleteChosen(), Backspace: () => app.deleteChosen(), Escape: () => this.#drop(),
-      j: call('rewind'), J: call('fast_rewind'), k: call('pause'), l: call('play'), L: call('fast_forward'),
-      '.': call('step'), 0: call('reset'),
+      Delete: () => app.selection.deleteBodies(), Backspace: () => app.selection.deleteBodies(), Escape: () => this.#drop(),
+      j: callService('rewind'), J: callService('fast_rewind'), k: callService('pause'), l: callService('play'),
+      L: callService('fast_forward'),
+      '.': callService('step'), 0: callService('reset'),
     };
-    for (const [id, , key] of TOOLS.flat()) this.keys[key] = () => app.toolbar.take(id);
+    for (const [id, , key] of TOOLS.flat()) this.keys[key] = () => app.toolbar.selectTool(id);
   }
 
   show() {
@@ -51,7 +52,7 @@ export class Keyboard {
     if (typing || app.gallery.dialog.open || app.viewOnly || event.altKey) return;
     if (event.ctrlKey || event.metaKey) {
       const undo = key === 'z' && !event.shiftKey, redo = key === 'y' || key.toLowerCase() === 'z';
-      if (undo || redo) app.time.call(undo ? 'undo' : 'redo');
+      if (undo || redo) app.time.callService(undo ? 'undo' : 'redo');
       if (undo || redo) event.preventDefault();
       return;
     }
@@ -88,8 +89,8 @@ export class Keyboard {
   #next(by) {
     const {app} = this, {bodies} = app.world.scene;
     if (!bodies.length) return;
-    const row = bodies.findIndex(({name}) => app.chosen.has(name));
-    app.choose([bodies[(row + by + bodies.length + (row < 0 && by < 0 ? 1 : 0)) % bodies.length].name]);
+    const row = bodies.findIndex(({name}) => app.selection.names.has(name));
+    app.selection.select([bodies[(row + by + bodies.length + (row < 0 && by < 0 ? 1 : 0)) % bodies.length].name]);
   }
 
   #drop() {
@@ -97,6 +98,6 @@ export class Keyboard {
     app.tool.cancel();
     app.readings.dismiss();
     app.cursor.hide();
-    app.choose([]);
+    app.selection.select([]);
   }
 }

@@ -26,7 +26,7 @@ export class Pointers {
     canvas.addEventListener('pointermove', (event) => this.#move(event));
     canvas.addEventListener('pointerup', (event) => this.#up(event));
     canvas.addEventListener('pointercancel', (event) => this.#cancel(event));
-    canvas.addEventListener('pointerleave', () => app.hover(null));
+    canvas.addEventListener('pointerleave', () => app.selection.hover(null));
     canvas.addEventListener('wheel', (event) => this.#wheel(event), {passive: false});
     canvas.addEventListener('contextmenu', (event) => event.preventDefault());
   }
@@ -48,7 +48,7 @@ export class Pointers {
     this.stylus ||= event.pointerType === 'pen';
     this.down.set(event.pointerId, event);
     app.cursor.hide();
-    app.hover(null);
+    app.selection.hover(null);
     const moves = event.button > 0 || this.space || app.viewOnly ||
       (this.stylus && event.pointerType === 'touch');
     if (this.down.size === 1 && !moves) {
@@ -71,7 +71,7 @@ export class Pointers {
     } else if (before) this.#moveView(event, before);
     else {
       app.tool.move(this.#touch(event));
-      app.hover(this.#touch(event));
+      app.selection.hover(this.#touch(event));
     }
     if (before) this.down.set(event.pointerId, event);
     app.view.dirty = true;

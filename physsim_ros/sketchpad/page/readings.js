@@ -29,7 +29,7 @@ export class Readings {
    * @param {string} request
    * @param {Point[]} stroke
    */
-  await(request, stroke) {
+  addStroke(request, stroke) {
     this.dismiss();
     if (request) this.strokes.set(request, stroke);
   }
@@ -44,12 +44,12 @@ export class Readings {
     if (built) {
       this.#forget(request);
       const other = runner_up && runner_up_confidence > LIKELY ?
-        [this.#choice(`or ${runner_up}`, runner_up_confidence, request, '')] : [];
-      this.dismiss = this.app.notes.pin(() => at, [say(meaning, confidence), ...other],
+        [this.#guessButton(`or ${runner_up}`, runner_up_confidence, request, '')] : [];
+      this.dismiss = this.app.notes.pin(() => at, [labelOf(meaning, confidence), ...other],
         other.length ? {} : {shown: GLANCED});
       return;
     }
-    const choices = guesses.map(([guess, sure]) => this.#choice(guess, sure, request, guess));
+    const choices = guesses.map(([guess, sure]) => this.#guessButton(guess, sure, request, guess));
     const close = make('button', {type: 'button', 'aria-label': 'Forget the stroke', textContent: '×',
       onclick: () => this.dismiss()});
     const words = choices.length ? 'Not sure. Is it' : 'Not recognised';
@@ -66,12 +66,12 @@ export class Readings {
    * @param {string} request of the stroke
    * @param {string} meaning '' for the runner-up
    */
-  #choice(label, confidence, request, meaning) {
+  #guessButton(label, confidence, request, meaning) {
     return make('button', {type: 'button', onclick: () => {
       this.app.connection.send('instead', meaning ? {meaning} : {});
       this.dismiss();
       this.#forget(request);
-    }}, say(label, confidence));
+    }}, labelOf(label, confidence));
   }
 
   /** @param {string} request */
@@ -85,6 +85,6 @@ export class Readings {
  * @param {string} meaning
  * @param {number} confidence 0 .. 1
  */
-function say(meaning, confidence) {
+function labelOf(meaning, confidence) {
   return `${meaning.replaceAll('_', ' ')} ${Math.round(100 * confidence)} %`;
 }

@@ -194,7 +194,7 @@ export class SceneView {
   }
 
   /**
-   * @param {number} row of a body that is chosen or pointed at
+   * @param {number} row of a body that is selected or pointed at
    * @param {string} color
    * @param {Point} by displacement [m]
    */

@@ -24,7 +24,7 @@ export class TimeBar {
     this.buttons = new Map();
     for (const [id, group] of /** @type {const} */ ([['time', TIME], ['edit', EDIT]])) {
       for (const [name, service, key] of group) {
-        const button = iconButton(name, service, () => this.call(service), `${name} (${key})`);
+        const button = iconButton(name, service, () => this.callService(service), `${name} (${key})`);
         this.buttons.set(service, button);
         find(id, HTMLElement).append(button);
       }
@@ -39,31 +39,31 @@ export class TimeBar {
     this.slider.addEventListener('input', () => this.#slide());
     this.slider.addEventListener('pointerdown', () => { this.held = true; });
     this.slider.addEventListener('change', () => { this.held = false; });
-    this.speed.addEventListener('click', () => this.#slower());
+    this.speed.addEventListener('click', () => this.#changeSpeed());
     app.connection.on('timeline', () => this.#showTimeline());
     app.connection.on('open', () => { this.busy = false; });
     app.view.overlays.push(() => this.#showTime());
   }
 
   /** @param {string} service */
-  call(service) {
-    if (service === 'step' && !this.app.world.paused) this.call('pause');
+  callService(service) {
+    if (service === 'step' && !this.app.world.paused) this.callService('pause');
     if (service === 'play' && this.rate !== 1) this.app.connection.send('speed', {speed: this.rate});
     else this.app.connection.send('service', {name: service});
   }
 
   toggle() {
-    this.call(this.app.world.paused ? 'play' : 'pause');
+    this.callService(this.app.world.paused ? 'play' : 'pause');
   }
 
   /** Pause a world that runs back, so that a change of it is not taken back at once. */
   endRewind() {
-    if (this.app.world.frame.speed < 0) this.call('pause');
+    if (this.app.world.frame.speed < 0) this.callService('pause');
   }
 
   #slide() {
     // Also where it stands already: a request to play may be on its way.
-    if (!this.busy) this.call('pause');
+    if (!this.busy) this.callService('pause');
     this.wanted = Number(this.slider.value);
     this.#seek();
   }
@@ -78,7 +78,7 @@ export class TimeBar {
     this.#seek();
   }
 
-  #slower() {
+  #changeSpeed() {
     const {speed} = this.app.world.frame, now = speed > 0 ? speed : this.rate;
     this.rate = SPEEDS[(SPEEDS.indexOf(now) + 1) % SPEEDS.length];
     if (speed > 0) this.app.connection.send('speed', {speed: this.rate});

@@ -45,31 +45,31 @@ export class Toolbar {
     for (const group of TOOLS) {
       const box = make('div', {role: 'group'});
       for (const [id, name, key, hint] of group) {
-        const button = iconButton(name, id, () => this.take(id), `${name} (${key.toUpperCase()}): ${hint}`);
+        const button = iconButton(name, id, () => this.selectTool(id), `${name} (${key.toUpperCase()}): ${hint}`);
         this.tools.set(id, {tool: OWN[id] ? new OWN[id](app) : new ClickTool(app, id), button});
         box.append(button);
       }
       bar.append(box);
     }
-    this.choose('pen');
+    this.#select('pen');
   }
 
   /**
-   * Choose a tool, and say how it is used.
+   * Select a tool, and say how it is used.
    * @param {string} id
    */
-  take(id) {
-    this.choose(id);
+  selectTool(id) {
+    this.#select(id);
     const [, name, , hint] = TOOLS.flat().find(([each]) => each === id) ?? ['', '', '', ''];
     this.app.hints.showTool(`${name}: ${hint[0].toLowerCase()}${hint.slice(1)}.`);
   }
 
   /** @param {string} id */
-  choose(id) {
-    const chosen = this.tools.get(id);
-    if (!chosen) return;
+  #select(id) {
+    const selected = this.tools.get(id);
+    if (!selected) return;
     this.app.tool?.cancel();
-    this.app.tool = chosen.tool;
+    this.app.tool = selected.tool;
     this.app.view.canvas.dataset.tool = id;
     for (const [each, {button}] of this.tools) button.setAttribute('aria-pressed', String(each === id));
     this.app.view.dirty = true;

@@ -58,7 +58,7 @@ export class Hand {
       app.camera.pan(touch.page[0] - last.page[0], touch.page[1] - last.page[1]);
     }
     this.last = touch;
-    if (this.state === 'holding') app.eachFrame('move', () => this.#sendMove());
+    if (this.state === 'holding') app.onNextFrame('move', () => this.#sendMove());
     if (this.state === 'aiming') app.panel.aim(touch.page);
     app.view.dirty = true;
   }
@@ -72,9 +72,9 @@ export class Hand {
     if (state === 'holding') {
       this.#sendMove();
       app.connection.send('let_go');
-      app.hints.done('throw');
+      app.hints.completeStep('throw');
     } else if (state === 'aiming') app.panel.setAim();
-    else if (!this.moved) app.chooseAt(touch);
+    else if (!this.moved) app.selection.selectAt(touch);
     else if (state === 'carrying' && start) {
       app.connection.send('move_bodies', {names: [this.name],
         by: [touch.at[0] - start.at[0], touch.at[1] - start.at[1]]});
@@ -92,7 +92,7 @@ export class Hand {
   turn(angle) {
     this.yaw += angle;
     this.turned = true;
-    this.app.eachFrame('move', () => this.#sendMove());
+    this.app.onNextFrame('move', () => this.#sendMove());
   }
 
   #grab() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The lasso: a loop chooses the bodies in it; the chosen bodies are moved by dragging one. */
+/** The lasso: a loop selects the bodies in it; the selected bodies are moved by dragging one. */
 
 import {inside} from '../body_path.js';
 
@@ -18,8 +18,8 @@ export class Lasso {
 
   /** @param {Touch} touch */
   down(touch) {
-    const {world, chosen} = this.app, row = world.bodyAt(touch.at, touch.slop);
-    this.carrying = row >= 0 && chosen.has(world.scene.bodies[row].name);
+    const {world, selection} = this.app, row = world.bodyAt(touch.at, touch.slop);
+    this.carrying = row >= 0 && selection.names.has(world.scene.bodies[row].name);
     this.path = [touch];
   }
 
@@ -32,11 +32,11 @@ export class Lasso {
   up(touch) {
     const {app, path} = this, [x, y] = path[0]?.page ?? touch.page;
     this.path = [];
-    if (path.every(({page}) => Math.hypot(page[0] - x, page[1] - y) <= TAP)) app.chooseAt(touch);
-    else if (this.carrying) app.connection.send('move_bodies', {names: [...app.chosen], by: offset(path)});
+    if (path.every(({page}) => Math.hypot(page[0] - x, page[1] - y) <= TAP)) app.selection.selectAt(touch);
+    else if (this.carrying) app.connection.send('move_bodies', {names: [...app.selection.names], by: offset(path)});
     else {
       const {world} = app, loop = path.map(({at}) => at);
-      app.choose(world.scene.bodies.filter((body, row) => row < world.count &&
+      app.selection.select(world.scene.bodies.filter((body, row) => row < world.count &&
         inside(loop, ...world.place(row, body.centroid))).map(({name}) => name));
     }
   }
@@ -49,7 +49,7 @@ export class Lasso {
   draw(view) {
     if (!this.path.length) return;
     if (!this.carrying) view.line(this.path.map(({at}) => at), view.palette.accent, [6, 6]);
-    else for (const name of this.app.chosen) {
+    else for (const name of this.app.selection.names) {
       const row = this.app.world.row(name);
       if (row >= 0) view.outline(row, view.palette.accent, offset(this.path));
     }

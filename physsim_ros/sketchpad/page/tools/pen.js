@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The pen: a freehand stroke, sent when the pen is lifted; a tap chooses the body under it. */
+/** The pen: a freehand stroke, sent when the pen is lifted; a tap selects the body under it. */
 
 /** @typedef {import('../pointer.js').Touch} Touch */
 
@@ -32,11 +32,11 @@ export class Pen {
     const [x, y] = samples[0]?.page ?? touch.page;
     const reach = Math.max(...samples.map(({page}) => Math.hypot(page[0] - x, page[1] - y)), 0);
     if (reach <= TAP && touch.time - (samples[0]?.time ?? 0) < TAP_TIME) {
-      app.chooseAt(touch);
+      app.selection.selectAt(touch);
       return;
     }
     const id = app.connection.send('stroke', {points: samples.map(({at, time}) => [...at, time])});
-    app.readings.await(id, samples.map(({at}) => at));
+    app.readings.addStroke(id, samples.map(({at}) => at));
   }
 
   cancel() {

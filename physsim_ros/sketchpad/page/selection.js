@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The selection: bodies that are selected, and the one that is pointed at, with its name beside it. */
+
+/** @typedef {import('./pointer.js').Touch} Touch */
+
+export class Selection {
+  /** @param {import('./app.js').App} app */
+  constructor(app) {
+    this.app = app;
+    /** @type {Set<string>} of bodies */
+    this.names = new Set();
+    this.hovered = ''; // name of a body
+    /** @type {import('./wire.js').Point | undefined} [px] */
+    this.hoveredAt = undefined;
+    app.view.overlays.push((view) => this.#draw(view));
+    app.connection.on('scene', ({bodies}) => {
+      const known = new Set(bodies.map((/** @type {import('./wire.js').Body} */ {name}) => name));
+      for (const name of this.names) if (!known.has(name)) this.names.delete(name);
+    });
+  }
+
+  /** @param {string[]} names of bodies */
+  select(names) {
+    const {app} = this;
+    this.names = new Set(names);
+    if (names.length === 1) app.panel.showBody(names[0]);
+    else if (names.length) app.panel.showMany(names);
+    else app.panel.close();
+    app.askForParts();
+    app.view.dirty = true;
+  }
+
+  /** @param {Touch} touch */
+  selectAt({at, slop}) {
+    const {world} = this.app, row = world.bodyAt(at, slop);
+    this.select(row < 0 ? [] : [world.scene.bodies[row].name]);
+  }
+
+  /** Delete the selected bodies. */
+  deleteBodies() {
+    if (this.names.size) this.app.connection.send('delete', {names: [...this.names]});
+    this.select([]);
+  }
+
+  /** @param {?Touch} touch */
+  hover(touch) {
+    const {world, view} = this.app, row = touch ? world.bodyAt(touch.at, touch.slop) : -1;
+    const name = row < 0 ? '' : world.scene.bodies[row].name;
+    view.canvas.classList.toggle('over', row >= 0);
+    if (name !== this.hovered) view.dirty = true;
+    this.hovered = name;
+    this.hoveredAt = touch?.page;
+  }
+
+  /** @param {import('./scene_view.js').SceneView} view */
+  #draw(view) {
+    const {ctx, palette} = view, {world, tool} = this.app;
+    for (const name of this.names) {
+      const row = world.row(name);
+      if (row >= 0) view.outline(row, palette.accent);
+    }
+    const row = this.hovered ? world.row(this.hovered) : -1;
+    if (row < 0 || !this.hoveredAt) return;
+    if (tool.aims) view.outline(row, palette[tool.aims]);
+    const [x, y] = this.hoveredAt;
+    ctx.font = '13px system-ui, sans-serif';
+    ctx.textAlign = 'left';
+    ctx.lineWidth = 4;
+    ctx.strokeStyle = palette.paper;
+    ctx.strokeText(this.hovered, x + 16, y - 10);
+    ctx.fillStyle = palette.ink;
+    ctx.fillText(this.hovered, x + 16, y - 10);
+  }
+}
