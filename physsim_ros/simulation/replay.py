@@ -21,6 +21,8 @@ and so the same bits; where it does not, that is reported.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.history import History
@@ -69,21 +71,38 @@ class Replay:
         self.serial = mark.serial
         self._resumed = mark.moment
 
-    def replay_to(self, step: int, serial: int) -> None:
-        """Replay up to a moment of the past, no earlier than now."""
-        while self._world.step_count < step:
-            self._replay_to_stop(step)
-        self._apply_logged(serial)
+    def replay_to(
+        self, step: int, serial: int, is_overdue: Callable[[], bool] = lambda: False
+    ) -> bool:
+        """
+        Replay up to a moment of the past, no earlier than now.
+
+        :param is_overdue: whether to go on another time; asked after each frame and each request
+        :return: whether the world is there
+        """
+        world = self._world
+        while world.step_count < step:
+            end = min(step, world.step_count + world.frame_steps)
+            if not self._replay_to_stop(end, is_overdue) or is_overdue():
+                return False
+        return self._apply_logged(serial, is_overdue)
 
     def replay_shown(self, step: int) -> None:
         """Replay up to a step of the past, with the requests that it was shown with."""
         self.replay_to(step, self.history.log.serial_shown_at(step))
 
-    def _replay_to_stop(self, end: int) -> None:
-        """Replay up to the next step with a request or a checkpoint, or to the end."""
-        self._apply_logged(self.history.log.serial_at(self._world.step_count))
+    def _replay_to_stop(self, end: int, is_overdue: Callable[[], bool] = lambda: False) -> bool:
+        """
+        Replay up to the next step with a request or a checkpoint, or to the end.
+
+        :return: whether all requests were applied with which that step was shown
+        """
+        log = self.history.log
+        if not self._apply_logged(log.serial_at(self._world.step_count), is_overdue):
+            return False
         self._enter_checkpoint()
         self._make_steps(end)
+        return self._apply_logged(log.serial_shown_at(self._world.step_count), is_overdue)
 
     def _make_steps(self, end: int) -> None:
         step = self._world.step_count
@@ -99,10 +118,9 @@ class Replay:
                 self._report(
                     'joint_broken', f'{name} broke at {force:.3g} N and was removed', name
                 )
-        self._apply_logged(self.history.log.serial_shown_at(stop))
 
-    def _apply_logged(self, serial: int) -> None:
-        """Apply the logged requests of this step again, up to a serial."""
+    def _apply_logged(self, serial: int, is_overdue: Callable[[], bool] = lambda: False) -> bool:
+        """Apply the logged requests of this step again, up to a serial; return whether all."""
         for entry in self.history.log.entries_between(self.serial, serial):
             self._enter_checkpoint()
             try:
@@ -110,6 +128,9 @@ class Replay:
             except Refusal as refusal:
                 self._report('divergence', f'a request of the log is refused now: {refusal}')
             self.serial += 1
+            if is_overdue() and self.serial < serial:
+                return False
+        return True
 
     def _enter_checkpoint(self) -> None:
         """Go over into the space of the checkpoint of this moment, if there is one."""

@@ -38,12 +38,12 @@ class _Seek(NamedTuple):
     """
     A way through the past that is not finished.
 
-    :ivar begin: moment from which on contacts are those of the goal's frame
+    :ivar begin: moment from which on contacts are those of the goal's frame; None: it is reached
     :ivar goal: moment that is shown
     :ivar with_contacts: whether the contacts of that frame are yet to be shown
     """
 
-    begin: Moment
+    begin: Moment | None
     goal: Moment
     with_contacts: bool
 
@@ -118,7 +118,7 @@ class SeekableReplay(Replay):
         # A seek that this one takes the place of has come to a moment of the history, too.
         if not mark.moment <= super().moment <= first:
             self.resume(mark)
-        self._seek = _Seek(start, (step, serial), with_contacts)
+        self._seek = _Seek(min(start, (step, serial)), (step, serial), with_contacts)
 
     def continue_seek(self, is_overdue: Callable[[], bool] = lambda: False) -> bool:
         """
@@ -130,16 +130,13 @@ class SeekableReplay(Replay):
         seek, self._seek = self._seek, None
         if seek is None:
             return True
-        world, (begin, serial) = self._world, seek.begin
-        if world.step_count < begin:
-            while world.step_count < begin:
-                self._replay_to_stop(min(begin, world.step_count + world.frame_steps))
-                if is_overdue():
-                    self._seek = seek
-                    return False
-            self._apply_logged(serial)
-        world.clear_contacts()
-        self.replay_to(*seek.goal)
+        done = seek.begin is None or self.replay_to(*seek.begin, is_overdue)
+        if done and seek.begin is not None:
+            self._world.clear_contacts()
+            seek = seek._replace(begin=None)
+        if not done or not self.replay_to(*seek.goal, is_overdue):
+            self._seek = seek
+            return False
         if not seek.with_contacts:
-            world.clear_contacts()
+            self._world.clear_contacts()
         return True
