@@ -31,7 +31,7 @@ import yaml
 
 _DASH, _TAG = '  - ', '!lines-of-json'
 # Greatest size of what is not JSON [characters]: YAML takes two seconds for each million.
-MOST_YAML = 8 * 2**20
+MOST_YAML = 4 * 2**20
 
 
 class _Run(list[Located]):

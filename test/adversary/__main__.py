@@ -91,7 +91,7 @@ def _soak(minutes: float, driver: Driver, monitor: Monitor, outside: Outside) ->
     """
     began = time.monotonic()
     deaf: Program | None = None
-    print('  min      MB  threads  fds  children  late')
+    print('  min      MB  past  threads  fds  children  late')
     number = 0
     while (passed := (time.monotonic() - began) / 60) < minutes:
         for _ in range(ROUND):
@@ -110,13 +110,14 @@ def _soak(minutes: float, driver: Driver, monitor: Monitor, outside: Outside) ->
         driver.publish_scene(scene())
         driver.settle()
         driver.spin(QUIET)
-        late = driver.late_frames()
+        late, waited = driver.late_frames(), monitor.waited
         driver.spin(QUIET)
-        sample = monitor.sample(passed, driver.late_frames() - late)
+        late = driver.late_frames() - late
+        sample = monitor.sample(passed, driver.past(), late, monitor.waited - waited)
         print(
-            f'{sample.minutes:5.1f} {sample.megabytes:7.0f} {sample.threads:8d} '
-            f'{sample.descriptors:4d} {sample.children:9d} {sample.late_frames:5d}  '
-            f'{scene.__name__}',
+            f'{sample.minutes:5.1f} {sample.megabytes:7.0f} {sample.past:5.0f} '
+            f'{sample.threads:8d} {sample.descriptors:4d} {sample.children:9d} '
+            f'{sample.late_frames:5d}  {scene.__name__}',
             flush=True,
         )
         number += 1

@@ -124,6 +124,10 @@ class Driver:
         self._wait(lambda: 'late frames' in self.values, 'diagnostics')
         return int(self.values['late frames'])
 
+    def past(self) -> float:
+        """Return the memory of the past in the last diagnostics [MB]."""
+        return float(self.values['memory of the past [MB]'].partition(' ')[0])
+
     # Actions
 
     def publish_scene(self, requests: list[Spawn]) -> None:

@@ -16,23 +16,33 @@
 
 from __future__ import annotations
 
+import math
+from pathlib import Path
 from statistics import median
 from typing import NamedTuple
 
 import psutil
 
-# Memory that a run may gain between its middle and its end [MB]: budgets that are not full yet at
-# the middle, and the pages of allocators.
+# Memory that a run may gain between its middle and its end [MB], without that of the past, which
+# has a budget: pages of allocators.
 MEMORY_GAIN = 40.0
 # Threads and descriptors more than in the first third: those of discovered participants come late.
 COUNT_GAIN = 4
+# Frames a second of the world [Hz].
+RATE = 60.0
 
 
 class Sample(NamedTuple):
     """The state of the process in a world at rest."""
 
+    @property
+    def own(self) -> float:
+        """Return the memory without that of the past [MB]."""
+        return self.megabytes - self.past
+
     minutes: float
     megabytes: float
+    past: float
     threads: int
     descriptors: int
     children: int
@@ -48,24 +58,38 @@ class Monitor:
 
     def __init__(self, pid: int) -> None:
         self._process = psutil.Process(pid)
+        self._schedule = Path(f'/proc/{pid}/schedstat')
         self.samples: list[Sample] = []
 
-    def sample(self, minutes: float, late_frames: int) -> Sample:
+    @property
+    def waited(self) -> float:
+        """
+        Return the time for which the main thread could run, and had no processor [s].
+
+        The second number of schedstat (Linux, Documentation/scheduler/sched-stats.rst).
+        """
+        return int(self._schedule.read_text().split()[1]) * 1e-9
+
+    def sample(self, minutes: float, past: float, late_frames: int, waited: float) -> Sample:
         """
         Add a sample.
 
         :param minutes: since the beginning [min]
-        :param late_frames: in the last quiet seconds
+        :param past: memory of the past, by its own estimate [MB]
+        :param late_frames: in the last quiet seconds; those do not count that others on this
+            machine explain
+        :param waited: in the same seconds, for a processor [s]
         """
         process = self._process
         with process.oneshot():
             found = Sample(
                 minutes,
                 process.memory_info().rss / 2**20,
+                past,
                 process.num_threads(),
                 process.num_fds(),
                 len(process.children(recursive=True)),
-                late_frames,
+                max(0, late_frames - math.ceil(waited * RATE)),
             )
         self.samples.append(found)
         return found
@@ -77,7 +101,7 @@ class Monitor:
 
     @property
     def slope(self) -> float:
-        """Return the slope of memory over the second half, by least squares [MB/h]."""
+        """Return the slope of own memory over the second half, by least squares [MB/h]."""
         begin = len(self.samples) // 2
         half = self.samples[begin:]
         if len(half) < 2:
@@ -85,7 +109,7 @@ class Monitor:
         hours = [each.minutes / 60 for each in half]
         middle = sum(hours) / len(hours)
         spread = sum((hour - middle) ** 2 for hour in hours)
-        rise = sum((h - middle) * each.megabytes for h, each in zip(hours, half, strict=True))
+        rise = sum((h - middle) * each.own for h, each in zip(hours, half, strict=True))
         return rise / spread
 
     def faults(self) -> list[str]:
@@ -99,7 +123,7 @@ class Monitor:
             self.samples[-third:],
         )
         faults = []
-        gain = median(s.megabytes for s in last) - median(s.megabytes for s in middle)
+        gain = median(s.own for s in last) - median(s.own for s in middle)
         if gain > MEMORY_GAIN:
             faults.append(f'memory grows: {gain:.0f} MB from the middle to the end')
         for field in ('threads', 'descriptors', 'children'):

@@ -72,6 +72,23 @@ PhysSimNode.{method} = wait_forever
 main()
 """
 
+# The program with an object that takes for ever to be freed, at the end of the interpreter.
+FREEING = """
+import ctypes
+import sys
+from physsim_ros.ros.program import main
+
+
+class Crowd:
+    def __del__(self, sleep=ctypes.CDLL(None).sleep):
+        while True:
+            sleep(1000)
+
+
+sys.crowd = Crowd()
+main()
+"""
+
 
 def start_with_world(outside: Outside, content: str) -> Any:
     path = outside.directory / 'given.yaml'
@@ -110,6 +127,12 @@ def test_it_ends_with_0_when_told_to_whatever_it_does(outside: Outside, method: 
             world.wait_for('ready')
         else:
             world.wait_for('STUCK')
+        assert world.interrupt() == 0
+
+
+def test_it_does_not_wait_for_what_is_freed_in_the_end(outside: Outside) -> None:
+    with outside.start(sys.executable, '-c', FREEING, '--ros-args', '-p', 'viewer:=none') as world:
+        world.wait_for('ready')
         assert world.interrupt() == 0
 
 

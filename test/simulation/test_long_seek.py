@@ -108,7 +108,9 @@ def test_a_rewind_beyond_its_frames_is_made_bit_by_bit(
 def test_requests_that_are_replayed_at_one_step_are_replayed_bit_by_bit() -> None:
     simulation = Simulation(settings=FLOOR, speed=0.0)
     for number in range(40):
-        simulation.submit(spawning(f'disc/{number}', DISC, (0.0, number + 1.0, 0.0)), topic='')
+        simulation.requests.submit(
+            spawning(f'disc/{number}', DISC, (0.0, number + 1.0, 0.0)), topic=''
+        )
         if number == 38:
             simulation.settle()
             digest = simulation.world.digest()
