@@ -61,7 +61,8 @@ class FileEndpoint(Endpoint):
             self._identity = _create_regular_file(self._path)
         except OSError as error:
             raise ConnectionError(error.strerror) from error
-        return RerunSink(rr.FileSink(self._path))
+        # A footer would list all chunks, and grow in memory with the recording: 5 MB a minute.
+        return RerunSink(rr.FileSink(self._path, write_footer=False))
 
     def check(self) -> None:
         """Look whether the file is still there: a deleted one would be written on."""
