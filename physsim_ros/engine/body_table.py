@@ -130,6 +130,7 @@ class BodyTable:
         self.ids: Ids = np.array([*ids, background.id], np.uint64)
         self._ascending = np.argsort(self.ids)
         self._sorted_ids = self.ids[self._ascending]
+        self._rows = {rigid.engine: row for row, rigid in enumerate(bodies)}
         self._state: Floats | None = None
         self._listed = io.read_ids()
         self._map_slots()
@@ -139,6 +140,10 @@ class BodyTable:
         near = np.minimum(np.searchsorted(self._sorted_ids, ids), len(self.ids) - 1)
         rows: Rows = self._ascending[near]
         return np.where(self._sorted_ids[near] == ids, rows, len(self.bodies))
+
+    def row_of(self, engine: pymunk.Body) -> int | None:
+        """Return the row of one of the engine's bodies; None is the background."""
+        return self._rows.get(engine)
 
     @property
     def state(self) -> Floats:

@@ -22,8 +22,9 @@ The pipeline: one step of the engine, stage by stage in this order.
 5. Continuous collision: fast bodies are advanced to where they first touch something.
 6. Tight boxes: the engine's broad phase is told where fast bodies of a crowd will be.
 7. Joints: the target velocity of constraints is set to the centripetal term.
-8. Pymunk's step: positions, narrow phase, solver, sleeping. In the middle of it: contact
-   projection as two shapes begin to touch, and impact propagation before the solver runs.
+8. Pymunk's step: positions, narrow phase, solver, sleeping. In the middle of it: contact normal
+   at impact and contact projection as two shapes begin to touch, and impact propagation before the
+   solver runs.
 9. Joints: gaps are closed in positions.
 10. Half-step velocity: free flight is found, and does not fall asleep.
 11. Contact report: impulses are added up.
@@ -40,7 +41,8 @@ from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.ccd.continuous import ContinuousCollision
 from physsim_ros.engine.contacts.contact_report import ContactReport
 from physsim_ros.engine.joints.joint_set import JointSet
-from physsim_ros.engine.stages.contact_projection import contact_at_impact, project_contact
+from physsim_ros.engine.stages.contact_normal import contact_at_impact
+from physsim_ros.engine.stages.contact_projection import project_contact
 from physsim_ros.engine.stages.half_step import HalfStep
 from physsim_ros.engine.stages.impact_propagation import ImpactPropagation
 from physsim_ros.engine.stages.mouse_joints import MouseJoints

@@ -115,6 +115,31 @@ def test_discs_part_along_their_line_of_centres(report, cut, speed, elasticity):
             report.check(6, 'discs, oblique, velocity', off, 0.0, 1e-6, 'speeds')
 
 
+@pytest.mark.parametrize('anchored', [True, False])
+@pytest.mark.parametrize('speed', [2.0, 8.0, 30.0])
+@pytest.mark.parametrize('cut', [-40, -20, 0, 30])
+def test_a_disc_parts_from_a_corner_along_the_normal_of_their_impact(report, cut, speed, anchored):
+    radius, mass, side = 0.05, 0.3, 0.4
+    outwards = turned((-1.0, 0.0), math.radians(cut))
+    corner = np.array((-side * math.sqrt(0.5), 0.0))
+    for share in (0.1, 0.4, 0.9):
+        sim = simulation(gravity=NOWHERE, elasticity=1.0, friction=0.0)
+        box = Box(width=side, height=side)
+        spawn(sim, 'box/0', box, (0.0, 0.0, math.pi / 4), mass=2.0, anchored=anchored)
+        start = corner + outwards * radius - np.array((speed, 0.0)) * (0.2 + share * DT)
+        pose = (*start.tolist(), 0.0)
+        spawn(sim, 'disc/0', Disc(radius=radius), pose, mass=mass, velocity=(speed, 0.0))
+
+        end = run(sim, 0.3)
+
+        arm = corner[0] * outwards[1] - corner[1] * outwards[0]
+        yielding = 0.0 if anchored else 1 / 2.0 + arm**2 / (2.0 * side**2 / 6)
+        impulse = 2.0 * speed * -outwards[0] / (1 / mass + yielding) * outwards
+        exact = np.array((speed, 0.0)) + impulse / mass
+        off = math.dist(end.twists[1, :2], exact) / speed
+        report.check(6, 'disc on a corner, velocity', off, 0.0, 1e-6, 'speeds')
+
+
 @pytest.mark.parametrize('side', HEADINGS)
 @pytest.mark.parametrize('elasticity', ELASTICITIES)
 @pytest.mark.parametrize('angle', [0, 15, 30, 45, 60, 75, -45])

@@ -21,11 +21,8 @@ is taken back along the normal, by no more than the pair approached in this step
 inverse mass, so that the common centre of mass stays (Müller et al. 2007, Position Based Dynamics,
 3.3). A fixed body gives nothing.
 
-Where the step ends, the line of centres of two discs has turned, by v dt / (2 r) at most, and with
-it the direction in which they part: by 9° for billiard balls at 4 m/s. Discs get the normal that
-they have at their time of impact, the root of a quadratic (Ericson, Real-Time Collision Detection,
-5.5.5). Cost: one callback for each contact that begins, and 1 us for each piece of the two bodies,
-of which a body has a budget in a step: two lists of 1,000 spheres that meet would take that for a
+Cost: one callback for each contact that begins, and 1 us for each piece of the two bodies, of
+which a body has a budget in a step: two lists of 1,000 spheres that meet would take that for a
 million. The engine's own bias holds for what is left.
 """
 
@@ -34,59 +31,9 @@ from __future__ import annotations
 from collections import Counter
 import math
 
-import numpy as np
 from physsim_ros.engine.ccd.time_of_impact import SLOP
-from physsim_ros.engine.step_context import StepContext
 from physsim_ros.engine.work_correction import is_jointed, take_back_work
 import pymunk
-from pymunk import Circle, Vec2d
-
-
-def contact_at_impact(arbiter: pymunk.Arbiter, context: StepContext) -> pymunk.ContactPointSet:
-    """
-    Return the contact of two shapes that begin to touch; that of two discs is set in the engine.
-
-    Its normal is the line of centres at the time of impact, and the depth is along that.
-    """
-    contact, (disc_a, disc_b) = arbiter.contact_point_set, arbiter.shapes
-    if not (contact.points and isinstance(disc_a, Circle) and isinstance(disc_b, Circle)):
-        return contact
-    body_a, body_b = arbiter.bodies
-    rows = context.table.rows_of(np.array((body_a.id, body_b.id), np.uint64))
-    row_a, row_b = rows.tolist()
-    from_a, move_a = _way(disc_a.offset, context, row_a)
-    from_b, move_b = _way(disc_b.offset, context, row_b)
-    apart, move = from_b - from_a, move_b - move_a
-    reach = disc_a.radius + disc_b.radius
-    # The first root of |apart + share * move|² = reach².
-    length, along, gap = move.dot(move), apart.dot(move), apart.dot(apart) - reach * reach
-    root = along * along - length * gap
-    if along >= 0.0 or gap < 0.0 or root < 0.0:
-        return contact
-    share = (-along - math.sqrt(root)) / length
-    if share > 1.0:
-        return contact
-    normal = (apart + move * share) / reach
-    point_a = body_a.local_to_world(disc_a.offset) + normal * disc_a.radius
-    point_b = body_b.local_to_world(disc_b.offset) - normal * disc_b.radius
-    point = pymunk.ContactPoint(point_a, point_b, (point_b - point_a).dot(normal))
-    contact = pymunk.ContactPointSet(normal, (point,))
-    arbiter.contact_point_set = contact
-    return contact
-
-
-def _way(center: Vec2d, context: StepContext, row: int) -> tuple[Vec2d, Vec2d]:
-    """
-    Return where a point of a body is as the step begins, and its way in the step [m].
-
-    :param center: of a disc, in the frame of the engine's body [m]
-    """
-    x, y, yaw = context.poses[row].tolist()
-    vx, vy, spin = context.twists[row].tolist()
-    arm = center.rotated(yaw)
-    velocity = Vec2d(vx, vy) + arm.perpendicular() * spin
-    return Vec2d(x, y) + arm, velocity * context.dt
-
 
 # Pieces of a body that are placed anew in a step, at most: those of a body of 40 for 100 contacts.
 MOST_PIECES = 4000
