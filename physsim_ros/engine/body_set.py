@@ -31,6 +31,7 @@ import pymunk
 
 # A point so near counts as inside [m]: on the seam of two pieces it lies inside neither.
 SEAM = 1e-9
+EVERYTHING = pymunk.ShapeFilter()
 
 
 class BodySet:
@@ -71,7 +72,7 @@ class BodySet:
     def at(self, point: Point) -> list[str]:
         """Return the bodies that cover a point of the world [m], the highest serial first."""
         names = set()
-        for hit in self._engine.point_query(point, SEAM, pymunk.ShapeFilter()):
+        for hit in self._engine.point_query(point, SEAM, EVERYTHING):
             if hit.shape is not None and hit.shape.body in self._names:
                 names.add(self._names[hit.shape.body])
         return sorted(names, key=lambda name: -self.by_name[name].serial)
@@ -92,13 +93,14 @@ class BodySet:
         :param without: a body whose pieces do not count
         :param moving_only: whether those of anchored bodies do not count
         """
+        # All other shapes in the engine are those of bodies.
+        ignored = {*self._engine.static_body.shapes, *(() if without is None else without.shapes)}
         count = 0
         for box in boxes:
-            for shape in self._engine.bb_query(pymunk.BB(*box), pymunk.ShapeFilter()):
-                body = shape.body
-                if body is without or body not in self._names:
-                    continue
-                count += not (moving_only and body.body_type == pymunk.Body.STATIC)
+            near = set(self._engine.bb_query(pymunk.BB(*box), EVERYTHING)) - ignored
+            if moving_only:
+                near = {shape for shape in near if _may_move(shape)}
+            count += len(near)
             if count > most:
                 break
         return count
@@ -119,3 +121,8 @@ class BodySet:
         if rigid.body.fixed:
             wake_bodies(each.engine for each in touching)
             wake_overlapping(self._engine, rigid.engine)
+
+
+def _may_move(shape: pymunk.Shape) -> bool:
+    """Return whether a shape is not that of an anchored body."""
+    return shape.body is not None and shape.body.body_type != pymunk.Body.STATIC

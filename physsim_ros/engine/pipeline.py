@@ -129,7 +129,11 @@ class Pipeline:
         """Handle two shapes that begin to touch, before the solver runs."""
         if self._context is None:
             return
-        contact = contact_at_impact(arbiter, self._context)
-        project_contact(arbiter, contact, space, self._placed)
+        contact, shapes = arbiter.contact_point_set, arbiter.shapes
+        if contact.points and not any(shape.sensor for shape in shapes):
+            impact = contact_at_impact(contact, shapes, self._context)
+            if impact is not None:
+                arbiter.contact_point_set = contact = impact
+            project_contact(contact, shapes, space, self._placed)
         if self._context.watching:
             self.contact_report.add_first_touch(arbiter, contact)

@@ -78,10 +78,6 @@ def _motion_without_turn(
     return _kind(a, b, np.zeros_like(pull), dt)
 
 
-def _contact_of_engine(arbiter: Any, _context: Any) -> Any:
-    return arbiter.contact_point_set
-
-
 def _no_common_points(*_: object) -> Any:
     return np.empty(0, np.intp), np.empty(0, np.intp)
 
@@ -117,12 +113,14 @@ STAGES = (
         ((pipeline, 'tighten_boxes'),),
     ),
     Stage(
+        'contact normal at impact',
+        (((pipeline, 'contact_at_impact'), _nothing),),
+        ((pipeline, 'contact_at_impact'),),
+    ),
+    Stage(
         'contact projection',
-        (
-            ((pipeline, 'project_contact'), _nothing),
-            ((pipeline, 'contact_at_impact'), _contact_of_engine),
-        ),
-        ((pipeline, 'project_contact'), (pipeline, 'contact_at_impact')),
+        (((pipeline, 'project_contact'), _nothing),),
+        ((pipeline, 'project_contact'),),
     ),
     Stage(
         'impact propagation',

@@ -46,12 +46,21 @@ class _Place(NamedTuple):
     yaw: float
 
 
-def contact_at_impact(arbiter: pymunk.Arbiter, context: StepContext) -> pymunk.ContactPointSet:
-    """Return the contact of shapes that begin to touch; that of a disc is set in the engine."""
-    contact, (a, b) = arbiter.contact_point_set, arbiter.shapes
+def contact_at_impact(
+    contact: pymunk.ContactPointSet,
+    shapes: tuple[pymunk.Shape, pymunk.Shape],
+    context: StepContext,
+) -> pymunk.ContactPointSet | None:
+    """
+    Return the contact of two shapes that begin to touch as it is at their impact.
+
+    :param contact: of the engine, where the step ends
+    :return: None leaves that
+    """
+    a, b = shapes
     disc, other, sign = (a, b, -1.0) if isinstance(a, Circle) else (b, a, 1.0)
-    if not contact.points or not isinstance(disc, Circle):
-        return contact
+    if not isinstance(disc, Circle) or _overlapped(contact, shapes, context.dt):
+        return None
     start, stop, center = (place.origin for place in _places(disc, context))
     begin, end, now = _places(other, context)
     hit = other.segment_query(
@@ -60,16 +69,27 @@ def contact_at_impact(arbiter: pymunk.Arbiter, context: StepContext) -> pymunk.C
         disc.radius,
     )
     if hit is None or hit.alpha == 0.0:
-        return contact
+        return None
     # From the yaw that the other shape has now to that of the impact.
     turn = begin.yaw + (end.yaw - begin.yaw) * hit.alpha - now.yaw
     outwards = hit.normal.rotated(turn)
     arms = center - outwards * disc.radius, now.origin + (hit.point - now.origin).rotated(turn)
     (point_a, point_b), normal = arms if disc is a else arms[::-1], outwards * sign
     point = pymunk.ContactPoint(point_a, point_b, (point_b - point_a).dot(normal))
-    contact = pymunk.ContactPointSet(normal, (point,))
-    arbiter.contact_point_set = contact
-    return contact
+    return pymunk.ContactPointSet(normal, (point,))
+
+
+def _overlapped(
+    contact: pymunk.ContactPointSet, shapes: tuple[pymunk.Shape, pymunk.Shape], dt: float
+) -> bool:
+    """Return whether a contact is deeper than the two bodies can have approached in a step."""
+    (point,) = contact.points
+    way = 0.0
+    for shape in shapes:
+        body = cast('pymunk.Body', shape.body)
+        arm = point.point_a.get_distance(body.position)
+        way += (body.velocity.length + abs(body.angular_velocity) * arm) * dt
+    return -point.distance > way
 
 
 def _places(shape: pymunk.Shape, context: StepContext) -> tuple[_Place, _Place, _Place]:

@@ -30,6 +30,7 @@ from __future__ import annotations
 
 from collections import Counter
 import math
+from typing import cast
 
 from physsim_ros.engine.ccd.time_of_impact import SLOP
 from physsim_ros.engine.work_correction import is_jointed, take_back_work
@@ -40,8 +41,8 @@ MOST_PIECES = 4000
 
 
 def project_contact(
-    arbiter: pymunk.Arbiter,
     contact: pymunk.ContactPointSet,
+    shapes: tuple[pymunk.Shape, pymunk.Shape],
     space: pymunk.Space,
     placed: Counter[pymunk.Body],
 ) -> None:
@@ -50,21 +51,24 @@ def project_contact(
 
     :param placed: pieces of each body that were placed anew in this step
     """
-    point = min(contact.points, key=lambda point: point.distance, default=None)
-    if point is None or -point.distance <= SLOP or any(it.sensor for it in arbiter.shapes):
+    point = min(contact.points, key=lambda point: point.distance)
+    if -point.distance <= SLOP:
         return
-    if any(placed[body] >= MOST_PIECES for body in arbiter.bodies):
+    bodies = tuple(cast('pymunk.Body', shape.body) for shape in shapes)
+    if any(placed[body] >= MOST_PIECES for body in bodies):
         return
     dt, normal = space.current_time_step, contact.normal
-    sides = tuple(zip(arbiter.bodies, (1.0, -1.0), (point.point_a, point.point_b), strict=True))
+    sides = tuple(zip(bodies, (1.0, -1.0), (point.point_a, point.point_b), strict=True))
     ahead = [
         sign * body.velocity_at_world_point(place).dot(normal) * dt for body, sign, place in sides
     ]
-    inverse = [1.0 / body.mass if _may_move(body) else 0.0 for body, _, _ in sides]
     excess = min(-point.distance - SLOP, sum(ahead))
-    if excess <= 0.0 or not any(inverse):
+    if excess <= 0.0:
         return
-    jointed = any(is_jointed(space, body) for body, _, _ in sides)
+    inverse = [1.0 / body.mass if _may_move(body) else 0.0 for body in bodies]
+    if not any(inverse):
+        return
+    jointed = any(is_jointed(space, body) for body in bodies)
     for (body, sign, _), own, share in zip(sides, ahead, inverse, strict=True):
         if not share:
             continue
