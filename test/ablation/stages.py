@@ -26,7 +26,7 @@ from typing import Any, NamedTuple
 from unittest import mock
 
 import numpy as np
-from physsim_ros.engine import body_table, checkpoint, pipeline, space, warm_start
+from physsim_ros.engine import body_table, checkpoint, pipeline, settings, warm_start
 from physsim_ros.engine.body import REST, RigidBody
 from physsim_ros.engine.ccd.continuous import ContinuousCollision
 from physsim_ros.engine.joints import joint_table
@@ -137,7 +137,7 @@ STAGES = (
         (((JointSet, 'close_gaps'), _nothing),),
         ((JointSet, 'close_gaps'),),
     ),
-    Stage('sleeping', (((space, 'enable_sleeping'), _nothing),), ()),
+    Stage('sleeping', (((settings, 'enable_sleeping'), _nothing),), ()),
     Stage(
         'warm start',
         (

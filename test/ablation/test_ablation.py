@@ -38,6 +38,12 @@ def test_a_scene_is_within_its_tolerance(scene):
     assert not fails(scene, error), f'{error:.3g} {scene.unit}'
 
 
+@pytest.mark.parametrize('stage', STAGES, ids=lambda stage: stage.name)
+def test_every_stage_can_be_switched_off(stage):
+    with switched_off(stage):
+        pass
+
+
 @pytest.mark.parametrize(
     ('name', 'without'),
     [

@@ -27,7 +27,7 @@ so do polygons among themselves.
 
 **Cost.** Some 50 us for each disc that begins to touch.
 
-Without it law 6 (discs part along the line of centres of their impact) fails.
+Without it law 6 (discs part along the normal of their impact, from discs and from corners) fails.
 """
 
 from __future__ import annotations
