@@ -125,16 +125,6 @@ def _corner() -> float:
     return math.dist(run(sim, 0.2).twists[disc, :2], exact) / 8.0
 
 
-def _fast_crowd() -> float:
-    """Let discs fly at 20 km/s, which meet nothing; return the time of a step for each [us]."""
-    sim, count = simulation(gravity=NOWHERE), 3000
-    for number in range(count):
-        pose = (float(number % 55), float(number // 55), 0.0)
-        velocity = (2e4 * (-1) ** number, 1e4 * (number % 7 - 3))
-        spawn(sim, f'disc/{number}', Disc(radius=0.1), pose, velocity=velocity, sensor=True)
-    return min(_timed(lambda: sim.world.step(1)) for _ in range(6)) / count * 1e6
-
-
 def _stack() -> float:
     """Put down a stack of ten boxes, top first; return its speed after 5 s."""
     sim, size = simulation(), 0.3
@@ -308,7 +298,6 @@ SCENES = (
     Scene('plough (28)', 'way', 0.02, _plough),
     Scene('bridge', 'm', 2e-3, _bridge),
     Scene('checkpoint (26)', 'm/s', 5e-3, _checkpoint),
-    Scene('fast crowd', 'us a body', 12.0, _fast_crowd),
     Scene('at rest', 'bare steps', 0.5, _at_rest),
 )
 
