@@ -171,8 +171,9 @@ def build(body: Body, serial: int) -> RigidBody:
     else:
         engine = pymunk.Body(body.total_mass, body.total_mass * body.shape.form.gyration)
     rigid = RigidBody(body, engine, serial)
-    for piece in body.shape.form.pieces:
-        shape = _shape(piece, engine, rigid.offset)
+    shapes = [_shape(piece, engine, rigid.offset) for piece in body.shape.form.pieces]
+    _set_neighbors([shape for shape in shapes if isinstance(shape, pymunk.Segment)])
+    for shape in shapes:
         # The engine multiplies the two bodies' values; their square roots give the pair its
         # geometric mean.
         shape.friction = math.sqrt(body.friction)
@@ -194,6 +195,20 @@ def _shape(piece: Piece, engine: pymunk.Body, offset: Point) -> pymunk.Shape:
             return pymunk.Segment(engine, local(start), local(end), radius)
         case Convex(vertices):
             return pymunk.Poly(engine, [local(vertex) for vertex in vertices])
+
+
+def _set_neighbors(segments: list[pymunk.Segment]) -> None:
+    """
+    Tell segments which others begin and end where they do.
+
+    The engine lets a round end push along the chain otherwise: a ball that rolls through a bend
+    meets the end of the next segment before its face, and is thrown off.
+    """
+    before = {segment.b: segment.a for segment in segments}
+    after = {segment.a: segment.b for segment in segments}
+    for segment in segments:
+        a, b = segment.a, segment.b
+        segment.set_neighbors(before.get(a, a), after.get(b, b))
 
 
 def same_in_engine(a: Body, b: Body) -> bool:

@@ -45,6 +45,7 @@ from physsim_ros.engine.stages.contact_normal import contact_at_impact
 from physsim_ros.engine.stages.contact_projection import project_contact
 from physsim_ros.engine.stages.half_step import HalfStep
 from physsim_ros.engine.stages.impact_propagation import ImpactPropagation
+from physsim_ros.engine.stages.internal_edges import InternalEdges
 from physsim_ros.engine.stages.mouse_joints import MouseJoints
 from physsim_ros.engine.stages.resting_damping import RestingDamping
 from physsim_ros.engine.stages.sleeping import keep_flying_awake, keep_swinging_awake
@@ -84,6 +85,7 @@ class Pipeline:
         self.continuous_collision = ContinuousCollision(engine)
         self.impact_propagation = ImpactPropagation(engine, io)
         self.contact_report = ContactReport(io)
+        self._internal_edges = InternalEdges()
         self._joints = joints
         self._engine = engine
         self._shapes = shapes
@@ -131,9 +133,11 @@ class Pipeline:
             return
         contact, shapes = arbiter.contact_point_set, arbiter.shapes
         if contact.points and not any(shape.sensor for shape in shapes):
-            impact = contact_at_impact(contact, shapes, self._context)
-            if impact is not None:
-                arbiter.contact_point_set = contact = impact
+            found = contact
+            contact = contact_at_impact(contact, shapes, self._context) or contact
+            contact = self._internal_edges.slide_over(contact, shapes) or contact
+            if contact is not found:
+                arbiter.contact_point_set = contact
             project_contact(contact, shapes, space, self._placed)
         if self._context.watching:
             self.contact_report.add_first_touch(arbiter, contact)

@@ -125,6 +125,17 @@ def _corner() -> float:
     return math.dist(run(sim, 0.2).twists[disc, :2], exact) / 8.0
 
 
+def _seams() -> float:
+    """Slide a box over tiles, its face in the plane of a seam; return the share of speed lost."""
+    sim = simulation(friction=0.0)
+    for number in range(8):
+        tile = Box(width=0.5, height=0.5)
+        spawn(sim, f'tile/{number}', tile, (0.5 * number, -0.25, 0.0), anchored=True)
+    box = Box(width=0.3, height=0.3)
+    row = spawn(sim, 'box/0', box, (0.0, 0.15, 0.0), velocity=(3.0, 0.0))
+    return 1.0 - float(run(sim, 1.0).twists[row, 0]) / 3.0
+
+
 def _stack() -> float:
     """Put down a stack of ten boxes, top first; return its speed after 5 s."""
     sim, size = simulation(), 0.3
@@ -288,6 +299,7 @@ SCENES = (
     Scene('fast bar (35)', 'discs', 0.0, _fast_bar),
     Scene('bounce (7)', 'm', 0.01, _bounce),
     Scene('disc on a corner (6)', 'v', 1e-6, _corner),
+    Scene('seams of tiles', 'v', 0.01, _seams),
     Scene('stack of ten (18)', 'm/s', 1e-3, _stack),
     Scene('removed floor', 'm, rad', 1e-3, _removed_floor),
     Scene('cradle, 2 and 3 of 5 (17)', 'v', 0.02, _cradle),

@@ -34,6 +34,7 @@ from physsim_ros.engine.joints.joint_set import JointSet
 from physsim_ros.engine.stages import half_step
 from physsim_ros.engine.stages.half_step import HalfStep
 from physsim_ros.engine.stages.impact_propagation import ImpactPropagation
+from physsim_ros.engine.stages.internal_edges import InternalEdges
 from physsim_ros.engine.stages.resting_damping import RestingDamping
 
 Target = tuple[Any, str]
@@ -121,6 +122,11 @@ STAGES = (
         'contact projection',
         (((pipeline, 'project_contact'), _nothing),),
         ((pipeline, 'project_contact'),),
+    ),
+    Stage(
+        'internal edges',
+        (((InternalEdges, 'slide_over'), _nothing),),
+        ((InternalEdges, 'slide_over'),),
     ),
     Stage(
         'impact propagation',

@@ -45,6 +45,7 @@ def test_every_stage_can_be_switched_off(stage):
         ('thin wall (25)', 'continuous collision'),
         ('bounce (7)', 'contact projection'),
         ('disc on a corner (6)', 'contact normal at impact'),
+        ('seams of tiles', 'internal edges'),
         ('elastic rows, 2 of 5 (36)', 'impact propagation'),
         ('checkpoint (26)', 'warm start'),
     ],

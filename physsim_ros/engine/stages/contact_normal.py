@@ -23,7 +23,7 @@ hits a corner has come past it.
 of its radius first meets the other shape on that is a query of the engine
 (`cpShapeSegmentQuery`; Ericson, Real-Time Collision Detection, 5.5.7). The contact gets the normal
 and the arms of that moment. Pairs that overlap where the step begins keep that of the engine, and
-so do polygons among themselves.
+so do polygons among themselves, and segments, of which it knows the neighbours in a chain.
 
 **Cost.** Some 50 us for each disc that begins to touch.
 
@@ -59,7 +59,9 @@ def contact_at_impact(
     """
     a, b = shapes
     disc, other, sign = (a, b, -1.0) if isinstance(a, Circle) else (b, a, 1.0)
-    if not isinstance(disc, Circle) or _overlapped(contact, shapes, context.dt):
+    if not isinstance(disc, Circle) or isinstance(other, pymunk.Segment):
+        return None
+    if _overlapped(contact, shapes, context.dt):
         return None
     start, stop, center = (place.origin for place in _places(disc, context))
     begin, end, now = _places(other, context)

@@ -1,0 +1,91 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Bodies slide over seams as over one face, and are stopped by steps."""
+
+import math
+
+import numpy as np
+from physsim_ros.model.shapes import Box, Chain, Disc, Polygon
+import pytest
+
+from ...laws.scenes import G, run, simulation, spawn, steps, turned
+
+BOX = Box(width=0.3, height=0.3)
+DISC = Disc(radius=0.15)
+
+
+def tiled_floor(angle=0.0, step=0.0, **settings):
+    """
+    Return a world with a floor of tiles from the origin on, and gravity normal to it.
+
+    :param angle: of the floor [rad]
+    :param step: by which the tiles from 2 m on are higher [m]
+    """
+    gravity = tuple(turned((0.0, -G), angle))
+    sim = simulation(friction=0.0, gravity=gravity, **settings)
+    for number in range(16):
+        along = 0.5 * number
+        place = turned((along, -0.25 + step * (along >= 2.0)), angle)
+        spawn(sim, f'tile/{number}', Box(width=0.5, height=0.5), (*place, angle), anchored=True)
+    return sim
+
+
+@pytest.mark.parametrize('elasticity', [0.0, 0.3])
+@pytest.mark.parametrize('shape', [BOX, DISC], ids=repr)
+# From 0, at 0.3 and 3 m/s, a step ends where the box's face lies exactly in the plane of a seam.
+@pytest.mark.parametrize('begin', [0.0, 0.1237])
+@pytest.mark.parametrize('speed', [0.3, 3.0, 8.0])
+@pytest.mark.parametrize('angle', [0.0, 0.4])
+def test_a_body_slides_over_a_seam(shape, elasticity, speed, begin, angle):
+    sim = tiled_floor(angle, elasticity=elasticity)
+    place, velocity = turned((begin, 0.15), angle), turned((speed, 0.0), angle)
+    row = spawn(sim, 'body/0', shape, (*place, angle), velocity=tuple(velocity))
+    for snapshot in steps(sim, int(240 * min(6.0 / speed, 2.5))):
+        assert turned(snapshot.poses[row, :2], -angle)[1] == pytest.approx(0.15, abs=3e-4)
+    along, up = turned(snapshot.twists[row, :2], -angle) / speed
+    assert along == pytest.approx(1.0, abs=0.01)
+    assert up == pytest.approx(0.0, abs=0.02)
+    assert snapshot.twists[row, 2] == pytest.approx(0.0, abs=0.02)
+
+
+@pytest.mark.parametrize('step', [0.02, 0.1])
+@pytest.mark.parametrize('speed', [0.3, 3.0])
+def test_a_box_is_stopped_by_a_step(step, speed):
+    sim = tiled_floor(step=step, elasticity=0.0)
+    row = spawn(sim, 'box/0', BOX, (1.0, 0.15, 0.0), velocity=(speed, 0.0))
+    stopped = run(sim, 0.65 / speed)
+    assert stopped.twists[row, 0] < 0.5 * speed
+    assert stopped.poses[row, 0] + 0.15 < 1.8
+
+
+def test_a_ball_rolls_in_a_bowl_of_pieces_as_in_one_of_segments():
+    angles = np.linspace(-math.pi / 2, math.pi / 2, 100)
+    around = np.column_stack((np.sin(angles), -np.cos(angles)))
+    inner, outer = (tuple(map(tuple, (around * radius).tolist())) for radius in (2.0, 2.2))
+    heights = []
+    for bowl in (
+        Polygon(outline=inner + outer[::-1]),
+        Chain(points=inner, thickness=0.001),
+    ):
+        sim = simulation(friction=0.0, elasticity=0.0)
+        spawn(sim, 'bowl/0', bowl, anchored=True)
+        way = 2.0 - 0.15
+        ball = spawn(sim, 'ball/0', DISC, (-way * math.sin(1.0), -way * math.cos(1.0), 0.0))
+        run(sim, 1.0)
+        lowest = -way
+        highest = max(snapshot.poses[ball, 1] for snapshot in steps(sim, 480))
+        heights.append((highest - lowest) / (way - way * math.cos(1.0)))
+    assert heights[0] == pytest.approx(heights[1], rel=0.05)
+    assert heights[0] > 0.9
