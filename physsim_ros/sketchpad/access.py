@@ -41,7 +41,7 @@ _SESSION = 1.0
 # not count web sockets as such.
 _POLICY = (
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; "
-    "font-src 'self'; manifest-src 'self'; connect-src 'self' ws://{host}; "
+    "font-src 'self'; manifest-src 'self'; connect-src 'self' ws://{host} wss://{host}; "
     "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
 )
 
@@ -106,8 +106,9 @@ class Access:
 
     @staticmethod
     def allows_origin(origin: str | None, host: str) -> bool:
-        """Tell whether an Origin header is that of this server's own pages."""
-        return origin is not None and origin.lower() == f'http://{host}'.lower()
+        """Tell whether an Origin header is that of this server's own pages, with TLS or without."""
+        origins = {f'{scheme}://{host}'.lower() for scheme in ('http', 'https')}
+        return origin is not None and origin.lower() in origins
 
 
 def headers_for(host: str) -> dict[str, str]:

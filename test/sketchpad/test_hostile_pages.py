@@ -105,6 +105,11 @@ def test_a_foreign_origin_opens_no_socket_and_uploads_nothing(browser: Browser) 
     assert browser.physsim.digest() == before
 
 
+def test_a_page_behind_a_proxy_with_tls_opens_a_socket(browser: Browser) -> None:
+    page = browser.open_page(origin=browser.base.replace('http', 'https'))
+    page.until(lambda: page.of_type('scene'))
+
+
 def test_a_page_that_only_shows_changes_nothing(browser: Browser) -> None:
     cookie = browser.login_cookie(browser.view_login)
     pages = [browser.open_page('/ws?view'), browser.open_page('/ws', cookie=cookie)]

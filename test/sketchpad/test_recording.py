@@ -128,7 +128,7 @@ def test_the_page_of_the_recording_may_call_this_server_only(browser: Browser) -
     )
     assert response.code == 200
     assert policy['default-src'] == "'none'"
-    assert policy['connect-src'] == f"'self' ws://{host}"
+    assert policy['connect-src'] == f"'self' ws://{host} wss://{host}"
     assert policy['script-src'] == "'self' 'wasm-unsafe-eval'"
     assert 'wasm' not in browser.fetch('/').headers['Content-Security-Policy']
 

@@ -57,7 +57,8 @@ async function showBatch(viewer, batch, recorded) {
 
 /** @param {any} viewer */
 function connect(viewer) {
-  const socket = new WebSocket(`ws://${location.host}/rerun/ws`);
+  const scheme = location.protocol.replace('http', 'ws');
+  const socket = new WebSocket(`${scheme}//${location.host}/rerun/ws`);
   socket.binaryType = 'arraybuffer';
   let recorded = 0;
   socket.addEventListener('message', async ({data}) => {
