@@ -24,6 +24,9 @@ import unicodedata
 # Unicode categories of control characters, surrogates, line and paragraph separators. Format
 # characters are allowed: Persian, Hindi and emoji are written with them.
 _UNPRINTABLE = {'Cc', 'Cs', 'Zl', 'Zp'}
+# Bidirectional classes of the characters that change the order in which others are shown, so that
+# a text reads as another one (Unicode Standard Annex 9; CVE-2021-42574).
+_REORDERING = {'LRE', 'RLE', 'LRO', 'RLO', 'PDF', 'LRI', 'RLI', 'FSI', 'PDI'}
 # Greatest lengths of a word and of a whole message [characters]: some six lines of a terminal.
 LONGEST_WORD, LONGEST_MESSAGE = 80, 480
 _OMISSION = '…'
@@ -32,8 +35,12 @@ _MOST_COMPARED = 200
 
 
 def is_printable(text: str) -> bool:
-    """Return whether a text has no control character, surrogate or line separator."""
-    return not any(unicodedata.category(character) in _UNPRINTABLE for character in text)
+    """Return whether a text has no character of control, of order or of lines, nor a surrogate."""
+    return text.isprintable() or not any(
+        unicodedata.category(character) in _UNPRINTABLE
+        or unicodedata.bidirectional(character) in _REORDERING
+        for character in text
+    )
 
 
 def abbreviated(text: str, longest: int = LONGEST_WORD) -> str:

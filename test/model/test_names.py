@@ -59,7 +59,8 @@ def test_what_is_no_name_is_malformed_and_has_no_namespace(name: str) -> None:
 
 
 @pytest.mark.parametrize(
-    'character', ['\0', '\n', '\t', '\x7f', '\x85', '\ud800', '\u2028', '\u2029']
+    'character',
+    ['\0', '\n', '\t', '\x7f', '\x85', '\ud800', '\u2028', '\u2029', '\u202e', '\u2066'],
 )
 def test_a_character_that_cannot_be_printed_is_refused(character: str) -> None:
     with pytest.raises(Malformed) as refused:

@@ -30,7 +30,16 @@ from physsim_ros.model.texts import (
 )
 import pytest
 
-NASTY = ['\x1b[31mred', 'bell\a', 'line\nline', 'half \ud83d', 'sep\u2028sep', 'nul\0', '\x9b31m']
+NASTY = [
+    '\x1b[31mred',
+    'bell\a',
+    'line\nline',
+    'half \ud83d',
+    'sep\u2028sep',
+    'nul\0',
+    '\x9b31m',
+    'cba\u202eabc',
+]
 
 
 @pytest.mark.parametrize('text', NASTY)
