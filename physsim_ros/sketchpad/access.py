@@ -106,7 +106,7 @@ class Access:
 
     @staticmethod
     def allows_origin(origin: str | None, host: str) -> bool:
-        """Tell whether an Origin header is that of this server's own pages, with TLS or without."""
+        """Tell whether an Origin header is that of this server's pages, with TLS or not."""
         origins = {f'{scheme}://{host}'.lower() for scheme in ('http', 'https')}
         return origin is not None and origin.lower() in origins
 
