@@ -85,6 +85,8 @@ class Timeline(SeekableReplay):
         done = self.world.apply(request)
         if not self.world.changed:
             return done
+        # The courses that part in what was undone go with it.
+        self.courses.drop_after(self.history.end)
         if self.history.lies_ahead(*self.moment):
             left = self.courses.branch(
                 self.moment, self.history.cut(*self.moment, now=self.moment)
@@ -92,8 +94,6 @@ class Timeline(SeekableReplay):
             seconds = self.world.step_count * self.world.dt
             message = f'course {self.courses.current} begins at {seconds:.3f} s; {left} is kept'
             self._reports.append(Answer(topic='branch', message=message))
-        else:
-            self.courses.drop_after(self.moment)
         step = self.world.step_count
         self.history.add_entry(Entry(step, request, gesture, subject=done[0]))
         self.serial += 1

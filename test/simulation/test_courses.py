@@ -205,6 +205,23 @@ def test_courses_that_part_in_what_was_undone_are_hidden_while_time_goes_on() ->
     assert numbers(sim) == []
 
 
+def test_courses_that_part_in_what_was_undone_are_lost_where_another_course_begins() -> None:
+    sim = simulation()
+    run(sim, 0.5)
+    act(sim, 1.0)
+    run(sim, 1.5)
+    branch(sim, 1.0, 5.0)
+    sim.undo()
+    sim.undo()
+    run(sim, 1.5)
+    branch(sim, 0.25, 7.0)
+
+    # The first course parts from the second one in a gesture that nobody can redo.
+    assert numbers(sim) == [2]
+    sim.return_to_course(2)
+    assert numbers(sim) == [3]
+
+
 def test_as_many_courses_are_kept_as_are_said() -> None:
     sim = simulation()
     run(sim, 0.5)
