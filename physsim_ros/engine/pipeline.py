@@ -23,8 +23,8 @@ The pipeline: one step of the engine, stage by stage in this order.
 6. Tight boxes: the engine's broad phase is told where fast bodies of a crowd will be.
 7. Joints: the target velocity of constraints is set to the centripetal term.
 8. Pymunk's step: positions, narrow phase, solver, sleeping. In the middle of it: contact normal
-   at impact and contact projection as two shapes begin to touch, and impact propagation before the
-   solver runs.
+   at impact, internal edges and contact projection as two shapes begin to touch, and impact
+   propagation before the solver runs.
 9. Joints: gaps are closed in positions.
 10. Half-step velocity: free flight is found, and does not fall asleep.
 11. Contact report: impulses are added up.

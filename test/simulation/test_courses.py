@@ -70,6 +70,18 @@ def follow(sim: Simulation, shown: dict[int, np.ndarray], since: int) -> None:
         assert sim.step > step
 
 
+def undone_branch() -> Simulation:
+    """Return a pile whose second course parts from the first in a gesture that is undone."""
+    sim = simulation()
+    run(sim, 0.5)
+    act(sim, 1.0)
+    run(sim, 1.5)
+    branch(sim, 1.0, 5.0)
+    sim.undo()
+    sim.undo()
+    return sim
+
+
 def numbers(sim: Simulation) -> list[int]:
     return [course.number for course in sim.status.courses]
 
@@ -168,13 +180,7 @@ def test_undo_and_redo_go_along_a_course() -> None:
 
 
 def test_courses_that_part_in_what_was_undone_are_there_when_it_is_redone() -> None:
-    sim = simulation()
-    run(sim, 0.5)
-    act(sim, 1.0)
-    run(sim, 1.5)
-    branch(sim, 1.0, 5.0)
-    sim.undo()
-    sim.undo()
+    sim = undone_branch()
     assert (sim.step, numbers(sim)) == (120, [])
     sim.redo()
     assert numbers(sim) == [1]
@@ -184,13 +190,7 @@ def test_courses_that_part_in_what_was_undone_are_there_when_it_is_redone() -> N
 
 
 def test_courses_that_part_in_what_was_undone_are_hidden_while_time_goes_on() -> None:
-    sim = simulation()
-    run(sim, 0.5)
-    act(sim, 1.0)
-    run(sim, 1.5)
-    branch(sim, 1.0, 5.0)
-    sim.undo()
-    sim.undo()
+    sim = undone_branch()
 
     # To a later step than that at which they part, with fewer requests.
     run(sim, 1.5)
@@ -206,13 +206,7 @@ def test_courses_that_part_in_what_was_undone_are_hidden_while_time_goes_on() ->
 
 
 def test_courses_that_part_in_what_was_undone_are_lost_where_another_course_begins() -> None:
-    sim = simulation()
-    run(sim, 0.5)
-    act(sim, 1.0)
-    run(sim, 1.5)
-    branch(sim, 1.0, 5.0)
-    sim.undo()
-    sim.undo()
+    sim = undone_branch()
     run(sim, 1.5)
     branch(sim, 0.25, 7.0)
 
