@@ -22,7 +22,9 @@ sent the next batch of its stream when it shows the one before.
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import Callable
+import time
 from typing import Any, Protocol, TYPE_CHECKING
 from urllib.parse import urlsplit
 
@@ -40,6 +42,10 @@ if TYPE_CHECKING:
 MOST_RECORDINGS = 4
 # For a file of the viewer, of some 40 MB [s].
 _FILE_TIMEOUT = 60.0
+# For the program to be up, which is read from disk (290 MB) where nobody used it before [s].
+_START_TIMEOUT = 30.0
+# Between two tries to reach it [s].
+_RETRY_PERIOD = 0.1
 # Code of closing, RFC 6455, section 7.4.1.
 _POLICY_VIOLATION = 1008
 
@@ -105,10 +111,18 @@ class ViewerFile(_OfRecording):
     """A file of the web viewer, from the program that serves it on this machine."""
 
     async def get(self, name: str) -> None:
-        """Pass it on, as fast as the browser reads."""
+        """Pass it on, as fast as the browser reads, as soon as the program is up."""
+        self.set_header('Content-Type', TYPES[f'.{name.rpartition(".")[2]}'])
+        until = time.monotonic() + _START_TIMEOUT
+        while not await self._passed_on(name):
+            if time.monotonic() > until:
+                self.refuse(502, 'the viewer does not answer; it may be starting')
+            await asyncio.sleep(_RETRY_PERIOD)
+
+    async def _passed_on(self, name: str) -> bool:
+        """Pass the file on; return False where the program does not listen yet."""
         port = urlsplit(self.recordings.page_address).port
         self._found = False
-        self.set_header('Content-Type', TYPES[f'.{name.rpartition(".")[2]}'])
         try:
             await AsyncHTTPClient().fetch(
                 f'http://127.0.0.1:{port}/{name}',
@@ -116,12 +130,15 @@ class ViewerFile(_OfRecording):
                 streaming_callback=self._pass_on,
                 request_timeout=_FILE_TIMEOUT,
             )
+        except ConnectionRefusedError:
+            return False
         except StreamClosedError:
             # The browser has left.
-            return
+            return True
         except (HTTPClientError, OSError):
-            self.refuse(502, 'the viewer does not answer; it may be starting')
+            self.refuse(502, 'the viewer does not have it')
         self.finish()
+        return True
 
     def _note_status(self, line: str) -> None:
         if line.startswith('HTTP/'):

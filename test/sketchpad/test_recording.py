@@ -20,13 +20,16 @@ from collections.abc import Iterator
 from functools import partial
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 import io
+from itertools import chain, repeat
 import json
 from pathlib import Path
+from socket import socket as tcp_socket
 import threading
 import time
 from typing import Any
 
 import numpy as np
+from physsim_ros.sketchpad import recording_handlers
 from physsim_ros.sketchpad.recording_handlers import MOST_RECORDINGS
 from physsim_ros.view import Viewer
 import pytest
@@ -117,6 +120,24 @@ def test_the_files_of_the_viewer_come_through_this_server_and_none_else(browser:
     assert browser.fetch('/rerun/re_viewer_bg.wasm').code == 502
     for path in ('/rerun/secret.txt', '/rerun/..%2fsecret.txt', '/rerun/re_viewer.js/'):
         assert browser.fetch(path).code == 404
+
+
+@pytest.mark.usefixtures('viewer_files')
+def test_a_file_is_waited_for_while_the_viewer_starts(
+    browser: Browser, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with tcp_socket() as starting:
+        # Bound, but nothing listens.
+        starting.bind(('127.0.0.1', 0))
+        silent = f'http://127.0.0.1:{starting.getsockname()[1]}/'
+        addresses = chain([silent] * 5, repeat(Viewer.page_address))
+        monkeypatch.setattr(Viewer, 'page_address', property(lambda _: next(addresses)))
+        assert browser.fetch('/rerun/re_viewer.js').body.decode() == SCRIPT
+        assert next(addresses) != silent
+
+        monkeypatch.setattr(Viewer, 'page_address', silent)
+        monkeypatch.setattr(recording_handlers, '_START_TIMEOUT', 0.2)
+        assert browser.fetch('/rerun/re_viewer.js').code == 502
 
 
 @pytest.mark.usefixtures('viewer_files')

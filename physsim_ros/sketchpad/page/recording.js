@@ -30,7 +30,8 @@ function onViewerEvent(text) {
 /** Start the viewer. */
 async function startViewer() {
   // @ts-expect-error a `let` of the classic script re_viewer.js, which has no types
-  const glue = wasm_bindgen;
+  const glue = typeof wasm_bindgen === 'undefined' ? null : wasm_bindgen;
+  if (!glue) throw new Error('the viewer does not answer; load the page again');
   await glue({module_or_path: '/rerun/re_viewer_bg.wasm'});
   const viewer = new glue.WebHandle({hide_welcome_screen: true, persist: false, on_viewer_event: onViewerEvent});
   await viewer.start(find('viewer', HTMLCanvasElement));
@@ -76,5 +77,5 @@ function connect(viewer) {
 try {
   connect(await startViewer());
 } catch (error) {
-  status.textContent = `Rerun cannot be shown: ${error}`;
+  status.textContent = `Rerun cannot be shown: ${error instanceof Error ? error.message : error}`;
 }
