@@ -107,7 +107,7 @@ def _soak(minutes: float, driver: Driver, monitor: Monitor, outside: Outside) ->
             deaf = None
         scene = SCENES[number % len(SCENES)]
         driver.call('clear')
-        driver.publish_scene(scene())
+        answered = driver.publish_scene(scene())
         driver.settle()
         driver.spin(QUIET)
         late, waited = driver.late_frames(), monitor.waited
@@ -117,7 +117,7 @@ def _soak(minutes: float, driver: Driver, monitor: Monitor, outside: Outside) ->
         print(
             f'{sample.minutes:5.1f} {sample.megabytes:7.0f} {sample.past:5.0f} '
             f'{sample.threads:8d} {sample.descriptors:4d} {sample.children:9d} '
-            f'{sample.late_frames:5d}  {scene.__name__}',
+            f'{sample.late_frames:5d}  {scene.__name__}, {answered:.1f} s to the last answer',
             flush=True,
         )
         number += 1

@@ -65,6 +65,8 @@ class Driver:
         self.codes: Counter[str] = Counter()
         self.values: dict[str, str] = {}
         self.divergences: list[str] = []
+        # Bodies of a scene that nothing was heard of.
+        self._unanswered: set[str] = set()
         self.node = NodeWithoutQosEvents('driver')
         self._executor = EventsExecutor()
         self._executor.add_node(self.node)
@@ -130,10 +132,14 @@ class Driver:
 
     # Actions
 
-    def publish_scene(self, requests: list[Spawn]) -> None:
-        """Publish requests for bodies as markers."""
+    def publish_scene(self, requests: list[Spawn]) -> float:
+        """Publish requests for bodies as markers; return the time to the last answer [s]."""
+        began = time.monotonic()
+        self._unanswered = {request.name for request in requests}
         for request in requests:
             self._spawn.publish(_marker(request))
+        self._wait(lambda: not self._unanswered, 'answers to a scene')
+        return time.monotonic() - began
 
     def spawn_some(self) -> None:
         for number in range(self.random.randrange(1, 200)):
@@ -239,6 +245,7 @@ class Driver:
     def _hear_event(self, status: DiagnosticStatus) -> None:
         code = next(pair.value for pair in status.values if pair.key == 'code')
         self.codes[code] += 1
+        self._unanswered.discard(status.hardware_id)
         if code == 'divergence':
             self.divergences.append(status.message)
 

@@ -16,7 +16,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 import math
 import re
@@ -112,9 +112,13 @@ class Sheet:
 
         The browser's own waiting evaluates text in the page, which the page's policy forbids.
         """
+        self.until(lambda: self.page.evaluate(predicate, argument), predicate)
+
+    def until(self, predicate: Callable[[], object], what: str) -> None:
+        """Wait frame by frame until something holds."""
         deadline = time.monotonic() + PATIENCE
-        while not self.page.evaluate(predicate, argument):
-            assert time.monotonic() < deadline, f'{predicate} did not come about in time'
+        while not predicate():
+            assert time.monotonic() < deadline, f'{what} did not come about in time'
             self.page.evaluate('new Promise(requestAnimationFrame)')
 
     def press(self, name: str) -> None:
@@ -136,7 +140,11 @@ class Sheet:
         return px, py
 
     def color_at(self, x: float, y: float) -> list[int]:
-        """Return red, green, blue, each 0 .. 255, at a point of the world [m]."""
+        """
+        Return red, green, blue, each 0 .. 255, at a point of the world [m].
+
+        The page knows the poses of a frame before it draws them.
+        """
         color: list[int] = self.page.evaluate(PIXEL, self.place(x, y))
         return color[:3]
 

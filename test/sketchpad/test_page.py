@@ -62,9 +62,11 @@ def test_a_rectangle_is_a_dragged_side_and_a_click_across(sheet: Sheet) -> None:
 
 
 def test_a_body_is_where_its_colour_says(sheet: Sheet) -> None:
-    assert sheet.color_at(0.0, 0.5) == [0xD0, 0x20, 0x20]
-    assert sheet.color_at(4.0, 0.5) == [0x20, 0xA0, 0x40]
-    assert sheet.color_at(-4.0, 3.0) == [0x20, 0x40, 0xD0]
+    def colors() -> list[list[int]]:
+        return [sheet.color_at(*at) for at in ((0.0, 0.5), (4.0, 0.5), (-4.0, 3.0))]
+
+    wanted = [[0xD0, 0x20, 0x20], [0x20, 0xA0, 0x40], [0x20, 0x40, 0xD0]]
+    sheet.until(lambda: colors() == wanted, 'the picture of three bodies')
     assert sheet.color_at(0.0, 1.2) not in ([0xD0, 0x20, 0x20], sheet.color_at(0.0, 0.5))
 
 
@@ -203,22 +205,25 @@ def test_a_body_is_tapped_and_changed_in_its_panel(sheet: Sheet) -> None:
 
 
 def test_what_is_drawn_next_gets_the_chosen_colour_until_any_will_do(sheet: Sheet) -> None:
-    def drawn_color(x: float) -> list[int]:
+    def draw_disc(x: float) -> None:
         before = sheet.names()
         sheet.press('Circle')
         sheet.drag((x, 5.0), (x + 0.5, 5.0))
         sheet.wait_for_new(before)
-        return sheet.color_at(x - 0.1, 5.0)
 
+    paper = sheet.color_at(1.9, 5.0)
     sheet.press('Material')
     sheet.page.get_by_label('Colour', exact=True).fill('#123456')
-    assert drawn_color(-2.0) == [0x12, 0x34, 0x56]
+    draw_disc(-2.0)
+    chosen = [0x12, 0x34, 0x56]
+    sheet.until(lambda: sheet.color_at(-2.1, 5.0) == chosen, 'a disc of that colour')
     # The panel knows the choice when it is opened again.
     sheet.press('Material')
     assert sheet.page.get_by_label('Colour', exact=True).input_value() == '#123456'
     assert not sheet.page.get_by_label('Each body another colour').is_checked()
     sheet.page.get_by_label('Each body another colour').check()
-    assert drawn_color(2.0) != [0x12, 0x34, 0x56]
+    draw_disc(2.0)
+    sheet.until(lambda: sheet.color_at(1.9, 5.0) not in (paper, chosen), 'another colour')
 
 
 def test_a_lasso_moves_several_bodies_and_deletes_them(sheet: Sheet) -> None:
