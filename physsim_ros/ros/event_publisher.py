@@ -27,12 +27,13 @@ from rclpy.publisher import Publisher
 # Depth of `~/events`: a message that is not yet acknowledged is lost when the history is full, so
 # that in a longer burst answers wait until those before have been acknowledged.
 EVENTS_DEPTH = 1000
-# The longest wait for an acknowledgement [s]. Fast DDS repeats a heartbeat every 3 s by default.
-ACK_TIMEOUT = 5.0
+# The longest wait for an acknowledgement [s]: 20 heartbeats of `fastdds_profiles.xml`, which ask
+# for one. With other profiles, each answer that displaces one before asks.
+ACK_TIMEOUT = 1.0
 # While a subscriber has stopped, half a history each period [s]: to a subscriber that reads, ten
 # times the answers that the node gives, and five periods of the heartbeat to repeat what was lost.
 PACE, PACED = 0.05, EVENTS_DEPTH // 2
-# Answers that wait for acknowledgements [1], of some 300 bytes each: five seconds of a flood.
+# Answers that wait for acknowledgements [1], of some 300 bytes each: 15 MB.
 MOST_WAITING = 50_000
 
 

@@ -20,7 +20,8 @@ the pairs of them that overlap at once, or the joints would be more than the set
 
 A body that is spawned or moved alone is counted by what its box meets in the engine's own tree,
 which is too many; the sum of these is a bound. Only where the bound exceeds the limit, the
-overlaps of the whole world are counted (`engine.overlaps`).
+overlaps of the whole world are counted (`engine.overlaps`); the boxes of that count serve for what
+is refused next, since to list hundreds of pieces the tree takes a microsecond for each.
 """
 
 from __future__ import annotations
@@ -30,8 +31,15 @@ from collections.abc import Sequence
 
 import numpy as np
 from physsim_ros.engine.body import RigidBody
+from physsim_ros.engine.ccd.broad_phase import boxes_overlap
 from physsim_ros.engine.joints.joint_set import JointSet
-from physsim_ros.engine.overlaps import core_boxes, count_inside, count_overlaps, laid_out
+from physsim_ros.engine.overlaps import (
+    core_boxes,
+    core_boxes_of,
+    count_inside,
+    count_overlaps,
+    laid_out,
+)
 from physsim_ros.engine.space import Space
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.checkpoint import WorldState
@@ -74,6 +82,9 @@ class Capacity:
         # Steps that the engine had made at the last count, and pieces of requests since then.
         self._age = -1
         self._since = 0
+        # Boxes of all cores at the last count, and the changes that the space had seen by then.
+        self._boxes: Floats = np.empty((0, 4))
+        self._changes = -1
 
     def check_body(
         self, space: Space, body: Body, pose: Pose, *, old: RigidBody | None = None
@@ -115,13 +126,7 @@ class Capacity:
         for body, pose, old in placed:
             pieces = len(body.shape.form.pieces)
             shapes += pieces - (0 if old is None else len(old.body.shape.form.pieces))
-            pieces_near = space.bodies.count_near(
-                core_boxes(body.shape, pose),
-                without=None if old is None else old.engine,
-                moving_only=body.anchored,
-                most=most,
-            )
-            added += pieces_near + _inside(body)
+            added += self._count_near(space, body, pose, old) + _inside(body)
             self._since += pieces
         _check_shapes(shapes, self.settings.max_shapes)
         new = [(body, pose) for body, pose, _ in placed]
@@ -139,6 +144,8 @@ class Capacity:
             added = self._count([*others, *new], first=names)
             added += sum(_inside(body) for body, _ in new)
             self._age, self._since = space.age, 0
+            if not names & space.bodies.by_name.keys():
+                self._boxes, self._changes = core_boxes_of(*_columns(others)), space.changes
         if before + added > most:
             raise _too_many(before + added, most)
         self._bound = before + added
@@ -178,6 +185,19 @@ class Capacity:
         if count > most:
             raise _too_many(count, most)
 
+    def _count_near(self, space: Space, body: Body, pose: Pose, old: RigidBody | None) -> int:
+        """Count the pieces that those of a body may overlap, which are too many; see above."""
+        boxes, most = core_boxes(body.shape, pose), self.settings.max_overlaps
+        is_counted = self._age == space.age and self._changes == space.changes
+        if is_counted and old is None and not body.anchored and len(boxes) == 1:
+            return int(boxes_overlap(self._boxes, np.array(boxes)).sum())
+        return space.bodies.count_near(
+            boxes,
+            without=None if old is None else old.engine,
+            moving_only=body.anchored,
+            most=most,
+        )
+
     def _count(
         self,
         placed: Sequence[tuple[Body, Pose]],
@@ -192,8 +212,7 @@ class Capacity:
         :param most: the count ends when it is greater; None is the limit of the settings
         """
         bodies = [body for body, _ in placed]
-        poses: Floats = np.array([pose for _, pose in placed], np.float64).reshape(-1, 3)
-        shapes: list[Shape] = [body.shape for body in bodies]
+        shapes, poses = _columns(placed)
         some = [first is None or body.name in first for body in bodies]
         fixed = np.array([body.anchored for body in bodies], np.bool_)
         most = self.settings.max_overlaps if most is None else most
@@ -207,6 +226,12 @@ def _poses(space: Space, without: set[str]) -> list[tuple[Body, Pose]]:
     """Return the bodies of a space and their poses, but for some."""
     rigids = space.bodies.by_name.values()
     return [(rigid.body, rigid.pose) for rigid in rigids if rigid.body.name not in without]
+
+
+def _columns(placed: Sequence[tuple[Body, Pose]]) -> tuple[list[Shape], Floats]:
+    """Return the shapes of bodies, and their poses as (n, 3) float64."""
+    poses: Floats = np.array([pose for _, pose in placed], np.float64).reshape(-1, 3)
+    return [body.shape for body, _ in placed], poses
 
 
 def _inside(body: Body) -> int:

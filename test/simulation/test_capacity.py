@@ -28,6 +28,8 @@ from physsim_ros.model.requests import (
     ChangeBody,
     Command,
     Configure,
+    Delete,
+    DeleteAll,
     Join,
     MoveBodies,
     Release,
@@ -89,6 +91,17 @@ def test_what_has_moved_apart_leaves_a_place() -> None:
     world.step(1)
 
     spawn(world, 'late/0', DISC)
+
+
+def test_what_is_deleted_leaves_a_place_within_the_step() -> None:
+    world = World(settings=FEW)
+    assert flooded(world, one_pose(12)) == 7
+    world.apply(DeleteAll())
+
+    # Also after some more were refused in between: no count is of bodies that are gone.
+    assert flooded(world, one_pose(12)) == 7
+    world.apply(Delete(name='spawn/0'))
+    assert flooded(world, one_pose(12)[5:]) == 6
 
 
 @pytest.mark.parametrize(
