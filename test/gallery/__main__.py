@@ -23,9 +23,6 @@ import sys
 import tempfile
 
 from physsim_ros.drawing import DrawingSession, DrawingSettings, Tool
-from physsim_ros.model.body_properties import Properties
-from physsim_ros.model.requests import MoveBodies, Spawn
-from physsim_ros.model.shapes import Box
 from physsim_ros.model.snapshot import Frame
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.view.frame_context import FrameContext
@@ -33,6 +30,7 @@ from physsim_ros.view.recording import FrameRecorder
 from PIL import Image
 import rerun as rr
 
+from .car_story import car_story
 from .page import draw_page
 from ..pictures import headless_viewer, HeadlessViewer
 from ..worlds.digests import scene, SCENES
@@ -118,35 +116,6 @@ def draw_drawing(viewer: HeadlessViewer, directory: Path) -> None:
     recording.close()
     viewer.open_recording(recording.path)
     viewer.picture(now).save(DOCS / 'drawing.png', optimize=True)
-
-
-def car_story() -> list[Frame]:
-    """Return the frames of a car that drives on, goes back, and meets a wall that was moved."""
-    simulation = scene('drawings/car')
-    simulation.watch_contacts(True)
-    wall = Spawn(
-        name='wall/0',
-        shape=Box(width=0.3, height=1.7),
-        pose=(11.0, 6.4, 0.0),
-        color=(0.9, 0.3, 0.2, 1.0),
-        properties=Properties(anchored=True),
-    )
-    frames: list[Frame] = []
-    now = 0
-
-    def run(count: int, speed: float) -> None:
-        nonlocal now
-        simulation.speed = speed
-        for _ in range(count):
-            now += 16_666_667
-            frames.extend(simulation.advance(now))
-
-    simulation.submit(wall, topic='~/spawn')
-    run(200, 1.0)
-    run(65, -2.0)
-    simulation.submit(MoveBodies(names=('wall/0',), by=(0.0, -2.5)), topic='page')
-    run(180, 1.0)
-    return frames
 
 
 def draw_window(viewer: HeadlessViewer, directory: Path) -> None:

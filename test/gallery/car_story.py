@@ -1,0 +1,53 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The story that the animation of the README tells, as frames."""
+
+from __future__ import annotations
+
+from physsim_ros.model.body_properties import Properties
+from physsim_ros.model.requests import MoveBodies, Spawn
+from physsim_ros.model.shapes import Box
+from physsim_ros.model.snapshot import Frame
+
+from ..worlds.digests import scene
+
+
+def car_story() -> list[Frame]:
+    """Return the frames of a car that drives on, goes back, and meets a wall that was moved."""
+    simulation = scene('drawings/car')
+    simulation.watch_contacts(True)
+    wall = Spawn(
+        name='wall/0',
+        shape=Box(width=0.3, height=1.7),
+        pose=(11.0, 6.4, 0.0),
+        color=(0.9, 0.3, 0.2, 1.0),
+        properties=Properties(anchored=True),
+    )
+    frames: list[Frame] = []
+    now = 0
+
+    def run(count: int, speed: float) -> None:
+        nonlocal now
+        simulation.speed = speed
+        for _ in range(count):
+            now += 16_666_667
+            frames.extend(simulation.advance(now))
+
+    simulation.requests.submit(wall, topic='~/spawn')
+    run(200, 1.0)
+    run(65, -2.0)
+    simulation.requests.submit(MoveBodies(names=('wall/0',), by=(0.0, -2.5)), topic='page')
+    run(180, 1.0)
+    return frames
