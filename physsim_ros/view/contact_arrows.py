@@ -33,8 +33,8 @@ import rerun as rr
 
 PATH = 'world/contacts'
 COLOR = (214, 39, 40)
-# Greatest length of an arrow, in lengths of that of one weight.
-_LONGEST = 3.0
+# Greatest length of an arrow, in lengths of that of the scale; the legend tells its force.
+LONGEST = 3.0
 # Bounds of the length of the arrow of one weight [units].
 _SHORT, _LONG = 0.15, 1.0
 # Standard gravity [m/s²], for the scale in worlds without one.
@@ -124,7 +124,7 @@ class ContactArrows:
         scale = self._scale
         vectors = forces * (scale.length / scale.force)
         lengths = np.hypot(vectors[:, 0], vectors[:, 1])[:, None]
-        vectors *= np.minimum(1.0, _LONGEST * scale.length / np.maximum(lengths, 1e-12))
+        vectors *= np.minimum(1.0, LONGEST * scale.length / np.maximum(lengths, 1e-12))
         return frame.contacts.points, vectors
 
 

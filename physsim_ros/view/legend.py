@@ -21,7 +21,7 @@ import itertools
 import numpy as np
 from physsim_ros.view.camera import PIXELS
 from physsim_ros.view.colors import INK
-from physsim_ros.view.contact_arrows import COLOR, ForceScale
+from physsim_ros.view.contact_arrows import COLOR, ForceScale, LONGEST
 from physsim_ros.view.frame_batch import FrameBatch
 from physsim_ros.view.joint_colors import full_scale_force, PULL, PUSH, SLATE
 import rerun as rr
@@ -29,7 +29,7 @@ import rerun as rr
 # In pixels of the image of the camera, so that they stay when the camera moves.
 _ARROW, _BAR, _LABELS = (f'world/camera/legend/{name}' for name in ('arrow', 'bar', 'labels'))
 # Left end of the arrow, and middle of the bar [pixels].
-_ARROW_AT, _BAR_AT = (300.0, 8.0), (620.0, 8.0)
+_ARROW_AT, _BAR_AT = (300.0, 8.0), (680.0, 8.0)
 # Half the length of the bar [pixels], and its number of colours.
 _HALF, _COLORS = 100.0, 11
 # Distance of labels from the arrow and the bar [pixels].
@@ -77,7 +77,8 @@ class Legend:
         long = PIXELS * forces.length / unit
         arrow = rr.Arrows2D.columns(origins=[(x, y)], vectors=[(long, 0.0)])
         self._recording.send_columns(_ARROW, times, arrow)
-        labels = [((x + long / 2, y + _BELOW), f'contact {forces.force:g} N')]
+        words = f'contact {forces.force:g} N, cut at {LONGEST * forces.force:g} N'
+        labels = [((x + long / 2, y + _BELOW), words)]
         strips = self._strips if scene.joints else []
         if strips:
             x, y = _BAR_AT
