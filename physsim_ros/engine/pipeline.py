@@ -39,6 +39,7 @@ import numpy as np
 from physsim_ros.engine.batch_io import BatchIO
 from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.ccd.continuous import ContinuousCollision
+from physsim_ros.engine.ccd.hulls import Hulls
 from physsim_ros.engine.contacts.contact_report import ContactReport
 from physsim_ros.engine.joints.joint_set import JointSet
 from physsim_ros.engine.stages.contact_normal import contact_at_impact
@@ -82,10 +83,11 @@ class Pipeline:
         self.mouse_joints = MouseJoints(bodies)
         self.half_step = HalfStep(engine, io)
         self.resting_damping = RestingDamping(io, dt)
-        self.continuous_collision = ContinuousCollision(engine)
+        hulls = Hulls()
+        self.continuous_collision = ContinuousCollision(engine, hulls)
         self.impact_propagation = ImpactPropagation(engine, io)
         self.contact_report = ContactReport(io)
-        self._internal_edges = InternalEdges()
+        self._internal_edges = InternalEdges(hulls)
         self._joints = joints
         self._engine = engine
         self._shapes = shapes

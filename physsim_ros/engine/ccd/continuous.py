@@ -31,9 +31,9 @@ from __future__ import annotations
 import numpy as np
 from physsim_ros.engine.body_table import BodyTable
 from physsim_ros.engine.ccd.broad_phase import boxes_overlap
+from physsim_ros.engine.ccd.hulls import Hulls
 from physsim_ros.engine.ccd.impact_islands import ImpactIslands
 from physsim_ros.engine.ccd.standing import Standing, standing_shapes
-from physsim_ros.engine.ccd.time_of_impact import Hull, hull
 from physsim_ros.engine.step_context import StepContext
 from physsim_ros.engine.work_correction import is_jointed, take_back_work
 from physsim_ros.model.arrays import Floats, Ints
@@ -49,13 +49,14 @@ class ContinuousCollision:
     Ends the coming step of fast bodies where they first hit something.
 
     :param space: of the engine
+    :param hulls: of its shapes
     """
 
-    def __init__(self, space: pymunk.Space) -> None:
+    def __init__(self, space: pymunk.Space, hulls: Hulls) -> None:
         self._space = space
+        self._hulls = hulls
         self._table: BodyTable | None = None
         self._standing: Standing | None = None
-        self._hulls: dict[pymunk.Body, list[Hull]] = {}
 
     def invalidate(self) -> None:
         """Read shapes anew: a body that never moves by itself has been moved."""
@@ -70,12 +71,12 @@ class ContinuousCollision:
         if not fast.any():
             return
         if self._table is not table or self._standing is None:
-            self._table, self._standing = table, standing_shapes(self._space, table)
-            self._hulls.clear()
+            standing = standing_shapes(self._space, table, self._hulls)
+            self._table, self._standing = table, standing
         rows = np.flatnonzero(fast)
         if len(rows) <= FEW and not _boxes_meet(table, self._standing, moves, rows):
             return
-        step = ImpactIslands(table, self._standing, moves, self._hulls_of)
+        step = ImpactIslands(table, self._standing, moves, self._hulls)
         for row, shift in step.shifts(fast):
             engine = table.bodies[row].engine
             back = Vec2d(*shift[:2].tolist())
@@ -88,12 +89,6 @@ class ContinuousCollision:
                 take_back_work(self._space, engine, -way * min(max(share, 0.0), 1.0), dt)
                 context.twists[row] = *engine.velocity, engine.angular_velocity
             table.forget_state()
-
-    def _hulls_of(self, engine: pymunk.Body) -> list[Hull]:
-        """Return the hulls of a body, in its own frame."""
-        if engine not in self._hulls:
-            self._hulls[engine] = [hull(shape) for shape in engine.shapes]
-        return self._hulls[engine]
 
 
 def _boxes_meet(table: BodyTable, standing: Standing, moves: Floats, rows: Ints) -> bool:

@@ -22,19 +22,19 @@ that they have met.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 import itertools
 from typing import NamedTuple
 
 import numpy as np
 from physsim_ros.engine.body_table import BodyTable
 from physsim_ros.engine.ccd.broad_phase import boxes_overlap
+from physsim_ros.engine.ccd.hulls import Hull, Hulls
 from physsim_ros.engine.ccd.standing import Standing
 from physsim_ros.engine.ccd.swept_boxes import SweptBoxes
-from physsim_ros.engine.ccd.time_of_impact import first_impacts, Hull, Motions, Pairs, SLOP
+from physsim_ros.engine.ccd.time_of_impact import first_impacts, Motions, Pairs, SLOP
 from physsim_ros.engine.islands import ranges
 from physsim_ros.model.arrays import Flags, Floats, Ints
-import pymunk
 
 # Impacts one after the other in a step that a body takes part in, at most: so many may touch in a
 # row before a wall. The engine's own result holds for what is left.
@@ -63,13 +63,13 @@ class ImpactIslands:
         table: BodyTable,
         standing: Standing,
         moves: Floats,
-        hulls_of: Callable[[pymunk.Body], list[Hull]],
+        hulls: Hulls,
     ) -> None:
         self._engines = [rigid.engine for rigid in table.bodies]
         self._columns = columns = table.columns
         poses = table.state[:, :3]
         self._standing = standing
-        self._hulls_of = hulls_of
+        self._hulls = hulls
         count, more = len(poses), len(standing.hulls)
         self._count = count
         ending, none = (0, more), (0, 0)
@@ -121,7 +121,7 @@ class ImpactIslands:
         if not len(one):
             return []
         rows, places = np.unique(np.stack((one, other)), return_inverse=True)
-        hulls = [self._hulls(row) for row in rows.tolist()]
+        hulls = [self._hulls_of(row) for row in rows.tolist()]
         counts = np.array([len(each) for each in hulls])
         firsts, (a, b) = np.cumsum(counts) - counts, places.reshape(2, -1)
         # Each shape of one with each of the other.
@@ -154,10 +154,10 @@ class ImpactIslands:
         keep = self._swept.come_near(one, other)
         return one[keep], other[keep], depth[keep]
 
-    def _hulls(self, row: int) -> list[Hull]:
+    def _hulls_of(self, row: int) -> list[Hull]:
         if row >= self._count:
             return [self._standing.hulls[row - self._count]]
-        return self._hulls_of(self._engines[row])
+        return self._hulls.of_body(self._engines[row])
 
     def _collide(self, one: Ints, other: Ints) -> Flags:
         """Tell which pairs do not pass through each other, and are not one island yet."""

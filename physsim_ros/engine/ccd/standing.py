@@ -16,13 +16,14 @@
 
 from __future__ import annotations
 
-from typing import cast, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from physsim_ros.engine.body_table import BodyTable
-from physsim_ros.engine.ccd.time_of_impact import Hull, hull, ROUND
+from physsim_ros.engine.ccd.hulls import Hull, Hulls
+from physsim_ros.engine.ccd.time_of_impact import ROUND
+from physsim_ros.engine.shape_pair import body_of
 from physsim_ros.model.arrays import Floats, Ints
-from physsim_ros.model.transform import turned
 import pymunk
 
 
@@ -45,20 +46,14 @@ class Standing(NamedTuple):
         return np.array([max(len(each.corners), ROUND) for each in self.hulls], np.float64)
 
 
-def standing_shapes(space: pymunk.Space, table: BodyTable) -> Standing:
+def standing_shapes(space: pymunk.Space, table: BodyTable, hulls: Hulls) -> Standing:
     """Return all shapes that never move, but sensors."""
     shapes = [(shape, -1) for shape in space.static_body.shapes]
     for row, rigid in enumerate(table.bodies):
         if rigid.body.anchored and not rigid.body.sensor:
             shapes += [(shape, row) for shape in rigid.engine.shapes]
-    hulls = []
-    for shape, _ in shapes:
-        body, local = cast('pymunk.Body', shape.body), hull(shape)
-        corners = turned(local.corners, np.array(body.angle)) + np.array(body.position)
-        normals = turned(local.normals, np.array(body.angle))
-        hulls.append(Hull(corners, normals, local.radius, 0.0))
     return Standing(
-        hulls=hulls,
+        hulls=[hulls.of_shape(shape).placed_on(body_of(shape)) for shape, _ in shapes],
         boxes=np.array([tuple(shape.bb) for shape, _ in shapes], np.float64).reshape(-1, 4),
         places=np.array([place for _, place in shapes], np.int64),
     )

@@ -25,12 +25,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import cast, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
+from physsim_ros.engine.ccd.hulls import Hull
 from physsim_ros.model.arrays import Flags, Floats, Ints
-from physsim_ros.model.transform import next_vertices, turned
-import pymunk
+from physsim_ros.model.transform import turned
 
 # Overlap that the engine leaves standing [m]; its own 0.1 is 10 cm in a metre world.
 SLOP = 0.005
@@ -47,38 +47,6 @@ ROUND = 4
 _PART = 200_000
 # Shapes have met when they overlap to within this share of the skin.
 _TOLERANCE = 0.1
-
-
-class Hull(NamedTuple):
-    """
-    Convex hull of one to n points, rounded.
-
-    :ivar corners: (v, 2) float64, counter-clockwise, in the body's frame [m]
-    :ivar normals: (v, 2) float64: outwards, of length 1; (0, 0) of a single point
-    :ivar radius: of the rounding [m]
-    :ivar reach: greatest distance of a corner from the body's origin [m]
-    """
-
-    corners: Floats
-    normals: Floats
-    radius: float
-    reach: float
-
-
-def hull(shape: pymunk.Shape) -> Hull:
-    """Return the hull of a shape, in its body's frame."""
-    if isinstance(shape, pymunk.Circle):
-        points, radius = [shape.offset], shape.radius
-    elif isinstance(shape, pymunk.Segment):
-        points, radius = [shape.a, shape.b], shape.radius
-    else:
-        polygon = cast('pymunk.Poly', shape)
-        points, radius = polygon.get_vertices(), polygon.radius
-    corners = np.array(points, dtype=np.float64)
-    edges = next_vertices(corners) - corners
-    lengths = np.hypot(edges[:, 0], edges[:, 1])[:, None]
-    normals = np.column_stack((edges[:, 1], -edges[:, 0])) / np.where(lengths, lengths, 1.0)
-    return Hull(corners, normals, radius, float(np.hypot(*corners.T).max()))
 
 
 @dataclass(frozen=True, slots=True)

@@ -32,8 +32,9 @@ Without it law 6 (discs part along the normal of their impact, from discs and fr
 
 from __future__ import annotations
 
-from typing import cast, NamedTuple
+from typing import NamedTuple
 
+from physsim_ros.engine.shape_pair import body_of, ShapePair
 from physsim_ros.engine.step_context import StepContext
 import pymunk
 from pymunk import Circle, Vec2d
@@ -47,9 +48,7 @@ class _Place(NamedTuple):
 
 
 def contact_at_impact(
-    contact: pymunk.ContactPointSet,
-    shapes: tuple[pymunk.Shape, pymunk.Shape],
-    context: StepContext,
+    contact: pymunk.ContactPointSet, shapes: ShapePair, context: StepContext
 ) -> pymunk.ContactPointSet | None:
     """
     Return the contact of two shapes that begin to touch as it is at their impact.
@@ -81,14 +80,12 @@ def contact_at_impact(
     return pymunk.ContactPointSet(normal, (point,))
 
 
-def _overlapped(
-    contact: pymunk.ContactPointSet, shapes: tuple[pymunk.Shape, pymunk.Shape], dt: float
-) -> bool:
+def _overlapped(contact: pymunk.ContactPointSet, shapes: ShapePair, dt: float) -> bool:
     """Return whether a contact is deeper than the two bodies can have approached in a step."""
     (point,) = contact.points
     way = 0.0
     for shape in shapes:
-        body = cast('pymunk.Body', shape.body)
+        body = body_of(shape)
         arm = point.point_a.get_distance(body.position)
         way += (body.velocity.length + abs(body.angular_velocity) * arm) * dt
     return -point.distance > way
@@ -96,7 +93,7 @@ def _overlapped(
 
 def _places(shape: pymunk.Shape, context: StepContext) -> tuple[_Place, _Place, _Place]:
     """Return where a shape is as the step begins, where it would end freely, and where it is."""
-    body, dt = cast('pymunk.Body', shape.body), context.dt
+    body, dt = body_of(shape), context.dt
     now = _place(shape, body.position, body.angle)
     row = context.table.row_of(body)
     if row is None:

@@ -30,9 +30,9 @@ from __future__ import annotations
 
 from collections import Counter
 import math
-from typing import cast
 
 from physsim_ros.engine.ccd.time_of_impact import SLOP
+from physsim_ros.engine.shape_pair import body_of, ShapePair
 from physsim_ros.engine.work_correction import is_jointed, take_back_work
 import pymunk
 
@@ -42,7 +42,7 @@ MOST_PIECES = 4000
 
 def project_contact(
     contact: pymunk.ContactPointSet,
-    shapes: tuple[pymunk.Shape, pymunk.Shape],
+    shapes: ShapePair,
     space: pymunk.Space,
     placed: Counter[pymunk.Body],
 ) -> None:
@@ -54,7 +54,7 @@ def project_contact(
     point = min(contact.points, key=lambda point: point.distance)
     if -point.distance <= SLOP:
         return
-    bodies = tuple(cast('pymunk.Body', shape.body) for shape in shapes)
+    bodies = tuple(body_of(shape) for shape in shapes)
     if any(placed[body] >= MOST_PIECES for body in bodies):
         return
     dt, normal = space.current_time_step, contact.normal

@@ -29,12 +29,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 import math
-from typing import cast
-from weakref import WeakKeyDictionary
 
 import numpy as np
-from physsim_ros.engine.ccd.time_of_impact import Hull, hull, SLOP
-import pymunk
+from physsim_ros.engine.ccd.hulls import Hull, Hulls
+from physsim_ros.engine.ccd.time_of_impact import SLOP
+from physsim_ros.engine.shape_pair import body_of, ShapePair
 from pymunk import Circle, ContactPoint, ContactPointSet, Vec2d
 
 # Distance from a corner within which overlaps of the slop along two faces lie [m]: the diagonal
@@ -43,23 +42,25 @@ _NEAR = 4.0 * SLOP
 # Approach by speed up to which a body slides over a face [1]: the sine of 10 degrees.
 _GRAZING = 0.17
 
-Shapes = tuple[pymunk.Shape, pymunk.Shape]
-
 
 class InternalEdges:
-    """The rule for contacts at seams, with the hulls of shapes that it has needed so far."""
+    """
+    The rule for contacts at seams.
 
-    def __init__(self) -> None:
-        self._hulls: WeakKeyDictionary[pymunk.Shape, Hull] = WeakKeyDictionary()
+    :param hulls: of the shapes in the space
+    """
 
-    def slide_over(self, contact: ContactPointSet, shapes: Shapes) -> ContactPointSet | None:
+    def __init__(self, hulls: Hulls) -> None:
+        self._hulls = hulls
+
+    def slide_over(self, contact: ContactPointSet, shapes: ShapePair) -> ContactPointSet | None:
         """
         Return the contact of two shapes that begin to touch at a seam.
 
         :param contact: with a point or two, of the engine or at the impact
         :return: along the face that the shapes approach slowest; None where they meet no seam
         """
-        point, (body_a, body_b) = contact.points[0], (_body(shape) for shape in shapes)
+        point, (body_a, body_b) = contact.points[0], (body_of(shape) for shape in shapes)
         velocity = body_b.velocity_at_world_point(point.point_b)
         velocity -= body_a.velocity_at_world_point(point.point_a)
         slowest, chosen = -velocity.dot(contact.normal), None
@@ -67,7 +68,7 @@ class InternalEdges:
             return None
         slowest = min(slowest, _GRAZING * velocity.length)
         middles = [(it.point_a + it.point_b) / 2 for it in contact.points]
-        a, b = (self._placed(shape) for shape in shapes)
+        a, b = (self._hulls.of_shape(shape).placed_on(body_of(shape)) for shape in shapes)
         for one, other, sign in ((a, b, 1.0), (b, a, -1.0)):
             for normal, depth in _shallow_faces(one, other):
                 approach = -velocity.dot(normal) * sign
@@ -83,34 +84,17 @@ class InternalEdges:
         points = tuple(ContactPoint(it + half, it - half, -depth) for it in middles)
         return ContactPointSet(normal, points)
 
-    def _is_at_corners(self, shapes: Shapes, point: ContactPoint) -> bool:
+    def _is_at_corners(self, shapes: ShapePair, point: ContactPoint) -> bool:
         """Return whether a contact lies near a corner of each shape that has some."""
         places = zip(shapes, (point.point_a, point.point_b), strict=True)
         cornered = [(shape, place) for shape, place in places if not isinstance(shape, Circle)]
         for shape, place in cornered:
-            x, y = _body(shape).world_to_local(place)
-            local = self._hull(shape)
+            x, y = body_of(shape).world_to_local(place)
+            local = self._hulls.of_shape(shape)
             near = _NEAR + local.radius
             if all(math.hypot(x - u, y - v) > near for u, v in local.corners.tolist()):
                 return False
         return bool(cornered)
-
-    def _hull(self, shape: pymunk.Shape) -> Hull:
-        if shape not in self._hulls:
-            self._hulls[shape] = hull(shape)
-        return self._hulls[shape]
-
-    def _placed(self, shape: pymunk.Shape) -> Hull:
-        """Return the hull of a shape where it is in the world."""
-        body, local = _body(shape), self._hull(shape)
-        cos, sin = body.rotation_vector
-        turn = np.array(((cos, sin), (-sin, cos)))
-        corners = local.corners @ turn + np.array(body.position)
-        return Hull(corners, local.normals @ turn, local.radius, local.reach)
-
-
-def _body(shape: pymunk.Shape) -> pymunk.Body:
-    return cast('pymunk.Body', shape.body)
 
 
 def _shallow_faces(one: Hull, other: Hull) -> Iterator[tuple[Vec2d, float]]:

@@ -1,0 +1,82 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+
+"""Hulls: the convex shapes of the engine as arrays, each made when it is first needed."""
+
+from __future__ import annotations
+
+from typing import cast, NamedTuple
+from weakref import WeakKeyDictionary
+
+import numpy as np
+from physsim_ros.model.arrays import Floats
+from physsim_ros.model.transform import next_vertices, turned
+import pymunk
+
+
+class Hull(NamedTuple):
+    """
+    Convex hull of one to n points, rounded.
+
+    :ivar corners: (v, 2) float64, counter-clockwise, in the body's frame or in the world [m]
+    :ivar normals: (v, 2) float64: outwards, of length 1; (0, 0) of a single point
+    :ivar radius: of the rounding [m]
+    :ivar reach: greatest distance of a corner from the body's origin [m]
+    """
+
+    corners: Floats
+    normals: Floats
+    radius: float
+    reach: float
+
+    def placed_on(self, body: pymunk.Body) -> Hull:
+        """Return the hull, given in the frame of a body, in the world."""
+        yaw = np.array(body.angle)
+        corners = turned(self.corners, yaw) + np.array(body.position)
+        return Hull(corners, turned(self.normals, yaw), self.radius, self.reach)
+
+
+class Hulls:
+    """The hulls of shapes, in the frames of their bodies; shapes never change."""
+
+    def __init__(self) -> None:
+        self._by_shape: WeakKeyDictionary[pymunk.Shape, Hull] = WeakKeyDictionary()
+
+    def of_shape(self, shape: pymunk.Shape) -> Hull:
+        """Return the hull of a shape."""
+        found = self._by_shape.get(shape)
+        if found is None:
+            found = self._by_shape[shape] = hull_of(shape)
+        return found
+
+    def of_body(self, body: pymunk.Body) -> list[Hull]:
+        """Return the hulls of the shapes of a body."""
+        return [self.of_shape(shape) for shape in body.shapes]
+
+
+def hull_of(shape: pymunk.Shape) -> Hull:
+    """Return the hull of a shape, in its body's frame."""
+    if isinstance(shape, pymunk.Circle):
+        points, radius = [shape.offset], shape.radius
+    elif isinstance(shape, pymunk.Segment):
+        points, radius = [shape.a, shape.b], shape.radius
+    else:
+        polygon = cast('pymunk.Poly', shape)
+        points, radius = polygon.get_vertices(), polygon.radius
+    corners = np.array(points, dtype=np.float64)
+    edges = next_vertices(corners) - corners
+    lengths = np.hypot(edges[:, 0], edges[:, 1])[:, None]
+    normals = np.column_stack((edges[:, 1], -edges[:, 0])) / np.where(lengths, lengths, 1.0)
+    return Hull(corners, normals, radius, float(np.hypot(*corners.T).max()))

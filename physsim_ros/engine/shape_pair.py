@@ -1,0 +1,29 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+
+"""Pairs of shapes in the engine, as collision callbacks have them, and the body of a shape."""
+
+from __future__ import annotations
+
+from typing import cast
+
+import pymunk
+
+ShapePair = tuple[pymunk.Shape, pymunk.Shape]
+
+
+def body_of(shape: pymunk.Shape) -> pymunk.Body:
+    """Return the body of a shape in a space; Pymunk's type allows for a shape without one."""
+    return cast('pymunk.Body', shape.body)
