@@ -28,6 +28,9 @@ Bounds = tuple[float, float, float, float]
 
 # Greatest gravity [m/s²]: a thousand times that of the earth, 40 m/s in a step.
 STRONGEST = 1e4
+# Greatest number of joints on one body, beside `max_joints` of the world: a new joint takes a
+# microsecond for each other one on its bodies.
+MOST_JOINTS_ON_BODY = 1000
 # Greatest number of samples of a stroke: a minute of a pen at 160 Hz.
 MOST_SAMPLES = 10_000
 
@@ -49,7 +52,7 @@ class WorldSettings:
     :param max_bodies: greatest number of bodies
     :param max_shapes: greatest number of their convex pieces
     :param max_overlaps: greatest number of pairs of pieces that overlap at once by a request
-    :param max_joints: greatest number of joints
+    :param max_joints: greatest number of joints, of which `MOST_JOINTS_ON_BODY` on one body
     :raises Malformed: a number is not finite or an array has the wrong length
     :raises BadProperty: a value is out of range
     """

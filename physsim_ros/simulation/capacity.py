@@ -46,7 +46,7 @@ from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import WorldFull
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.scene import Body, Joint
-from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.settings import MOST_JOINTS_ON_BODY, WorldSettings
 from physsim_ros.model.shapes import Shape
 from physsim_ros.model.transform import Pose
 
@@ -56,8 +56,6 @@ _INSIDE = 10
 # Pieces and overlaps in a world for each piece of requests after which the overlaps are counted
 # anew within a step: a count takes some 3 µs for each, a request a third of a millisecond more.
 _PIECE = 100
-# Joints of one body [1]: a new one takes a microsecond for each of them.
-MOST_ON_BODY = 1000
 
 
 class Capacity:
@@ -250,8 +248,10 @@ def _check_joints(count: int, most: int) -> None:
 
 
 def _check_on_body(count: int, body: str) -> None:
-    if count > MOST_ON_BODY and body != WORLD:
-        raise WorldFull(f'{body} would have {count} joints; a body has at most {MOST_ON_BODY}')
+    if count > MOST_JOINTS_ON_BODY and body != WORLD:
+        raise WorldFull(
+            f'{body} would have {count} joints; a body has at most {MOST_JOINTS_ON_BODY}'
+        )
 
 
 def _too_many(count: int, most: int) -> WorldFull:

@@ -49,6 +49,11 @@ class RequestHandler:
         self._playback = playback
         self._queue = queue
 
+    @property
+    def has_waiting(self) -> bool:
+        """Return whether requests wait."""
+        return bool(self._queue)
+
     def apply_waiting(self) -> None:
         """Apply the requests that wait, and collect their answers."""
         for waiting in self._queue.take_all():
@@ -105,6 +110,17 @@ class RequestHandler:
                 self.answers.append(
                     Answer(topic='~/drag/feedback', subject=grip.body, message=message)
                 )
+
+    def take_answers(self) -> tuple[Answer, ...]:
+        """Return the answers that wait, and drop them."""
+        answers = tuple(self.answers)
+        self.answers.clear()
+        return answers
+
+    def report_oldest(self, more: str = '') -> None:
+        """Answer that the moment that is shown is the oldest; nobody has asked for it."""
+        message = f'{self._playback.time} is the oldest that is kept{more}'
+        self.answers.append(Answer(topic='history', message=message))
 
     def _answer(self, request: Request | Seek | Refusal, waiting: Waiting) -> Answer:
         """Apply a request that waited, and return its answer."""

@@ -29,6 +29,7 @@ from physsim_ros.model.requests import Request, Restore
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.model.timeline import TimelineStatus
+from physsim_ros.simulation.frame_loop import FrameLoop
 from physsim_ros.simulation.history_memory import DEFAULT_MEMORY, HistoryMemory
 from physsim_ros.simulation.past import Past
 from physsim_ros.simulation.playback import Playback
@@ -36,8 +37,6 @@ from physsim_ros.simulation.request_handler import RequestHandler
 from physsim_ros.simulation.request_queue import RequestQueue
 from physsim_ros.simulation.world import World
 
-# Frames in one call: the one that is due, and one to make up for a late one.
-_FRAMES_A_CALL = 2
 # Simulation time from one checkpoint to the next [s]: at most so much is replayed to reach a step.
 CHECKPOINTS = 3.0
 
@@ -90,6 +89,7 @@ class Simulation:
         self._playback = Playback(self.past, speed=speed)
         self.requests = RequestQueue()
         self._handler = RequestHandler(self.past, self._playback, self.requests)
+        self._frames = FrameLoop(self.past, self._playback, self._handler)
 
     # Reading
 
@@ -134,7 +134,7 @@ class Simulation:
         self._playback.seek_shown()
         if not self.past.limit_length(history):
             self._playback.note_jump()
-            self._report_oldest()
+            self._handler.report_oldest()
 
     def limit_memory(self, megabytes: float) -> None:
         """
@@ -294,83 +294,21 @@ class Simulation:
         :return: the frames, in the order in which they are shown; none where nothing is due and
             nothing has changed
         """
-        if self.speed > 0 or self.requests:
-            self._playback.seek_shown()
-        if not self.continue_seek(is_overdue):
-            return ()
-        self._handler.apply_waiting()
-        self._handler.hands.note_time(now_ns, paused=self.speed == 0)
-        if self.speed > 0:
-            self._handler.release_grips()
-        frames = []
-        for _ in range(_FRAMES_A_CALL):
-            steps = self._playback.clock.due(now_ns, self.step)
-            if steps == 0:
-                break
-            if steps > 0:
-                frames.append(self._play_frame(steps, is_overdue))
-            elif frame := self._rewind_frame(-steps, is_overdue):
-                frames.append(frame)
-            else:
-                break
-            if self.speed == 0 or is_overdue():
-                break
-        if not frames and self._playback.changed:
-            frames.append(self._frame(moved=False))
-        return tuple(frames)
+        return self._frames.advance(now_ns, is_overdue)
 
     def settle(self) -> Frame | None:
         """Apply the requests that wait, without a step; return a frame if there were any."""
-        self._handler.apply_waiting()
-        return self._frame(moved=False) if self._playback.changed else None
+        return self._frames.settle()
 
     def take_answers(self) -> tuple[Answer, ...]:
         """Return the answers that wait, where no frame shows anything new."""
-        answers = tuple(self._handler.answers)
-        self._handler.answers.clear()
-        return answers
+        return self._handler.take_answers()
 
     def advance_frame(self) -> Frame:
         """Apply the requests that wait, and advance by one publish period, at any speed."""
-        self._handler.apply_waiting()
-        self._handler.release_grips()
-        self._playback.clock.restart()
-        return self._play_frame(self._playback.steps_to_period)
-
-    def _play_frame(self, steps: int, is_overdue: Callable[[], bool] = lambda: False) -> Frame:
-        self._playback.play(steps, is_overdue)
-        return self._frame(moved=True)
-
-    def _rewind_frame(self, steps: int, is_overdue: Callable[[], bool]) -> Frame | None:
-        """Return a frame further back; None where it has to be replayed for longer."""
-        before = self.step
-        if not self._playback.rewind(steps, is_overdue):
-            return None
-        if self.step <= self.past.timeline.history.oldest:
-            self.speed = 0.0
-            self._report_oldest('; paused')
-        return self._frame(moved=self.step < before)
-
-    def _frame(self, *, moved: bool) -> Frame:
-        snapshot, contacts = self._playback.observe_frame(moved=moved)
-        answers = self._handler.answers
-        answers += self.past.fit_memory(self._playback.moment)
-        answers += self.past.take_answers()
-        self._playback.changed = False
-        return Frame(
-            snapshot=snapshot,
-            contacts=contacts if self.past.watching else None,
-            answers=self.take_answers(),
-            speed=self.speed,
-            moved=moved,
-            past=snapshot.step < self.past.timeline.history.head,
-        )
+        return self._frames.advance_period()
 
     def _prepare_change(self) -> None:
         """Apply the requests that wait, and have the world go to the moment that is shown."""
         self._handler.apply_waiting()
         self._playback.seek_shown()
-
-    def _report_oldest(self, more: str = '') -> None:
-        message = f'{self._playback.time} is the oldest that is kept{more}'
-        self._handler.answers.append(Answer(topic='history', message=message))

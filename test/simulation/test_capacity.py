@@ -237,12 +237,12 @@ def test_joints_are_counted(monkeypatch: pytest.MonkeyPatch, *, in_all: bool) ->
     world = World(settings=WorldSettings(max_joints=4 if in_all else 100))
     spawn(world, 'a/0', DISC, (0.0, 0.0, 0.0))
     if not in_all:
-        monkeypatch.setattr(capacity, 'MOST_ON_BODY', 4)
+        monkeypatch.setattr(capacity, 'MOST_JOINTS_ON_BODY', 4)
 
     assert flooded(world, axles(7)) == 3
     assert flooded(world, [*axles(4), Restore(state=world.save())]) == 0
     state = replace(world.save(), settings=WorldSettings(max_joints=3))
-    monkeypatch.setattr(capacity, 'MOST_ON_BODY', 3)
+    monkeypatch.setattr(capacity, 'MOST_JOINTS_ON_BODY', 3)
     assert flooded(world, [Restore(state=state)]) == 1
 
 

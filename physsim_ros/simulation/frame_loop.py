@@ -1,0 +1,121 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+The frame loop: requests that wait are applied, the steps that are due are made, frames come out.
+
+Law: answers go out with the first frame after their requests; a frame without a step shows what
+requests have changed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from physsim_ros.model.snapshot import Frame
+from physsim_ros.simulation.past import Past
+from physsim_ros.simulation.playback import Playback
+from physsim_ros.simulation.request_handler import RequestHandler
+
+# Frames in one call: the one that is due, and one to make up for a late one.
+_FRAMES_A_CALL = 2
+
+
+class FrameLoop:
+    """
+    The frames of a world, forward and back.
+
+    :param past: with the budget of memory that each frame is fitted into
+    :param playback: the moment that is shown
+    :param handler: of the requests that wait
+    """
+
+    def __init__(self, past: Past, playback: Playback, handler: RequestHandler) -> None:
+        self._past = past
+        self._playback = playback
+        self._handler = handler
+
+    def advance(self, now_ns: int, is_overdue: Callable[[], bool]) -> tuple[Frame, ...]:
+        """
+        Return the frames that are due at a steady time [ns], see `Simulation.advance`.
+
+        :param is_overdue: whether the call has taken too long
+        """
+        playback = self._playback
+        if playback.speed > 0 or self._handler.has_waiting:
+            playback.seek_shown()
+        if not playback.continue_seek(is_overdue):
+            return ()
+        self._handler.apply_waiting()
+        self._handler.hands.note_time(now_ns, paused=playback.speed == 0)
+        if playback.speed > 0:
+            self._handler.release_grips()
+        frames = []
+        for _ in range(_FRAMES_A_CALL):
+            steps = playback.clock.due(now_ns, playback.step)
+            if steps == 0:
+                break
+            if steps > 0:
+                frames.append(self._play_frame(steps, is_overdue))
+            elif frame := self._rewind_frame(-steps, is_overdue):
+                frames.append(frame)
+            else:
+                break
+            if playback.speed == 0 or is_overdue():
+                break
+        if not frames and playback.changed:
+            frames.append(self._observe_frame(moved=False))
+        return tuple(frames)
+
+    def advance_period(self) -> Frame:
+        """Apply the requests that wait, and advance by one publish period, at any speed."""
+        self._handler.apply_waiting()
+        self._handler.release_grips()
+        self._playback.clock.restart()
+        return self._play_frame(self._playback.steps_to_period)
+
+    def settle(self) -> Frame | None:
+        """Apply the requests that wait, without a step; return a frame if there were any."""
+        self._handler.apply_waiting()
+        return self._observe_frame(moved=False) if self._playback.changed else None
+
+    def _play_frame(self, steps: int, is_overdue: Callable[[], bool] = lambda: False) -> Frame:
+        self._playback.play(steps, is_overdue)
+        return self._observe_frame(moved=True)
+
+    def _rewind_frame(self, steps: int, is_overdue: Callable[[], bool]) -> Frame | None:
+        """Return a frame further back; None where it has to be replayed for longer."""
+        before = self._playback.step
+        if not self._playback.rewind(steps, is_overdue):
+            return None
+        if self._playback.step <= self._past.timeline.history.oldest:
+            self._playback.speed = 0.0
+            self._handler.report_oldest('; paused')
+        return self._observe_frame(moved=self._playback.step < before)
+
+    def _observe_frame(self, *, moved: bool) -> Frame:
+        """Return the frame that is shown, with all answers that wait, within the budget."""
+        snapshot, contacts = self._playback.observe_frame(moved=moved)
+        answers = self._handler.answers
+        answers += self._past.fit_memory(self._playback.moment)
+        answers += self._past.take_answers()
+        self._playback.changed = False
+        return Frame(
+            snapshot=snapshot,
+            contacts=contacts if self._past.watching else None,
+            answers=self._handler.take_answers(),
+            speed=self._playback.speed,
+            moved=moved,
+            past=snapshot.step < self._past.timeline.history.head,
+        )
