@@ -18,8 +18,8 @@ Frame cache: snapshots and contacts of the past, kept within a budget, replayed 
 Law: a step of the past is shown as it was the first time, to the bit; contacts to a rounding,
 since the engine lists them by address and they are summed in its order.
 
-A rewind through cached frames costs nothing. Beyond them, the steps between two checkpoints are
-replayed, forward, while those after them are shown, backward.
+A rewind through cached frames, or a seek to one, costs nothing. Beyond them, the steps between two
+checkpoints are replayed, forward, while those after them are shown, backward.
 """
 
 from __future__ import annotations
@@ -115,6 +115,20 @@ class FrameCache:
             dropped += segment.pop_from(step)
         return dropped
 
+    def cached_frame(self, step: int, *, watching: bool) -> CachedFrame | None:
+        """
+        Return the frame of a step; None where it is not cached, or out of the history.
+
+        :param watching: whether with contacts
+        """
+        if not self._history.oldest <= step <= self._history.head:
+            return None
+        mark, _ = self._history.segment(step)
+        segment = self._segments.get(mark)
+        if segment is None or not segment.has(step, watching=watching):
+            return None
+        return segment.frames[step].copy()
+
     def frame_at(
         self, step: int, *, watching: bool, is_overdue: Callable[[], bool] = lambda: False
     ) -> CachedFrame | None:
@@ -125,17 +139,18 @@ class FrameCache:
         :param is_overdue: whether its replay is to go on another time
         :return: None where it is not replayed yet
         """
+        cached = self.cached_frame(step, watching=watching)
+        if cached is not None:
+            return cached
         mark, end = self._history.segment(step)
-        segment = self._segments.get(mark)
-        if segment is None or not segment.has(step, watching=watching):
-            stride = self._frame_steps if step == end or step % self._frame_steps == 0 else 1
-            replay = self._begin_segment(mark, end, stride, watching=watching)
-            replay.replay_steps(end - mark.step, is_overdue)
-            if replay.steps_left:
-                return None
-            segment = self._segments[mark] = replay.segment
-            self._segment_replay = None
-            self._evict(step)
+        stride = self._frame_steps if step == end or step % self._frame_steps == 0 else 1
+        replay = self._begin_segment(mark, end, stride, watching=watching)
+        replay.replay_steps(end - mark.step, is_overdue)
+        if replay.steps_left:
+            return None
+        segment = self._segments[mark] = replay.segment
+        self._segment_replay = None
+        self._evict(step)
         return segment.frames[step].copy()
 
     def replay_ahead(

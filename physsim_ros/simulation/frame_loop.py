@@ -53,7 +53,7 @@ class FrameLoop:
         :param is_overdue: whether the call has taken too long
         """
         playback = self._playback
-        if playback.speed > 0 or self._handler.has_waiting:
+        if playback.is_world_due or self._handler.changes_world:
             playback.seek_shown()
         if not playback.continue_seek(is_overdue):
             return ()

@@ -154,7 +154,7 @@ class Past:
         :return: the report of that, once
         """
         history = self.timeline.history
-        history.shown = min(shown, self.timeline.moment)
+        history.shown = shown
         if self.memory.fit(self.frame_cache, (self._ghosts, *self._undo.stores)):
             return [self.memory.report(history.oldest / self.physics_rate)]
         return []

@@ -15,9 +15,9 @@
 """
 Playback: the moment that is shown, and its way forward and back.
 
-Laws: a rewind shows cached frames while the world is at another step; the world goes to the step
-that is shown before a request, a step or a reader comes to it; after a jump to another moment the
-state of the world is shown, and no cached frame.
+Laws: a rewind or a seek shows a cached frame while the world is at another step; the world goes to
+the step that is shown before a request, a step or a reader comes to it, and while time stands
+still; after a jump to another course the state of the world is shown, and no cached frame.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ class Playback:
         )
         self.changed = True
         self._past = past
-        # The frame of a rewind that is shown, while the world is at another step; else None.
+        # The cached frame that is shown, while the world is at another step; else None.
         self._shown: CachedFrame | None = None
 
     @property
@@ -103,16 +103,23 @@ class Playback:
         self.seek_shown()
         return self._past.timeline.world
 
+    @property
+    def is_world_due(self) -> bool:
+        """Return whether the world is to go to the moment that is shown."""
+        return self.speed > 0 or (self.speed == 0 and not self.changed)
+
     def observe_frame(self, *, moved: bool) -> CachedFrame:
         """
         Return the frame that is shown, and note that it was.
 
         :param moved: whether it is of another step than the one before
         """
-        if self._shown is None:
+        shown = self._shown
+        if shown is None:
             return self._observe_world(moved=moved)
         # Contacts belong to the first frame of a step.
-        return self._shown if moved else self._shown._replace(contacts=NO_CONTACTS)
+        self._shown = shown._replace(contacts=NO_CONTACTS)
+        return shown
 
     def _observe_world(self, *, moved: bool) -> CachedFrame:
         """Return the state of the world, and cache it for rewinds."""
@@ -130,16 +137,25 @@ class Playback:
 
     def seek(self, stamp: int) -> None:
         """
-        Go to a simulation time [ns].
+        Go to a simulation time [ns]; its frame is shown at once where it is cached.
 
         :raises OutOfHistory: it is kept no more, or has not come yet
         """
-        self.seek_shown()
-        timeline = self._past.timeline
-        # Requests that were applied just now belong to this step.
-        timeline.note_shown()
-        timeline.seek(self._past.steps_in(stamp * 1e-9))
+        self._show_requests()
+        past = self._past
+        step = past.steps_in(stamp * 1e-9)
+        frame = past.frame_cache.cached_frame(step, watching=past.watching)
+        if frame is None:
+            past.timeline.seek(step)
         self.note_jump()
+        self._shown = frame
+
+    def _show_requests(self) -> None:
+        """Have requests that were applied just now belong to the frame of this step."""
+        timeline = self._past.timeline
+        step, serial = timeline.moment
+        if serial > timeline.history.log.serial_shown_at(step):
+            self._observe_world(moved=False)
 
     def seek_shown(self) -> None:
         """Have the world go to the moment that is shown."""
@@ -154,7 +170,7 @@ class Playback:
         :param is_overdue: whether to go on another time
         :return: whether the world is there
         """
-        if self._past.timeline.continue_seek(is_overdue):
+        if self._shown is not None or self._past.timeline.continue_seek(is_overdue):
             return True
         self.clock.restart()
         return False

@@ -50,9 +50,9 @@ class RequestHandler:
         self._queue = queue
 
     @property
-    def has_waiting(self) -> bool:
-        """Return whether requests wait."""
-        return bool(self._queue)
+    def changes_world(self) -> bool:
+        """Return whether a request waits that is to be applied to the world."""
+        return self._queue.has_requests
 
     def apply_waiting(self) -> None:
         """Apply the requests that wait, and collect their answers."""

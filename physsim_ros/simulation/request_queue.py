@@ -57,6 +57,9 @@ class Seek:
     stamp: int
 
 
+_NO_REQUESTS = Seek | Refusal | Answer
+
+
 @dataclass(slots=True)
 class Waiting:
     """
@@ -95,6 +98,11 @@ class RequestQueue:
 
     def __len__(self) -> int:
         return len(self._waiting)
+
+    @property
+    def has_requests(self) -> bool:
+        """Return whether a request of the world is among what waits."""
+        return any(not isinstance(each.request, _NO_REQUESTS) for each in self._waiting)
 
     def begin_gesture(self) -> int:
         """Return the number of a new gesture."""

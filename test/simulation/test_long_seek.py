@@ -55,6 +55,7 @@ def test_a_seek_is_made_bit_by_bit_and_reaches_the_same_bits(
     past: tuple[Simulation, dict[int, str]],
 ) -> None:
     simulation, digests = past
+    simulation.past.frame_cache.drop_from(0)
     simulation.speed = 0.0
     simulation.seek(2 * SECOND)
     ticks, frame = ticks_to_a_frame(simulation, 0)
@@ -79,6 +80,7 @@ def test_another_seek_takes_the_place_of_one_under_way(
     past: tuple[Simulation, dict[int, str]],
 ) -> None:
     simulation, digests = past
+    simulation.past.frame_cache.drop_from(0)
     simulation.speed = 0.0
     simulation.seek(2 * SECOND)
     for tick in range(50):
@@ -89,6 +91,51 @@ def test_another_seek_takes_the_place_of_one_under_way(
     # From where the first one had come.
     assert ticks < 80
     assert simulation.world.digest() == digests[480]
+
+
+def test_a_frame_that_is_cached_is_shown_at_once_and_the_world_follows_while_time_stands_still(
+    past: tuple[Simulation, dict[int, str]],
+) -> None:
+    simulation, digests = past
+    simulation.speed = 0.0
+    timeline = simulation.past.timeline
+    for number, step in enumerate((480, 240, 360)):
+        simulation.seek(step * SECOND // 240)
+        now = number * SECOND
+        ticks, frame = ticks_to_a_frame(simulation, now)
+        assert (ticks, frame.snapshot.step) == (1, step)
+        # On the way to the moment before, another one is sought.
+        assert not simulation.advance(now + SECOND // 2, is_overdue=lambda: True)
+        assert not timeline.continue_seek(lambda: True)
+    ticks = 0
+    while not timeline.continue_seek(lambda: True):
+        assert not simulation.advance(4 * SECOND + ticks, is_overdue=lambda: True)
+        ticks += 1
+    assert 10 < ticks < 200
+    assert timeline.world.digest() == digests[360]
+    simulation.advance_frame()
+    assert simulation.world.digest() == digests[364]
+
+
+def test_a_cached_frame_that_is_sought_has_its_contacts_and_all_requests_of_its_step() -> None:
+    simulation = Simulation(settings=FLOOR, speed=0.0)
+    simulation.watch_contacts(True)
+    simulation.requests.submit(spawning('disc/0', DISC, (0.0, DISC.radius, 0.0)), topic='')
+    shown = [simulation.advance_frame() for _ in range(60)]
+    # It belongs to the step at which it is applied, though no frame came before the next seek.
+    simulation.requests.submit(spawning('disc/1', DISC, (3.0, 1.0, 0.0)), topic='')
+    middle, end = shown[29], shown[-1]
+    simulation.seek(middle.snapshot.stamp)
+    again = simulation.settle()
+    assert again is not None
+    assert again.snapshot.step == middle.snapshot.step
+    assert middle.contacts is not None
+    assert again.contacts is not None
+    assert again.contacts.impulses.tolist() == middle.contacts.impulses.tolist() != []
+    simulation.seek(end.snapshot.stamp)
+    again = simulation.settle()
+    assert again is not None
+    assert again.snapshot.scene.names == ('disc/0', 'disc/1')
 
 
 def test_a_rewind_beyond_its_frames_is_made_bit_by_bit(

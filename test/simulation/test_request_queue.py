@@ -37,6 +37,8 @@ def test_of_seeks_in_a_row_the_last_is_carried_out_and_each_is_answered(
         spawn(sim, number)
     for _ in range(120):
         sim.advance_frame()
+    # A frame that is cached would be shown without a seek.
+    sim.past.frame_cache.drop_from(0)
     sought = []
     seek = sim.past.timeline.seek
     monkeypatch.setattr(sim.past.timeline, 'seek', lambda step: (sought.append(step), seek(step)))

@@ -64,7 +64,9 @@ export class TimeBar {
   #slide() {
     // Also where it stands already: a request to play may be on its way.
     if (!this.busy) this.callService('pause');
-    this.wanted = Number(this.slider.value);
+    const {rate} = this.app.world, {value, min, max} = this.slider;
+    // A whole frame is shown at once, where the server keeps it.
+    this.wanted = Math.min(Math.max(Math.round(Number(value) * rate) / rate, Number(min)), Number(max));
     this.#seek();
   }
 
