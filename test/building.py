@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.colors import Color
 from physsim_ros.model.joints import JointKind
-from physsim_ros.model.requests import Join, Spawn
+from physsim_ros.model.requests import Command, Configure, Join, Spawn
 from physsim_ros.model.scene import Body
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon, Shape, Triangles
@@ -34,6 +34,11 @@ G = 9.81
 DT = 1.0 / 240.0
 # Between knots of a net [m].
 MESH = 0.3
+# A pose goes to the centre of mass and back: a few last bits of metres.
+ROUNDING = 1e-12
+# Rounding error of the 240 sums of a second in float64 [m, m/s].
+ROUNDING_OF_SUMS = 1e-10
+RED, BLUE = (1.0, 0.0, 0.0, 1.0), (0.0, 0.0, 1.0, 0.5)
 NOWHERE = WorldSettings(gravity=(0.0, 0.0), friction=0.0, elasticity=1.0)
 
 DISC = Disc(radius=0.5)
@@ -110,6 +115,17 @@ def spawning(
 def spawn(world: World, name: str, *arguments: Any, **options: Any) -> None:
     """Spawn a body."""
     world.apply(spawning(name, *arguments, **options))
+
+
+def command(world: World, name: str, **rows: tuple[float, float, float]) -> None:
+    """Command one body: `pose`, `twist` or `wrench`."""
+    arrays = {'pose': 'poses', 'twist': 'twists', 'wrench': 'wrenches'}
+    world.apply(Command(names=(name,), **{arrays[key]: (row,) for key, row in rows.items()}))
+
+
+def unlimit_wrenches(world: World) -> None:
+    """Let wrenches act until the next command."""
+    world.apply(Configure(changes={'command_timeout': 0.0}))
 
 
 def body(world: World, name: str) -> Body:

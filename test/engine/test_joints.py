@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Joints: which bodies they mean, what they hold, what is refused, and what is left of them."""
+"""Joints: the bodies they join, the gaps they close, their forces, springs, and how they break."""
 
 from __future__ import annotations
 
@@ -21,76 +21,23 @@ from typing import Any
 
 import numpy as np
 from physsim_ros.model.errors import Refusal
-from physsim_ros.model.joints import JointKind, JointProperties
+from physsim_ros.model.joints import JointKind
 from physsim_ros.model.requests import (
-    Anchor,
     Axle,
     Command,
     Configure,
-    Delete,
-    DeleteAll,
-    Join,
     Pin,
-    Release,
-    Restore,
     Unjoin,
-    UnjoinAll,
 )
-from physsim_ros.model.scene import Joint
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Box, Disc
+from physsim_ros.model.shapes import Disc
 from physsim_ros.model.transform import Point
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
 import pytest
 
+from .jointed import joining, joints, KINDS, members, pair, points_of
 from ..building import BOX, DISC, NOWHERE, pose, spawn, twist
-
-KINDS = list(JointKind)
-PROPERTIES: dict[JointKind, dict[str, Any]] = {
-    JointKind.AXLE: {'lower': -1.0, 'upper': 2.0},
-    JointKind.MOTOR: {'rate': -3.0, 'max_torque': 5.0},
-    JointKind.SPRING: {'stiffness': 20.0, 'damping': 0.5, 'rest_length': 0.7},
-    JointKind.ROPE: {'length': 2.5},
-    JointKind.SLIDER: {'lower': -0.2, 'upper': 0.4},
-    JointKind.GEAR: {'ratio': -2.0},
-}
-
-
-def joining(
-    kind: JointKind | str, points: list[Point], name: str = 'joint/0', **said: Any
-) -> Join:
-    where = {key: said.pop(key) for key in ('a', 'b', 'frame') if key in said}
-    return Join(
-        name=name,
-        kind=JointKind(kind),
-        points=tuple(points),
-        properties=JointProperties(**said),
-        **where,
-    )
-
-
-def points_of(kind: JointKind) -> list[Point]:
-    points: list[Point] = [(0.4, 0.0), (1.4, 0.0)]
-    return points[: kind.points]
-
-
-def pair() -> World:
-    """Return a world of two boxes, a/0 below and a/1 above it at half a metre."""
-    world = World()
-    spawn(world, 'a/0', BOX, (0.0, 0.0, 0.3))
-    spawn(world, 'a/1', BOX, (0.8, 0.0, -0.2))
-    return world
-
-
-def joints(world: World) -> tuple[Joint, ...]:
-    return world.snapshot().scene.joints
-
-
-def members(world: World) -> tuple[str, str]:
-    (joint,) = joints(world)
-    return joint.a, joint.b
-
 
 # Which bodies
 
@@ -348,231 +295,6 @@ def test_a_body_does_not_become_too_light_for_its_springs() -> None:
     before = world.digest()
     with pytest.raises(Refusal, match='28800 N/m'):
         spawn(world, 'a/0', Disc(radius=0.1), (0.0, 0.0, 0.0), mass=0.5)
-    assert world.digest() == before
-
-
-# Removal
-
-
-@pytest.mark.parametrize('kind', KINDS)
-def test_a_joint_goes_with_its_body(kind: JointKind) -> None:
-    world = pair()
-    world.apply(joining(kind, points_of(kind)))
-    world.apply(Delete(name='a/1'))
-    world.step(10)
-    assert joints(world) == ()
-
-
-def test_clearing_the_world_clears_its_joints() -> None:
-    world = pair()
-    world.apply(joining('axle', [(0.4, 0.0)]))
-    world.apply(DeleteAll())
-    assert joints(world) == ()
-
-
-def test_a_joint_is_deleted_by_its_name_and_all_of_a_namespace_together() -> None:
-    world = pair()
-    for name in ('x/0', 'x/1', 'y/0'):
-        world.apply(joining('axle', [(0.4, 0.0)], name))
-    world.apply(Unjoin(name='x/0'))
-    assert [joint.name for joint in joints(world)] == ['x/1', 'y/0']
-    world.apply(UnjoinAll(namespace='x'))
-    assert [joint.name for joint in joints(world)] == ['y/0']
-    world.apply(UnjoinAll())
-    assert joints(world) == ()
-
-
-@pytest.mark.parametrize('kind', KINDS)
-def test_a_body_that_is_changed_in_place_keeps_its_joints(kind: JointKind) -> None:
-    world = pair()
-    world.apply(joining(kind, points_of(kind), **PROPERTIES.get(kind, {})))
-    before = joints(world)
-    spawn(world, 'a/1', DISC, (0.8, 0.0, -0.2), mass=3.0)
-    assert joints(world) == before
-    world.step(60)
-    assert np.isfinite(world.snapshot().poses).all()
-
-
-@pytest.mark.parametrize('kind', KINDS)
-def test_a_joint_waits_while_both_its_bodies_are_anchored(kind: JointKind) -> None:
-    world = pair()
-    world.apply(joining(kind, points_of(kind)))
-    held = pose(world, 'a/0').tolist(), pose(world, 'a/1').tolist()
-    world.apply(Anchor(point=(-0.3, 0.0)))
-    world.apply(Anchor(point=(1.2, 0.0)))
-    world.step(24)
-    assert (pose(world, 'a/0').tolist(), pose(world, 'a/1').tolist()) == held
-    world.apply(Release(point=(1.2, 0.0)))
-    world.step(24)
-    assert pose(world, 'a/0').tolist() == held[0]
-    assert len(joints(world)) == 1
-
-
-def test_a_command_of_a_yaw_does_not_wind_a_joint_up() -> None:
-    world = World()
-    spawn(world, 'a/0', BOX, spin=20.0)
-    spawn(world, 'a/1', BOX, (0.8, 0.0, 0.0))
-    world.apply(joining('pin', [(0.4, 0.0)]))
-    world.step(480)
-    x, y, yaw = pose(world, 'a/0').tolist()
-    world.apply(Command(names=('a/0',), poses=((x, y, math.remainder(yaw, math.tau)),)))
-    spin = twist(world, 'a/0')[2]
-    world.step(1)
-    assert twist(world, 'a/0')[2] == pytest.approx(spin, abs=1e-3)
-
-
-def test_releasing_a_body_removes_the_pins_and_axles_there() -> None:
-    world = pair()
-    world.apply(Pin(point=(0.4, 0.0)))
-    world.apply(Axle(point=(0.4, 0.0)))
-    world.apply(joining('axle', [(1.2, 0.0)], a='a/1', b='world'))
-    world.apply(Release(point=(0.4, 0.0)))
-    assert [joint.name for joint in joints(world)] == ['joint/0']
-
-
-def test_releasing_a_long_body_leaves_the_axles_farther_along_it() -> None:
-    world = World()
-    spawn(world, 'plank/0', Box(width=20.0, height=1.0))
-    for x in (0.1, 2.4):
-        world.apply(Axle(point=(x, 0.0)))
-    world.apply(Release(point=(0.0, 0.0)))
-    assert [joint.name for joint in joints(world)] == ['axle/1']
-
-
-@pytest.mark.parametrize('kind', KINDS)
-def test_what_is_asked_for_again_where_it_is_changes_nothing(kind: JointKind) -> None:
-    world = pair()
-    request = joining(kind, points_of(kind), a='a/0', b='a/1', **PROPERTIES.get(kind, {}))
-    world.apply(request)
-    before = world.digest()
-    world.apply(request)
-    assert world.digest() == before
-
-
-def test_a_joint_that_is_changed_keeps_what_is_not_said() -> None:
-    world = pair()
-    world.apply(joining('spring', [(0.4, 0.0), (-0.3, 0.0)], stiffness=7.0, damping=1.0))
-    world.apply(joining('spring', [(0.4, 0.1), (-0.3, 0.0)], stiffness=9.0))
-    (joint,) = joints(world)
-    assert (joint.properties.stiffness, joint.properties.damping) == (9.0, 1.0)
-
-
-# The same bits
-
-
-def machine() -> World:
-    world = World()
-    for number in range(6):
-        spawn(world, f'a/{number}', Box(width=1.0, height=0.3), (number * 0.9, 3.0, 0.1 * number))
-    spawn(world, 'ground/0', Box(width=40.0, height=1.0), (0.0, -0.5, 0.0), anchored=True)
-    for number, kind in enumerate(KINDS):
-        request = joining(
-            kind,
-            [(number * 0.6, 3.0), (number * 0.6 + 0.9, 3.0)][: kind.points],
-            f'joint/{number}',
-            a=f'a/{number % 6}',
-            b='world' if number % 3 == 0 else f'a/{(number + 1) % 6}',
-            **PROPERTIES.get(kind, {}),
-        )
-        world.apply(request)
-    return world
-
-
-def test_worlds_of_the_same_requests_go_on_to_the_bit() -> None:
-    one, other = machine(), machine()
-    one.step(480)
-    other.step(480)
-    assert one.digest() == other.digest()
-
-
-def test_worlds_of_the_same_state_go_on_to_the_bit() -> None:
-    world = machine()
-    world.step(200)
-    state = world.save()
-    one, other = World(), World()
-    one.apply(Restore(state=state))
-    other.apply(Restore(state=state))
-    one.step(300)
-    other.step(300)
-    assert one.save().joints == state.joints
-    assert one.digest() == other.digest()
-
-
-def test_a_world_goes_on_from_a_checkpoint_to_the_bit() -> None:
-    world = machine()
-    world.step(200)
-    key = world.renew()
-    world.step(300)
-    first = world.digest()
-    world.resume(key)
-    world.step(300)
-    assert world.digest() == first
-
-
-def test_scenes_are_the_same_object_until_a_joint_comes_or_goes() -> None:
-    world = pair()
-    before = world.snapshot().scene
-    world.apply(joining('axle', [(0.4, 0.0)]))
-    joined = world.snapshot().scene
-    world.step(10)
-    assert world.snapshot().scene is joined is not before
-
-
-# Refused
-
-REFUSED: dict[str, tuple[dict[str, Any], str, str]] = {
-    'itself': ({'a': 'a/0', 'b': 'a/0'}, 'bad_property', 'b'),
-    'the background first': ({'a': 'world', 'b': 'a/0'}, 'bad_property', 'a'),
-    'a missing a': ({'a': 'x/0'}, 'unknown_body', 'a'),
-    'a missing b': ({'a': 'a/0', 'b': 'x/0'}, 'unknown_body', 'b'),
-    'two anchored bodies': ({'a': 'fix/0', 'b': 'fix/1'}, 'anchored', 'a'),
-    'an anchored body and the background': ({'a': 'fix/0', 'b': 'world'}, 'anchored', 'a'),
-    'nothing there': ({'points': [(50.0, 50.0)]}, 'nothing_there', 'points'),
-    'an unknown frame': ({'frame': 'x/9'}, 'unknown_frame', 'header.frame_id'),
-    'a point that is none': ({'points': [(math.nan, 0.0)]}, 'malformed', 'points'),
-    'a point too many': ({'points': [(0.4, 0.0), (0.5, 0.0)]}, 'malformed', 'points'),
-    'no point': ({'points': []}, 'malformed', 'points'),
-    'no name': ({'name': 'joint'}, 'malformed', 'name'),
-    'a rod without a length': (
-        {'kind': 'rod', 'points': [(0.4, 0.0), (0.4, 0.0)]},
-        'bad_size',
-        'points',
-    ),
-    'a property of another kind': ({'stiffness': 3.0}, 'unknown_property', 'stiffness'),
-    'a limit that is no number': ({'lower': math.inf}, 'malformed', 'lower'),
-    'limits crossed': ({'lower': 2.0, 'upper': 1.0}, 'bad_property', 'lower'),
-    'a ratio of nothing': ({'kind': 'gear', 'ratio': 0.0}, 'bad_property', 'ratio'),
-    'a negative stiffness': (
-        {'kind': 'spring', 'points': [(0.4, 0.0), (1.0, 0.0)], 'stiffness': -1.0},
-        'bad_property',
-        'stiffness',
-    ),
-    'a negative force': ({'break_force': -1.0}, 'bad_property', 'break_force'),
-    'a word for a flag': ({'collide': 'yes'}, 'bad_property', 'collide'),
-}
-
-
-@pytest.mark.parametrize(('said', 'code', 'field'), REFUSED.values(), ids=REFUSED.keys())
-def test_what_cannot_be_joined_is_refused_and_changes_nothing(
-    said: dict[str, Any], code: str, field: str
-) -> None:
-    world = pair()
-    spawn(world, 'fix/0', BOX, (20.0, 0.0, 0.0), anchored=True)
-    spawn(world, 'fix/1', BOX, (21.0, 0.0, 0.0), anchored=True)
-    before = world.digest()
-    values = {'kind': 'axle', 'points': [(0.4, 0.0)]} | said
-    with pytest.raises(Refusal) as caught:
-        world.apply(joining(values.pop('kind'), values.pop('points'), **values))
-    assert (caught.value.code, caught.value.field) == (code, field)
-    assert world.digest() == before
-
-
-def test_an_unknown_joint_cannot_be_deleted() -> None:
-    world = pair()
-    before = world.digest()
-    with pytest.raises(Refusal) as caught:
-        world.apply(Unjoin(name='joint/9'))
-    assert caught.value.code == 'unknown_joint'
     assert world.digest() == before
 
 

@@ -17,12 +17,23 @@
 from physsim_ros.simulation.world import World
 import pytest
 
-from ..building import (
-    NOWHERE,
-)
+from .driven import Driven
+from ..building import BOX, NOWHERE, spawning
 
 
 @pytest.fixture
 def world() -> World:
     """Return an empty world without gravity, friction or loss."""
     return World(settings=NOWHERE)
+
+
+@pytest.fixture
+def driven() -> Driven:
+    """Return a world in which boxes have fallen on each other for five seconds."""
+    driven = Driven()
+    for number in range(5):
+        driven.ask(spawning(f'a/{number}', BOX, (0.2 * number, 1.0 + 1.5 * number, 0.1)))
+    driven.record(3.0)
+    driven.ask(spawning('late/0', BOX, (0.0, 9.0, 0.0)))
+    driven.record(2.0)
+    return driven

@@ -33,6 +33,7 @@ from physsim_ros.simulation.world import World
 import pytest
 
 from ..building import (
+    BLUE,
     body,
     body_at,
     BOX,
@@ -40,17 +41,14 @@ from ..building import (
     ELL,
     names,
     pose,
+    RED,
+    ROUNDING,
     SHAPES,
     spawn,
     spawning,
     stack,
     twist,
 )
-
-RED, BLUE = (1.0, 0.0, 0.0, 1.0), (0.0, 0.0, 1.0, 0.5)
-# A pose goes to the centre of mass and back: a few last bits of metres.
-ROUNDING = 1e-12
-
 
 # Change in place
 

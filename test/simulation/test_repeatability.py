@@ -58,14 +58,12 @@ from ..building import (
     ELL,
     names,
     pose,
+    RED,
     SHAPES,
     spawn,
     spawning,
     stack,
 )
-
-RED, BLUE = (1.0, 0.0, 0.0, 1.0), (0.0, 0.0, 1.0, 0.5)
-
 
 # The same requests, the same bits
 

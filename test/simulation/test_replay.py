@@ -12,250 +12,33 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Going back and the same way again: branches, undo, what is kept, and what is told."""
+"""Replay: the same bits again, branches of the past, what is kept of it, and what is reported."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 import gc
-from pathlib import Path
 from typing import Any
 
 import numpy as np
-from physsim_ros.files import load_world, save_world
 from physsim_ros.model.errors import OutOfHistory
-from physsim_ros.model.joints import JointKind, JointProperties
+from physsim_ros.model.joints import JointKind
 from physsim_ros.model.requests import (
-    Anchor,
     Command,
     Configure,
     Delete,
     DeleteAll,
     Join,
-    Pin,
-    Release,
-    Request,
     Restore,
-    Unjoin,
     UnjoinAll,
 )
-from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.simulation.frame_segment import CachedFrame
 from physsim_ros.simulation.records import Entry
 from physsim_ros.simulation.simulation import CHECKPOINTS, Simulation
-from physsim_ros.simulation.world import World
 import pytest
 
+from .driven import Driven, FLOOR, FRAME, SECOND, told
 from ..building import BOX, DISC, spawning
-
-FRAME = 4
-SECOND = 10**9
-FLOOR = WorldSettings(bounds=(-10.0, 0.0, 10.0, 20.0))
-
-
-class Driven:
-    """A simulation, the time that it is handed, and what it showed of each step."""
-
-    def __init__(self, **options: float) -> None:
-        self.simulation = Simulation(settings=FLOOR, **options)
-        self.now = 0
-        self.shown: dict[int, Frame] = {}
-
-    def run(self, speed: float, seconds: float) -> list[Frame]:
-        """Run for seconds on the wall, and return the frames."""
-        self.simulation.speed = speed
-        frames: list[Frame] = []
-        for _ in range(round(seconds * 60)):
-            frames += self.tick()
-        return frames
-
-    def tick(self) -> tuple[Frame, ...]:
-        """Go on by a tick of the node, and return its frames."""
-        self.now += round(SECOND / 60)
-        return self.simulation.advance(self.now)
-
-    def record(self, seconds: float) -> None:
-        for frame in self.run(1.0, seconds):
-            self.shown[frame.snapshot.step] = frame
-
-    def ask(self, request: Request, *, joined: bool = False) -> None:
-        self.simulation.requests.submit(request, topic='~/test', joined=joined)
-
-    def settle(self) -> Frame:
-        frame = self.simulation.settle()
-        assert frame is not None
-        return frame
-
-    @property
-    def names(self) -> tuple[str, ...]:
-        return self.simulation.world.snapshot().scene.names
-
-    def assert_same(self, frame: Frame) -> None:
-        before = self.shown[frame.snapshot.step].snapshot
-        np.testing.assert_array_equal(frame.snapshot.poses, before.poses)
-        np.testing.assert_array_equal(frame.snapshot.twists, before.twists)
-        np.testing.assert_array_equal(frame.snapshot.forces, before.forces)
-
-
-@pytest.fixture
-def driven() -> Driven:
-    """Return a world in which boxes have fallen on each other for five seconds."""
-    driven = Driven()
-    for number in range(5):
-        driven.ask(spawning(f'a/{number}', BOX, (0.2 * number, 1.0 + 1.5 * number, 0.1)))
-    driven.record(3.0)
-    driven.ask(spawning('late/0', BOX, (0.0, 9.0, 0.0)))
-    driven.record(2.0)
-    return driven
-
-
-def told(frames: list[Frame], topic: str) -> list[Answer]:
-    return [answer for frame in frames for answer in frame.answers if answer.topic == topic]
-
-
-@pytest.mark.parametrize('speed', [-1.0, -4.0, -2.0, -64.0])
-def test_rewinding_shows_every_frame_as_it_was(driven: Driven, speed: float) -> None:
-    head = driven.simulation.step
-    frames = driven.run(speed, 1.0)
-    steps = [frame.snapshot.step for frame in frames]
-    # The first tick only says that it goes back from now on.
-    assert steps == [max(0, head + number * round(speed) * FRAME) for number in range(len(steps))]
-    assert len(steps) > 5
-    for frame in frames:
-        if frame.snapshot.step:
-            driven.assert_same(frame)
-
-
-def test_slow_motion_goes_back_step_by_step(driven: Driven) -> None:
-    frames = driven.run(-0.1, 1.0)
-    steps = [frame.snapshot.step for frame in frames]
-    assert len(steps) == pytest.approx(24, abs=1)
-    assert set(np.diff(steps)) == {-1}
-    for frame in frames:
-        if frame.snapshot.step % FRAME == 0:
-            driven.assert_same(frame)
-
-
-def test_the_past_is_the_same_where_it_has_to_be_made_again(
-    driven: Driven, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(driven.simulation.past.frame_cache, 'budget', 0)
-    driven.simulation.past.frame_cache.drop_from(0)
-    for frame in driven.run(-1.0, 4.5):
-        driven.assert_same(frame)
-
-
-@pytest.fixture
-def made(monkeypatch: pytest.MonkeyPatch) -> list[int]:
-    """Count the steps that all worlds make, from the last number on."""
-    counts = [0]
-    step = World.step
-
-    def counted(world: World, count: int) -> tuple[str, ...]:
-        counts[-1] += count
-        return step(world, count)
-
-    monkeypatch.setattr(World, 'step', counted)
-    return counts
-
-
-def most_made(driven: Driven, made: list[int], ticks: int) -> int:
-    """Return the number of steps of the tick that made most."""
-    first = len(made)
-    for _ in range(ticks):
-        made.append(0)
-        driven.tick()
-    return max(made[first:])
-
-
-@pytest.mark.parametrize('speed', [-1.0, -0.5, -0.1, -2.0])
-def test_no_tick_makes_many_steps_while_time_goes_back(made: list[int], speed: float) -> None:
-    driven = Driven()
-    driven.record(9.0)
-    # Of the last seconds nothing is known at first but the frames that were shown.
-    driven.run(speed, 0.2)
-    # Three seconds are made again while three seconds are shown.
-    assert most_made(driven, made, round(240 / -speed)) <= max(2.0, -2 * speed * FRAME)
-    assert driven.simulation.step == pytest.approx(5 * 240, abs=100)
-
-
-@pytest.mark.parametrize('on', [0.5, 2.5])
-def test_what_a_seek_left_out_is_made_again_in_time(made: list[int], on: float) -> None:
-    driven = Driven()
-    driven.record(12.0)
-    driven.simulation.past.frame_cache.drop_from(0)
-    driven.simulation.seek(round(4.5 * SECOND))
-    driven.settle()
-    driven.run(1.0, on)
-    driven.run(-1.0, 0.05)
-    # Three seconds are made again in the time from the seek on.
-    assert most_made(driven, made, round(60 * (on + 1.0))) <= 3 * FRAME * CHECKPOINTS / on
-    assert driven.simulation.step < 4 * 240
-
-
-def test_where_frames_were_far_apart_no_others_are_made(made: list[int]) -> None:
-    driven = Driven()
-    driven.ask(spawning('a/0'))
-    driven.run(16.0, 1.0)
-    driven.simulation.speed = -16.0
-    assert most_made(driven, made, 55) == 0
-    assert driven.simulation.step < 2 * 240
-
-
-def test_what_is_half_made_again_ends_no_earlier_than_time_has_come_since(driven: Driven) -> None:
-    driven.simulation.past.frame_cache.drop_from(0)
-    driven.simulation.seek(round(4.8 * SECOND))
-    driven.settle()
-    driven.run(1.0, 0.2)
-    # Frames before the seek begin to be replayed, up to now.
-    driven.run(-1.0, 0.05)
-    driven.run(8.0, 0.1)
-    frames = driven.run(-1.0, 1.0)
-    assert frames[0].snapshot.step > 1300
-    for frame in frames:
-        if frame.snapshot.step in driven.shown:
-            driven.assert_same(frame)
-
-
-def test_at_the_oldest_step_time_stops_and_says_so(driven: Driven) -> None:
-    frames = driven.run(-64.0, 1.0)
-    assert frames[-1].snapshot.step == 0
-    assert driven.simulation.speed == 0.0
-    assert len(told(frames, 'history')) == 1
-    again = driven.run(-1.0, 0.1)
-    assert len(told(again, 'history')) == 1
-    assert not any(frame.moved for frame in again)
-    assert driven.run(0.0, 0.5) == []
-
-
-@pytest.mark.parametrize('back', [0.5, 2.0, 4.9])
-def test_playing_on_from_the_past_gives_the_same_bits(driven: Driven, back: float) -> None:
-    head = driven.simulation.step
-    driven.run(-1.0, back)
-    frames = driven.run(1.0, back)
-    assert frames[-1].snapshot.step == pytest.approx(head, abs=2 * FRAME)
-    for frame in frames:
-        if frame.snapshot.step <= head:
-            driven.assert_same(frame)
-    assert told(frames, 'divergence') == []
-
-
-def test_fast_forward_over_the_past_gives_the_same_bits(driven: Driven) -> None:
-    driven.simulation.seek(0)
-    for frame in driven.run(8.0, 0.5):
-        driven.assert_same(frame)
-
-
-def test_a_request_in_the_past_drops_what_lay_ahead(driven: Driven) -> None:
-    driven.run(-1.0, 1.0)
-    step = driven.simulation.step
-    driven.ask(spawning('other/0', BOX, (5.0, 5.0, 0.0)))
-    frame = driven.settle()
-    assert [answer.topic for answer in frame.answers] == ['~/test', 'branch']
-    assert frame.snapshot.step == step
-    with pytest.raises(OutOfHistory, match='not in the history'):
-        driven.simulation.seek(round((step + FRAME) / 240 * SECOND))
 
 
 def test_a_refused_request_in_the_past_drops_nothing(driven: Driven) -> None:
@@ -275,23 +58,6 @@ def test_what_is_not_in_the_history_is_refused(driven: Driven, stamp: int) -> No
         stamp = 0
     with pytest.raises(OutOfHistory):
         driven.simulation.seek(stamp)
-    assert (driven.simulation.step, driven.simulation.world.digest()) == (step, digest)
-
-
-def test_undo_goes_back_to_the_moment_before(driven: Driven) -> None:
-    message = driven.simulation.undo()
-    assert driven.simulation.step == pytest.approx(3 * 240, abs=FRAME)
-    assert 'late/0' in message
-    assert driven.names == tuple(f'a/{number}' for number in range(5))
-    shown = driven.settle().snapshot
-    np.testing.assert_array_equal(shown.poses, driven.shown[shown.step].snapshot.poses[:5])
-
-
-def test_redo_returns_to_where_undo_was_asked_for(driven: Driven) -> None:
-    step, digest = driven.simulation.step, driven.simulation.world.digest()
-    driven.simulation.undo()
-    driven.run(1.0, 0.7)
-    driven.simulation.redo()
     assert (driven.simulation.step, driven.simulation.world.digest()) == (step, digest)
 
 
@@ -342,130 +108,6 @@ def test_a_seek_from_within_a_frame_shows_all_its_contacts(steps: tuple[int, int
     first, _, again = impulses
     assert first
     np.testing.assert_allclose(again, first, rtol=1e-9, atol=1e-12)
-
-
-def test_redo_shows_the_contacts_of_one_frame(driven: Driven) -> None:
-    driven.simulation.watch_contacts(True)
-    before = driven.run(1.0, 1.0)[-1].contacts
-    driven.ask(spawning('more/0', BOX, (8.0, 18.0, 0.0)))
-    driven.settle()
-    driven.simulation.undo()
-    driven.simulation.redo()
-    again = driven.settle().contacts
-    assert before is not None
-    assert again is not None
-    assert again.pairs.tolist() == before.pairs.tolist()
-    np.testing.assert_allclose(again.impulses, before.impulses, rtol=1e-9, atol=1e-12)
-
-
-def test_several_undos_are_redone_one_by_one(driven: Driven) -> None:
-    digests = [driven.simulation.world.digest()]
-    for _ in range(6):
-        driven.simulation.undo()
-        digests.append(driven.simulation.world.digest())
-    assert driven.names == ()
-    with pytest.raises(OutOfHistory, match='nothing to undo'):
-        driven.simulation.undo()
-    for digest in digests[-2::-1]:
-        driven.simulation.redo()
-        assert driven.simulation.world.digest() == digest
-    with pytest.raises(OutOfHistory, match='nothing to redo'):
-        driven.simulation.redo()
-
-
-def test_what_belongs_together_is_undone_together(driven: Driven) -> None:
-    driven.ask(spawning('b/0', BOX, (5.0, 5.0, 0.0)))
-    driven.ask(spawning('b/1', BOX, (5.0, 8.0, 0.0)), joined=True)
-    driven.settle()
-    assert 'and 1 more' in driven.simulation.undo()
-    assert not {'b/0', 'b/1'} & set(driven.names)
-
-
-def test_a_new_request_leaves_nothing_to_redo(driven: Driven) -> None:
-    driven.simulation.undo()
-    driven.ask(DeleteAll())
-    driven.settle()
-    with pytest.raises(OutOfHistory):
-        driven.simulation.redo()
-
-
-def test_a_refused_request_leaves_what_there_is_to_redo(driven: Driven) -> None:
-    driven.simulation.undo()
-    driven.ask(Delete(name='nobody/0'))
-    driven.settle()
-    driven.simulation.redo()
-    assert 'late/0' in driven.names
-
-
-def test_settings_are_undone_and_follow_time(driven: Driven) -> None:
-    driven.ask(Configure(changes={'gravity': (0.0, 0.0)}))
-    driven.record(1.0)
-    assert driven.simulation.settings.gravity == (0.0, 0.0)
-    driven.run(-1.0, 1.5)
-    assert driven.simulation.settings.gravity == (0.0, -9.81)
-    driven.run(1.0, 1.0)
-    assert driven.simulation.settings.gravity == (0.0, 0.0)
-    driven.simulation.undo()
-    assert driven.simulation.settings.gravity == (0.0, -9.81)
-
-
-def test_reset_is_undone_too(driven: Driven) -> None:
-    step, digest = driven.simulation.step, driven.simulation.world.digest()
-    driven.simulation.reset()
-    assert (driven.simulation.step, driven.names) == (0, ())
-    driven.run(1.0, 0.5)
-    later = driven.simulation.step
-    driven.simulation.undo()
-    assert (driven.simulation.step, driven.simulation.world.digest()) == (step, digest)
-    driven.simulation.redo()
-    assert later > 100
-    assert (driven.simulation.step, driven.names) == (later, ())
-
-
-def test_what_followed_a_reset_comes_back_with_it(driven: Driven) -> None:
-    driven.simulation.reset()
-    driven.record(4.0)
-    driven.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
-    driven.record(3.0)
-    step, digest = driven.simulation.step, driven.simulation.world.digest()
-    said = [driven.simulation.undo() for _ in range(2)] + [
-        driven.simulation.redo() for _ in range(2)
-    ]
-    assert [each.partition(',')[0] for each in said[:2]] == ['undid spawn b/0', 'undid reset']
-    assert (driven.simulation.step, driven.simulation.world.digest()) == (step, digest)
-    driven.simulation.seek(SECOND // 2)
-    frames = [driven.simulation.advance_frame() for _ in range(step // FRAME - 30)]
-    for frame in frames:
-        driven.assert_same(frame)
-    assert told(frames, 'divergence') == []
-    assert driven.simulation.world.digest() == digest
-
-
-def test_resets_are_undone_and_redone_one_by_one(driven: Driven) -> None:
-    moments = [driven.simulation.step]
-    for seconds in (1.0, 2.0):
-        driven.simulation.reset()
-        driven.run(1.0, seconds)
-        moments.append(driven.simulation.step)
-    backward = []
-    for _ in range(2):
-        driven.simulation.undo()
-        backward.append(driven.simulation.step)
-    forward = []
-    for _ in range(2):
-        driven.simulation.redo()
-        forward.append(driven.simulation.step)
-    assert backward == moments[1::-1]
-    assert forward == moments[1:]
-
-
-def test_an_undone_load_is_not_what_reset_returns_to(driven: Driven) -> None:
-    other = Driven()
-    other.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
-    driven.simulation.load(other.simulation.save())
-    driven.simulation.undo()
-    driven.simulation.reset()
-    assert driven.names == ()
 
 
 def test_reset_returns_to_what_was_loaded_longer_ago_than_is_kept() -> None:
@@ -520,23 +162,6 @@ def test_contacts_come_again_that_nobody_asked_for_the_first_time() -> None:
         assert frame.contacts.pairs.tolist() == [[0, -1]]
 
 
-@pytest.mark.parametrize('more', [True, False])
-def test_undo_passes_over_nothing_that_is_kept_no_more(*, more: bool) -> None:
-    sim = Simulation(history=1.0)
-    sim.perform(spawning('ball/0', BOX, anchored=True))
-    sim.advance_frame()
-    sim.reset()
-    if more:
-        sim.perform(spawning('ball/1', BOX, anchored=True))
-    for _ in range(600):
-        sim.advance_frame()
-
-    with pytest.raises(OutOfHistory):
-        sim.undo()
-    assert ('ball/1' in sim.world) is more
-    assert 'ball/0' not in sim.world
-
-
 def test_the_thousandth_command_to_a_paused_world_costs_no_more_than_the_first(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
@@ -565,40 +190,6 @@ def test_the_thousandth_command_to_a_paused_world_costs_no_more_than_the_first(
     assert max(looks) < 10
     driven.simulation.seek(0)
     assert driven.simulation.past.timeline.serial == 1001
-
-
-def test_what_was_loaded_at_the_beginning_cannot_be_undone() -> None:
-    first = Driven()
-    first.ask(spawning('a/0'))
-    first.settle()
-    second = Driven()
-    second.simulation.begin(first.simulation.save())
-    with pytest.raises(OutOfHistory):
-        second.simulation.undo()
-    assert second.names == ('a/0',)
-
-
-def test_a_world_that_was_loaded_while_time_ran_is_undone(driven: Driven) -> None:
-    names = driven.names
-    driven.simulation.load(Driven().simulation.save())
-    assert driven.names == ()
-    driven.run(1.0, 0.5)
-    driven.simulation.undo()
-    assert driven.names == names
-
-
-def test_older_steps_than_are_kept_are_dropped() -> None:
-    driven = Driven(history=3.0)
-    driven.ask(spawning('a/0', BOX, (0.0, 5.0, 0.0)))
-    driven.record(10.0)
-    history = driven.simulation.past.timeline.history
-    assert history.head - history.oldest == 3 * 240
-    assert len(history.checkpoints) <= 3
-    frames = driven.run(-64.0, 0.5)
-    assert frames[-1].snapshot.step == history.head - 3 * 240
-    driven.assert_same(frames[-1])
-    with pytest.raises(OutOfHistory):
-        driven.simulation.undo()
 
 
 def test_shots_take_no_more_memory_than_they_may(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -788,75 +379,6 @@ def test_what_changes_nothing_drops_nothing(driven: Driven) -> None:
         frame = driven.settle()
         assert [answer.code for answer in frame.answers] == ['']
         assert told([frame], 'branch') == []
-
-
-@pytest.mark.parametrize(
-    'request_',
-    [Unjoin(name='joint/0'), UnjoinAll(), Release(point=(0.0, 5.0))],
-    ids=['unjoin', 'unjoin all', 'release'],
-)
-def test_a_joint_that_is_taken_out_is_part_of_history(request_: Request) -> None:
-    driven = Driven()
-    driven.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
-    driven.ask(Join(name='joint/0', kind=JointKind.PIN, points=((0.0, 5.0),), a='b/0', b='world'))
-    driven.record(1.0)
-    hung = driven.simulation.world.snapshot().poses
-    driven.ask(request_)
-    driven.record(0.5)
-    driven.simulation.seek(0)
-    for frame in driven.run(1.0, 1.4):
-        if frame.snapshot.step:
-            driven.assert_same(frame)
-    assert driven.simulation.world.snapshot().scene.joints == ()
-    driven.simulation.undo()
-    assert driven.simulation.world.snapshot().poses == pytest.approx(hung)
-    assert len(driven.simulation.world.snapshot().scene.joints) == 1
-
-
-def test_a_joint_taken_out_in_the_past_begins_a_branch() -> None:
-    driven = Driven()
-    driven.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
-    driven.ask(Pin(point=(0.0, 5.0)))
-    driven.record(2.0)
-    driven.simulation.seek(SECOND)
-    driven.ask(UnjoinAll())
-    frames = [driven.settle(), *driven.run(1.0, 2.0)]
-    assert len(told(frames, 'branch')) == 1
-    assert told(frames, 'divergence') == []
-    assert driven.simulation.world.snapshot().scene.joints == ()
-
-
-def test_a_joint_that_broke_is_told_of_once() -> None:
-    driven = Driven()
-    driven.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
-    driven.ask(
-        Join(
-            name='joint/0',
-            kind=JointKind.SPRING,
-            points=((0.0, 5.0), (0.0, 8.0)),
-            a='b/0',
-            b='world',
-            properties=JointProperties(stiffness=20.0, break_force=5.0),
-        )
-    )
-    frames = driven.run(1.0, 2.0)
-    assert len(told(frames, 'joint_broken')) == 1
-    driven.simulation.seek(0)
-    frames = driven.run(1.0, 1.5)
-    driven.simulation.seek(SECOND)
-    frames.append(driven.settle())
-    assert told(frames, 'joint_broken') == []
-
-
-def test_a_joint_whose_bodies_were_anchored_later_loads_again(tmp_path: Path) -> None:
-    driven = Driven()
-    driven.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
-    driven.ask(Pin(point=(0.0, 5.0)))
-    driven.ask(Anchor(point=(0.0, 5.0)))
-    driven.settle()
-    state = driven.simulation.save()
-    path = save_world(state, 'it', world_dir=tmp_path, physics_rate=240.0)
-    assert load_world(path, settings=FLOOR, physics_rate=240.0).joints == state.joints
 
 
 @pytest.mark.parametrize('names', [None, 'a/0', 'a/4'])

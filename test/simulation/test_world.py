@@ -41,17 +41,14 @@ from ..building import (
     ELL,
     names,
     pose,
+    RED,
+    ROUNDING,
     SHAPES,
     spawn,
     spawning,
     TRIANGLE,
     twist,
 )
-
-RED, BLUE = (1.0, 0.0, 0.0, 1.0), (0.0, 0.0, 1.0, 0.5)
-# A pose goes to the centre of mass and back: a few last bits of metres.
-ROUNDING = 1e-12
-
 
 # Spawn
 

@@ -1,0 +1,171 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Strokes that are signs: x, arrow, scribble, hatching."""
+
+import math
+
+import numpy as np
+from physsim_ros.model.errors import BadProperty, NothingThere, NotRecognised
+from physsim_ros.model.requests import Anchor, Configure, Delete, Spawn
+from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.shapes import Box, Disc
+from physsim_ros.simulation.world import World
+import pytest
+
+from .ways import carry_out, cross, draw, scribble
+from ...building import DISC, NOWHERE, spawn
+
+
+def test_an_x_on_a_body_anchors_it(world: World) -> None:
+    spawn(world, 'a/0', Box(width=2.0, height=2.0))
+
+    reading = draw(world, cross(0.4, 0.3))
+    carry_out(world, reading)
+
+    assert reading.meaning == 'anchor'
+    assert isinstance(reading.requests[0], Anchor)
+    assert world.snapshot().scene.bodies[0].anchored
+
+
+def test_an_x_across_a_thin_body_anchors_that(world: World) -> None:
+    spawn(world, 'plank/0', Box(width=4.0, height=0.1))
+
+    reading = draw(world, cross(0.0, 0.12))
+    carry_out(world, reading)
+
+    assert reading.subject == 'plank/0'
+    assert world.snapshot().scene.bodies[0].anchored
+
+
+def test_an_x_in_the_open_is_refused(world: World) -> None:
+    with pytest.raises(NothingThere, match='an x anchors the body under it'):
+        draw(world, cross(0.0, 0.0))
+
+
+@pytest.mark.parametrize('angle', [0.3, 2.0, -1.5, 3.1])
+def test_an_arrow_in_the_open_turns_gravity(world: World, angle: float) -> None:
+    cos, sin = math.cos(angle), math.sin(angle)
+    arrow = [(0, 0), (3, 0), (2.5, 0.4), (3, 0), (2.5, -0.4)]
+
+    reading = draw(world, [(cos * x - sin * y, sin * x + cos * y) for x, y in arrow])
+
+    assert reading.meaning == 'gravity'
+    (configure,) = reading.requests
+    assert isinstance(configure, Configure)
+    x, y = configure.changes['gravity']
+    assert math.hypot(x, y) == pytest.approx(9.81, rel=1e-12)
+    # rad: nearly upright and nearly level become so
+    assert math.cos(math.atan2(y, x) - angle) > math.cos(0.11)
+    assert (0.0 in (x, y)) == (angle in {-1.5, 3.1})
+
+
+def test_an_arrow_upon_an_anchored_body_is_refused(world: World) -> None:
+    spawn(world, 'a/0', Box(width=2.0, height=2.0), anchored=True)
+
+    with pytest.raises(NotRecognised, match='begins on a/0'):
+        draw(world, [(0, 0), (3, 0), (2.5, 0.4), (3, 0), (2.5, -0.4)])
+
+
+def test_without_gravity_there_is_none_to_turn() -> None:
+    with pytest.raises(BadProperty, match='no gravity'):
+        draw(World(settings=NOWHERE), [(0, 0), (3, 0), (2.5, 0.4), (3, 0), (2.5, -0.4)])
+
+
+def test_gravity_keeps_its_strength() -> None:
+    world = World(settings=WorldSettings(gravity=(3.0, -4.0)))
+
+    carry_out(world, draw(world, [(0, 0), (0, 3), (0.4, 2.5), (0, 3), (-0.4, 2.5)]))
+
+    assert world.settings.gravity == pytest.approx((0.0, 5.0), abs=1e-9)
+
+
+def test_a_scribble_deletes_what_it_covers_and_nothing_that_it_touches(world: World) -> None:
+    spawn(world, 'floor/0', Box(width=20.0, height=1.0), (0.0, -1.0, 0.0), anchored=True)
+    spawn(world, 'box/0', Box(width=1.0, height=1.0), (0.0, 0.0, 0.0))
+    spawn(world, 'box/1', Box(width=1.0, height=1.0), (1.4, 0.0, 0.0))
+
+    reading = draw(world, scribble(0.0, 0.0, 1.3, 1.3))
+
+    assert reading.meaning == 'deletion'
+    assert reading.requests == (Delete(name='box/0'),)
+    assert reading.subject == 'box/0'
+
+
+def test_a_scribble_deletes_several_bodies_and_a_long_wall(world: World) -> None:
+    spawn(world, 'wall/0', Box(width=20.0, height=0.2), (0.0, -5.0, 0.0), anchored=True)
+    for number in range(3):
+        spawn(world, f'ball/{number}', Disc(radius=0.2), (0.7 * number, 0.0, 0.0))
+
+    several = draw(world, scribble(0.7, 0.0, 2.2, 1.0))
+    long = draw(world, scribble(3.0, -5.0, 1.0, 1.0))
+
+    assert [request.name for request in several.requests if isinstance(request, Delete)] == [
+        'ball/0', 'ball/1', 'ball/2',
+    ]  # fmt: skip
+    assert long.requests == (Delete(name='wall/0'),)
+
+
+def test_a_scribble_from_body_to_body_deletes_both(world: World) -> None:
+    spawn(world, 'a/0', Disc(radius=0.4), (-0.5, 0.0, 0.0))
+    spawn(world, 'a/1', Disc(radius=0.4), (0.5, 0.0, 0.0))
+
+    reading = draw(world, scribble(0.0, 0.0, 1.6, 0.7))
+
+    assert reading.requests == (Delete(name='a/0'), Delete(name='a/1'))
+
+
+@pytest.mark.parametrize('size', [0.7, 1.4, 3.0])
+def test_a_pentagram_and_a_zigzag_of_five_lines_over_a_body_delete_nothing(
+    world: World, size: float
+) -> None:
+    spawn(world, 'a/0', Box(width=1.0, height=1.0))
+    angle = math.pi / 2 + 0.8 * math.pi * np.arange(6)
+    star = size * np.column_stack((np.cos(angle), np.sin(angle)))
+
+    reading = draw(world, star)
+    zigzag = draw(world, [(size * (n / 5 - 0.5), 0.4 * size * (-1) ** n) for n in range(6)])
+
+    assert reading.meaning == 'polygon'
+    (request,) = reading.requests
+    assert isinstance(request, Spawn)
+    assert not any(isinstance(each, Delete) for each in zigzag.requests)
+
+
+def test_a_scribble_in_the_open_is_refused(world: World) -> None:
+    with pytest.raises(NothingThere, match='there are none'):
+        draw(world, scribble(0.0, 0.0, 1.0, 1.0))
+
+
+def test_an_arrow_from_a_body_is_its_velocity(world: World) -> None:
+    spawn(world, 'a/0', DISC, (0.0, 0.0, 0.0))
+
+    reading = draw(world, [(0.0, 0.0), (3.0, 1.0), (2.5, 1.1), (3.0, 1.0), (2.7, 0.6)])
+    carry_out(world, reading)
+
+    assert reading.meaning == 'velocity'
+    assert world.snapshot().twists[0] == pytest.approx((3.0, 1.0, 0.0), abs=0.05)
+
+
+def test_hatching_makes_a_body_heavier(world: World) -> None:
+    spawn(world, 'a/0', Box(width=2.0, height=1.0), (0.0, 0.0, 0.0))
+    before = world.snapshot().scene.bodies[0].total_mass
+    lines = [(-0.6, -0.3), (-0.4, 0.3), (-0.2, -0.3), (0.0, 0.3)]
+
+    reading = draw(world, lines)
+    carry_out(world, reading)
+
+    assert reading.meaning == 'hatching'
+    (body,) = world.snapshot().scene.bodies
+    assert body.total_mass == pytest.approx(before * 1.25**3)

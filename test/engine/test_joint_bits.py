@@ -1,0 +1,84 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Machines of joints go on alike to the bit."""
+
+from __future__ import annotations
+
+from physsim_ros.model.requests import (
+    Restore,
+)
+from physsim_ros.model.shapes import Box
+from physsim_ros.simulation.world import World
+
+from .jointed import joining, KINDS, pair, PROPERTIES
+from ..building import spawn
+
+
+def machine() -> World:
+    world = World()
+    for number in range(6):
+        spawn(world, f'a/{number}', Box(width=1.0, height=0.3), (number * 0.9, 3.0, 0.1 * number))
+    spawn(world, 'ground/0', Box(width=40.0, height=1.0), (0.0, -0.5, 0.0), anchored=True)
+    for number, kind in enumerate(KINDS):
+        request = joining(
+            kind,
+            [(number * 0.6, 3.0), (number * 0.6 + 0.9, 3.0)][: kind.points],
+            f'joint/{number}',
+            a=f'a/{number % 6}',
+            b='world' if number % 3 == 0 else f'a/{(number + 1) % 6}',
+            **PROPERTIES.get(kind, {}),
+        )
+        world.apply(request)
+    return world
+
+
+def test_worlds_of_the_same_requests_go_on_to_the_bit() -> None:
+    one, other = machine(), machine()
+    one.step(480)
+    other.step(480)
+    assert one.digest() == other.digest()
+
+
+def test_worlds_of_the_same_state_go_on_to_the_bit() -> None:
+    world = machine()
+    world.step(200)
+    state = world.save()
+    one, other = World(), World()
+    one.apply(Restore(state=state))
+    other.apply(Restore(state=state))
+    one.step(300)
+    other.step(300)
+    assert one.save().joints == state.joints
+    assert one.digest() == other.digest()
+
+
+def test_a_world_goes_on_from_a_checkpoint_to_the_bit() -> None:
+    world = machine()
+    world.step(200)
+    key = world.renew()
+    world.step(300)
+    first = world.digest()
+    world.resume(key)
+    world.step(300)
+    assert world.digest() == first
+
+
+def test_scenes_are_the_same_object_until_a_joint_comes_or_goes() -> None:
+    world = pair()
+    before = world.snapshot().scene
+    world.apply(joining('axle', [(0.4, 0.0)]))
+    joined = world.snapshot().scene
+    world.step(10)
+    assert world.snapshot().scene is joined is not before

@@ -1,0 +1,142 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Joints that are removed, changed, or wait, with their bodies and by name."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from physsim_ros.model.joints import JointKind
+from physsim_ros.model.requests import (
+    Anchor,
+    Axle,
+    Command,
+    Delete,
+    DeleteAll,
+    Pin,
+    Release,
+    Unjoin,
+    UnjoinAll,
+)
+from physsim_ros.model.shapes import Box
+from physsim_ros.simulation.world import World
+import pytest
+
+from .jointed import joining, joints, KINDS, pair, points_of, PROPERTIES
+from ..building import BOX, DISC, pose, spawn, twist
+
+
+@pytest.mark.parametrize('kind', KINDS)
+def test_a_joint_goes_with_its_body(kind: JointKind) -> None:
+    world = pair()
+    world.apply(joining(kind, points_of(kind)))
+    world.apply(Delete(name='a/1'))
+    world.step(10)
+    assert joints(world) == ()
+
+
+def test_clearing_the_world_clears_its_joints() -> None:
+    world = pair()
+    world.apply(joining('axle', [(0.4, 0.0)]))
+    world.apply(DeleteAll())
+    assert joints(world) == ()
+
+
+def test_a_joint_is_deleted_by_its_name_and_all_of_a_namespace_together() -> None:
+    world = pair()
+    for name in ('x/0', 'x/1', 'y/0'):
+        world.apply(joining('axle', [(0.4, 0.0)], name))
+    world.apply(Unjoin(name='x/0'))
+    assert [joint.name for joint in joints(world)] == ['x/1', 'y/0']
+    world.apply(UnjoinAll(namespace='x'))
+    assert [joint.name for joint in joints(world)] == ['y/0']
+    world.apply(UnjoinAll())
+    assert joints(world) == ()
+
+
+@pytest.mark.parametrize('kind', KINDS)
+def test_a_body_that_is_changed_in_place_keeps_its_joints(kind: JointKind) -> None:
+    world = pair()
+    world.apply(joining(kind, points_of(kind), **PROPERTIES.get(kind, {})))
+    before = joints(world)
+    spawn(world, 'a/1', DISC, (0.8, 0.0, -0.2), mass=3.0)
+    assert joints(world) == before
+    world.step(60)
+    assert np.isfinite(world.snapshot().poses).all()
+
+
+@pytest.mark.parametrize('kind', KINDS)
+def test_a_joint_waits_while_both_its_bodies_are_anchored(kind: JointKind) -> None:
+    world = pair()
+    world.apply(joining(kind, points_of(kind)))
+    held = pose(world, 'a/0').tolist(), pose(world, 'a/1').tolist()
+    world.apply(Anchor(point=(-0.3, 0.0)))
+    world.apply(Anchor(point=(1.2, 0.0)))
+    world.step(24)
+    assert (pose(world, 'a/0').tolist(), pose(world, 'a/1').tolist()) == held
+    world.apply(Release(point=(1.2, 0.0)))
+    world.step(24)
+    assert pose(world, 'a/0').tolist() == held[0]
+    assert len(joints(world)) == 1
+
+
+def test_a_command_of_a_yaw_does_not_wind_a_joint_up() -> None:
+    world = World()
+    spawn(world, 'a/0', BOX, spin=20.0)
+    spawn(world, 'a/1', BOX, (0.8, 0.0, 0.0))
+    world.apply(joining('pin', [(0.4, 0.0)]))
+    world.step(480)
+    x, y, yaw = pose(world, 'a/0').tolist()
+    world.apply(Command(names=('a/0',), poses=((x, y, math.remainder(yaw, math.tau)),)))
+    spin = twist(world, 'a/0')[2]
+    world.step(1)
+    assert twist(world, 'a/0')[2] == pytest.approx(spin, abs=1e-3)
+
+
+def test_releasing_a_body_removes_the_pins_and_axles_there() -> None:
+    world = pair()
+    world.apply(Pin(point=(0.4, 0.0)))
+    world.apply(Axle(point=(0.4, 0.0)))
+    world.apply(joining('axle', [(1.2, 0.0)], a='a/1', b='world'))
+    world.apply(Release(point=(0.4, 0.0)))
+    assert [joint.name for joint in joints(world)] == ['joint/0']
+
+
+def test_releasing_a_long_body_leaves_the_axles_farther_along_it() -> None:
+    world = World()
+    spawn(world, 'plank/0', Box(width=20.0, height=1.0))
+    for x in (0.1, 2.4):
+        world.apply(Axle(point=(x, 0.0)))
+    world.apply(Release(point=(0.0, 0.0)))
+    assert [joint.name for joint in joints(world)] == ['axle/1']
+
+
+@pytest.mark.parametrize('kind', KINDS)
+def test_what_is_asked_for_again_where_it_is_changes_nothing(kind: JointKind) -> None:
+    world = pair()
+    request = joining(kind, points_of(kind), a='a/0', b='a/1', **PROPERTIES.get(kind, {}))
+    world.apply(request)
+    before = world.digest()
+    world.apply(request)
+    assert world.digest() == before
+
+
+def test_a_joint_that_is_changed_keeps_what_is_not_said() -> None:
+    world = pair()
+    world.apply(joining('spring', [(0.4, 0.0), (-0.3, 0.0)], stiffness=7.0, damping=1.0))
+    world.apply(joining('spring', [(0.4, 0.1), (-0.3, 0.0)], stiffness=9.0))
+    (joint,) = joints(world)
+    assert (joint.properties.stiffness, joint.properties.damping) == (9.0, 1.0)

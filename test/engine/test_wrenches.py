@@ -1,0 +1,161 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Wrenches: accelerations, timeouts, and their beginning and end without a jump of velocity."""
+
+import numpy as np
+from physsim_ros.model.requests import (
+    Command,
+    Configure,
+)
+from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.shapes import Disc, Shape
+from physsim_ros.simulation.world import World
+import pytest
+
+from ..building import (
+    BOX,
+    command,
+    DISC,
+    DT,
+    ELL,
+    G,
+    pose,
+    ROUNDING_OF_SUMS,
+    spawn,
+    twist,
+    unlimit_wrenches,
+)
+
+REST = (0.0, 0.0, 0.0)
+
+
+@pytest.mark.parametrize('gravity', [(0.0, 0.0), (0.0, -G)], ids=['weightless', 'falling'])
+@pytest.mark.parametrize('shape', [DISC, ELL], ids=['centred', 'off-centre'])
+def test_a_force_gives_its_acceleration_exactly(
+    shape: Shape, gravity: tuple[float, float]
+) -> None:
+    world = World(settings=WorldSettings(gravity=gravity, command_timeout=0.0))
+    spawn(world, 'a/0', shape, (1.0, 2.0, 0.3), mass=4.0, velocity=(1.0, 1.0))
+    center = world.snapshot().centers[0]
+
+    command(world, 'a/0', wrench=(8.0, -2.0, 0.0))
+    world.step(240)
+
+    acceleration = np.add(gravity, (2.0, -0.5))
+    assert twist(world, 'a/0') == pytest.approx(
+        (*np.add(acceleration, 1.0), 0.0), abs=ROUNDING_OF_SUMS
+    )
+    assert world.snapshot().centers[0] == pytest.approx(
+        center + 1.0 + acceleration / 2, abs=ROUNDING_OF_SUMS
+    )
+
+
+def test_a_torque_gives_its_angular_acceleration_exactly(world: World) -> None:
+    unlimit_wrenches(world)
+    spawn(world, 'a/0', Disc(radius=0.5), REST, mass=4.0, spin=1.0)
+
+    command(world, 'a/0', wrench=(0.0, 0.0, 1.5))
+    world.step(240)
+
+    # I = ½ m r² = 0.5 kg m², so 3 rad/s².
+    assert pose(world, 'a/0') == pytest.approx((0.0, 0.0, 1.0 + 1.5), abs=ROUNDING_OF_SUMS)
+    assert twist(world, 'a/0') == pytest.approx((0.0, 0.0, 4.0), abs=ROUNDING_OF_SUMS)
+
+
+def test_a_force_acts_in_world_axes_whichever_way_the_body_turns(world: World) -> None:
+    unlimit_wrenches(world)
+    spawn(world, 'a/0', BOX, (0.0, 0.0, 1.0), mass=1.0, spin=7.0)
+
+    command(world, 'a/0', wrench=(1.0, 0.0, 0.0))
+    world.step(240)
+
+    assert twist(world, 'a/0') == pytest.approx((1.0, 0.0, 7.0), abs=ROUNDING_OF_SUMS)
+
+
+@pytest.mark.parametrize(('timeout', 'steps'), [(0.5, 120), (0.1, 24), (1e-6, 1), (0.0101, 3)])
+def test_a_wrench_acts_for_the_timeout_of_simulation_time(timeout: float, steps: int) -> None:
+    world = World(settings=WorldSettings(gravity=(0.0, 0.0), command_timeout=timeout))
+    spawn(world, 'a/0', DISC, mass=1.0)
+    world.step(5)
+
+    command(world, 'a/0', wrench=(240.0, 0.0, 0.0))
+    for step in range(1, steps + 10):
+        world.step(1)
+        assert twist(world, 'a/0')[0] == pytest.approx(min(step, steps), abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ('before', 'after', 'steps'), [(0.0, 0.1, 24), (2.0, 0.1, 24), (0.5, 2.0, 110)]
+)
+def test_another_timeout_holds_for_a_wrench_that_acts(
+    before: float, after: float, steps: int
+) -> None:
+    world = World(settings=WorldSettings(gravity=(0.0, 0.0), command_timeout=before))
+    spawn(world, 'a/0', DISC, mass=1.0)
+    command(world, 'a/0', wrench=(240.0, 0.0, 0.0))
+    world.step(10)
+    world.apply(Configure(changes={'command_timeout': after}))
+    world.step(600)
+    # Never longer than it was given when it was asked for.
+    assert twist(world, 'a/0')[0] == pytest.approx(10 + steps, abs=1e-9)
+
+
+def test_a_timeout_of_0_is_no_limit(world: World) -> None:
+    unlimit_wrenches(world)
+    spawn(world, 'a/0', DISC, mass=1.0)
+
+    command(world, 'a/0', wrench=(1.0, 0.0, 0.0))
+    world.step(2400)
+
+    assert twist(world, 'a/0')[0] == pytest.approx(10.0, abs=1e-8)
+
+
+def test_a_wrench_acts_until_the_next_one(world: World) -> None:
+    spawn(world, 'a/0', DISC, mass=1.0)
+    command(world, 'a/0', wrench=(1.0, 0.0, 0.0))
+    world.step(60)
+    # A new one counts from anew, 0.5 s.
+    command(world, 'a/0', wrench=(0.0, 2.0, 0.0))
+    world.step(100)
+    assert twist(world, 'a/0') == pytest.approx((0.25, 200 * DT, 0.0), abs=ROUNDING_OF_SUMS)
+    world.step(100)
+    assert twist(world, 'a/0') == pytest.approx((0.25, 1.0, 0.0), abs=ROUNDING_OF_SUMS)
+
+    command(world, 'a/0', wrench=(1.0, 0.0, 0.0))
+    command(world, 'a/0', wrench=REST)
+    world.step(24)
+    assert twist(world, 'a/0') == pytest.approx((0.25, 1.0, 0.0), abs=ROUNDING_OF_SUMS)
+
+
+def test_a_wrench_begins_and_ends_without_a_jump_of_velocity(world: World) -> None:
+    spawn(world, 'a/0', DISC, mass=1.0, velocity=(1.0, 0.0))
+
+    command(world, 'a/0', wrench=(100.0, 0.0, 10.0))
+    assert twist(world, 'a/0') == pytest.approx((1.0, 0.0, 0.0), abs=ROUNDING_OF_SUMS)
+    world.step(120)
+    assert twist(world, 'a/0')[0] == pytest.approx(51.0, abs=1e-9)
+    command(world, 'a/0', wrench=REST)
+    assert twist(world, 'a/0')[0] == pytest.approx(51.0, abs=1e-9)
+
+
+def test_a_wrench_that_only_one_of_two_is_given_moves_only_that(world: World) -> None:
+    for number in range(2):
+        spawn(world, f'a/{number}', DISC, (5.0 * number, 0.0, 0.0), mass=1.0)
+
+    world.apply(Command(names=('a/1', 'a/0'), wrenches=((1.0, 0.0, 0.0), REST)))
+    world.step(24)
+
+    assert twist(world, 'a/0').tolist() == [0.0, 0.0, 0.0]
+    assert twist(world, 'a/1')[0] == pytest.approx(0.1, abs=ROUNDING_OF_SUMS)

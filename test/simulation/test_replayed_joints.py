@@ -1,0 +1,104 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Joints in replay: removed, broken, and loaded again."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from physsim_ros.files import load_world, save_world
+from physsim_ros.model.joints import JointKind, JointProperties
+from physsim_ros.model.requests import (
+    Anchor,
+    Join,
+    Pin,
+    Release,
+    Request,
+    Unjoin,
+    UnjoinAll,
+)
+import pytest
+
+from .driven import Driven, FLOOR, SECOND, told
+from ..building import BOX, spawning
+
+
+@pytest.mark.parametrize(
+    'request_',
+    [Unjoin(name='joint/0'), UnjoinAll(), Release(point=(0.0, 5.0))],
+    ids=['unjoin', 'unjoin all', 'release'],
+)
+def test_a_joint_that_is_taken_out_is_part_of_history(request_: Request) -> None:
+    driven = Driven()
+    driven.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
+    driven.ask(Join(name='joint/0', kind=JointKind.PIN, points=((0.0, 5.0),), a='b/0', b='world'))
+    driven.record(1.0)
+    hung = driven.simulation.world.snapshot().poses
+    driven.ask(request_)
+    driven.record(0.5)
+    driven.simulation.seek(0)
+    for frame in driven.run(1.0, 1.4):
+        if frame.snapshot.step:
+            driven.assert_same(frame)
+    assert driven.simulation.world.snapshot().scene.joints == ()
+    driven.simulation.undo()
+    assert driven.simulation.world.snapshot().poses == pytest.approx(hung)
+    assert len(driven.simulation.world.snapshot().scene.joints) == 1
+
+
+def test_a_joint_taken_out_in_the_past_begins_a_branch() -> None:
+    driven = Driven()
+    driven.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
+    driven.ask(Pin(point=(0.0, 5.0)))
+    driven.record(2.0)
+    driven.simulation.seek(SECOND)
+    driven.ask(UnjoinAll())
+    frames = [driven.settle(), *driven.run(1.0, 2.0)]
+    assert len(told(frames, 'branch')) == 1
+    assert told(frames, 'divergence') == []
+    assert driven.simulation.world.snapshot().scene.joints == ()
+
+
+def test_a_joint_that_broke_is_told_of_once() -> None:
+    driven = Driven()
+    driven.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
+    driven.ask(
+        Join(
+            name='joint/0',
+            kind=JointKind.SPRING,
+            points=((0.0, 5.0), (0.0, 8.0)),
+            a='b/0',
+            b='world',
+            properties=JointProperties(stiffness=20.0, break_force=5.0),
+        )
+    )
+    frames = driven.run(1.0, 2.0)
+    assert len(told(frames, 'joint_broken')) == 1
+    driven.simulation.seek(0)
+    frames = driven.run(1.0, 1.5)
+    driven.simulation.seek(SECOND)
+    frames.append(driven.settle())
+    assert told(frames, 'joint_broken') == []
+
+
+def test_a_joint_whose_bodies_were_anchored_later_loads_again(tmp_path: Path) -> None:
+    driven = Driven()
+    driven.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
+    driven.ask(Pin(point=(0.0, 5.0)))
+    driven.ask(Anchor(point=(0.0, 5.0)))
+    driven.settle()
+    state = driven.simulation.save()
+    path = save_world(state, 'it', world_dir=tmp_path, physics_rate=240.0)
+    assert load_world(path, settings=FLOOR, physics_rate=240.0).joints == state.joints

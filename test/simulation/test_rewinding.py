@@ -1,0 +1,170 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Rewinding: frames as they were shown, and steps that are simulated again in time for them."""
+
+from __future__ import annotations
+
+import numpy as np
+from physsim_ros.model.errors import OutOfHistory
+from physsim_ros.simulation.simulation import CHECKPOINTS
+from physsim_ros.simulation.world import World
+import pytest
+
+from .driven import Driven, FRAME, SECOND, told
+from ..building import BOX, spawning
+
+
+@pytest.mark.parametrize('speed', [-1.0, -4.0, -2.0, -64.0])
+def test_rewinding_shows_every_frame_as_it_was(driven: Driven, speed: float) -> None:
+    head = driven.simulation.step
+    frames = driven.run(speed, 1.0)
+    steps = [frame.snapshot.step for frame in frames]
+    # The first tick only says that it goes back from now on.
+    assert steps == [max(0, head + number * round(speed) * FRAME) for number in range(len(steps))]
+    assert len(steps) > 5
+    for frame in frames:
+        if frame.snapshot.step:
+            driven.assert_same(frame)
+
+
+def test_slow_motion_goes_back_step_by_step(driven: Driven) -> None:
+    frames = driven.run(-0.1, 1.0)
+    steps = [frame.snapshot.step for frame in frames]
+    assert len(steps) == pytest.approx(24, abs=1)
+    assert set(np.diff(steps)) == {-1}
+    for frame in frames:
+        if frame.snapshot.step % FRAME == 0:
+            driven.assert_same(frame)
+
+
+def test_the_past_is_the_same_where_it_has_to_be_made_again(
+    driven: Driven, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(driven.simulation.past.frame_cache, 'budget', 0)
+    driven.simulation.past.frame_cache.drop_from(0)
+    for frame in driven.run(-1.0, 4.5):
+        driven.assert_same(frame)
+
+
+@pytest.fixture
+def made(monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """Count the steps that all worlds make, from the last number on."""
+    counts = [0]
+    step = World.step
+
+    def counted(world: World, count: int) -> tuple[str, ...]:
+        counts[-1] += count
+        return step(world, count)
+
+    monkeypatch.setattr(World, 'step', counted)
+    return counts
+
+
+def most_made(driven: Driven, made: list[int], ticks: int) -> int:
+    """Return the number of steps of the tick that made most."""
+    first = len(made)
+    for _ in range(ticks):
+        made.append(0)
+        driven.tick()
+    return max(made[first:])
+
+
+@pytest.mark.parametrize('speed', [-1.0, -0.5, -0.1, -2.0])
+def test_no_tick_makes_many_steps_while_time_goes_back(made: list[int], speed: float) -> None:
+    driven = Driven()
+    driven.record(9.0)
+    # Of the last seconds nothing is known at first but the frames that were shown.
+    driven.run(speed, 0.2)
+    # Three seconds are made again while three seconds are shown.
+    assert most_made(driven, made, round(240 / -speed)) <= max(2.0, -2 * speed * FRAME)
+    assert driven.simulation.step == pytest.approx(5 * 240, abs=100)
+
+
+@pytest.mark.parametrize('on', [0.5, 2.5])
+def test_what_a_seek_left_out_is_made_again_in_time(made: list[int], on: float) -> None:
+    driven = Driven()
+    driven.record(12.0)
+    driven.simulation.past.frame_cache.drop_from(0)
+    driven.simulation.seek(round(4.5 * SECOND))
+    driven.settle()
+    driven.run(1.0, on)
+    driven.run(-1.0, 0.05)
+    # Three seconds are made again in the time from the seek on.
+    assert most_made(driven, made, round(60 * (on + 1.0))) <= 3 * FRAME * CHECKPOINTS / on
+    assert driven.simulation.step < 4 * 240
+
+
+def test_where_frames_were_far_apart_no_others_are_made(made: list[int]) -> None:
+    driven = Driven()
+    driven.ask(spawning('a/0'))
+    driven.run(16.0, 1.0)
+    driven.simulation.speed = -16.0
+    assert most_made(driven, made, 55) == 0
+    assert driven.simulation.step < 2 * 240
+
+
+def test_what_is_half_made_again_ends_no_earlier_than_time_has_come_since(driven: Driven) -> None:
+    driven.simulation.past.frame_cache.drop_from(0)
+    driven.simulation.seek(round(4.8 * SECOND))
+    driven.settle()
+    driven.run(1.0, 0.2)
+    # Frames before the seek begin to be replayed, up to now.
+    driven.run(-1.0, 0.05)
+    driven.run(8.0, 0.1)
+    frames = driven.run(-1.0, 1.0)
+    assert frames[0].snapshot.step > 1300
+    for frame in frames:
+        if frame.snapshot.step in driven.shown:
+            driven.assert_same(frame)
+
+
+def test_at_the_oldest_step_time_stops_and_says_so(driven: Driven) -> None:
+    frames = driven.run(-64.0, 1.0)
+    assert frames[-1].snapshot.step == 0
+    assert driven.simulation.speed == 0.0
+    assert len(told(frames, 'history')) == 1
+    again = driven.run(-1.0, 0.1)
+    assert len(told(again, 'history')) == 1
+    assert not any(frame.moved for frame in again)
+    assert driven.run(0.0, 0.5) == []
+
+
+@pytest.mark.parametrize('back', [0.5, 2.0, 4.9])
+def test_playing_on_from_the_past_gives_the_same_bits(driven: Driven, back: float) -> None:
+    head = driven.simulation.step
+    driven.run(-1.0, back)
+    frames = driven.run(1.0, back)
+    assert frames[-1].snapshot.step == pytest.approx(head, abs=2 * FRAME)
+    for frame in frames:
+        if frame.snapshot.step <= head:
+            driven.assert_same(frame)
+    assert told(frames, 'divergence') == []
+
+
+def test_fast_forward_over_the_past_gives_the_same_bits(driven: Driven) -> None:
+    driven.simulation.seek(0)
+    for frame in driven.run(8.0, 0.5):
+        driven.assert_same(frame)
+
+
+def test_a_request_in_the_past_drops_what_lay_ahead(driven: Driven) -> None:
+    driven.run(-1.0, 1.0)
+    step = driven.simulation.step
+    driven.ask(spawning('other/0', BOX, (5.0, 5.0, 0.0)))
+    frame = driven.settle()
+    assert [answer.topic for answer in frame.answers] == ['~/test', 'branch']
+    assert frame.snapshot.step == step
+    with pytest.raises(OutOfHistory, match='not in the history'):
+        driven.simulation.seek(round((step + FRAME) / 240 * SECOND))

@@ -1,0 +1,222 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Undo, redo and reset: gestures, settings, loaded worlds, and resets one by one."""
+
+from __future__ import annotations
+
+import numpy as np
+from physsim_ros.model.errors import OutOfHistory
+from physsim_ros.model.requests import (
+    Configure,
+    Delete,
+    DeleteAll,
+)
+from physsim_ros.simulation.simulation import Simulation
+import pytest
+
+from .driven import Driven, FRAME, SECOND, told
+from ..building import BOX, spawning
+
+
+def test_undo_goes_back_to_the_moment_before(driven: Driven) -> None:
+    message = driven.simulation.undo()
+    assert driven.simulation.step == pytest.approx(3 * 240, abs=FRAME)
+    assert 'late/0' in message
+    assert driven.names == tuple(f'a/{number}' for number in range(5))
+    shown = driven.settle().snapshot
+    np.testing.assert_array_equal(shown.poses, driven.shown[shown.step].snapshot.poses[:5])
+
+
+def test_redo_returns_to_where_undo_was_asked_for(driven: Driven) -> None:
+    step, digest = driven.simulation.step, driven.simulation.world.digest()
+    driven.simulation.undo()
+    driven.run(1.0, 0.7)
+    driven.simulation.redo()
+    assert (driven.simulation.step, driven.simulation.world.digest()) == (step, digest)
+
+
+def test_redo_shows_the_contacts_of_one_frame(driven: Driven) -> None:
+    driven.simulation.watch_contacts(True)
+    before = driven.run(1.0, 1.0)[-1].contacts
+    driven.ask(spawning('more/0', BOX, (8.0, 18.0, 0.0)))
+    driven.settle()
+    driven.simulation.undo()
+    driven.simulation.redo()
+    again = driven.settle().contacts
+    assert before is not None
+    assert again is not None
+    assert again.pairs.tolist() == before.pairs.tolist()
+    np.testing.assert_allclose(again.impulses, before.impulses, rtol=1e-9, atol=1e-12)
+
+
+def test_several_undos_are_redone_one_by_one(driven: Driven) -> None:
+    digests = [driven.simulation.world.digest()]
+    for _ in range(6):
+        driven.simulation.undo()
+        digests.append(driven.simulation.world.digest())
+    assert driven.names == ()
+    with pytest.raises(OutOfHistory, match='nothing to undo'):
+        driven.simulation.undo()
+    for digest in digests[-2::-1]:
+        driven.simulation.redo()
+        assert driven.simulation.world.digest() == digest
+    with pytest.raises(OutOfHistory, match='nothing to redo'):
+        driven.simulation.redo()
+
+
+def test_what_belongs_together_is_undone_together(driven: Driven) -> None:
+    driven.ask(spawning('b/0', BOX, (5.0, 5.0, 0.0)))
+    driven.ask(spawning('b/1', BOX, (5.0, 8.0, 0.0)), joined=True)
+    driven.settle()
+    assert 'and 1 more' in driven.simulation.undo()
+    assert not {'b/0', 'b/1'} & set(driven.names)
+
+
+def test_a_new_request_leaves_nothing_to_redo(driven: Driven) -> None:
+    driven.simulation.undo()
+    driven.ask(DeleteAll())
+    driven.settle()
+    with pytest.raises(OutOfHistory):
+        driven.simulation.redo()
+
+
+def test_a_refused_request_leaves_what_there_is_to_redo(driven: Driven) -> None:
+    driven.simulation.undo()
+    driven.ask(Delete(name='nobody/0'))
+    driven.settle()
+    driven.simulation.redo()
+    assert 'late/0' in driven.names
+
+
+def test_settings_are_undone_and_follow_time(driven: Driven) -> None:
+    driven.ask(Configure(changes={'gravity': (0.0, 0.0)}))
+    driven.record(1.0)
+    assert driven.simulation.settings.gravity == (0.0, 0.0)
+    driven.run(-1.0, 1.5)
+    assert driven.simulation.settings.gravity == (0.0, -9.81)
+    driven.run(1.0, 1.0)
+    assert driven.simulation.settings.gravity == (0.0, 0.0)
+    driven.simulation.undo()
+    assert driven.simulation.settings.gravity == (0.0, -9.81)
+
+
+def test_reset_is_undone_too(driven: Driven) -> None:
+    step, digest = driven.simulation.step, driven.simulation.world.digest()
+    driven.simulation.reset()
+    assert (driven.simulation.step, driven.names) == (0, ())
+    driven.run(1.0, 0.5)
+    later = driven.simulation.step
+    driven.simulation.undo()
+    assert (driven.simulation.step, driven.simulation.world.digest()) == (step, digest)
+    driven.simulation.redo()
+    assert later > 100
+    assert (driven.simulation.step, driven.names) == (later, ())
+
+
+def test_what_followed_a_reset_comes_back_with_it(driven: Driven) -> None:
+    driven.simulation.reset()
+    driven.record(4.0)
+    driven.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
+    driven.record(3.0)
+    step, digest = driven.simulation.step, driven.simulation.world.digest()
+    said = [driven.simulation.undo() for _ in range(2)] + [
+        driven.simulation.redo() for _ in range(2)
+    ]
+    assert [each.partition(',')[0] for each in said[:2]] == ['undid spawn b/0', 'undid reset']
+    assert (driven.simulation.step, driven.simulation.world.digest()) == (step, digest)
+    driven.simulation.seek(SECOND // 2)
+    frames = [driven.simulation.advance_frame() for _ in range(step // FRAME - 30)]
+    for frame in frames:
+        driven.assert_same(frame)
+    assert told(frames, 'divergence') == []
+    assert driven.simulation.world.digest() == digest
+
+
+def test_resets_are_undone_and_redone_one_by_one(driven: Driven) -> None:
+    moments = [driven.simulation.step]
+    for seconds in (1.0, 2.0):
+        driven.simulation.reset()
+        driven.run(1.0, seconds)
+        moments.append(driven.simulation.step)
+    backward = []
+    for _ in range(2):
+        driven.simulation.undo()
+        backward.append(driven.simulation.step)
+    forward = []
+    for _ in range(2):
+        driven.simulation.redo()
+        forward.append(driven.simulation.step)
+    assert backward == moments[1::-1]
+    assert forward == moments[1:]
+
+
+def test_an_undone_load_is_not_what_reset_returns_to(driven: Driven) -> None:
+    other = Driven()
+    other.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
+    driven.simulation.load(other.simulation.save())
+    driven.simulation.undo()
+    driven.simulation.reset()
+    assert driven.names == ()
+
+
+@pytest.mark.parametrize('more', [True, False])
+def test_undo_passes_over_nothing_that_is_kept_no_more(*, more: bool) -> None:
+    sim = Simulation(history=1.0)
+    sim.perform(spawning('ball/0', BOX, anchored=True))
+    sim.advance_frame()
+    sim.reset()
+    if more:
+        sim.perform(spawning('ball/1', BOX, anchored=True))
+    for _ in range(600):
+        sim.advance_frame()
+
+    with pytest.raises(OutOfHistory):
+        sim.undo()
+    assert ('ball/1' in sim.world) is more
+    assert 'ball/0' not in sim.world
+
+
+def test_what_was_loaded_at_the_beginning_cannot_be_undone() -> None:
+    first = Driven()
+    first.ask(spawning('a/0'))
+    first.settle()
+    second = Driven()
+    second.simulation.begin(first.simulation.save())
+    with pytest.raises(OutOfHistory):
+        second.simulation.undo()
+    assert second.names == ('a/0',)
+
+
+def test_a_world_that_was_loaded_while_time_ran_is_undone(driven: Driven) -> None:
+    names = driven.names
+    driven.simulation.load(Driven().simulation.save())
+    assert driven.names == ()
+    driven.run(1.0, 0.5)
+    driven.simulation.undo()
+    assert driven.names == names
+
+
+def test_older_steps_than_are_kept_are_dropped() -> None:
+    driven = Driven(history=3.0)
+    driven.ask(spawning('a/0', BOX, (0.0, 5.0, 0.0)))
+    driven.record(10.0)
+    history = driven.simulation.past.timeline.history
+    assert history.head - history.oldest == 3 * 240
+    assert len(history.checkpoints) <= 3
+    frames = driven.run(-64.0, 0.5)
+    assert frames[-1].snapshot.step == history.head - 3 * 240
+    driven.assert_same(frames[-1])
+    with pytest.raises(OutOfHistory):
+        driven.simulation.undo()
