@@ -36,7 +36,6 @@ from .scenes import (
     steps,
     turned,
     until_velocity_changes,
-    walls,
 )
 
 ELASTICITIES = [1.0, 0.5, 0.0]
@@ -468,26 +467,3 @@ def test_a_fast_disc_does_not_pass_a_thin_wall(report, elasticity, start, angle,
     deepest = max(0.15 - each.poses[disc, :2] @ outwards for each in steps(sim, 60))
 
     report.check(25, 'thin wall, disc at 40 m/s, penetration', max(deepest, 0), 0.0, 0.01, 'm')
-
-
-def test_discs_in_a_closed_box_keep_their_energy(report):
-    sim = simulation(gravity=NOWHERE, friction=0.0, elasticity=1.0)
-    walls(sim, 0.0, 0.0, 12.0, 12.0)
-    rng = np.random.default_rng(21)
-    for number, (vx, vy) in enumerate(rng.uniform(-2.0, 2.0, (100, 2)).tolist()):
-        place = (1.0 + 1.1 * (number % 10), 1.0 + 1.1 * (number // 10), 0.0)
-        spawn(
-            sim,
-            f'disc/{number}',
-            Disc(radius=0.2),
-            place,
-            velocity=(vx, vy),
-            elasticity=1.0,
-            friction=0.0,
-        )
-    before = sim.world.snapshot().kinetic_energy
-
-    last = run(sim, 60.0)
-
-    kept = last.kinetic_energy / before
-    report.check(21, '100 discs in a box for 60 s, energy', kept, 1.0, 0.01, '–')

@@ -24,18 +24,28 @@ import sys
 import numpy as np
 from physsim_ros.files import load_world, save_world
 from physsim_ros.model.requests import Anchor, Command, Configure, Delete, Release, Spawn
+from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
-from .scenes import floor, G, NOWHERE, run, simulation, spawn, turned, walls
+from .scenes import floor, G, NOWHERE, run, spawn, turned, walls
 
 ROOT = Path(__file__).resolve().parents[2]
-# Steps: 6 s, and so three checkpoints after the first.
-LENGTH = 1440
-FRAMES = 240
+# Simulation time from one checkpoint to the next [s]: at the default of 3 s each scene would have
+# to be three times as long.
+CHECKPOINTS = 1.0
+# Steps: 3 s, and so two checkpoints after the first, and one at the end.
+LENGTH = 720
+# Frames of 4 steps by which a loaded world is compared: 2 s.
+FRAMES = 120
 ELL = Polygon(outline=((0.0, 0.0), (2.0, 0.0), (2.0, 0.5), (0.5, 0.5), (0.5, 2.0), (0.0, 2.0)))
 PAIR = Compound(element=Disc(radius=0.2), centers=((0.0, 0.0), (1.0, 0.3)))
+
+
+def _simulation(**settings):
+    """Make an empty world that takes a checkpoint every second."""
+    return Simulation(settings=WorldSettings(**settings), checkpoints=CHECKPOINTS)
 
 
 # The worlds of the other laws, one of each kind, and what is asked of them on the way: step ->
@@ -44,7 +54,7 @@ PAIR = Compound(element=Disc(radius=0.2), centers=((0.0, 0.0), (1.0, 0.3)))
 
 def _projectiles():
     """Laws 1 and 2: they meet nothing."""
-    sim = simulation()
+    sim = _simulation()
     for number, shape in enumerate((Disc(radius=0.5), Box(width=1.0, height=0.3), ELL, PAIR)):
         velocity = (3.0 + number, 8.0)
         spawn(sim, f'body/{number}', shape, (4.0 * number, -2.0, 0.4), velocity=velocity, spin=3.0)
@@ -53,7 +63,7 @@ def _projectiles():
 
 def _meetings():
     """Laws 3, 6 and 9: pairs that meet head-on and obliquely."""
-    sim = simulation(gravity=NOWHERE, friction=0.3)
+    sim = _simulation(gravity=NOWHERE, friction=0.3)
     for number, elasticity in enumerate((1.0, 0.5, 0.0)):
         for side, shape, mass in ((-1, Disc(radius=0.5), 1.0), (1, Box(width=1, height=1), 3.0)):
             pose = (side * (1.5 + number), 4.0 * number + 0.1 * side, 0.3 * number)
@@ -71,7 +81,7 @@ def _meetings():
 
 def _on_walls():
     """Laws 4, 5 and 25: discs and corners on walls, one of them thin and hit at 40 m/s."""
-    sim = simulation(gravity=NOWHERE, elasticity=1.0, friction=0.2)
+    sim = _simulation(gravity=NOWHERE, elasticity=1.0, friction=0.2)
     walls(sim, -6.0, -6.0, 6.0, 6.0)
     thin = Chain(points=((0.0, -3.0), (0.0, 3.0)), thickness=0.02)
     spawn(sim, 'thin/0', thin, (2.0, 0.0, 0.4), anchored=True)
@@ -84,7 +94,7 @@ def _on_walls():
 
 def _bounces():
     """Laws 7 and 8: what falls on a floor, on a box's sides and corners, and bounces."""
-    sim = simulation(elasticity=0.9)
+    sim = _simulation(elasticity=0.9)
     floor(sim)
     spawn(sim, 'box/0', Box(width=1.0, height=1.0), (0.0, 3.0, 0.3), anchored=True)
     for number in range(9):
@@ -95,7 +105,7 @@ def _bounces():
 
 def _incline():
     """Laws 10 to 12: a block that slides, one that sticks, a disc that rolls."""
-    sim = simulation()
+    sim = _simulation()
     floor(sim, angle=0.5)
     shapes = (Box(width=1, height=1), Disc(radius=0.5), Box(width=1.0, height=1.0))
     for number, shape in enumerate(shapes):
@@ -105,16 +115,16 @@ def _incline():
 
 
 def _comes_to_roll():
-    """Law 13: a disc that is set sliding a second after it was put down."""
-    sim = simulation(friction=0.3)
+    """Law 13: a disc that is set sliding half a second after it was put down."""
+    sim = _simulation(friction=0.3)
     floor(sim)
     spawn(sim, 'disc/0', Disc(radius=0.5), (0.0, 0.5, 0.0))
-    return sim, {240: [Command(names=('disc/0',), twists=((5.0, 0.0, 0.0),))]}
+    return sim, {120: [Command(names=('disc/0',), twists=((5.0, 0.0, 0.0),))]}
 
 
 def _stack():
     """Law 18: ten boxes."""
-    sim = simulation()
+    sim = _simulation()
     floor(sim)
     for level in range(10):
         spawn(sim, f'box/{level}', Box(width=0.3, height=0.3), (0.0, 0.3 * (level + 0.5), 0.0))
@@ -123,7 +133,7 @@ def _stack():
 
 def _pyramid():
     """Law 19: 105 boxes, one of which is shot at in the middle of it."""
-    sim = simulation()
+    sim = _simulation()
     floor(sim)
     number = 0
     for level in range(14):
@@ -132,12 +142,12 @@ def _pyramid():
             spawn(sim, f'box/{number}', Box(width=0.5, height=0.5), (x, 0.5 * level + 0.25, 0.0))
             number += 1
     ball = Spawn(name='ball/0', shape=Disc(radius=0.3), pose=(-8.0, 2.0, 0.0))
-    return sim, {700: [ball, Command(names=('ball/0',), twists=((20.0, 2.0, 0.0),))]}
+    return sim, {350: [ball, Command(names=('ball/0',), twists=((20.0, 2.0, 0.0),))]}
 
 
 def _gas():
     """Law 21: 100 discs in a closed box."""
-    sim = simulation(gravity=NOWHERE, elasticity=1.0, friction=0.0)
+    sim = _simulation(gravity=NOWHERE, elasticity=1.0, friction=0.0)
     walls(sim, -5.0, -5.0, 5.0, 5.0)
     chance = random.Random(21)
     for number in range(100):
@@ -150,7 +160,7 @@ def _gas():
 
 def _anchored():
     """Law 24: an anchored body that is hit, let go, and held again."""
-    sim = simulation()
+    sim = _simulation()
     walls(sim, -10.0, 0.0, 10.0, 20.0)
     spawn(sim, 'held/0', Box(width=0.4, height=0.4), (0.1, 2.0, 0.3), anchored=True)
     for number in range(5):
@@ -159,14 +169,14 @@ def _anchored():
         spawn(sim, f'hit/{number}', Disc(radius=0.3), at, mass=100.0, velocity=velocity)
     hold = Command(names=('held/0',), poses=((0.0, 3.0, 0.0),))
     return sim, {
-        300: [Release(point=(0.1, 2.0))],
-        900: [hold, Anchor(point=(0.0, 3.0))],
+        150: [Release(point=(0.1, 2.0))],
+        450: [hold, Anchor(point=(0.0, 3.0))],
     }
 
 
 def _eventful():
     """Everything at once: bodies come and go, and the world itself is set otherwise."""
-    sim = simulation()
+    sim = _simulation()
     walls(sim, -4.0, 0.0, 4.0, 12.0)
     chance = random.Random(26)
     there, later = [], {}
@@ -277,7 +287,7 @@ def scene(request):
 def test_any_step_is_reached_again_and_played_on_from(report, scene):
     chance = random.Random(scene)
     # Among them the steps of the checkpoints, and those beside them.
-    steps = [*chance.sample(range(LENGTH), 8), 0, 479, 480, 481, 961, LENGTH]
+    steps = [*chance.sample(range(LENGTH), 4), 0, 239, 240, 241, 481, LENGTH]
     chance.shuffle(steps)
     player = Player(SCENES[scene])
     player.record(digests_at=steps)
@@ -333,7 +343,7 @@ def load_and_go_on(*paths):
 
 def _loaded(path):
     """Return a simulation that begins with a saved world."""
-    sim = simulation()
+    sim = _simulation()
     sim.begin(load_world(Path(path), settings=sim.settings, physics_rate=sim.physics_rate))
     return sim
 
@@ -367,7 +377,7 @@ def test_a_saved_world_goes_on_in_another_process_as_it_is_loaded_here(report, t
     paths, here = [], []
     for number, scene in enumerate(SCENES.values()):
         sim, later = scene()
-        for step in range(0, 4 * chance.randrange(60, 240), 4):
+        for step in range(0, 4 * chance.randrange(30, 120), 4):
             for at in range(step, step + 4):
                 for request in later.get(at, ()):
                     sim.perform(request)
