@@ -40,6 +40,7 @@ from physsim_ros.engine.batch_io import BatchIO
 from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.ccd.continuous import ContinuousCollision
 from physsim_ros.engine.ccd.hulls import Hulls
+from physsim_ros.engine.contacts.contact_points import set_contact
 from physsim_ros.engine.contacts.contact_report import ContactReport
 from physsim_ros.engine.joints.joint_set import JointSet
 from physsim_ros.engine.stages.contact_normal import contact_at_impact
@@ -139,7 +140,7 @@ class Pipeline:
             contact = contact_at_impact(contact, shapes, self._context) or contact
             contact = self._internal_edges.slide_over(contact, shapes) or contact
             if contact is not found:
-                arbiter.contact_point_set = contact
+                set_contact(arbiter, contact)
             project_contact(contact, shapes, space, self._placed)
         if self._context.watching:
             self.contact_report.add_first_touch(arbiter, contact)

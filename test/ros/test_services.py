@@ -66,7 +66,7 @@ class Wall:
 
 
 @pytest.fixture
-def wall(physsim: PhysSim) -> Wall:
+def wall(physsim: PhysSim, machine_in_time: None) -> Wall:
     """Let time pass at the speed that is set."""
     wall = Wall(physsim)
     wall.pass_(1)
