@@ -29,8 +29,9 @@ def test_each_point_of_a_contact_is_set():
 
     def begin(arbiter, _space, _data):
         found = arbiter.contact_point_set
+        aside = pymunk.Vec2d(0.1, 0.0)
         moved = [
-            pymunk.ContactPoint(point.point_a + (0.1, 0.0), point.point_b + (0.1, 0.0), -0.002)
+            pymunk.ContactPoint(point.point_a + aside, point.point_b + aside, -0.002)
             for point in found.points
         ]
         wanted = pymunk.ContactPointSet(found.normal, tuple(moved))
