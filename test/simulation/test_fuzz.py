@@ -336,7 +336,7 @@ def carry_out(world: World, make: Callable[[World], Request]) -> Request | None:
     return request
 
 
-@settings(deadline=None, max_examples=300)
+@settings(deadline=None, max_examples=150)
 @given(sequence=st.one_of(*(st.lists(each, min_size=4, max_size=12) for each in ASKED)))
 def test_any_sequence_of_requests_leaves_a_sound_world(sequence: list[Ask]) -> None:
     world, model = begun()

@@ -62,12 +62,12 @@ def used(sim: Simulation) -> float:
 
 @pytest.mark.parametrize('paused', [False, True])
 def test_a_flood_of_commands_takes_no_more_than_the_budget(paused: bool) -> None:
-    sim = crowd(3.0)
+    sim = crowd(2.0)
     gc.collect()
     tracemalloc.start()
     before, _ = tracemalloc.get_traced_memory()
     digests, events = {}, []
-    for number in range(450):
+    for number in range(300):
         for part in range(4):
             command(sim, number + part)
         if paused:
@@ -77,9 +77,9 @@ def test_a_flood_of_commands_takes_no_more_than_the_budget(paused: bool) -> None
         else:
             frame = sim.advance_frame()
             events += [each for each in frame.answers if each.code == 'history']
-            if frame.snapshot.step % 480 == 0:
+            if frame.snapshot.step % 240 == 0:
                 digests[frame.snapshot.step] = sim.world.digest()
-        assert used(sim) <= 3.0 * MEGABYTE
+        assert used(sim) <= 2.0 * MEGABYTE
     gc.collect()
     after, _ = tracemalloc.get_traced_memory()
     tracemalloc.stop()
@@ -114,7 +114,7 @@ def test_the_estimate_for_bodies_and_frames_is_near_what_they_take(make) -> None
     tracemalloc.start()
     before, _ = tracemalloc.get_traced_memory()
     first = used(sim)
-    for number in range(240):
+    for number in range(120):
         for part in range(3):
             shape = make(0.2 + 1e-6 * (3 * number + part))
             sim.requests.submit(
@@ -134,7 +134,7 @@ def test_frames_go_first_then_ghosts_and_courses_and_the_course_in_force_last() 
     for number in range(3):
         sim.seek(SECOND)
         command(sim, number)
-        told(sim, 600)
+        told(sim, 300)
     courses = len(sim.status.courses)
     assert courses == 3
     assert sim.past.ghost(1, 2.0) is not None
