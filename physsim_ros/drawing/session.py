@@ -55,6 +55,7 @@ from physsim_ros.model.preview import Line, NO_PREVIEW, Preview
 from physsim_ros.model.requests import Join, Request, Spawn
 from physsim_ros.model.snapshot import Answer, Snapshot
 from physsim_ros.model.transform import Point
+from physsim_ros.simulation.request_queue import Amend
 from physsim_ros.simulation.simulation import Simulation
 
 # The least confidence in a runner-up that the label of a preview mentions.
@@ -240,7 +241,8 @@ def submit_reading(
     queue = simulation.requests
     queue.tell(replace(reading_answer(reading, topic=topic), asker=asker))
     if reading.amends:
-        simulation.amend(reading.amends, reading.requests, topic=topic, field=field, asker=asker)
+        amend = Amend(reading.amends, reading.requests)
+        queue.submit(amend, topic=topic, joined=True, field=field, asker=asker)
         session.note_gesture(reading.amends[0])
         return
     for number, request in enumerate(reading.requests):

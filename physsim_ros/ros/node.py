@@ -148,10 +148,11 @@ class PhysSimNode(NodeWithoutQosEvents):
             self,
             self.simulation,
             self._values,
+            is_there=self._is_there,
             advance_frame=self.advance_frame,
             on_seek=self._note_seek,
         )
-        self._time_control.subscribe(self.requests, self._refuse_command)
+        self._time_control.subscribe(self.requests, self._refuse_message)
 
     def _create_services(self) -> None:
         simulation = self.simulation
@@ -277,9 +278,14 @@ class PhysSimNode(NodeWithoutQosEvents):
         """Record contacts while there is a subscriber, a viewer or a page that shows them."""
         self.simulation.watch_contacts(self.outputs.wants_contacts)
 
+    def _is_there(self) -> bool:
+        """Return whether the world is where it is shown; without ticks it goes at once."""
+        return self.simulation.is_there or not self._started
+
     def _current_snapshot(self) -> Snapshot:
-        """Apply the waiting requests, and return the snapshot that is shown."""
-        self.apply_requests()
+        """Return the snapshot that is shown, with the waiting requests but during a seek."""
+        if self._is_there():
+            self.apply_requests()
         return self.simulation.world.snapshot() if self.frame is None else self.frame.snapshot
 
     def _note_seek(self) -> None:
@@ -296,11 +302,6 @@ class PhysSimNode(NodeWithoutQosEvents):
 
     def _refuse_message(self, refusal: Refusal, topic: str) -> None:
         self.simulation.requests.refuse(refusal, topic=topic, subject='')
-
-    def _refuse_command(self, refusal: Refusal, topic: str) -> None:
-        """Publish a refusal outside of a frame, after the answers to earlier requests."""
-        self.apply_requests()
-        self.outputs.report_answer(Answer.refused(refusal, topic=topic))
 
     def _report_answers(self) -> tuple[Answer, ...]:
         """Publish and log the answers that no frame carries, and return them."""

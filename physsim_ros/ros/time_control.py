@@ -39,6 +39,7 @@ class TimeControl:
     :param node: whose parameter `speed` is the speed
     :param simulation: of the node
     :param values: of the parameters of the node, by name, always up to date
+    :param is_there: tells whether the world is where it is shown, and no seek is under way
     :param advance_frame: advances the world by one frame, and publishes it
     :param on_seek: called where time jumps
     """
@@ -49,12 +50,14 @@ class TimeControl:
         simulation: Simulation,
         values: Mapping[str, Any],
         *,
+        is_there: Callable[[], bool],
         advance_frame: Callable[[], None],
         on_seek: Callable[[], None],
     ) -> None:
         self._node = node
         self._simulation = simulation
         self._values = values
+        self._is_there = is_there
         self._advance_frame = advance_frame
         self._on_seek = on_seek
 
@@ -123,12 +126,14 @@ class TimeControl:
 
     def step(self) -> str:
         """
-        Advance a paused world by one frame.
+        Advance a paused world by one frame, or have it made when a seek under way is done.
 
         :raises Running: time is running
         """
         if self._simulation.speed != 0:
             raise Running('time is running; pause first')
+        if not self._is_there():
+            return f'at {self._simulation.queue_frame() * 1e-9:.6f} s'
         self._advance_frame()
         return f'at {self._simulation.world.stamp * 1e-9:.6f} s'
 

@@ -21,7 +21,7 @@ requests have changed.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
 from physsim_ros.model.snapshot import Frame
 from physsim_ros.simulation.past import Past
@@ -58,22 +58,13 @@ class FrameLoop:
         if not playback.continue_seek(is_overdue):
             return ()
         self._handler.apply_waiting()
+        if playback.frames_due:
+            playback.frames_due -= 1
+            return (self.advance_period(),)
         self._handler.hands.note_time(now_ns, paused=playback.speed == 0)
         if playback.speed > 0:
             self._handler.release_grips()
-        frames = []
-        for _ in range(_FRAMES_A_CALL):
-            steps = playback.clock.due(now_ns, playback.step)
-            if steps == 0:
-                break
-            if steps > 0:
-                frames.append(self._play_frame(steps, is_overdue))
-            elif frame := self._rewind_frame(-steps, is_overdue):
-                frames.append(frame)
-            else:
-                break
-            if playback.speed == 0 or is_overdue():
-                break
+        frames = list(self._due_frames(now_ns, is_overdue))
         if not frames and playback.changed:
             frames.append(self._observe_frame(moved=False))
         return tuple(frames)
@@ -89,6 +80,22 @@ class FrameLoop:
         """Apply the requests that wait, without a step; return a frame if there were any."""
         self._handler.apply_waiting()
         return self._observe_frame(moved=False) if self._playback.changed else None
+
+    def _due_frames(self, now_ns: int, is_overdue: Callable[[], bool]) -> Iterator[Frame]:
+        """Make and yield the frames that are due at a steady time [ns]."""
+        playback = self._playback
+        for _ in range(_FRAMES_A_CALL):
+            steps = playback.clock.due(now_ns, playback.step)
+            if steps == 0:
+                return
+            if steps > 0:
+                yield self._play_frame(steps, is_overdue)
+            elif frame := self._rewind_frame(-steps, is_overdue):
+                yield frame
+            else:
+                return
+            if playback.speed == 0 or is_overdue():
+                return
 
     def _play_frame(self, steps: int, is_overdue: Callable[[], bool] = lambda: False) -> Frame:
         self._playback.play(steps, is_overdue)

@@ -42,6 +42,7 @@ class Playback:
 
     :ivar clock: the speed, and the steps that are due
     :ivar changed: whether the next frame differs from the last one, though no step was made
+    :ivar frames_due: single frames to be made, one in each call, once the world is there
     """
 
     def __init__(self, past: Past, *, speed: float) -> None:
@@ -49,6 +50,7 @@ class Playback:
             physics_rate=past.physics_rate, frame_steps=past.frame_steps, speed=speed
         )
         self.changed = True
+        self.frames_due = 0
         self._past = past
         # The cached frame that is shown, while the world is at another step; else None.
         self._shown: CachedFrame | None = None
@@ -61,6 +63,8 @@ class Playback:
     @speed.setter
     def speed(self, speed: float) -> None:
         self.changed |= speed != self.clock.speed
+        if speed:
+            self.frames_due = 0
         self.clock.speed = speed
 
     # The moment that is shown
@@ -106,7 +110,8 @@ class Playback:
     @property
     def is_world_due(self) -> bool:
         """Return whether the world is to go to the moment that is shown."""
-        return self.speed > 0 or (self.speed == 0 and not self.changed)
+        stands_still = self.speed == 0 and not self.changed
+        return self.speed > 0 or stands_still or self.frames_due > 0
 
     def observe_frame(self, *, moved: bool) -> CachedFrame:
         """
@@ -142,6 +147,7 @@ class Playback:
         :raises OutOfHistory: it is kept no more, or has not come yet
         """
         self._show_requests()
+        self.frames_due = 0
         past = self._past
         step = past.steps_in(stamp * 1e-9)
         frame = past.frame_cache.cached_frame(step, watching=past.watching)
@@ -154,7 +160,10 @@ class Playback:
         """Have requests that were applied just now belong to the frame of this step."""
         timeline = self._past.timeline
         step, serial = timeline.moment
-        if serial > timeline.history.log.serial_shown_at(step):
+        if timeline.is_seeking:
+            # An undo, which is not replayed to its end only to be shown.
+            timeline.note_shown()
+        elif serial > timeline.history.log.serial_shown_at(step):
             self._observe_world(moved=False)
 
     def seek_shown(self) -> None:
@@ -187,6 +196,12 @@ class Playback:
     def steps_to_period(self) -> int:
         """Return the number of steps to the next multiple of the publish period."""
         return self._past.frame_steps - self.step % self._past.frame_steps
+
+    def queue_frame(self) -> int:
+        """Have a single frame made once the world is there; return the time of it [ns]."""
+        step = self.step + self.steps_to_period + self.frames_due * self._past.frame_steps
+        self.frames_due += 1
+        return round(step * 1e9 / self._past.physics_rate)
 
     def play(self, steps: int, is_overdue: Callable[[], bool] = lambda: False) -> None:
         """

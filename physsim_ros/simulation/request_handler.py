@@ -15,11 +15,13 @@
 """
 The handler of requests: it applies those that wait, in their order, and collects the answers.
 
-Law: every request that waits has one answer, but for the moves of hands; answers keep the order of
-requests.
+Law: every request that waits has one answer, but for the moves of hands and for amendments, whose
+requests have one each; answers keep the order of requests.
 """
 
 from __future__ import annotations
+
+from collections.abc import Iterator
 
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.requests import Grab, HandRequest, KeepHand, LetGo, MoveHand, Request
@@ -27,7 +29,7 @@ from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.hands import Hands, placing
 from physsim_ros.simulation.past import Past
 from physsim_ros.simulation.playback import Playback
-from physsim_ros.simulation.request_queue import RequestQueue, Seek, Waiting
+from physsim_ros.simulation.request_queue import Amend, RequestQueue, Seek, Waiting
 
 
 class RequestHandler:
@@ -60,6 +62,9 @@ class RequestHandler:
             request = waiting.request
             if isinstance(request, Answer):
                 self.answers.append(request)
+                continue
+            if isinstance(request, Amend):
+                self.answers += self._amend(request, waiting)
                 continue
             # A seek that is refused shows nothing new.
             self._playback.changed |= not isinstance(request, Seek)
@@ -137,6 +142,18 @@ class RequestHandler:
                 refusal, topic=topic, subject=subject, field=waiting.field, asker=asker
             )
         return Answer(topic=topic, subject=subject, message=message, asker=asker)
+
+    def _amend(self, amend: Amend, waiting: Waiting) -> Iterator[Answer]:
+        """Replace the requests of earlier gestures, and yield the answers to the new ones."""
+        self._playback.seek_shown()
+        done = self._past.amend(amend.gestures, amend.requests)
+        self._playback.note_jump()
+        topic, field, asker = waiting.topic, waiting.field, waiting.asker
+        for each in done:
+            if isinstance(each, Refusal):
+                yield Answer.refused(each, topic=topic, field=field, asker=asker)
+            else:
+                yield Answer(topic=topic, subject=each[0], message=each[1], asker=asker)
 
     def _drag(self, request: HandRequest, gesture: int) -> tuple[str, str]:
         if request.hand not in self.hands and not isinstance(request, Grab):

@@ -57,6 +57,21 @@ class Seek:
     stamp: int
 
 
+@dataclass(frozen=True, slots=True)
+class Amend:
+    """
+    Replace the requests of earlier gestures, as if these had been made then, in one gesture.
+
+    The world is simulated again from there up to this moment. Each request is answered.
+
+    :param gestures: numbers of these, as `RequestQueue.gesture` was after each was submitted
+    :param requests: that take their place
+    """
+
+    gestures: tuple[int, ...]
+    requests: tuple[Request, ...]
+
+
 _NO_REQUESTS = Seek | Refusal | Answer
 
 
@@ -65,7 +80,8 @@ class Waiting:
     """
     A request that waits, the refusal of a message that is no request, or an answer.
 
-    :param request: to be applied, a time to go to, or a refusal, or an answer without a request
+    :param request: to be applied, gestures to amend, a time to go to, a refusal, or an answer
+        without a request
     :param topic: that it came from
     :param subject: name of the body or joint that it names, or ''
     :param gesture: requests of one gesture are undone together
@@ -73,7 +89,7 @@ class Waiting:
     :param asker: key of the message that asks, which the answer names; '' for none
     """
 
-    request: Request | Seek | Refusal | Answer
+    request: Request | Amend | Seek | Refusal | Answer
     topic: str
     subject: str
     gesture: int
@@ -111,7 +127,7 @@ class RequestQueue:
 
     def submit(
         self,
-        request: Request,
+        request: Request | Amend,
         *,
         topic: str,
         joined: bool = False,
@@ -188,13 +204,15 @@ class RequestQueue:
             yield self._waiting.popleft()
 
 
-def _size_of(request: Request) -> int:
+def _size_of(request: Request | Amend) -> int:
     """Return the memory that a request takes [bytes]."""
+    if isinstance(request, Amend):
+        return sum(map(_size_of, request.requests))
     names = names_size(request.names) if isinstance(request, Command) else 0
     return request_size(request) + names
 
 
-def _subject_of(request: Request) -> str:
+def _subject_of(request: Request | Amend) -> str:
     """Return the one body or joint that a request names, or ''."""
     match request:
         case (

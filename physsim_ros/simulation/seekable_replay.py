@@ -67,6 +67,11 @@ class SeekableReplay(Replay):
         return self._world
 
     @property
+    def is_seeking(self) -> bool:
+        """Whether a seek is under way."""
+        return self._seek is not None
+
+    @property
     def settings(self) -> WorldSettings:
         """Return the settings of the world at this moment."""
         if self._seek is None:

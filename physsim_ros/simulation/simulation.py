@@ -21,10 +21,10 @@ answered; they are applied in a paused world too, and in the past, where another
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 
 from physsim_ros.model.checkpoint import WorldState
-from physsim_ros.model.errors import BadProperty, Refusal
+from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.requests import Request, Restore
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer, Frame
@@ -196,35 +196,6 @@ class Simulation:
         self._playback.note_jump()
         return 'back at the beginning, time 0' if done else 'at the beginning, time 0'
 
-    def amend(
-        self,
-        gestures: Sequence[int],
-        requests: Sequence[Request],
-        *,
-        topic: str,
-        field: str = '',
-        asker: str = '',
-    ) -> None:
-        """
-        Replace the requests of earlier gestures, as if these had been made then, in one gesture.
-
-        The world is simulated again from there up to this moment. Each request is answered.
-
-        :param gestures: numbers of these, as `requests.gesture` was after each was submitted
-        :param topic: that the requests come from
-        :param field: of the message that they were made of, to be named by a refusal
-        :param asker: whom the answers are for
-        """
-        self._prepare_change()
-        done = self.past.amend(gestures, requests)
-        self._playback.note_jump()
-        for each in done:
-            if isinstance(each, Refusal):
-                answer = Answer.refused(each, topic=topic, field=field, asker=asker)
-            else:
-                answer = Answer(topic=topic, subject=each[0], message=each[1], asker=asker)
-            self._handler.answers.append(answer)
-
     def undo(self) -> str:
         """
         Go back to before the last gesture that changed the world; return a message about it.
@@ -271,6 +242,11 @@ class Simulation:
 
     # Time
 
+    @property
+    def is_there(self) -> bool:
+        """Whether the world is at the moment that is shown, without a replay."""
+        return not (self._playback.is_frame_cached or self.past.timeline.is_seeking)
+
     def continue_seek(self, is_overdue: Callable[[], bool] = lambda: False) -> bool:
         """
         Replay towards the moment that was sought; a reader of the world has it all replayed.
@@ -308,7 +284,16 @@ class Simulation:
         """Apply the requests that wait, and advance by one publish period, at any speed."""
         return self._frames.advance_period()
 
+    def queue_frame(self) -> int:
+        """
+        Have a paused world advance by one publish period once it is there, in a later `advance`.
+
+        :return: the simulation time then [ns]
+        """
+        return self._playback.queue_frame()
+
     def _prepare_change(self) -> None:
         """Apply the requests that wait, and have the world go to the moment that is shown."""
         self._handler.apply_waiting()
+        self._playback.frames_due = 0
         self._playback.seek_shown()

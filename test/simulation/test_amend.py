@@ -18,6 +18,8 @@ from __future__ import annotations
 
 from physsim_ros.model.requests import Configure, Delete, Request
 from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.snapshot import Frame
+from physsim_ros.simulation.request_queue import Amend
 from physsim_ros.simulation.simulation import Simulation
 
 from ..building import BOX, DISC, spawning
@@ -36,6 +38,14 @@ def world_after(*timed: tuple[int, Request], frames: int) -> Simulation:
     return simulation
 
 
+def amend(simulation: Simulation, gestures: list[int], requests: list[Request]) -> Frame:
+    """Replace the requests of gestures, and return the frame that shows it."""
+    simulation.requests.submit(Amend(tuple(gestures), tuple(requests)), topic='t', joined=True)
+    frame = simulation.settle()
+    assert frame is not None
+    return frame
+
+
 def test_an_amended_world_is_where_it_would_have_come_with_those_requests() -> None:
     wall, ball = spawning('t/0', BOX, (0.0, 1.0, 0.0), anchored=True), spawning('t/1', DISC)
     later = spawning('t/2', DISC, (0.1, 3.0, 0.0))
@@ -47,7 +57,7 @@ def test_an_amended_world_is_where_it_would_have_come_with_those_requests() -> N
             other.requests.submit(later, topic='t')
         other.advance_frame()
 
-    other.amend([gesture], [ball], topic='t')
+    amend(other, [gesture], [ball])
 
     assert other.step == straight.step
     assert other.world.digest() == straight.world.digest()
@@ -58,7 +68,7 @@ def test_the_amended_gesture_is_undone_as_one() -> None:
     gesture = simulation.requests.gesture
     simulation.advance_frame()
 
-    simulation.amend([gesture], [spawning('t/1', DISC), spawning('t/2', DISC)], topic='t')
+    amend(simulation, [gesture], [spawning('t/1', DISC), spawning('t/2', DISC)])
     simulation.undo()
 
     assert simulation.world.snapshot().scene.names == ()
@@ -71,7 +81,7 @@ def test_what_the_amended_past_refuses_later_is_dropped() -> None:
     simulation.requests.submit(Configure(changes={'damping': 0.5}), topic='t')
     simulation.advance_frame()
 
-    simulation.amend([gesture], [spawning('t/1', DISC)], topic='t')
+    amend(simulation, [gesture], [spawning('t/1', DISC)])
 
     assert simulation.world.snapshot().scene.names == ('t/1',)
     assert simulation.settings.damping == 0.5
@@ -80,12 +90,9 @@ def test_what_the_amended_past_refuses_later_is_dropped() -> None:
 def test_a_refused_request_is_answered_and_the_others_hold() -> None:
     simulation = world_after((2, spawning('t/0', BOX)), frames=5)
 
-    simulation.amend(
-        [simulation.requests.gesture], [Delete(name='no/1'), spawning('t/1', DISC)], topic='t'
-    )
+    requests = [Delete(name='no/1'), spawning('t/1', DISC)]
+    frame = amend(simulation, [simulation.requests.gesture], requests)
 
-    frame = simulation.settle()
-    assert frame is not None
     assert [answer.code for answer in frame.answers] == ['unknown_body', '']
     assert simulation.world.snapshot().scene.names == ('t/1',)
 
@@ -97,7 +104,7 @@ def test_several_gestures_become_one() -> None:
     second = simulation.requests.gesture
     simulation.advance_frame()
 
-    simulation.amend([first, second], [spawning('t/2', DISC)], topic='t')
+    amend(simulation, [first, second], [spawning('t/2', DISC)])
 
     assert simulation.world.snapshot().scene.names == ('t/2',)
     simulation.undo()
@@ -108,7 +115,7 @@ def test_gestures_that_changed_nothing_are_amended_by_what_is_made_now() -> None
     simulation = world_after((2, spawning('t/0', BOX)), frames=5)
     step = simulation.step
 
-    simulation.amend([simulation.requests.gesture + 7], [spawning('t/1', DISC)], topic='t')
+    amend(simulation, [simulation.requests.gesture + 7], [spawning('t/1', DISC)])
 
     assert simulation.step == step
     assert simulation.world.snapshot().scene.names == ('t/0', 't/1')

@@ -18,6 +18,7 @@ from __future__ import annotations
 
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Frame
+from physsim_ros.simulation.request_queue import Amend
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
@@ -74,6 +75,52 @@ def test_requests_wait_for_the_end_of_a_seek_and_apply_there(
     _, frame = ticks_to_a_frame(simulation, 0)
     assert [answer.subject for answer in frame.answers if answer.topic == '~/spawn'] == ['late/0']
     assert frame.snapshot.step == 240
+
+
+def test_a_change_of_earlier_gestures_waits_for_the_end_of_a_seek(
+    past: tuple[Simulation, dict[int, str]],
+) -> None:
+    simulation, _ = past
+    simulation.speed = 0.0
+    simulation.seek(2 * SECOND)
+    amend = Amend((4,), (spawning('other/0', DISC, (5.0, 1.0, 0.0)),))
+    simulation.requests.submit(amend, topic='~/stroke', joined=True)
+    ticks, frame = ticks_to_a_frame(simulation, 0)
+    assert ticks > 100
+    assert [answer.subject for answer in frame.answers if answer.topic == '~/stroke'] == [
+        'other/0'
+    ]
+    assert frame.snapshot.scene.names == ('disc/0', 'disc/1', 'disc/2', 'other/0')
+
+
+def test_single_frames_are_made_one_by_one_after_the_end_of_a_seek(
+    past: tuple[Simulation, dict[int, str]],
+) -> None:
+    simulation, digests = past
+    simulation.speed = 0.0
+    simulation.seek(2 * SECOND)
+    assert not simulation.is_there
+    times = [simulation.queue_frame(), simulation.queue_frame()]
+    assert times == [round(step * SECOND / 240) for step in (484, 488)]
+    steps = []
+    for tick in range(1, 1000):
+        for frame in simulation.advance(tick * SECOND // 60, is_overdue=lambda: True):
+            assert frame.moved
+            steps.append(frame.snapshot.step)
+            assert simulation.world.digest() == digests[frame.snapshot.step]
+    assert steps == [484, 488]
+    assert simulation.is_there
+
+
+def test_another_seek_takes_the_place_of_one_and_of_its_frames(
+    past: tuple[Simulation, dict[int, str]],
+) -> None:
+    simulation, _ = past
+    simulation.speed = 0.0
+    simulation.seek(2 * SECOND)
+    simulation.queue_frame()
+    simulation.seek(SECOND)
+    assert simulation.queue_frame() == round(244 * SECOND / 240)
 
 
 def test_another_seek_takes_the_place_of_one_under_way(
@@ -166,3 +213,20 @@ def test_requests_that_are_replayed_at_one_step_are_replayed_bit_by_bit() -> Non
     ticks, _ = ticks_to_a_frame(simulation, 0)
     assert ticks > 30
     assert simulation.world.digest() == digest
+
+
+def test_a_seek_takes_the_place_of_an_undo_under_way() -> None:
+    simulation = Simulation(settings=FLOOR, speed=0.0)
+    for number in range(40):
+        simulation.requests.submit(
+            spawning(f'disc/{number}', DISC, (0.0, number + 1.0, 0.0)), topic=''
+        )
+    simulation.settle()
+    simulation.undo()
+    assert not simulation.advance(0, is_overdue=lambda: True)
+
+    simulation.seek(0)
+
+    assert not simulation.advance(SECOND, is_overdue=lambda: True)
+    ticks_to_a_frame(simulation, SECOND)
+    assert simulation.world.snapshot().scene.names == tuple(f'disc/{k}' for k in range(39))
