@@ -39,7 +39,7 @@ from physsim_ros.model.requests import (
 )
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Compound, Disc, Shape
-from physsim_ros.model.shapes.mass_properties import form_of
+from physsim_ros.model.shapes.form_cache import MOST_KEPT
 from physsim_ros.simulation import capacity
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
@@ -252,5 +252,6 @@ def test_what_was_counted_for_a_shape_goes_with_it() -> None:
     assert count_inside(discs) == 0
 
     del discs
-    form_of.cache_clear()
+    for radius in range(1, MOST_KEPT + 1):
+        Disc(radius=0.0917 * radius)
     assert form() is None

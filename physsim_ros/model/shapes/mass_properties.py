@@ -21,18 +21,16 @@ Box2D calls the first three mass data. Here they are at a density of 1 kg/m².
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache
 import math
 
 import numpy as np
+from physsim_ros.model.shapes.form_cache import share_forms
 from physsim_ros.model.shapes.pieces import Capsule, Circle, Convex, Piece
 from physsim_ros.model.transform import cross, next_vertices, Point
 
 # A centroid closer to the origin than this share of the extent lies at the origin: a symmetric
 # shape is balanced to the bit, however its sums round.
 _CENTERED = 1e-12
-# Forms that are kept for shapes to come: at most 100 MB, if each had 1,000 pieces.
-MOST_FORMS = 256
 
 
 # Shapes are compared by what they are made of; of a form, others keep what they derive from it.
@@ -57,14 +55,13 @@ class Form:
     inner: float
 
 
-# Bodies of equal shapes share its form; those of the last shapes are kept.
-@lru_cache(maxsize=MOST_FORMS)
-def form_of(pieces: tuple[Piece, ...], *, whole: tuple[Piece, ...] | None = None) -> Form:
+@share_forms
+def form_of(pieces: tuple[Piece, ...], whole: tuple[Piece, ...] = ()) -> Form:
     """
     Return pieces with their mass properties and extent.
 
     :param pieces: convex
-    :param whole: pieces that mass and extent are of, which may be concave; None is `pieces`
+    :param whole: pieces that mass and extent are of, which may be concave; () is `pieces`
     """
     whole = whole or pieces
     measures = [_mass_properties(piece) for piece in whole]

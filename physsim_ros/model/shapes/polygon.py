@@ -17,14 +17,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from functools import lru_cache
 from typing import ClassVar, Self
 
 import numpy as np
 from physsim_ros.model.checks import point_list
 from physsim_ros.model.errors import BadOutline
 from physsim_ros.model.shapes.convex_pieces import convex_pieces, DEGENERATE
-from physsim_ros.model.shapes.mass_properties import Form, form_of, MOST_FORMS
+from physsim_ros.model.shapes.form_cache import share_forms
+from physsim_ros.model.shapes.mass_properties import Form, form_of
 from physsim_ros.model.shapes.pieces import Convex
 from physsim_ros.model.shapes.polygon_geometry import (
     crosses_itself,
@@ -66,7 +66,7 @@ class Polygon:
         return [list(point) for point in self.outline]
 
 
-@lru_cache(maxsize=MOST_FORMS)
+@share_forms
 def _form_of_outline(points: tuple[Point, ...]) -> Form:
     """
     Return the form of a polygon.
@@ -89,4 +89,4 @@ def _form_of_outline(points: tuple[Point, ...]) -> Form:
     pieces = convex_pieces(outline)
     # Mass and extent are those of the outline, slivers included.
     whole = Convex(as_tuples(outline))
-    return form_of(pieces, whole=(whole,))
+    return form_of(pieces, (whole,))

@@ -27,6 +27,7 @@ from ...building import SHAPES as EXAMPLES
 SHARED = {
     'convex_decomposition',
     'convex_pieces',
+    'form_cache',
     'mass_properties',
     'pieces',
     'polygon_geometry',
