@@ -160,10 +160,7 @@ class Playback:
         """Have requests that were applied just now belong to the frame of this step."""
         timeline = self._past.timeline
         step, serial = timeline.moment
-        if timeline.is_seeking:
-            # An undo, which is not replayed to its end only to be shown.
-            timeline.note_shown()
-        elif serial > timeline.history.log.serial_shown_at(step):
+        if serial > timeline.history.log.serial_shown_at(step):
             self._observe_world(moved=False)
 
     def seek_shown(self) -> None:

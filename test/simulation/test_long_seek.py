@@ -213,20 +213,3 @@ def test_requests_that_are_replayed_at_one_step_are_replayed_bit_by_bit() -> Non
     ticks, _ = ticks_to_a_frame(simulation, 0)
     assert ticks > 30
     assert simulation.world.digest() == digest
-
-
-def test_a_seek_takes_the_place_of_an_undo_under_way() -> None:
-    simulation = Simulation(settings=FLOOR, speed=0.0)
-    for number in range(40):
-        simulation.requests.submit(
-            spawning(f'disc/{number}', DISC, (0.0, number + 1.0, 0.0)), topic=''
-        )
-    simulation.settle()
-    simulation.undo()
-    assert not simulation.advance(0, is_overdue=lambda: True)
-
-    simulation.seek(0)
-
-    assert not simulation.advance(SECOND, is_overdue=lambda: True)
-    ticks_to_a_frame(simulation, SECOND)
-    assert simulation.world.snapshot().scene.names == tuple(f'disc/{k}' for k in range(39))
