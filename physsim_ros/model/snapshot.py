@@ -245,6 +245,7 @@ class Frame:
     :param moved: whether simulation time differs from that of the frame before
     :param preview: of the unfinished drawing
     :param past: whether it lies before the newest step of its course
+    :param course: number of the course of events in force
     """
 
     snapshot: Snapshot
@@ -254,6 +255,7 @@ class Frame:
     moved: bool = True
     preview: Preview = NO_PREVIEW
     past: bool = False
+    course: int = 1
 
 
 def run_state(speed: float) -> str:

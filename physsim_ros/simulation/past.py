@@ -196,7 +196,13 @@ class Past:
         return done
 
     def begin(self, state: WorldState) -> None:
-        """Begin a timeline with a state, at time 0; nothing before it can be undone."""
+        """
+        Begin a timeline with a state, at time 0, on course 1.
+
+        Nothing before it can be undone or returned to.
+        """
+        self._course_numbers = itertools.count(1)
+        self._ghosts = Ghosts()
         self._undo.begin(state)
         self.frame_cache = self._new_frame_cache()
 

@@ -16,7 +16,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -32,6 +32,8 @@ import rerun.blueprint as rrb
 SAMPLE = 6
 # Time span of the plots [s].
 _SPAN = 15.0
+# Period at which values that do not change are sent [frames]: a plot has those of its span only.
+_REPEAT = 60
 _BLUE, _ORANGE, _GREEN, _PURPLE, _GREY = (
     (76, 120, 168),
     (245, 133, 24),
@@ -53,7 +55,7 @@ class Plot(NamedTuple):
     :ivar name: with its unit
     :ivar series: name and colour of each
     :ivar values: of a frame, one for each series
-    :ivar stepped: whether values last until they change; then only changes are sent
+    :ivar stepped: whether values last until they change; they are sent then, and each second
     """
 
     name: str
@@ -116,8 +118,10 @@ class Plots:
 
     def __init__(self, recording: rr.RecordingStream) -> None:
         self._recording = recording
-        # Values of stepped plots that were sent last, and time at which the pace was [ns].
+        # Values of stepped plots that were sent last, and the frame at which they are due again.
         self._sent: dict[str, tuple[float, ...]] = {}
+        self._due: dict[str, int] = {}
+        # Time at which the pace was sent last [ns].
         self._paced: int | None = None
         for path, plot in PLOTS.items():
             names, colors = zip(*plot.series, strict=True)
@@ -135,19 +139,19 @@ class Plots:
         for path, plot in PLOTS.items():
             rows = [(index, plot.values(batch.frames[index])) for index in batch.sampled(SAMPLE)]
             if plot.stepped:
-                rows = self._changes(path, rows)
+                rows = self._changes(path, rows, batch.numbers)
             if rows:
                 values = np.array([each for _, each in rows]).ravel()
                 column = columns.column(columns.SCALARS, values, [len(plot.series)] * len(rows))
                 times = batch.times_at([index for index, _ in rows])
                 self._recording.send_columns(path, times, [column])
 
-    def _changes(self, path: str, rows: list[_Row]) -> list[_Row]:
-        """Return the rows whose values differ from those before."""
+    def _changes(self, path: str, rows: list[_Row], numbers: Sequence[int]) -> list[_Row]:
+        """Return the rows whose values differ from those sent last, and those that are due."""
         changes = []
         for index, values in rows:
-            if self._sent.get(path) != values:
-                self._sent[path] = values
+            if self._sent.get(path) != values or numbers[index] >= self._due[path]:
+                self._sent[path], self._due[path] = values, numbers[index] + _REPEAT
                 changes.append((index, values))
         return changes
 

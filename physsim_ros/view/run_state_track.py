@@ -13,14 +13,14 @@
 # limitations under the License.
 
 """
-The tracks of time: run states, branches, past and present, and marks of what changed the world.
+The tracks of time: run states, courses, past and present, and what changed the world last.
 
-Law: words are short, so that they are seen whole; sentences are in the log.
+Law: words are short, and each stays until the next, so that they are seen whole; sentences are in
+the log.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import fields
 
 from physsim_ros.model.settings import WorldSettings
@@ -29,7 +29,8 @@ from physsim_ros.view.frame_batch import FrameBatch
 import rerun as rr
 import rerun.blueprint as rrb
 
-RUN, PAST, COURSE, MARKS = 'time/run', 'time/past', 'time/course', 'time/marks'
+RUN, PAST, COURSE = 'time/run', 'time/past', 'time/course'
+CHANGE = 'time/last_change'
 # Green while playing, orange while rewinding; the faster, the darker. No colour is in two tracks.
 _RUN_COLORS = {
     'slow': (160, 205, 150),
@@ -50,11 +51,10 @@ _COURSE_COLORS = (
     (121, 112, 196),
     (219, 166, 192),
 )
-_MARK_COLOR = (228, 87, 86)
-# Topics of answers after which a new branch of time begins.
-_BRANCHING = {'branch', '~/undo', '~/redo', '~/reset', '~/timeline'}
-# Topics of answers that are marked, and the word of each.
-_MARKED = {
+# Of changes in turn, so that neighbours differ: reds.
+_CHANGE_COLORS = ((228, 87, 86), (170, 50, 70), (240, 140, 130))
+# Topics of answers to what changes the world, and the word of each.
+_CHANGES = {
     '~/load_world': 'load',
     '~/reset': 'reset',
     '~/clear': 'clear',
@@ -64,24 +64,19 @@ _MARKED = {
     '~/timeline': 'return',
     'divergence': 'divergence',
 }
-# Duration of a mark [frames]: its word is seen whole in a recording of ten seconds.
-_MARKED_FOR = 60
 
 
 class RunStateTrack:
     """
-    Sends run states, branches of time and marks.
+    Sends run states, courses and changes.
 
     :param recording: stream to log to
     """
 
     def __init__(self, recording: rr.RecordingStream) -> None:
         self._recording = recording
-        self._states: dict[str, str | None] = {}
-        self._branches = 0
+        self._states: dict[str, str] = {}
         self._settings: WorldSettings | None = None
-        self._mark_ends: int | None = None
-        self._marks: set[str] = set()
         self._styles: dict[str, dict[str, tuple[int, int, int]]] = {}
         self._style(RUN, _RUN_COLORS)
         self._style(PAST, _PAST_COLORS)
@@ -92,17 +87,19 @@ class RunStateTrack:
             times = batch.times_at([index])[:1]
             self._send(RUN, run_state(frame.speed), times)
             self._send(PAST, 'past' if frame.past else 'present', times)
-            topics = [answer.topic for answer in frame.answers if not answer.code]
-            if self._branches == 0 or _BRANCHING.intersection(topics):
-                self._branches += 1
-                color = _COURSE_COLORS[(self._branches - 1) % len(_COURSE_COLORS)]
-                self._style(COURSE, {str(self._branches): color})
-                self._send(COURSE, str(self._branches), times)
-            self._send_mark(self._mark_words(frame, topics), batch.numbers[index], times)
+            color = _COURSE_COLORS[(frame.course - 1) % len(_COURSE_COLORS)]
+            self._style(COURSE, {str(frame.course): color})
+            self._send(COURSE, str(frame.course), times)
+            if words := self._changes(frame):
+                known = self._styles.setdefault(CHANGE, {})
+                self._style(CHANGE, {words: _CHANGE_COLORS[len(known) % len(_CHANGE_COLORS)]})
+                self._states.pop(CHANGE, None)  # Also the second of two that are alike.
+                self._send(CHANGE, words, times)
 
-    def _mark_words(self, frame: Frame, topics: Iterable[str]) -> list[str]:
+    def _changes(self, frame: Frame) -> str:
         """Return the words for what changed the world in a frame."""
-        words = [_MARKED[topic] for topic in topics if topic in _MARKED]
+        topics = [answer.topic for answer in frame.answers if not answer.code]
+        words = [_CHANGES[topic] for topic in topics if topic in _CHANGES]
         settings, before = frame.snapshot.scene.settings, self._settings
         if before is not None and settings is not before:
             words += [
@@ -111,33 +108,22 @@ class RunStateTrack:
                 if getattr(settings, each.name) != getattr(before, each.name)
             ]
         self._settings = settings
-        return list(dict.fromkeys(words))
-
-    def _send_mark(self, words: list[str], number: int, times: list[rr.TimeColumn]) -> None:
-        if words:
-            word = ', '.join(words)
-            if word not in self._marks:
-                self._marks.add(word)
-                self._style(MARKS, {word: _MARK_COLOR})
-            self._send(MARKS, word, times)
-            self._mark_ends = number + _MARKED_FOR
-        elif self._mark_ends is not None and number >= self._mark_ends:
-            self._send(MARKS, None, times)
-            self._mark_ends = None
+        return ', '.join(dict.fromkeys(words))
 
     def _style(self, path: str, colors: dict[str, tuple[int, int, int]]) -> None:
-        """Log the colours of states; those of other states of the track stay."""
+        """Log the colours of states that are new; those of other states of the track stay."""
         known = self._styles.setdefault(path, {})
+        if colors.keys() <= known.keys():
+            return
         known.update(colors)
         style = rr.StateConfiguration(values=list(known), colors=list(known.values()))
         self._recording.log(path, style, static=True)
 
-    def _send(self, path: str, state: str | None, times: list[rr.TimeColumn]) -> None:
+    def _send(self, path: str, state: str, times: list[rr.TimeColumn]) -> None:
         """Send a state that differs from the one before."""
-        if path not in self._states or self._states[path] != state:
+        if self._states.get(path) != state:
             self._states[path] = state
-            states = [state] if state is not None else []
-            column = rr.StateChange.columns(state=states or ['']).partition([len(states) or 1])
+            column = rr.StateChange.columns(state=[state])
             self._recording.send_columns(path, times, column)
 
 

@@ -12,15 +12,18 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""The band under the picture: one state for each way that time runs, one for each course."""
+"""The tracks of time below the picture."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+from physsim_ros.model.requests import Spawn
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.shapes import Disc
 from physsim_ros.model.snapshot import Answer, Frame, Snapshot
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.view.frame_batch import RecordedClock
@@ -117,17 +120,30 @@ def test_a_state_goes_on_from_one_batch_to_the_next(tmp_path: Path) -> None:
     assert [number for number, _ in rows['/time/run']] == [0, 6]
 
 
-@pytest.mark.parametrize('topic', ['branch', '~/undo', '~/redo', '~/reset', '~/timeline'])
-def test_what_turns_the_course_begins_a_new_one(topic: str, tmp_path: Path) -> None:
-    frames = [frame(1.0), frame(1.0, '~/spawn'), frame(1.0, '~/spawn', topic), frame(1.0)]
-    rows = drawn(tmp_path / 'band.rrd', frames)
-    assert rows['/time/course'] == [(0, '1'), (2, '2')]
+def test_courses_have_the_numbers_of_the_world(tmp_path: Path) -> None:
+    sim = Simulation(physics_rate=240, publish_rate=60)
+    frames = [sim.advance_frame() for _ in range(10)]
+    for number in (2, 3):
+        sim.seek(100_000_000)
+        sim.requests.submit(Spawn(name=f'ball/{number}', shape=Disc(radius=0.1)), topic='~/spawn')
+        frames.append(sim.advance_frame())
+    sim.return_to_course(2)
+    frames.append(sim.advance_frame())
+    assert sim.status.course == 2
+    courses = drawn(tmp_path / 'band.rrd', frames)['/time/course']
+    assert [state for _, state in courses] == ['1', '2', '3', '2']
 
 
-def test_what_only_answers_keeps_the_course(tmp_path: Path) -> None:
-    topics = ('~/spawn', '~/anchor', 'history', 'divergence', '~/seek', '~/speed')
-    rows = drawn(tmp_path / 'band.rrd', [frame(1.0, topic) for topic in topics])
-    assert rows['/time/course'] == [(0, '1')]
+def test_the_last_change_stays_until_the_next_and_one_that_is_alike_is_told_again(
+    tmp_path: Path,
+) -> None:
+    topics = ('~/spawn', '~/undo', '~/speed', '~/undo', '~/seek', 'branch', 'history')
+    frames = [frame(1.0, topic) for topic in topics]
+    settings = replace(EMPTY.settings, damping=0.5, iterations=20)
+    damped = replace(frames[0].snapshot, scene=replace(EMPTY, settings=settings))
+    rows = drawn(tmp_path / 'band.rrd', [*frames, replace(frames[0], snapshot=damped)])
+    changes = rows['/time/last_change']
+    assert changes == [(1, 'undo'), (3, 'undo'), (5, 'branch'), (7, 'damping, iterations')]
 
 
 def test_past_and_present_stand_where_they_begin(tmp_path: Path) -> None:
