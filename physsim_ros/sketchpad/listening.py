@@ -16,6 +16,8 @@
 
 from __future__ import annotations
 
+import asyncio
+from contextlib import suppress
 import errno
 from ipaddress import ip_address
 import socket
@@ -23,23 +25,60 @@ from typing import Any
 
 from physsim_ros.model.errors import PhysSimError
 from tornado.httpserver import HTTPServer
+from tornado.iostream import IOStream, StreamClosedError, UnsatisfiableReadError
 from tornado.netutil import bind_sockets
 
 # Connections at once, pages included: fewer than a process may have files open.
 MOST_CONNECTIONS = 256
+# Connections beyond them that are answered with a refusal at once, and how long each may take [s];
+# more are closed without an answer.
+MOST_REFUSED, _REFUSING = 16, 2.0
+_SENTENCE = 'there are as many connections as there may be; close some, and try again\n'
+_REFUSAL = (
+    'HTTP/1.1 503 Service Unavailable\r\nConnection: close\r\n'
+    'Content-Type: text/plain; charset=utf-8\r\n'
+    f'Content-Length: {len(_SENTENCE)}\r\n\r\n{_SENTENCE}'
+).encode()
 # Ports that are tried, from the given one on.
 _PORTS = 20
 
 
 class BoundedServer(HTTPServer):
-    """A server that closes connections beyond a number at once."""
+    """A server that refuses connections beyond a number."""
 
-    def handle_stream(self, stream: Any, address: Any) -> None:
+    def initialize(self, *arguments: Any, **options: Any) -> None:
+        """Begin without a connection, as `HTTPServer` does."""
+        super().initialize(*arguments, **options)
+        self._refused: set[asyncio.Task[None]] = set()
+
+    def handle_stream(self, stream: IOStream, address: Any) -> None:
         """Serve a connection, if there are not too many."""
-        if len(self._connections) >= MOST_CONNECTIONS:
+        if len(self._connections) < MOST_CONNECTIONS:
+            super().handle_stream(stream, address)
+        elif len(self._refused) < MOST_REFUSED:
+            task = asyncio.create_task(_refuse(stream))
+            self._refused.add(task)
+            task.add_done_callback(self._refused.discard)
+        else:
             stream.close()
-            return
-        super().handle_stream(stream, address)
+
+    async def close_all_connections(self) -> None:
+        """Close all connections, those that are being refused too."""
+        for task in self._refused:
+            task.cancel()
+        await super().close_all_connections()
+
+
+async def _refuse(stream: IOStream) -> None:
+    """Answer the request of a connection with a refusal, and close it."""
+    try:
+        with suppress(StreamClosedError, UnsatisfiableReadError, TimeoutError):
+            async with asyncio.timeout(_REFUSING):
+                # A connection with unread bytes would be reset, and the answer with it.
+                await stream.read_until(b'\r\n\r\n', max_bytes=2**16)
+                await stream.write(_REFUSAL)
+    finally:
+        stream.close()
 
 
 def listening_sockets(address: str, port: int) -> list[socket.socket]:

@@ -14,10 +14,11 @@
 
 """Strangers get nothing; hostile pages change nothing, and delay neither the world nor others."""
 
-from contextlib import suppress
+from contextlib import ExitStack, suppress
 import json
 import socket
 
+from physsim_ros.sketchpad import listening
 from physsim_ros.sketchpad.access import Access, Role
 from physsim_ros.sketchpad.inbox import CAPACITY
 from physsim_ros.sketchpad.server import MOST_BYTES, MOST_PAGES
@@ -289,6 +290,20 @@ def test_one_page_too_many_is_refused(browser: Browser) -> None:
     pages[0].close()
     pages[0] = browser.open_page()
     assert pages[0].ask('drop')['ok']
+
+
+def test_one_connection_too_many_is_told_so(
+    browser: Browser, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(listening, 'MOST_CONNECTIONS', 3)
+    host, port = browser.base.removeprefix('http://').split(':')
+    with ExitStack() as closing:
+        for _ in range(3):
+            closing.enter_context(socket.create_connection((host, int(port))))
+        refused = browser.fetch('/session')
+        assert refused.code == 503
+        assert b'as many connections' in refused.body
+    browser.until(lambda: browser.fetch('/session').code == 200)
 
 
 def test_roles_have_tokens_of_their_own() -> None:
