@@ -9,7 +9,7 @@ import {BodyPanel} from './body_panel.js';
 import {Camera} from './camera.js';
 import {Connection} from './connection.js';
 import {Cursor} from './cursor.js';
-import {find, iconButton, make} from './dom.js';
+import {createElement, elementOf, iconButton} from './dom.js';
 import {Gallery} from './gallery.js';
 import {Hints} from './hints.js';
 import {Keyboard} from './keyboard.js';
@@ -52,7 +52,7 @@ export class App {
     this.connection = new Connection();
     this.world = new WorldState(this.connection);
     this.camera = new Camera();
-    this.view = new SceneView(find('world', HTMLCanvasElement), this.world, this.camera);
+    this.view = new SceneView(elementOf('world', HTMLCanvasElement), this.world, this.camera);
     this.selection = new Selection(this);
     this.view.overlays.push((view) => this.tool.draw(view));
     this.cursor = new Cursor(this);
@@ -77,7 +77,7 @@ export class App {
   }
 
   #fillTop() {
-    find('files', HTMLElement).append(
+    elementOf('files', HTMLElement).append(
       iconButton('Worlds', 'worlds', () => this.gallery.showWorlds(), 'Worlds to open'),
       iconButton('Save', 'save', () => this.gallery.showSave(), 'Save, link, picture'));
     const toggle = (/** @type {'velocities' | 'contacts'} */ part, /** @type {string} */ name,
@@ -90,19 +90,19 @@ export class App {
       button.setAttribute('aria-pressed', 'false');
       return button;
     };
-    this.recording = make('a', {target: '_blank', rel: 'noopener', hidden: true, className: 'button',
+    this.recording = createElement('a', {target: '_blank', rel: 'noopener', hidden: true, className: 'button',
       textContent: 'Rerun', title: 'The recording'});
-    find('looks', HTMLElement).append(
+    elementOf('looks', HTMLElement).append(
       toggle('velocities', 'Show velocities', 'velocities', 'Velocities as arrows: 1 m is 1 m/s'),
       toggle('contacts', 'Show forces', 'forces', 'Forces of contact as arrows: 1 m is 10 N'),
-      iconButton('Material', 'material', () => this.panel.showMaterial(), 'What is drawn next; gravity'),
+      iconButton('Material', 'material', () => this.panel.showMaterial(), 'Material of new bodies; gravity'),
       iconButton('Frame the world', 'fit', () => this.frame(), 'Frame the world (F)'),
       iconButton('Light or dark', 'theme', switchTheme),
       iconButton('Keys', 'keys', () => this.keyboard.show(), 'Keys (?)'), this.recording);
   }
 
   #listen() {
-    const {connection} = this, gone = find('gone', HTMLElement);
+    const {connection} = this, gone = elementOf('gone', HTMLElement);
     connection.on('recording', ({rerun}) => this.#linkRecording(rerun));
     connection.on('welcome', ({settings = {}, rerun, view_only: viewOnly}) => {
       this.viewOnly ||= Boolean(viewOnly);
@@ -112,7 +112,7 @@ export class App {
       this.askForParts();
     });
     connection.on('open', () => {
-      if (!gone.hidden) this.notes.say('Connected again');
+      if (!gone.hidden) this.notes.showMessage('Connected again');
       gone.hidden = true;
     });
     connection.on('closed', (status) => {
@@ -136,7 +136,7 @@ export class App {
 
   /** Keep the tools of a narrow page above its bar, and the world in a window that changes. */
   #followSizes() {
-    const bar = find('bar', HTMLElement);
+    const bar = elementOf('bar', HTMLElement);
     const sizes = new ResizeObserver(() => {
       document.documentElement.style.setProperty('--bar', `${bar.offsetHeight}px`);
       if (this.camera.fitted) this.frame();
@@ -156,7 +156,7 @@ export class App {
   /** Frame the world. */
   frame() {
     const {view, camera} = this, wide = !camera.narrow;
-    const box = (/** @type {string} */ id) => find(id, HTMLElement).getBoundingClientRect();
+    const box = (/** @type {string} */ id) => elementOf(id, HTMLElement).getBoundingClientRect();
     view.insets = this.viewOnly ? {left: 0, top: 0, right: 0, bottom: camera.height - box('bar').top} :
       {left: wide ? box('tools').right : 0, top: box('top').bottom, right: 0,
         bottom: camera.height - box(wide ? 'bar' : 'tools').top};
@@ -194,10 +194,10 @@ export class App {
       return `${name}: ${shape.kind}${anchored ? ', anchored' : ''}, at ${x.toFixed(1)}, ${y.toFixed(1)} m`;
     });
     if (bodies.length > LISTED) texts.push(`and ${bodies.length - LISTED} more`);
-    const list = find('list', HTMLElement);
+    const list = elementOf('list', HTMLElement);
     while (list.children.length > texts.length) list.lastChild?.remove();
     texts.forEach((text, i) => {
-      const item = list.children[i] ?? list.appendChild(make('li'));
+      const item = list.children[i] ?? list.appendChild(createElement('li'));
       if (item.textContent !== text) item.textContent = text;
     });
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The panel of the selected bodies: properties of a body, its velocity as an arrow, its plots. */
 
-import {find, iconButton, make} from './dom.js';
+import {createElement, elementOf, iconButton} from './dom.js';
 import {Plots} from './plots.js';
 import {ARROW_GAP} from './tools/hand.js';
 
@@ -18,7 +18,7 @@ export class BodyPanel {
   /** @param {import('./app.js').App} app */
   constructor(app) {
     this.app = app;
-    this.element = find('panel', HTMLElement);
+    this.element = elementOf('panel', HTMLElement);
     this.plots = new Plots(app);
     this.name = '';
     /** @type {?Point} tip of the velocity arrow while it is dragged [px] */
@@ -40,15 +40,15 @@ export class BodyPanel {
     this.name = name;
     const change = (/** @type {object} */ properties) =>
       this.app.connection.send('change', {name, properties});
-    const anchored = make('input', {type: 'checkbox', checked: body.anchored,
+    const anchored = createElement('input', {type: 'checkbox', checked: body.anchored,
       onchange: () => change({anchored: anchored.checked})});
     this.shown = JSON.stringify(body);
     this.#show(name, [
       ...fields(body, change),
-      make('label', {}, 'Anchored', anchored),
-      make('div', {className: 'row'},
-        make('button', {type: 'button', textContent: 'Copy', onclick: () => this.copy()}),
-        make('button', {type: 'button', className: 'danger', textContent: 'Delete body',
+      createElement('label', {}, 'Anchored', anchored),
+      createElement('div', {className: 'row'},
+        createElement('button', {type: 'button', textContent: 'Copy', onclick: () => this.copy()}),
+        createElement('button', {type: 'button', className: 'danger', textContent: 'Delete body',
           onclick: () => this.app.selection.deleteBodies()})),
       this.plots.element,
     ]);
@@ -72,8 +72,8 @@ export class BodyPanel {
     this.name = '';
     this.plots.watch('');
     this.#show(`${names.length} bodies`, [
-      make('p', {textContent: 'Drag them with the lasso.'}),
-      make('div', {className: 'row'}, make('button', {type: 'button', className: 'danger',
+      createElement('p', {textContent: 'Drag them with the lasso.'}),
+      createElement('div', {className: 'row'}, createElement('button', {type: 'button', className: 'danger',
         textContent: 'Delete bodies', onclick: () => this.app.selection.deleteBodies()}))]);
   }
 
@@ -90,15 +90,15 @@ export class BodyPanel {
       app.connection.send('draw_with', properties);
     };
     const color = app.material.color || [0.3, 0.47, 0.66];
-    const any = make('input', {type: 'checkbox', checked: !app.material.color,
+    const any = createElement('input', {type: 'checkbox', checked: !app.material.color,
       onchange: () => change({color: any.checked ? '' : hexOf(color)})});
-    this.#show('What is drawn next', [
+    this.#show('Material of new bodies', [
       ...fields({...app.material, color}, (properties) => {
         if (properties.color) any.checked = false;
         change(properties);
       }),
-      make('label', {}, 'Each body another colour', any),
-      make('h3', {textContent: 'World'}), pull]);
+      createElement('label', {}, 'Each body another colour', any),
+      createElement('h3', {textContent: 'World'}), pull]);
   }
 
   copy() {
@@ -117,7 +117,7 @@ export class BodyPanel {
       size.setAttribute('aria-expanded', String(tall));
     });
     size.setAttribute('aria-expanded', String(this.element.classList.contains('tall')));
-    this.element.replaceChildren(make('header', {}, make('h2', {textContent: title}), size,
+    this.element.replaceChildren(createElement('header', {}, createElement('h2', {textContent: title}), size,
       iconButton('Close', 'close', () => this.app.selection.select([]))), ...content);
     this.element.hidden = false;
   }
@@ -179,11 +179,11 @@ export class BodyPanel {
  * @returns {HTMLElement[]}
  */
 function fields(values, change) {
-  const color = make('input', {type: 'color', value: hexOf(values.color), onchange: () => change({color: color.value})});
+  const color = createElement('input', {type: 'color', value: hexOf(values.color), onchange: () => change({color: color.value})});
   return [
     ...RANGES.map(([key, label, least, most, step]) => range(label, least, most, step, values[key],
       (value) => change({[key]: value}))),
-    make('label', {}, 'Colour', color)];
+    createElement('label', {}, 'Colour', color)];
 }
 
 /**
@@ -205,9 +205,9 @@ function hexOf(color) {
  * @param {(value: number) => void} change when it is let go
  */
 function range(label, min, max, step, value, change) {
-  const output = make('span', {textContent: String(Number(value.toPrecision(3)))});
-  const input = make('input', {type: 'range', min, max: Math.max(max, value), step, value,
+  const output = createElement('span', {textContent: String(Number(value.toPrecision(3)))});
+  const input = createElement('input', {type: 'range', min, max: Math.max(max, value), step, value,
     oninput: () => { output.textContent = input.value; },
     onchange: () => change(Number(input.value))});
-  return make('label', {}, label, output, input);
+  return createElement('label', {}, label, output, input);
 }

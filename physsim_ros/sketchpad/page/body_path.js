@@ -26,13 +26,34 @@ export function pathOf(shape) {
 
 /**
  * @param {Shape} shape
- * @returns {Point[]} points that span it [m]
+ * @param {(point: Point) => Point} place from its frame to the world
+ * @returns {number[]} xmin, ymin, xmax, ymax in the world [m]
  */
-export function spanOf(shape) {
-  if (shape.kind === 'pieces') return shape.pieces.flatMap(spanOf);
-  if (shape.kind !== 'disc') return shape.outline ?? shape.points;
-  const [x, y] = shape.center ?? [0, 0], r = shape.radius;
-  return [[x - r, y - r], [x + r, y + r]];
+export function boundsOf(shape, place) {
+  if (shape.kind === 'pieces') return unionOf(shape.pieces.map((piece) => boundsOf(piece, place)));
+  const points = shape.kind === 'disc' ? [shape.center ?? [0, 0]] : shape.outline ?? shape.points;
+  const radius = shape.radius ?? 0;
+  return unionOf(points.map(place).map(([x, y]) => [x - radius, y - radius, x + radius, y + radius]));
+}
+
+/**
+ * @param {Shape} shape
+ * @param {Point} point in the body's frame [m]
+ * @returns {number} how far the farthest point of the shape is from it [m]
+ */
+export function reachOf(shape, [x, y]) {
+  if (shape.kind === 'pieces') return Math.max(...shape.pieces.map((piece) => reachOf(piece, [x, y])));
+  const points = shape.kind === 'disc' ? [shape.center ?? [0, 0]] : shape.outline ?? shape.points;
+  return Math.max(...points.map(([px, py]) => Math.hypot(px - x, py - y))) + (shape.radius ?? 0);
+}
+
+/**
+ * @param {number[][]} boxes xmin, ymin, xmax, ymax
+ * @returns {number[]} the least box around them; infinite where there are none
+ */
+export function unionOf(boxes) {
+  return boxes.reduce(([left, low, right, high], box) => [Math.min(left, box[0]), Math.min(low, box[1]),
+    Math.max(right, box[2]), Math.max(high, box[3])], [Infinity, Infinity, -Infinity, -Infinity]);
 }
 
 /**
@@ -41,8 +62,8 @@ export function spanOf(shape) {
  * @param {number} slop how far beside it counts [m]
  * @returns {boolean}
  */
-export function hits(shape, [x, y], slop) {
-  if (shape.kind === 'pieces') return shape.pieces.some((piece) => hits(piece, [x, y], slop));
+export function containsPoint(shape, [x, y], slop) {
+  if (shape.kind === 'pieces') return shape.pieces.some((piece) => containsPoint(piece, [x, y], slop));
   if (shape.kind === 'disc') {
     const [cx, cy] = shape.center ?? [0, 0];
     return Math.hypot(x - cx, y - cy) <= shape.radius + slop;

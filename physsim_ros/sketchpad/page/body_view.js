@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Bodies on the canvas: filled, outlined, hatched where they are anchored, with a mark that turns. */
 
-import {pathOf, spanOf} from './body_path.js';
+import {pathOf, reachOf} from './body_path.js';
 
 /** @typedef {import('./wire.js').Point} Point */
 /** @typedef {import('./wire.js').Body} Body */
@@ -78,7 +78,7 @@ export class BodyView {
     const {shape, color, centroid: [x, y]} = body;
     let appearance = this.appearances.get(body);
     if (!appearance) {
-      const radius = Math.max(...spanOf(shape).map(([px, py]) => Math.hypot(px - x, py - y)));
+      const radius = reachOf(shape, [x, y]);
       const night = document.documentElement.dataset.theme === 'dark';
       const dark = Math.max(...color.slice(0, 3)) < 0.45, fill = css(color);
       const line = css(color, night ? 0.45 : -0.4), inner = innerRadius(body, radius);

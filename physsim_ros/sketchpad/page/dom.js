@@ -8,7 +8,7 @@
  * @param {(Node | string)[]} children
  * @returns {HTMLElementTagNameMap[T]}
  */
-export function make(tag, properties = {}, ...children) {
+export function createElement(tag, properties = {}, ...children) {
   const element = document.createElement(tag);
   for (const [name, value] of Object.entries(properties)) {
     if (name.includes('-')) element.setAttribute(name, String(value));
@@ -35,7 +35,7 @@ export function icon(id) {
  * @param {string} title
  */
 export function iconButton(name, id, onclick, title = name) {
-  return make('button', {type: 'button', 'aria-label': name, title, onclick}, icon(id));
+  return createElement('button', {type: 'button', 'aria-label': name, title, onclick}, icon(id));
 }
 
 /**
@@ -44,7 +44,7 @@ export function iconButton(name, id, onclick, title = name) {
  * @param {new () => T} kind
  * @returns {T}
  */
-export function find(id, kind) {
+export function elementOf(id, kind) {
   const element = document.getElementById(id);
   if (!(element instanceof kind)) throw new TypeError(`no ${kind.name} #${id} on this page`);
   return element;
@@ -56,6 +56,6 @@ export function find(id, kind) {
  */
 export function download(name, content) {
   const href = URL.createObjectURL(content);
-  make('a', {href, download: name}).click();
+  createElement('a', {href, download: name}).click();
   setTimeout(() => URL.revokeObjectURL(href), 1000);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Worlds: a gallery to open from, saving by name, files, a link that holds the world, a picture. */
 
-import {download, find, icon, iconButton, make} from './dom.js';
+import {createElement, download, elementOf, icon, iconButton} from './dom.js';
 import {packText, unpackText} from './link.js';
 
 const LONGEST_LINK = 16000; // characters
@@ -10,7 +10,7 @@ export class Gallery {
   /** @param {import('./app.js').App} app */
   constructor(app) {
     this.app = app;
-    this.dialog = find('dialog', HTMLDialogElement);
+    this.dialog = elementOf('dialog', HTMLDialogElement);
     /** @type {{name: string, title: string, picture: string, shipped: boolean}[]} */
     this.worlds = [];
     this.dialog.addEventListener('click', (event) => {
@@ -26,39 +26,39 @@ export class Gallery {
    */
   show(title, ...content) {
     this.dialog.setAttribute('aria-label', title);
-    this.dialog.replaceChildren(make('header', {}, make('h2', {textContent: title}),
+    this.dialog.replaceChildren(createElement('header', {}, createElement('h2', {textContent: title}),
       iconButton('Close', 'close', () => this.dialog.close(), '')),
     ...content);
     if (!this.dialog.open) this.dialog.showModal();
   }
 
   showWorlds() {
-    const cards = this.worlds.map(({name, title, picture}) => make('button',
+    const cards = this.worlds.map(({name, title, picture}) => createElement('button',
       {type: 'button', className: 'card', onclick: () => this.#open(name)},
-      picture ? make('img', {src: picture, alt: '', loading: 'lazy'}) : make('span', {className: 'blank'}, icon('pen')),
-      make('strong', {textContent: name.replaceAll('_', ' ')}),
-      make('small', {textContent: title === name ? 'Yours' : title})));
-    const file = make('input', {type: 'file', accept: '.yaml,.yml',
+      picture ? createElement('img', {src: picture, alt: '', loading: 'lazy'}) : createElement('span', {className: 'blank'}, icon('pen')),
+      createElement('strong', {textContent: name.replaceAll('_', ' ')}),
+      createElement('small', {textContent: title === name ? 'Yours' : title})));
+    const file = createElement('input', {type: 'file', accept: '.yaml,.yml',
       onchange: async () => file.files?.[0] && this.#upload(await file.files[0].text())});
-    this.show('Worlds', make('div', {className: 'row'},
-      make('button', {type: 'button', textContent: 'Empty world', onclick: () => {
+    this.show('Worlds', createElement('div', {className: 'row'},
+      createElement('button', {type: 'button', textContent: 'Empty world', onclick: () => {
         this.app.time.callService('clear');
         this.dialog.close();
       }}),
-      make('label', {className: 'file'}, 'Open a file', file)), make('div', {className: 'cards'}, ...cards));
+      createElement('label', {className: 'file'}, 'Open a file', file)), createElement('div', {className: 'cards'}, ...cards));
   }
 
   showSave() {
-    const name = make('input', {value: 'my-world', required: true, maxLength: 64, autocomplete: 'off',
+    const name = createElement('input', {value: 'my-world', required: true, maxLength: 64, autocomplete: 'off',
       'aria-label': 'Name of the world'});
-    const form = make('form', {className: 'row', onsubmit: (/** @type {Event} */ event) => {
+    const form = createElement('form', {className: 'row', onsubmit: (/** @type {Event} */ event) => {
       event.preventDefault();
       this.app.connection.send('save', {name: name.value});
       this.dialog.close();
-    }}, name, make('button', {textContent: 'Save world'}));
+    }}, name, createElement('button', {textContent: 'Save world'}));
     const action = (/** @type {string} */ label, /** @type {() => void} */ onclick) =>
-      make('button', {type: 'button', textContent: label, onclick});
-    this.show('Save', form, make('div', {className: 'row'},
+      createElement('button', {type: 'button', textContent: label, onclick});
+    this.show('Save', form, createElement('div', {className: 'row'},
       action('Download file', () => this.#download()),
       action('Copy link', () => this.#copyLink()),
       action('Picture (PNG)', () => this.app.view.canvas.toBlob((png) => png && download('world.png', png)))));
@@ -77,7 +77,7 @@ export class Gallery {
     const response = await fetch('/world', {method: 'POST', body: text,
       headers: {'Content-Type': 'application/yaml'}});
     const {ok, message} = await response.json().catch(() => ({ok: false, message: response.statusText}));
-    this.app.notes.say(message, {ok});
+    this.app.notes.showMessage(message, {ok});
     if (ok) this.app.frameNext();
   }
 
@@ -96,10 +96,10 @@ export class Gallery {
     if (world === null) return;
     const link = `${location.origin}/#world=${await packText(world)}`;
     if (link.length > LONGEST_LINK) {
-      this.app.notes.say('This world is too large for a link: download it as a file.', {ok: false});
+      this.app.notes.showMessage('This world is too large for a link: download it as a file.', {ok: false});
       return;
     }
-    const text = make('input', {value: link, readOnly: true, 'aria-label': 'Link'});
+    const text = createElement('input', {value: link, readOnly: true, 'aria-label': 'Link'});
     this.show('A link that holds this world', text);
     text.select();
     await navigator.clipboard?.writeText(link).catch(() => {});
@@ -110,7 +110,7 @@ export class Gallery {
     const packed = /^#world=(.+)/.exec(location.hash)?.[1];
     if (!packed || this.app.viewOnly) return;
     history.replaceState(null, '', location.pathname + location.search);
-    this.show('This link holds a world', make('div', {className: 'row'}, make('button', {type: 'button',
+    this.show('This link holds a world', createElement('div', {className: 'row'}, createElement('button', {type: 'button',
       textContent: 'Open it', autofocus: true, onclick: async () => this.#upload(await unpackText(packed))})));
   }
 }

@@ -4,11 +4,12 @@
  * changed past. A step that was done does not come again in this browser.
  */
 
-import {find} from './dom.js';
+import {elementOf} from './dom.js';
 
 /** Id, text, and the button that is pointed at. @type {[string, string, string][]} */
 const STEPS = [
   ['draw', 'Draw a circle, a box, a line: it comes to life.', ''],
+  ['play', 'Time stands still: press play.', 'Play'],
   ['throw', 'A small circle over two bodies is an axle. Or take the hand, and throw one.', 'Hand'],
   ['rewind', 'Nothing is lost: rewind, or drag the time line.', 'Rewind'],
   ['change', 'This is the past. Draw or move something here, and it goes otherwise.', ''],
@@ -22,7 +23,7 @@ export class Hints {
   /** @param {import('./app.js').App} app */
   constructor(app) {
     this.app = app;
-    this.line = find('hint', HTMLElement);
+    this.line = elementOf('hint', HTMLElement);
     this.step = Number(localStorage.getItem(KEY) ?? 0);
     this.timer = 0;
     this.ofTool = false; // the line says how the tool is used
@@ -33,7 +34,8 @@ export class Hints {
     });
     connection.on('timeline', ({state, courses = []}) => {
       if (state === 'rewinding' || state === 'in the past') this.completeStep('rewind');
-      if (courses.length && this.step > 2) this.completeStep('change');
+      if (state === 'playing' && this.#isDone('draw')) this.completeStep('play');
+      if (courses.length && this.#isDone('rewind')) this.completeStep('change');
     });
     connection.on('sent', ({type}) => {
       if (USES.includes(type) && this.ofTool) this.#return(USED_SHOWN);
@@ -43,11 +45,15 @@ export class Hints {
 
   /** @param {string} id of the step that was done; those before are known then too */
   completeStep(id) {
-    const next = STEPS.findIndex(([each]) => each === id) + 1;
-    if (next <= this.step) return;
-    this.step = next;
-    localStorage.setItem(KEY, String(next));
+    if (this.#isDone(id)) return;
+    this.step = placeOf(id) + 1;
+    localStorage.setItem(KEY, String(this.step));
     this.#showStep();
+  }
+
+  /** @param {string} id of a step */
+  #isDone(id) {
+    return placeOf(id) < this.step;
   }
 
   /** @param {string} text how the tool in hand is used */
@@ -78,4 +84,9 @@ export class Hints {
     if (text) this.line.textContent = text;
     this.line.classList.toggle('faded', !text);
   }
+}
+
+/** @param {string} id of a step */
+function placeOf(id) {
+  return STEPS.findIndex(([each]) => each === id);
 }

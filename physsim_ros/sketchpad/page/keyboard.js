@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The keys of the page; `?` shows them. */
 
-import {make} from './dom.js';
+import {createElement} from './dom.js';
 import {EDIT, TIME} from './time_bar.js';
 import {TOOLS} from './toolbar.js';
 
@@ -41,8 +41,8 @@ export class Keyboard {
   show() {
     const rows = [...TOOLS.flat().map(([, name, key]) => [key.toUpperCase(), name]),
       ...[...TIME, ...EDIT].map(([name, , key]) => [key, name]), ...FURTHER];
-    this.app.gallery.show('Keys', make('dl', {}, ...rows.map(([key, does]) =>
-      make('div', {}, make('dt', {}, make('kbd', {textContent: key})), make('dd', {textContent: does})))));
+    this.app.gallery.show('Keys', createElement('dl', {}, ...rows.map(([key, does]) =>
+      createElement('div', {}, createElement('dt', {}, createElement('kbd', {textContent: key})), createElement('dd', {textContent: does})))));
   }
 
   /** @param {KeyboardEvent} event */

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Answers: the last one in a quiet line, and notes at a place of the world. */
 
-import {find, make} from './dom.js';
+import {createElement, elementOf} from './dom.js';
 
 const SHOWN = 4000, READ = 6000; // ms: an answer, a note
 
@@ -9,8 +9,8 @@ export class Notes {
   /** @param {import('./app.js').App} app */
   constructor(app) {
     this.app = app;
-    this.status = find('status', HTMLElement);
-    this.places = find('places', HTMLElement);
+    this.status = elementOf('status', HTMLElement);
+    this.places = elementOf('places', HTMLElement);
     /** @type {Map<HTMLElement, () => ?import('./wire.js').Point>} */
     this.pinned = new Map();
     this.timer = 0;
@@ -23,14 +23,14 @@ export class Notes {
   #tell({request, ok, message}) {
     const own = request !== '';
     if (!own && performance.now() < this.until) return;
-    this.say(message, {ok, quiet: !own});
+    this.showMessage(message, {ok, quiet: !own});
   }
 
   /**
    * @param {string} message
    * @param {{ok?: boolean, quiet?: boolean}} how
    */
-  say(message, {ok = true, quiet = false} = {}) {
+  showMessage(message, {ok = true, quiet = false} = {}) {
     this.status.textContent = message;
     this.status.className = `shown${ok ? '' : ' refused'}${quiet ? ' quiet' : ''}`;
     if (!quiet) this.until = performance.now() + SHOWN;
@@ -45,7 +45,7 @@ export class Notes {
    * @returns {() => void} takes it away
    */
   pin(at, content, {kind = '', shown = READ} = {}) {
-    const note = make('div', {className: `note ${kind}`}, ...content);
+    const note = createElement('div', {className: `note ${kind}`}, ...content);
     const remove = () => {
       note.remove();
       this.pinned.delete(note);

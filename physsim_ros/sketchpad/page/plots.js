@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Height, speed and energy of a body against time, beside the exact curves of free flight. */
 
-import {download, make} from './dom.js';
+import {createElement, download} from './dom.js';
 
 /** @typedef {{time: number, x: number, y: number, vx: number, vy: number, spin: number}} Sample */
 
@@ -21,10 +21,10 @@ export class Plots {
     this.samples = [];
     this.course = 0;
     this.canvases = ['Height [m]', 'Speed [m/s]', 'Energy [J]'].map((label) =>
-      make('canvas', {role: 'img', 'aria-label': label, width: 2 * WIDTH, height: 2 * HEIGHT}));
-    this.element = make('section', {className: 'plots', 'aria-label': 'Plots'}, ...this.canvases,
-      make('p', {textContent: 'Broad: free flight, by its formula'}),
-      make('button', {type: 'button', textContent: 'Table (CSV)', onclick: () => this.#save()}));
+      createElement('canvas', {role: 'img', 'aria-label': label, width: 2 * WIDTH, height: 2 * HEIGHT}));
+    this.element = createElement('section', {className: 'plots', 'aria-label': 'Plots'}, ...this.canvases,
+      createElement('p', {textContent: 'Broad: free flight, by its formula'}),
+      createElement('button', {type: 'button', textContent: 'Table (CSV)', onclick: () => this.#save()}));
     app.connection.on('frame', () => this.#record());
     app.connection.on('timeline', ({course, now}) => {
       if (course !== this.course) this.samples = this.samples.filter(({time}) => time <= now);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Strokes until they are read, and their readings at the spot: what else it may be is one tap away. */
 
-import {make} from './dom.js';
+import {createElement} from './dom.js';
 
 /** @typedef {import('./wire.js').Point} Point */
 
@@ -50,7 +50,7 @@ export class Readings {
       return;
     }
     const choices = guesses.map(([guess, sure]) => this.#guessButton(guess, sure, request, guess));
-    const close = make('button', {type: 'button', 'aria-label': 'Forget the stroke', textContent: '×',
+    const close = createElement('button', {type: 'button', 'aria-label': 'Forget the stroke', textContent: '×',
       onclick: () => this.dismiss()});
     const words = choices.length ? 'Not sure. Is it' : 'Not recognised';
     const remove = this.app.notes.pin(() => at, [words, ...choices, close], {shown: 0});
@@ -67,7 +67,7 @@ export class Readings {
    * @param {string} meaning '' for the runner-up
    */
   #guessButton(label, confidence, request, meaning) {
-    return make('button', {type: 'button', onclick: () => {
+    return createElement('button', {type: 'button', onclick: () => {
       this.app.connection.send('instead', meaning ? {meaning} : {});
       this.dismiss();
       this.#forget(request);

@@ -7,7 +7,7 @@
  * one then, so that a slow browser leaves frames out and stays behind by one of its own frames.
  */
 
-import {find} from './dom.js';
+import {elementOf} from './dom.js';
 
 /** Time from a batch to its picture that is told [s]. */
 const SLOW = 1;
@@ -15,7 +15,7 @@ const SLOW = 1;
 const MOST_FRAMES = 8;
 const CHANNEL = 'physsim';
 
-const status = find('status', HTMLElement);
+const status = elementOf('status', HTMLElement);
 /** Time that the viewer shows, on its timeline [ns]. */
 let shown = -1;
 
@@ -34,7 +34,7 @@ async function startViewer() {
   if (!glue) throw new Error('the viewer does not answer; load the page again');
   await glue({module_or_path: '/rerun/re_viewer_bg.wasm'});
   const viewer = new glue.WebHandle({hide_welcome_screen: true, persist: false, on_viewer_event: onViewerEvent});
-  await viewer.start(find('viewer', HTMLCanvasElement));
+  await viewer.start(elementOf('viewer', HTMLCanvasElement));
   viewer.open_channel(CHANNEL, CHANNEL);
   return viewer;
 }

@@ -47,7 +47,7 @@ export class Refusals {
    */
   #show(reason, {point, names}) {
     const {app} = this, {world} = app;
-    app.notes.say(reason, {ok: false});
+    app.notes.showMessage(reason, {ok: false});
     this.dismiss();
     const known = names.filter((name) => world.row(name) >= 0);
     for (const name of known) this.bodies.set(name, performance.now());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Time: the buttons, the slider over the history, with the courses that were left, the clock. */
 
-import {find, iconButton, make} from './dom.js';
+import {createElement, elementOf, iconButton} from './dom.js';
 
 /** Name, service, key. @type {[string, string, string][]} */
 export const TIME = [
@@ -16,17 +16,17 @@ export class TimeBar {
   /** @param {import('./app.js').App} app */
   constructor(app) {
     this.app = app;
-    this.slider = find('slider', HTMLInputElement);
-    this.clock = find('clock', HTMLElement);
-    this.marks = find('marks', HTMLElement);
-    this.speed = find('speed', HTMLButtonElement);
+    this.slider = elementOf('slider', HTMLInputElement);
+    this.clock = elementOf('clock', HTMLElement);
+    this.marks = elementOf('marks', HTMLElement);
+    this.speed = elementOf('speed', HTMLButtonElement);
     /** @type {Map<string, HTMLButtonElement>} */
     this.buttons = new Map();
     for (const [id, group] of /** @type {const} */ ([['time', TIME], ['edit', EDIT]])) {
       for (const [name, service, key] of group) {
         const button = iconButton(name, service, () => this.callService(service), `${name} (${key})`);
         this.buttons.set(service, button);
-        find(id, HTMLElement).append(button);
+        elementOf(id, HTMLElement).append(button);
       }
     }
     this.on = ''; // the button that is pressed
@@ -124,7 +124,7 @@ export class TimeBar {
     this.clock.title = state;
     this.marks.replaceChildren(...courses.map(({id, from}) => {
       const name = `Go back to the course left at ${from.toFixed(1)} s`;
-      const mark = make('button', {type: 'button', 'aria-label': name, title: name,
+      const mark = createElement('button', {type: 'button', 'aria-label': name, title: name,
         onclick: () => this.app.connection.send('course', {course: id})});
       mark.style.left = `${100 * (from - oldest) / (newest - oldest || 1)}%`;
       return mark;

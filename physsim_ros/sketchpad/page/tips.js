@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Tips: the title of a button, beside it, as soon as it is pointed at or reached by Tab. */
 
-import {make} from './dom.js';
+import {createElement} from './dom.js';
 
 const GAP = 8; // px between a button and its tip, and to the edges of the page
 
@@ -9,7 +9,7 @@ export class Tips {
   /** @param {import('./camera.js').Camera} camera */
   constructor(camera) {
     this.camera = camera;
-    this.tip = document.body.appendChild(make('div', {id: 'tip', role: 'tooltip', hidden: true}));
+    this.tip = document.body.appendChild(createElement('div', {id: 'tip', role: 'tooltip', hidden: true}));
     /** @type {?HTMLElement} whose title is shown; meanwhile it has none, so that the browser shows no second */
     this.owner = null;
     document.addEventListener('pointerover', ({target, pointerType}) =>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The tools: their names, keys and hints, and the bar at the left. */
 
-import {find, iconButton, make} from './dom.js';
+import {createElement, elementOf, iconButton} from './dom.js';
 import {ClickTool} from './tools/click_tool.js';
 import {Hand} from './tools/hand.js';
 import {Lasso} from './tools/lasso.js';
@@ -41,9 +41,9 @@ export class Toolbar {
     this.app = app;
     /** @type {Map<string, {tool: import('./app.js').Tool, button: HTMLButtonElement}>} */
     this.tools = new Map();
-    const bar = find('tools', HTMLElement);
+    const bar = elementOf('tools', HTMLElement);
     for (const group of TOOLS) {
-      const box = make('div', {role: 'group'});
+      const box = createElement('div', {role: 'group'});
       for (const [id, name, key, hint] of group) {
         const button = iconButton(name, id, () => this.selectTool(id), `${name} (${key.toUpperCase()}): ${hint}`);
         this.tools.set(id, {tool: OWN[id] ? new OWN[id](app) : new ClickTool(app, id), button});

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The world as the server told it last: scene, frame, timeline. Nothing here is guessed. */
 
-import {hits, spanOf} from './body_path.js';
+import {boundsOf, containsPoint, unionOf} from './body_path.js';
 
 /** @typedef {import('./wire.js').Point} Point */
 
@@ -79,8 +79,16 @@ export class WorldState {
   topOf(name) {
     const row = this.row(name);
     if (row < 0) return null;
-    const [x, y] = this.place(row, this.scene.bodies[row].centroid);
-    return [x, Math.max(y, ...spanOf(this.scene.bodies[row].shape).map((point) => this.place(row, point)[1]))];
+    const [x] = this.place(row, this.scene.bodies[row].centroid);
+    return [x, this.#boundsOf(row)[3]];
+  }
+
+  /**
+   * @param {number} row
+   * @returns {number[]} xmin, ymin, xmax, ymax of a body [m]
+   */
+  #boundsOf(row) {
+    return boundsOf(this.scene.bodies[row].shape, (point) => this.place(row, point));
   }
 
   /**
@@ -94,7 +102,7 @@ export class WorldState {
       const dx = x - frame.x[row], dy = y - frame.y[row];
       const cos = Math.cos(frame.yaw[row]), sin = Math.sin(frame.yaw[row]);
       const local = /** @type {Point} */ ([cos * dx + sin * dy, cos * dy - sin * dx]);
-      if (hits(scene.bodies[row].shape, local, slop)) return row;
+      if (containsPoint(scene.bodies[row].shape, local, slop)) return row;
     }
     return -1;
   }
@@ -103,16 +111,7 @@ export class WorldState {
   extent() {
     const {bounds, bodies} = this.scene;
     if (bounds.length) return bounds;
-    const box = [Infinity, Infinity, -Infinity, -Infinity];
-    for (let row = 0; row < this.count; row++) {
-      for (const point of spanOf(bodies[row].shape)) {
-        const [x, y] = this.place(row, point);
-        box[0] = Math.min(box[0], x);
-        box[1] = Math.min(box[1], y);
-        box[2] = Math.max(box[2], x);
-        box[3] = Math.max(box[3], y);
-      }
-    }
+    const box = unionOf(bodies.slice(0, this.count).map((_, row) => this.#boundsOf(row)));
     return box.every(Number.isFinite) ? box : [-6, -1, 6, 6];
   }
 }

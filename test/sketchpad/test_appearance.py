@@ -1,0 +1,50 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The page as it looks to somebody new, and to readers with colours of their own."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from .chromium import Sheet
+
+BACKGROUND = """name => getComputedStyle(
+    document.querySelector(`button[aria-label="${name}"]`)).backgroundColor"""
+
+
+def test_somebody_new_who_draws_while_time_stands_still_is_led_to_play(
+    chromium: Any, address: str
+) -> None:
+    sheet = Sheet(chromium, address)
+    sheet.begin()
+    hint = sheet.page.locator('#hint')
+    before = sheet.names()
+    sheet.press('Circle')
+    sheet.drag((2.0, 5.0), (2.7, 5.0))
+    sheet.wait_for_new(before)
+    hint.get_by_text('press play').wait_for()
+    sheet.press('Play')
+    hint.get_by_text('throw one').wait_for()
+    sheet.close()
+
+
+def test_a_pressed_button_is_told_from_others_in_the_colours_of_the_reader(
+    chromium: Any, address: str
+) -> None:
+    sheet = Sheet(chromium, address, forced_colors='active')
+    sheet.press('Hand')
+    hand, pen = (sheet.page.evaluate(BACKGROUND, name) for name in ('Hand', 'Pen'))
+    assert hand != pen
+    sheet.close()
