@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""The page as it looks to somebody new, and to readers with colours of their own."""
+"""The page as it looks to readers with colours of their own."""
 
 from __future__ import annotations
 
@@ -22,22 +22,6 @@ from .chromium import Sheet
 
 BACKGROUND = """name => getComputedStyle(
     document.querySelector(`button[aria-label="${name}"]`)).backgroundColor"""
-
-
-def test_somebody_new_who_draws_while_time_stands_still_is_led_to_play(
-    chromium: Any, address: str
-) -> None:
-    sheet = Sheet(chromium, address)
-    sheet.begin()
-    hint = sheet.page.locator('#hint')
-    before = sheet.names()
-    sheet.press('Circle')
-    sheet.drag((2.0, 5.0), (2.7, 5.0))
-    sheet.wait_for_new(before)
-    hint.get_by_text('press play').wait_for()
-    sheet.press('Play')
-    hint.get_by_text('throw one').wait_for()
-    sheet.close()
 
 
 def test_a_pressed_button_is_told_from_others_in_the_colours_of_the_reader(
