@@ -30,10 +30,18 @@ from physsim_ros.ros.qos_safe_node import LOSSLESS
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from rclpy.serialization import deserialize_message
+from sensor_msgs.msg import MultiDOFJointState
+from visualization_msgs.msg import MarkerArray
 
 # Size of a message [bytes]: 20,000 markers of 800 bytes. rclpy makes ten times as much of it and
 # takes 60 µs for each marker, during which the node does nothing else.
 MOST_BYTES = 16 * 2**20
+# Size of a message about one thing [bytes]: twice a marker of 1,000 points with their colours and
+# 10,000 characters of text. Others take longer to decode than to send, and the middleware keeps up
+# to 5,000 that wait (KEEP_ALL of Fast DDS): 900 markers of 100,000 points took 2.7 GB.
+MOST_BYTES_OF_ONE = 2**17
+# Messages about many things.
+_OF_MANY = (MarkerArray, MultiDOFJointState)
 
 
 class RequestSubscriptions:
@@ -52,10 +60,11 @@ class RequestSubscriptions:
 
     def add(self, kind: type, topic: str, callback: Callable[[Any], None]) -> None:
         """Subscribe to messages of a type."""
+        most = MOST_BYTES if kind in _OF_MANY else MOST_BYTES_OF_ONE
 
         def decode(data: bytes) -> None:
-            if len(data) > MOST_BYTES:
-                refusal = Malformed(f'a message has at most {MOST_BYTES / 2**20:g} MiB')
+            if len(data) > most:
+                refusal = Malformed(f'such a message has at most {most / 2**10:g} KiB')
                 self._refuse(refusal, topic)
                 return
             try:

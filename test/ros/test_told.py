@@ -149,20 +149,23 @@ def test_a_message_that_cannot_be_decoded_is_answered_and_counted(
     assert physsim.digest() == before
 
 
-def test_a_message_of_many_megabytes_is_refused_before_it_is_decoded(
-    physsim: PhysSim, client: Client, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize(
+    ('kind', 'most'),
+    [(Marker, subscriptions.MOST_BYTES_OF_ONE), (MarkerArray, subscriptions.MOST_BYTES)],
+)
+def test_a_message_that_is_too_large_is_refused_before_it_is_decoded(
+    physsim: PhysSim, client: Client, monkeypatch: pytest.MonkeyPatch, kind: Any, most: int
 ) -> None:
-    monkeypatch.setattr(subscriptions, 'MOST_BYTES', 1000)
-    accepted, refused = Marker(ns='a'), Marker(ns='a' * 1000)
-    client.ask('~/spawn', accepted)
+    topic = '~/spawn' if kind is Marker else '~/spawn_array'
+    client.ask(topic, kind())
     told(client)
     before = physsim.digest()
     decoded = list[bytes]()
     monkeypatch.setattr(subscriptions, 'deserialize_message', lambda data, _: decoded.append(data))
-    client._publishers['~/spawn'].publish(refused)  # noqa: SLF001 - it is sent as it is
+    client._publishers[topic].publish(bytes(most + 1))  # noqa: SLF001 - it is sent as it is
     physsim.settle()
     (event,) = told(client)
-    assert (event.level, event.name, event.code) == (2, '~/spawn', 'malformed')
+    assert (event.level, event.name, event.code) == (2, topic, 'malformed')
     assert decoded == []
     assert physsim.digest() == before
 
