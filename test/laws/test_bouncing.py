@@ -69,14 +69,15 @@ def _gas(speed, seed):
     return sim
 
 
-@pytest.mark.parametrize('speed', [1.0, 5.0])
-def test_a_gas_of_discs_keeps_its_energy_for_a_minute(report, speed):
+# At five times the speed they bounce as often in a fifth of the time.
+@pytest.mark.parametrize(('speed', 'seconds'), [(1.0, 60), (5.0, 12)])
+def test_a_gas_of_discs_keeps_its_energy(report, speed, seconds):
     sim = _gas(speed, seed=1)
     sim.watch_contacts(True)
     start = last = sim.world.snapshot()
 
     bounces = 0
-    for _ in range(60 * 60):
+    for _ in range(60 * seconds):
         frame = sim.advance_frame()
         wall = frame.contacts.pairs[:, 1] == -1
         taken = frame.contacts.impulses[wall].sum(axis=0)
@@ -88,5 +89,6 @@ def test_a_gas_of_discs_keeps_its_energy_for_a_minute(report, speed):
 
     assert bounces > 1000, 'they hardly met'
     ratio = last.kinetic_energy / start.kinetic_energy
-    report.check(21, f'100 discs, e = 1, 60 s at {speed:g} m/s, energy', ratio, 1.0, 0.01, '–')
+    law = f'100 discs, e = 1, {seconds} s at {speed:g} m/s, energy'
+    report.check(21, law, ratio, 1.0, 0.01, '–')
     assert np.abs(last.centers).max() < 5.0
