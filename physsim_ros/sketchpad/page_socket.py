@@ -89,8 +89,7 @@ class PageSocket(Guarded, WebSocketHandler):
 
     def on_message(self, message: str | bytes) -> None:
         """Check a message and hand it to the world's thread."""
-        if not self._has_token():
-            self.close(_POLICY_VIOLATION, 'too many messages')
+        if not self._take_token():
             return
         id_ = ''
         try:
@@ -111,6 +110,13 @@ class PageSocket(Guarded, WebSocketHandler):
             self.answer(id_, code='view_only', message='this page only shows the world')
         elif not self.server.inbox_put(Incoming(self.number, id_, checked)):
             self.answer(id_, code='busy', message='the world is too busy; nothing was done')
+
+    def on_ping(self, _: bytes) -> None:
+        """Count a ping, which tornado has answered, among the messages; no browser sends any."""
+        self._take_token()
+
+    # Of its own accord a page answers a ping of the server every ten seconds.
+    on_pong = on_ping
 
     def on_close(self) -> None:
         """Forget the page."""
@@ -160,12 +166,17 @@ class PageSocket(Guarded, WebSocketHandler):
 
         sent.add_done_callback(done)
 
-    def _has_token(self) -> bool:
-        """Take a token of the bucket that limits the rate of messages; tell whether it had one."""
+    def _take_token(self) -> bool:
+        """
+        Take a token of the bucket that limits the rate of messages.
+
+        :return: whether there was one; without one the page is closed
+        """
         now = time.monotonic()
         self._tokens = min(BURST, self._tokens + RATE * (now - self._refilled))
         self._refilled = now
         if self._tokens < 1.0:
+            self.close(_POLICY_VIOLATION, 'too many messages')
             return False
         self._tokens -= 1.0
         return True

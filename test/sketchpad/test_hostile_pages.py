@@ -14,6 +14,7 @@
 
 """Strangers get nothing; hostile pages change nothing, and delay neither the world nor others."""
 
+import asyncio
 from contextlib import ExitStack, suppress
 import json
 import socket
@@ -214,14 +215,19 @@ def test_a_message_beyond_a_mebibyte_closes_the_page_alone(browser: Browser) -> 
     assert other.ask('drop')['ok']
 
 
-def test_a_flood_closes_the_page_and_delays_no_other(browser: Browser) -> None:
+@pytest.mark.parametrize('kind', ['message', 'ping'])
+def test_a_flood_closes_the_page_and_delays_no_other(browser: Browser, kind: str) -> None:
     page, other = browser.open_page(), browser.open_page()
     message = json.dumps({'id': 'x', 'type': 'click', 'tool': 'anchor', 'point': [0, 0]})
 
     async def flood() -> None:
         with suppress(WebSocketClosedError):
             while not page.closed:
-                await page.socket.write_message(message)
+                if kind == 'message':
+                    await page.socket.write_message(message)
+                else:
+                    page.socket.ping(b'x' * 125)
+                    await asyncio.sleep(0.0)
 
     task = browser.loop.create_task(flood())
     assert other.ask('drop')['ok']
