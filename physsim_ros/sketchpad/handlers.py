@@ -52,6 +52,7 @@ class Guarded(RequestHandler):
     """
 
     needs_cookie = True
+    _reason = ''
 
     def initialize(self, server: Server) -> None:
         """Set the server."""
@@ -95,19 +96,18 @@ class Guarded(RequestHandler):
 
     def refuse(self, status: int, reason: str) -> NoReturn:
         """Answer with an error and its reason."""
-        raise HTTPError(status, reason)
+        self._reason = reason
+        raise HTTPError(status)
 
     def log_exception(self, *details: Any) -> None:
         """Log the errors of this server, not those of its clients."""
         if not isinstance(details[1], HTTPError):
             super().log_exception(*details)
 
-    def write_error(self, status_code: int, **kwargs: Any) -> None:
-        """Write the reason of an error as text, without anything of the request."""
-        error = kwargs.get('exc_info', (None, None))[1]
-        reason = error.log_message if isinstance(error, HTTPError) else None
+    def write_error(self, status_code: int, **_: Any) -> None:
+        """Write the reason of a refusal, or the meaning of the status; nothing of the request."""
         self.set_header('Content-Type', 'text/plain; charset=utf-8')
-        self.finish(f'{reason or HTTPStatus(status_code).phrase}\n')
+        self.finish(f'{self._reason or HTTPStatus(status_code).phrase}\n')
 
 
 class Login(Guarded):
@@ -163,6 +163,13 @@ class Files(Guarded, StaticFileHandler):
         """Set server and directory."""
         Guarded.initialize(self, server)
         StaticFileHandler.initialize(self, str(path))
+
+    def validate_absolute_path(self, root: str, absolute_path: str) -> str | None:
+        """Return the path of a file; what is none, or no path at all, is missing."""
+        try:
+            return super().validate_absolute_path(root, absolute_path)
+        except (HTTPError, ValueError):
+            self.refuse(404, 'there is nothing here')
 
     def get_content_type(self) -> str:
         """Return the type of a file of the page; other files are bytes."""

@@ -111,12 +111,13 @@ class PageSocket(Guarded, WebSocketHandler):
         elif not self.server.inbox_put(Incoming(self.number, id_, checked)):
             self.answer(id_, code='busy', message='the world is too busy; nothing was done')
 
-    def on_ping(self, _: bytes) -> None:
+    def on_ping(self, data: bytes) -> None:  # noqa: ARG002 - tornado's name
         """Count a ping, which tornado has answered, among the messages; no browser sends any."""
         self._take_token()
 
-    # Of its own accord a page answers a ping of the server every ten seconds.
-    on_pong = on_ping
+    def on_pong(self, data: bytes) -> None:  # noqa: ARG002 - tornado's name
+        """Count a pong among the messages; a browser sends one for each ping of the server."""
+        self._take_token()
 
     def on_close(self) -> None:
         """Forget the page."""

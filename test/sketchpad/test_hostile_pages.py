@@ -63,10 +63,24 @@ def test_every_answer_forbids_foreign_and_inline_scripts(browser: Browser) -> No
 
 
 @pytest.mark.parametrize(
-    'path', ['/page/../server.py', '/page/%2e%2e/server.py', '/gallery//etc/passwd']
+    'path',
+    [
+        '/page/../server.py',
+        '/page/%2e%2e/server.py',
+        '/gallery//etc/passwd',
+        '/page/tools',
+        '/page/app.js%00.png',
+        '/world/..%2f..%2fcar.yaml',
+    ],
 )
 def test_no_path_leads_out_of_the_page(browser: Browser, path: str) -> None:
     assert browser.fetch(path).code in (403, 404)
+
+
+def test_an_error_says_nothing_of_the_request(browser: Browser) -> None:
+    response = browser.fetch('/gallery/evil%ff.png')
+    assert response.code == 400
+    assert response.body == b'Bad Request\n'
 
 
 def test_a_foreign_name_of_this_machine_is_refused(browser: Browser) -> None:
