@@ -36,10 +36,10 @@ from visualization_msgs.msg import MarkerArray
 # Size of a message [bytes]: 20,000 markers of 800 bytes. rclpy makes ten times as much of it and
 # takes 60 µs for each marker, during which the node does nothing else.
 MOST_BYTES = 16 * 2**20
-# Size of a message about one thing [bytes]: twice a marker of 1,000 points with their colours and
-# 10,000 characters of text. Others take longer to decode than to send, and the middleware keeps up
-# to 5,000 that wait (KEEP_ALL of Fast DDS): 900 markers of 100,000 points took 2.7 GB.
-MOST_BYTES_OF_ONE = 2**17
+# Size of a message about one thing [bytes]: a marker of 10,000 points, which is told that it has
+# too many. Larger ones take longer to decode than to send, and the middleware keeps up to 5,000
+# that wait (KEEP_ALL of Fast DDS): 900 markers of 100,000 points took 2.7 GB.
+MOST_BYTES_OF_ONE = 2**18
 # Messages about many things.
 _OF_MANY = (MarkerArray, MultiDOFJointState)
 
