@@ -52,7 +52,7 @@ class Guarded(RequestHandler):
     """
 
     needs_cookie = True
-    _reason = ''
+    _refusal = ''
 
     def initialize(self, server: Server) -> None:
         """Set the server."""
@@ -96,7 +96,7 @@ class Guarded(RequestHandler):
 
     def refuse(self, status: int, reason: str) -> NoReturn:
         """Answer with an error and its reason."""
-        self._reason = reason
+        self._refusal = reason
         raise HTTPError(status)
 
     def log_exception(self, *details: Any) -> None:
@@ -107,7 +107,7 @@ class Guarded(RequestHandler):
     def write_error(self, status_code: int, **_: Any) -> None:
         """Write the reason of a refusal, or the meaning of the status; nothing of the request."""
         self.set_header('Content-Type', 'text/plain; charset=utf-8')
-        self.finish(f'{self._reason or HTTPStatus(status_code).phrase}\n')
+        self.finish(f'{self._refusal or HTTPStatus(status_code).phrase}\n')
 
 
 class Login(Guarded):

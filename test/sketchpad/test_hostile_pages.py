@@ -38,7 +38,8 @@ def status_of_socket(browser: Browser, **options: object) -> int:
 
 
 def test_a_wrong_token_opens_nothing(browser: Browser) -> None:
-    assert browser.fetch('/login?token=guess', cookie='').code == 403
+    refused = browser.fetch('/login?token=guess', cookie='')
+    assert (refused.code, b'token is wrong' in refused.body) == (403, True)
     for cookie in ('', browser.cookie.partition('=')[0] + '=guess'):
         for path in ('/', '/session', '/page/app.js', '/gallery/car.png', '/world/car.yaml'):
             assert browser.fetch(path, cookie=cookie).code == 403
