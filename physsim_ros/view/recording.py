@@ -30,17 +30,17 @@ from physsim_ros.model.snapshot import Frame
 from physsim_ros.view import contact_arrows, grid, velocities
 from physsim_ros.view.blueprint import blueprint
 from physsim_ros.view.blueprint_stream import send_blueprint
-from physsim_ros.view.body_geometry import BodyGeometry, DEPTH
 from physsim_ros.view.camera import Camera, pinhole
 from physsim_ros.view.contact_arrows import ContactArrows
 from physsim_ros.view.event_log import send_events
 from physsim_ros.view.frame_batch import FrameBatch, RecordedClock, Times
 from physsim_ros.view.frame_context import FrameContext
 from physsim_ros.view.hand_lines import HandLines
-from physsim_ros.view.joint_geometry import JointGeometry
-from physsim_ros.view.joint_track import JointTrack
+from physsim_ros.view.joints.joint_geometry import JointGeometry
+from physsim_ros.view.joints.joint_track import JointTrack
 from physsim_ros.view.legend import Legend
-from physsim_ros.view.mesh_track import MeshTrack
+from physsim_ros.view.meshes.body_geometry import BodyGeometry, DEPTH
+from physsim_ros.view.meshes.mesh_track import MeshTrack
 from physsim_ros.view.name_labels import NameLabels
 from physsim_ros.view.plots import Plots
 from physsim_ros.view.preview_lines import PreviewLines

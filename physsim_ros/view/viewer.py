@@ -29,13 +29,18 @@ import threading
 import time
 
 from physsim_ros.model.snapshot import Answer, Frame
-from physsim_ros.view.endpoints import ClientEndpoint, DEFAULT_URL, has_display, ServerEndpoint
-from physsim_ros.view.file_endpoint import FileEndpoint
 from physsim_ros.view.frame_context import FrameContext
-from physsim_ros.view.frame_queue import ANSWERS
-from physsim_ros.view.page_endpoint import PageEndpoint, Send
-from physsim_ros.view.sink import Endpoint
-from physsim_ros.view.sink_worker import SinkWorker
+from physsim_ros.view.sinks.endpoints import (
+    ClientEndpoint,
+    DEFAULT_URL,
+    has_display,
+    ServerEndpoint,
+)
+from physsim_ros.view.sinks.file_endpoint import FileEndpoint
+from physsim_ros.view.sinks.frame_queue import ANSWERS
+from physsim_ros.view.sinks.page_endpoint import PageEndpoint, Send
+from physsim_ros.view.sinks.sink import Endpoint
+from physsim_ros.view.sinks.sink_worker import SinkWorker
 
 # Least time between two openings [s]: each may start a program.
 CHANGE_PERIOD = 1.0

@@ -30,7 +30,7 @@ import time
 
 from physsim_ros.ros.node import PhysSimNode
 from physsim_ros.view import Viewer
-from physsim_ros.view.page_endpoint import PageEndpoint, Send
+from physsim_ros.view.sinks.page_endpoint import PageEndpoint, Send
 import rclpy
 from rclpy.logging import LoggingSeverity
 from rclpy.parameter import Parameter

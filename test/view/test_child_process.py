@@ -22,7 +22,7 @@ import subprocess
 import sys
 import textwrap
 
-from physsim_ros.view.child_process import end_child, start_child
+from physsim_ros.view.sinks.child_process import end_child, start_child
 import pytest
 
 psutil = pytest.importorskip('psutil')
@@ -32,7 +32,7 @@ PATIENCE = 20.0
 
 PARENT = """
     import os, sys, time
-    from physsim_ros.view.child_process import start_child
+    from physsim_ros.view.sinks.child_process import start_child
 
     print(start_child(['sleep', '1000'], environment=os.environ).pid, flush=True)
     sys.stdin.read()

@@ -34,9 +34,10 @@ import numpy as np
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer, Frame, Snapshot
-from physsim_ros.view import endpoints, file_endpoint, FrameContext, Viewer, ViewerMode
-from physsim_ros.view.sink import Endpoint
-from physsim_ros.view.sink_worker import SinkWorker
+from physsim_ros.view import FrameContext, Viewer, ViewerMode
+from physsim_ros.view.sinks import endpoints, file_endpoint
+from physsim_ros.view.sinks.sink import Endpoint
+from physsim_ros.view.sinks.sink_worker import SinkWorker
 import pytest
 
 from ..building import PLAIN_BODY
@@ -225,7 +226,7 @@ def test_a_file_that_is_no_regular_one_is_refused_and_blocks_nothing(viewers, tm
 
 
 def test_a_share_that_does_not_answer_is_told_and_delays_nothing(viewers, tmp_path, monkeypatch):
-    monkeypatch.setattr('physsim_ros.view.sink_worker.SILENT_AFTER', 0.1)
+    monkeypatch.setattr('physsim_ros.view.sinks.sink_worker.SILENT_AFTER', 0.1)
     go_on = threading.Event()
     create = file_endpoint._create_regular_file  # noqa: SLF001  it stands for the share
 
@@ -394,7 +395,7 @@ def test_nothing_is_left_running_after_closing(viewers):
 @pytest.fixture
 def impatient(monkeypatch):
     """Make closing give up at once on a viewer that has not ended."""
-    monkeypatch.setattr('physsim_ros.view.endpoints.ServerEndpoint.closing', 0.0)
+    monkeypatch.setattr('physsim_ros.view.sinks.endpoints.ServerEndpoint.closing', 0.0)
 
 
 def test_nothing_is_started_after_closing(viewers, monkeypatch, impatient):
@@ -406,7 +407,7 @@ def test_nothing_is_started_after_closing(viewers, monkeypatch, impatient):
         assert go_on.wait(PATIENCE)
         return 'rerun'
 
-    monkeypatch.setattr('physsim_ros.view.endpoints._program', program)
+    monkeypatch.setattr('physsim_ros.view.sinks.endpoints._program', program)
     monkeypatch.setattr('subprocess.Popen', lambda *_, **__: started.append('a program'))
     viewer = viewers(mode=ViewerMode.WEB)
     assert began.wait(PATIENCE)
@@ -432,7 +433,7 @@ def test_what_is_just_being_started_is_ended_by_closing(viewers, monkeypatch, im
         closed.set()
         return join(worker)
 
-    monkeypatch.setattr('physsim_ros.view.endpoints._program', lambda: shutil.which('yes'))
+    monkeypatch.setattr('physsim_ros.view.sinks.endpoints._program', lambda: shutil.which('yes'))
     monkeypatch.setattr('subprocess.Popen', slowly)
     viewer = viewers(mode=ViewerMode.WEB)
     assert began.wait(PATIENCE)
@@ -469,7 +470,7 @@ def test_of_a_flood_of_changes_the_last_counts_and_few_are_carried_out(viewers, 
 
 def test_a_page_server_that_dies_is_started_again(viewers, monkeypatch):
     # It has settled at once.
-    monkeypatch.setattr('physsim_ros.view.endpoints.SETTLING', 0.0)
+    monkeypatch.setattr('physsim_ros.view.sinks.endpoints.SETTLING', 0.0)
     viewer = viewers(mode=ViewerMode.WEB)
     events = Events(viewer)
     events.wait_for('')
@@ -486,7 +487,7 @@ def test_a_page_server_that_dies_is_started_again(viewers, monkeypatch):
 def test_a_page_server_that_ends_at_once_is_not_started_again(viewers, monkeypatch, program):
     started = []
     monkeypatch.setattr(
-        'physsim_ros.view.endpoints._program',
+        'physsim_ros.view.sinks.endpoints._program',
         lambda: started.append(program) or shutil.which(program),
     )
     viewer = viewers(mode=ViewerMode.WEB)

@@ -22,7 +22,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.model.arrays import Floats, Singles
-from physsim_ros.view.mesh import Mesh
+from physsim_ros.view.meshes.mesh import Mesh
 
 Path = tuple[str, ...]
 

@@ -25,8 +25,8 @@ import time
 
 from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.view.frame_context import FrameContext
-from physsim_ros.view.frame_queue import FrameQueue
-from physsim_ros.view.sink import Endpoint, Report, Sink
+from physsim_ros.view.sinks.frame_queue import FrameQueue
+from physsim_ros.view.sinks.sink import Endpoint, Report, Sink
 
 # Period of flushing a sink and checking its endpoint, and timeout of the flush [s].
 CHECK_PERIOD, FLUSH_TIMEOUT = 1.0, 0.5

@@ -28,8 +28,8 @@ from collections.abc import Callable, Sequence
 
 from physsim_ros.model.snapshot import Frame
 from physsim_ros.view.frame_context import FrameContext
-from physsim_ros.view.rerun_sink import RerunSink
-from physsim_ros.view.sink import Endpoint, Sink
+from physsim_ros.view.sinks.rerun_sink import RerunSink
+from physsim_ros.view.sinks.sink import Endpoint, Sink
 
 # Takes a batch as bytes of an `.rrd` file, and the time of its last frame on the timeline
 # `recorded` [ns]. Called on the thread of a worker.

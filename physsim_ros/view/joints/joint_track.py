@@ -20,8 +20,8 @@ import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.model.arrays import Floats
 from physsim_ros.view.frame_batch import FrameBatch, Times
-from physsim_ros.view.joint_geometry import JointGeometry, ROOT
-from physsim_ros.view.mesh_track import MeshTrack
+from physsim_ros.view.joints.joint_geometry import JointGeometry, ROOT
+from physsim_ros.view.meshes.mesh_track import MeshTrack
 import rerun as rr
 
 LINES, DOTS = f'{ROOT}/lines', f'{ROOT}/forces'

@@ -22,8 +22,8 @@ import os
 from pathlib import Path
 import sys
 
-from physsim_ros.view.rerun_sink import RerunSink
-from physsim_ros.view.sink import Endpoint, Sink
+from physsim_ros.view.sinks.rerun_sink import RerunSink
+from physsim_ros.view.sinks.sink import Endpoint, Sink
 
 
 class FileEndpoint(Endpoint):

@@ -32,9 +32,9 @@ from physsim_ros.model.scene import Body, Scene
 from physsim_ros.model.settings import Bounds
 from physsim_ros.model.shapes import Box, Disc
 from physsim_ros.model.transform import turned
-from physsim_ros.view.body_mesh import body_mesh, opacity
-from physsim_ros.view.joint_symbols import Form
-from physsim_ros.view.mesh_group import MeshGroup, Path
+from physsim_ros.view.meshes.body_mesh import body_mesh, opacity
+from physsim_ros.view.meshes.mesh import Form
+from physsim_ros.view.meshes.mesh_group import MeshGroup, Path
 
 ROOT = 'world/bodies'
 # Depth over which later bodies lie above earlier ones [units]: enough for the renderer's depth

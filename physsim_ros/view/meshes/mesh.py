@@ -40,6 +40,9 @@ _END_SIDES = 12
 # Greatest length of a mitre, in widths of the band: sharper corners are cut off.
 _MITRE = 4.0
 
+# Strips in the frame of a body, each through its corners [m].
+Form = tuple[tuple[Point, ...], ...]
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Mesh:

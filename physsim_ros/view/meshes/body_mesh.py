@@ -30,8 +30,7 @@ from physsim_ros.model.colors import Color
 from physsim_ros.model.scene import Body
 from physsim_ros.model.shapes import Capsule, Circle, Convex, Disc, Piece, Polygon, Triangles
 from physsim_ros.model.transform import Point
-from physsim_ros.view.joint_symbols import Form
-from physsim_ros.view.mesh import inset, Mesh, MeshBuilder
+from physsim_ros.view.meshes.mesh import Form, inset, Mesh, MeshBuilder
 
 # Width of outlines [units], and as a share of the inner half width of a body at most.
 _OUTLINE, _OUTLINE_SHARE = 0.03, 0.25

@@ -29,7 +29,7 @@ from physsim_ros.model.arrays import Floats
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.transform import turned
-from physsim_ros.view.joint_glyphs import Corner, joint_strips, SMALL, Strip, symbol_size
+from physsim_ros.view.joints.joint_glyphs import Corner, joint_strips, SMALL, Strip, symbol_size
 
 
 class JointLines:

@@ -27,13 +27,13 @@ from physsim_ros.model.arrays import Floats
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.view import columns
-from physsim_ros.view.body_mesh import JOINT_INK, JOINT_LINE
-from physsim_ros.view.joint_colors import JointColors
-from physsim_ros.view.joint_glyphs import is_rigid
-from physsim_ros.view.joint_lines import JointLines
-from physsim_ros.view.joint_symbols import Form, symbol_sizes, symbols_of
-from physsim_ros.view.mesh import MeshBuilder
-from physsim_ros.view.mesh_group import MeshGroup
+from physsim_ros.view.joints.joint_colors import JointColors
+from physsim_ros.view.joints.joint_glyphs import is_rigid
+from physsim_ros.view.joints.joint_lines import JointLines
+from physsim_ros.view.joints.joint_symbols import symbol_sizes, symbols_of
+from physsim_ros.view.meshes.body_mesh import JOINT_INK, JOINT_LINE
+from physsim_ros.view.meshes.mesh import Form, MeshBuilder
+from physsim_ros.view.meshes.mesh_group import MeshGroup
 import rerun as rr
 
 ROOT = 'world/joints'

@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 from physsim_ros.model.arrays import Floats
 from physsim_ros.view import columns
 from physsim_ros.view.frame_batch import Times
-from physsim_ros.view.mesh_group import MeshGroup, Path
+from physsim_ros.view.meshes.mesh_group import MeshGroup, Path
 import rerun as rr
 
 

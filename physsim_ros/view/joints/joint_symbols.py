@@ -28,11 +28,11 @@ import numpy as np
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.transform import Point
-from physsim_ros.view.joint_glyphs import is_rigid, joint_strips, Strip, symbol_size
-from physsim_ros.view.joint_lines import JointLines
+from physsim_ros.view.joints.joint_glyphs import is_rigid, joint_strips, Strip, symbol_size
+from physsim_ros.view.joints.joint_lines import JointLines
+from physsim_ros.view.meshes.mesh import Form
 
-# Strips in the frame of a body, rounded to a micrometre so that equal symbols are equal [m].
-Form = tuple[tuple[Point, ...], ...]
+# Decimals that corners are rounded to, so that equal symbols are equal: a micrometre.
 _DIGITS = 6
 # Kinds whose two points are one.
 _POINTED = {JointKind.PIN, JointKind.AXLE, JointKind.MOTOR}

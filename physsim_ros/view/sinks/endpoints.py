@@ -30,10 +30,10 @@ import threading
 import time
 from urllib.parse import quote, urlsplit
 
-from physsim_ros.view.child_process import end_child, start_child
-from physsim_ros.view.rerun_sink import RerunSink
-from physsim_ros.view.sink import Endpoint, Report, Sink
-from physsim_ros.view.sink_worker import FLUSH_TIMEOUT
+from physsim_ros.view.sinks.child_process import end_child, start_child
+from physsim_ros.view.sinks.rerun_sink import RerunSink
+from physsim_ros.view.sinks.sink import Endpoint, Report, Sink
+from physsim_ros.view.sinks.sink_worker import FLUSH_TIMEOUT
 
 DEFAULT_URL = 'rerun+http://127.0.0.1:9876/proxy'
 # Memory of a server for late viewers.
