@@ -36,8 +36,8 @@ from physsim_ros.model.names import check_name, WORLD
 from physsim_ros.model.requests import join_from, joined_from, Restore
 from physsim_ros.model.scene import Joint, Seat
 from physsim_ros.model.transform import Point, Pose
-from physsim_ros.simulation.joint_requests import drawn_points
 from physsim_ros.simulation.world import World
+from physsim_ros.simulation.world.joint_requests import drawn_points
 
 # Keys of a joint that the text of a marker does not have.
 _OWN_KEYS = ('name', 'points', 'seat')

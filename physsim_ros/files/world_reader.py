@@ -42,9 +42,9 @@ from physsim_ros.model.requests import Command, Spawn
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Shape, SHAPES
 from physsim_ros.model.transform import Pose, rotated
-from physsim_ros.simulation.body_description import new_body
-from physsim_ros.simulation.body_requests import check_command, check_count
 from physsim_ros.simulation.world import steps_in
+from physsim_ros.simulation.world.body_description import new_body
+from physsim_ros.simulation.world.body_requests import check_command, check_count
 
 _BODY_KEYS = ['name', *SHAPES, 'at', 'color', 'lifetime', *PROPERTIES, 'motion', 'wrench']
 # Keys of a body whose values follow from `motion`.

@@ -31,7 +31,7 @@ from physsim_ros.model.checkpoint import BodyState, WorldState
 from physsim_ros.model.colors import Color, color_from
 from physsim_ros.model.scene import Joint
 from physsim_ros.model.transform import Pose
-from physsim_ros.simulation.joint_requests import drawn_points
+from physsim_ros.simulation.world.joint_requests import drawn_points
 
 # Quoted texts, and whole numbers with an exponent.
 _TEXT_OR_POWER = re.compile(r'("(?:[^"\\]|\\.)*")|(?<![\d.])(\d+)(?=e)')

@@ -16,7 +16,6 @@
 A world and its time: requests go in, frames come out, any past step can be gone back to.
 
 No physics (that is `engine`), no files, topics or threads. Start with `simulation`, the front,
-then `request_handler`, `playback` (the moment that is shown) and `past` (what is kept for going
-back: `timeline`, `history` with its `request_log`, `replay`, `undo`); then `world`, with
-`body_requests`, `joint_requests` and `hand_requests`.
+then `request_handler` and `playback` (the moment that is shown); the folder `past` has what is
+kept for going back, `world` the present and what requests do to it.
 """

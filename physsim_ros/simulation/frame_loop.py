@@ -24,7 +24,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 from physsim_ros.model.snapshot import Frame
-from physsim_ros.simulation.past import Past
+from physsim_ros.simulation.past.past import Past
 from physsim_ros.simulation.playback import Playback
 from physsim_ros.simulation.request_handler import RequestHandler
 

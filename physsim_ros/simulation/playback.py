@@ -27,9 +27,9 @@ from collections.abc import Callable
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import NO_CONTACTS
 from physsim_ros.simulation.clock import Clock
-from physsim_ros.simulation.frame_segment import CachedFrame
-from physsim_ros.simulation.past import Past
-from physsim_ros.simulation.records import Moment
+from physsim_ros.simulation.past.frame_segment import CachedFrame
+from physsim_ros.simulation.past.past import Past
+from physsim_ros.simulation.past.records import Moment
 from physsim_ros.simulation.world import World
 
 

@@ -27,7 +27,7 @@ from physsim_ros.model.errors import Refusal
 from physsim_ros.model.requests import Grab, HandRequest, KeepHand, LetGo, MoveHand, Request
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.hands import Hands, placing
-from physsim_ros.simulation.past import Past
+from physsim_ros.simulation.past.past import Past
 from physsim_ros.simulation.playback import Playback
 from physsim_ros.simulation.request_queue import Amend, RequestQueue, Seek, Waiting
 

@@ -40,7 +40,7 @@ from physsim_ros.model.requests import (
     Unjoin,
 )
 from physsim_ros.model.snapshot import Answer
-from physsim_ros.simulation.memory_size import names_size, request_size
+from physsim_ros.simulation.past.memory_size import names_size, request_size
 
 # Requests that wait, at most, and memory that they may take [bytes]: five worlds of 20,000 bodies.
 MOST_WAITING, MOST_BYTES = 100_000, 256 * 10**6

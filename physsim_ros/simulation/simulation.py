@@ -30,8 +30,8 @@ from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.model.timeline import TimelineStatus
 from physsim_ros.simulation.frame_loop import FrameLoop
-from physsim_ros.simulation.history_memory import DEFAULT_MEMORY, HistoryMemory
-from physsim_ros.simulation.past import Past
+from physsim_ros.simulation.past.history_memory import DEFAULT_MEMORY, HistoryMemory
+from physsim_ros.simulation.past.past import Past
 from physsim_ros.simulation.playback import Playback
 from physsim_ros.simulation.request_handler import RequestHandler
 from physsim_ros.simulation.request_queue import RequestQueue

@@ -40,9 +40,8 @@ from physsim_ros.model.requests import (
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Compound, Disc, Shape
 from physsim_ros.model.shapes.form_cache import MOST_KEPT
-from physsim_ros.simulation import capacity
 from physsim_ros.simulation.simulation import Simulation
-from physsim_ros.simulation.world import World
+from physsim_ros.simulation.world import capacity, World
 import pytest
 
 from ..adversary.scenes import crossing_rods, one_pose, sphere_lists

@@ -21,7 +21,7 @@ import numpy as np
 from physsim_ros.model.errors import BadProperty, Malformed, OutOfHistory, Refusal
 from physsim_ros.model.requests import Command, Configure, Spawn
 from physsim_ros.model.shapes import Box, Disc
-from physsim_ros.simulation.history_memory import LEAST_MEMORY, MEGABYTE
+from physsim_ros.simulation.past.history_memory import LEAST_MEMORY, MEGABYTE
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 

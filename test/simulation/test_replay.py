@@ -32,8 +32,8 @@ from physsim_ros.model.requests import (
     Restore,
     UnjoinAll,
 )
-from physsim_ros.simulation.frame_segment import CachedFrame
-from physsim_ros.simulation.records import Entry
+from physsim_ros.simulation.past.frame_segment import CachedFrame
+from physsim_ros.simulation.past.records import Entry
 from physsim_ros.simulation.simulation import CHECKPOINTS, Simulation
 import pytest
 
@@ -180,7 +180,7 @@ def test_the_thousandth_command_to_a_paused_world_costs_no_more_than_the_first(
                 looks[-1] += 1
             super().__setattr__(name, value)
 
-    monkeypatch.setattr('physsim_ros.simulation.timeline.Entry', Counted)
+    monkeypatch.setattr('physsim_ros.simulation.past.timeline.Entry', Counted)
     driven = Driven(speed=0.0)
     driven.ask(spawning('a/0', BOX))
     for _ in range(1000):

@@ -24,7 +24,7 @@ from physsim_ros.model.settings import RANGES as WORLD_RANGES
 from physsim_ros.model.settings import STRONGEST, WorldSettings
 from physsim_ros.model.shapes import LARGEST
 from physsim_ros.ros.parameters.spec import Spec
-from physsim_ros.simulation.history_memory import DEFAULT_MEMORY, LEAST_MEMORY, MOST_MEMORY
+from physsim_ros.simulation.past.history_memory import DEFAULT_MEMORY, LEAST_MEMORY, MOST_MEMORY
 from physsim_ros.view import ViewerMode
 
 # Value of draw_color with which each body has another colour.

@@ -26,8 +26,8 @@ from functools import lru_cache
 
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.requests import Command, Request, Restore
-from physsim_ros.simulation.memory_size import names_size, request_size
-from physsim_ros.simulation.records import Entry, Moment, total_size
+from physsim_ros.simulation.past.memory_size import names_size, request_size
+from physsim_ros.simulation.past.records import Entry, Moment, total_size
 
 # Number of tuples of names that commands of the log share: one a publisher.
 _SHARED_NAMES = 16

@@ -35,8 +35,8 @@ from physsim_ros.model.requests import (
     PlaceHand,
 )
 from physsim_ros.model.transform import Point, Pose, rotated
-from physsim_ros.simulation.capacity import Capacity
-from physsim_ros.simulation.lookup import points_in_world, pose_in_world
+from physsim_ros.simulation.world.capacity import Capacity
+from physsim_ros.simulation.world.lookup import points_in_world, pose_in_world
 
 
 def apply_hand_request(space: Space, request: HandRequest, capacity: Capacity) -> tuple[str, str]:

@@ -25,8 +25,8 @@ from collections.abc import Callable
 
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.snapshot import Answer
-from physsim_ros.simulation.history import History
-from physsim_ros.simulation.records import Mark, Moment
+from physsim_ros.simulation.past.history import History
+from physsim_ros.simulation.past.records import Mark, Moment
 from physsim_ros.simulation.world import World
 
 

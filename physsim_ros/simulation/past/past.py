@@ -30,13 +30,13 @@ from physsim_ros.model.requests import Request, Restore
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer, Snapshot
 from physsim_ros.model.timeline import TimelineStatus
-from physsim_ros.simulation.frame_cache import FrameCache
-from physsim_ros.simulation.ghosts import Ghosts
-from physsim_ros.simulation.history_memory import HistoryMemory
-from physsim_ros.simulation.records import Moment
-from physsim_ros.simulation.timeline import Timeline
-from physsim_ros.simulation.timeline_status import status_of
-from physsim_ros.simulation.undo import Undo
+from physsim_ros.simulation.past.frame_cache import FrameCache
+from physsim_ros.simulation.past.ghosts import Ghosts
+from physsim_ros.simulation.past.history_memory import HistoryMemory
+from physsim_ros.simulation.past.records import Moment
+from physsim_ros.simulation.past.timeline import Timeline
+from physsim_ros.simulation.past.timeline_status import status_of
+from physsim_ros.simulation.past.undo import Undo
 from physsim_ros.simulation.world import World
 
 

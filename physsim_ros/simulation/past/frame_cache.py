@@ -28,10 +28,10 @@ from collections.abc import Callable
 
 import numpy as np
 from physsim_ros.model.snapshot import Answer, Snapshot
-from physsim_ros.simulation.frame_segment import CachedFrame, FrameSegment, SegmentReplay
-from physsim_ros.simulation.history import History
-from physsim_ros.simulation.records import Mark
-from physsim_ros.simulation.replay import Replay
+from physsim_ros.simulation.past.frame_segment import CachedFrame, FrameSegment, SegmentReplay
+from physsim_ros.simulation.past.history import History
+from physsim_ros.simulation.past.records import Mark
+from physsim_ros.simulation.past.replay import Replay
 from physsim_ros.simulation.world import World
 
 # Segments that are never dropped for want of memory: the one that is shown, and the one beside it

@@ -28,9 +28,9 @@ from typing import NamedTuple
 from physsim_ros.model.errors import OutOfHistory
 from physsim_ros.model.requests import Configure, Restore
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.simulation.history import History
-from physsim_ros.simulation.records import Moment
-from physsim_ros.simulation.replay import Replay
+from physsim_ros.simulation.past.history import History
+from physsim_ros.simulation.past.records import Moment
+from physsim_ros.simulation.past.replay import Replay
 from physsim_ros.simulation.world import World
 
 

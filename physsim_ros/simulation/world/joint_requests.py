@@ -33,8 +33,8 @@ from physsim_ros.model.requests import Axle, Join, JointRequest, Pin, Unjoin, Un
 from physsim_ros.model.scene import Joint, Seat
 from physsim_ros.model.texts import nearest_name
 from physsim_ros.model.transform import Point, Pose, rotated
-from physsim_ros.simulation.capacity import Capacity
-from physsim_ros.simulation.lookup import body_of_name, points_in_world
+from physsim_ros.simulation.world.capacity import Capacity
+from physsim_ros.simulation.world.lookup import body_of_name, points_in_world
 
 # Points that lie so near to where a joint is drawn are where it is [m]: what is drawn comes back
 # in the digits of a double, and from a person's hand never.

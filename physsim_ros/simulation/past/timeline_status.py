@@ -17,8 +17,8 @@
 from __future__ import annotations
 
 from physsim_ros.model.timeline import CourseSpan, TimelineStatus
-from physsim_ros.simulation.records import Moment
-from physsim_ros.simulation.undo import Undo
+from physsim_ros.simulation.past.records import Moment
+from physsim_ros.simulation.past.undo import Undo
 
 
 def status_of(undo: Undo, shown: Moment, *, speed: float, dt: float) -> TimelineStatus:

@@ -35,15 +35,15 @@ from physsim_ros.model.requests import ChangeBody, Command, MoveBodies, Spawn
 from physsim_ros.model.scene import Body
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.transform import Point, Pose
-from physsim_ros.simulation import joint_requests
-from physsim_ros.simulation.body_description import (
+from physsim_ros.simulation.world import joint_requests
+from physsim_ros.simulation.world.body_description import (
     changed_body,
     changed_twist,
     new_body,
     spawn_changes,
 )
-from physsim_ros.simulation.capacity import Capacity
-from physsim_ros.simulation.lookup import body_of_name, pose_in_world
+from physsim_ros.simulation.world.capacity import Capacity
+from physsim_ros.simulation.world.lookup import body_of_name, pose_in_world
 
 # The result of a request: the body concerned, or '', and a sentence about it.
 Done = tuple[str, str]

@@ -26,11 +26,11 @@ from typing import Generic, NamedTuple, TypeVar
 
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import OutOfHistory
-from physsim_ros.simulation.gesture_phrase import gesture_phrase
-from physsim_ros.simulation.history_memory import Store
-from physsim_ros.simulation.memory_size import world_size
-from physsim_ros.simulation.records import Tail
-from physsim_ros.simulation.timeline import Timeline
+from physsim_ros.simulation.past.gesture_phrase import gesture_phrase
+from physsim_ros.simulation.past.history_memory import Store
+from physsim_ros.simulation.past.memory_size import world_size
+from physsim_ros.simulation.past.records import Tail
+from physsim_ros.simulation.past.timeline import Timeline
 
 _Stored = TypeVar('_Stored', bound='Tail | _StoredTimeline')
 

@@ -34,7 +34,7 @@ from physsim_ros.model.requests import (
     Unjoin,
     UnjoinAll,
 )
-from physsim_ros.simulation.records import Entry
+from physsim_ros.simulation.past.records import Entry
 
 # Verbs of the requests that are not named by their own.
 _VERBS = {

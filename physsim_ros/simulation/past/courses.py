@@ -29,8 +29,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from physsim_ros.model.errors import OutOfHistory
-from physsim_ros.simulation.history import History
-from physsim_ros.simulation.records import is_beyond, Moment, Tail
+from physsim_ros.simulation.past.history import History
+from physsim_ros.simulation.past.records import is_beyond, Moment, Tail
 
 # Courses that are kept, at most, as many as a person tells apart; the one that was left first
 # goes first.

@@ -24,7 +24,7 @@ from bisect import bisect_right
 from collections.abc import Collection, Sequence
 
 from physsim_ros.model.snapshot import Snapshot
-from physsim_ros.simulation.frame_segment import CachedFrame, size_of_frames
+from physsim_ros.simulation.past.frame_segment import CachedFrame, size_of_frames
 
 
 class Ghosts:

@@ -50,10 +50,10 @@ from physsim_ros.model.requests import (
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Contacts, Snapshot
-from physsim_ros.simulation import body_requests, hand_requests, joint_requests
-from physsim_ros.simulation.capacity import Capacity
-from physsim_ros.simulation.live_space import LiveSpace
-from physsim_ros.simulation.lookup import points_in_world
+from physsim_ros.simulation.world import body_requests, hand_requests, joint_requests
+from physsim_ros.simulation.world.capacity import Capacity
+from physsim_ros.simulation.world.live_space import LiveSpace
+from physsim_ros.simulation.world.lookup import points_in_world
 
 
 class World:

@@ -24,9 +24,9 @@ from __future__ import annotations
 from bisect import bisect_left, bisect_right
 
 from physsim_ros.model.errors import OutOfHistory
-from physsim_ros.simulation.memory_size import checkpoint_size
-from physsim_ros.simulation.records import Entry, Mark, Moment, Tail, total_size
-from physsim_ros.simulation.request_log import RequestLog
+from physsim_ros.simulation.past.memory_size import checkpoint_size
+from physsim_ros.simulation.past.records import Entry, Mark, Moment, Tail, total_size
+from physsim_ros.simulation.past.request_log import RequestLog
 
 
 class History:

@@ -27,10 +27,10 @@ import itertools
 from physsim_ros.model.errors import OutOfHistory, Refusal
 from physsim_ros.model.requests import Request
 from physsim_ros.model.snapshot import Answer
-from physsim_ros.simulation.courses import Courses
-from physsim_ros.simulation.history import History
-from physsim_ros.simulation.records import Entry, Mark, Tail
-from physsim_ros.simulation.seekable_replay import SeekableReplay
+from physsim_ros.simulation.past.courses import Courses
+from physsim_ros.simulation.past.history import History
+from physsim_ros.simulation.past.records import Entry, Mark, Tail
+from physsim_ros.simulation.past.seekable_replay import SeekableReplay
 from physsim_ros.simulation.world import World
 
 # The share of the time between two checkpoints in which the bodies for the next one are made

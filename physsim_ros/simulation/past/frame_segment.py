@@ -27,9 +27,9 @@ from typing import NamedTuple
 
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Contacts, Snapshot
-from physsim_ros.simulation.memory_size import frame_size, scene_size
-from physsim_ros.simulation.records import Mark
-from physsim_ros.simulation.replay import Replay
+from physsim_ros.simulation.past.memory_size import frame_size, scene_size
+from physsim_ros.simulation.past.records import Mark
+from physsim_ros.simulation.past.replay import Replay
 
 
 class CachedFrame(NamedTuple):
