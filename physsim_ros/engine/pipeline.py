@@ -22,9 +22,9 @@ The pipeline: one step of the engine, stage by stage in this order.
 5. Continuous collision: fast bodies are advanced to where they first touch something.
 6. Tight boxes: the engine's broad phase is told where fast bodies of a crowd will be.
 7. Joints: the target velocity of constraints is set to the centripetal term.
-8. Pymunk's step: positions, narrow phase, solver, sleeping. In the middle of it: contact normal
-   at impact, internal edges and contact projection as two shapes begin to touch, and impact
-   propagation before the solver runs.
+8. Pymunk's step: positions, narrow phase, solver, sleeping. In the middle of it: false contacts
+   are rejected, contact normal at impact, internal edges and contact projection as two shapes
+   begin to touch, and impact propagation before the solver runs.
 9. Joints: gaps are closed in positions.
 10. Half-step velocity: free flight is found, and does not fall asleep.
 11. Contact report: impulses are added up.
@@ -45,6 +45,7 @@ from physsim_ros.engine.contacts.contact_report import ContactReport
 from physsim_ros.engine.joints.joint_set import JointSet
 from physsim_ros.engine.stages.contact_normal import contact_at_impact
 from physsim_ros.engine.stages.contact_projection import project_contact
+from physsim_ros.engine.stages.false_contacts import FalseContacts
 from physsim_ros.engine.stages.half_step import HalfStep
 from physsim_ros.engine.stages.impact_propagation import ImpactPropagation
 from physsim_ros.engine.stages.internal_edges import InternalEdges
@@ -88,6 +89,7 @@ class Pipeline:
         self.continuous_collision = ContinuousCollision(engine, hulls)
         self.impact_propagation = ImpactPropagation(engine, io)
         self.contact_report = ContactReport(io)
+        self._false_contacts = FalseContacts(hulls)
         self._internal_edges = InternalEdges(hulls)
         self._joints = joints
         self._engine = engine
@@ -114,6 +116,7 @@ class Pipeline:
         self._joints.set_targets(context)
         self._context, self.impact_propagation.table = context, table
         self._placed.clear()
+        self._false_contacts.begin_step()
         self._engine.step(context.dt)
         self._context = self.impact_propagation.table = None
         table.forget_state()
@@ -135,6 +138,8 @@ class Pipeline:
         if self._context is None:
             return
         contact, shapes = arbiter.contact_point_set, arbiter.shapes
+        if self._false_contacts.reject(arbiter, contact, shapes):
+            return
         if contact.points and not any(shape.sensor for shape in shapes):
             found = contact
             contact = contact_at_impact(contact, shapes, self._context) or contact
