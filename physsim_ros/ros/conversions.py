@@ -21,15 +21,12 @@ stamps are ignored.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-import itertools
+from collections.abc import Sequence
 import math
 from typing import Any, TypeVar
 
-from geometry_msgs.msg import PointStamped, Quaternion
-import numpy as np
+from geometry_msgs.msg import PointStamped
 from physsim_ros.files import load_mapping
-from physsim_ros.model.arrays import Floats
 from physsim_ros.model.body_properties import properties_from
 from physsim_ros.model.colors import Color
 from physsim_ros.model.errors import (
@@ -53,9 +50,8 @@ from physsim_ros.model.requests import (
     Unjoin,
     UnjoinAll,
 )
-from physsim_ros.model.transform import Pose
+from physsim_ros.ros.command_reader import CommandMessage
 from physsim_ros.ros.marker_shapes import points_from, shape_from
-from sensor_msgs.msg import MultiDOFJointState
 from visualization_msgs.msg import InteractiveMarkerFeedback, Marker
 
 # The namespaces of markers with an empty one.
@@ -68,6 +64,9 @@ MOST_TILT = 1e-3
 LONGEST_TEXT = 10_000
 # The greatest number of brackets in `text`; two are needed. PyYAML takes 1 s for 1000 nested ones.
 MOST_BRACKETS = 50
+
+# Columns of twists and wrenches of the plane: x, y, about z.
+_PLANAR = [0, 1, 5]
 
 _AtPoint = TypeVar('_AtPoint', bound=AtPoint)
 
@@ -82,11 +81,11 @@ def joint_name_of(marker: Marker) -> str:
     return f'{marker.ns.removeprefix(JOINT_PREFIX) or JOINT_NAMESPACE}/{marker.id}'
 
 
-def subject_of(message: Marker | PointStamped | MultiDOFJointState, *, joint: bool = False) -> str:
+def subject_of(message: Marker | PointStamped | CommandMessage, *, joint: bool = False) -> str:
     """Return the one body, or with `joint` the joint, that a message names, or ''."""
     if isinstance(message, Marker):
         return joint_name_of(message) if joint else name_of(message)
-    names: list[str] = getattr(message, 'joint_names', [])
+    names: Sequence[str] = getattr(message, 'joint_names', ())
     return names[0] if len(names) == 1 else ''
 
 
@@ -104,11 +103,12 @@ def body_request(marker: Marker, *, frame_id: str) -> Spawn | Delete | DeleteAll
         return DeleteAll(namespace=marker.ns or None)
     if marker.action != Marker.ADD:
         raise BadProperty(f'there is no action {marker.action}', field='action')
-    position = marker.pose.position
+    position, turn = marker.pose.position, marker.pose.orientation
+    rotation = (turn.x, turn.y, turn.z, turn.w)
     return Spawn(
         name=name_of(marker),
         shape=shape_from(marker),
-        pose=(position.x, position.y, _yaw(marker.pose.orientation, 'pose.orientation')),
+        pose=(position.x, position.y, _yaw(rotation, 'pose.orientation')),
         frame=_frame(marker.header.frame_id, frame_id),
         color=_color(marker),
         lifetime=marker.lifetime.sec + marker.lifetime.nanosec * 1e-9,
@@ -178,28 +178,23 @@ def hand_request(
     raise BadProperty(f'a hand has no event_type {feedback.event_type}', field='event_type')
 
 
-def command_request(message: MultiDOFJointState, *, frame_id: str) -> Command:
+def command_request(message: CommandMessage, *, frame_id: str) -> Command:
     """
     Return the request with the poses, twists and wrenches of a message.
 
     :raises Malformed: the lengths differ, or a number is not finite
     :raises NotPlanar: a rotation is not about z
     """
+    poses = message.transforms[:, :3].copy()
+    rotations = message.transforms[:, 3:].tolist()
+    poses[:, 2] = [_yaw(rotation, 'transforms') for rotation in rotations]
     return Command(
-        names=tuple(message.joint_names),
-        poses=_rows(
-            (each.translation.x, each.translation.y, _yaw(each.rotation, 'transforms'))
-            for each in message.transforms
-        ),
-        twists=_rows((each.linear.x, each.linear.y, each.angular.z) for each in message.twist),
-        wrenches=_rows((each.force.x, each.force.y, each.torque.z) for each in message.wrench),
-        frame=_frame(message.header.frame_id, frame_id),
+        names=message.joint_names,
+        poses=poses,
+        twists=message.twist[:, _PLANAR],
+        wrenches=message.wrench[:, _PLANAR],
+        frame=_frame(message.frame_id, frame_id),
     )
-
-
-def _rows(rows: Iterable[Pose]) -> Floats:
-    """Return rows of three numbers as an array."""
-    return np.fromiter(itertools.chain.from_iterable(rows), np.float64).reshape(-1, 3)
 
 
 def point_in_frame(message: PointStamped, *, frame_id: str) -> tuple[tuple[float, float], str]:
@@ -211,9 +206,12 @@ def _frame(frame: str, world_frame: str) -> str:
     return '' if frame in ('', world_frame) else frame
 
 
-def _yaw(rotation: Quaternion, field: str) -> float:
-    """Return the yaw of a rotation [rad]; all zero is the identity, as RViz reads it."""
-    parts = (rotation.x, rotation.y, rotation.z, rotation.w)
+def _yaw(parts: Sequence[float], field: str) -> float:
+    """
+    Return the yaw of a rotation [rad]; all zero is the identity, as RViz reads it.
+
+    :param parts: of its quaternion: x, y, z, w
+    """
     if not all(map(math.isfinite, parts)):
         raise Malformed(f'{field} is not finite', field=field)
     largest = max(map(abs, parts))

@@ -21,18 +21,15 @@ the node could not publish; the number alone is read in a microsecond.
 
 from __future__ import annotations
 
-import struct
-
 import numpy as np
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import Malformed
 from physsim_ros.model.names import LONGEST_NAME
 from physsim_ros.model.settings import MOST_SAMPLES
+from physsim_ros.ros.cdr_reader import CdrReader, Truncated
 
-# Size of the header of CDR, from whose end on values are aligned to their size [bytes].
-_HEADER = 4
-# Size of a geometry_msgs/Pose [bytes].
-_POSE = 56
+# Numbers of a geometry_msgs/Pose: position and quaternion.
+_POSE = 7
 
 
 def stroke_from(message: bytes, *, frame_id: str) -> tuple[Floats, str, float | None]:
@@ -48,13 +45,13 @@ def stroke_from(message: bytes, *, frame_id: str) -> tuple[Floats, str, float | 
     """
     try:
         return _read(message, frame_id)
-    except struct.error as error:
+    except Truncated as error:
         raise Malformed('the message of the stroke breaks off', field='poses') from error
 
 
 def _read(message: bytes, frame_id: str) -> tuple[Floats, str, float | None]:
-    reader = _Reader(message)
-    _, frame = reader.header()
+    reader = CdrReader(message)
+    _, frame = _header(reader)
     count = reader.number()
     if count > MOST_SAMPLES:
         raise Malformed(f'a stroke has at most {MOST_SAMPLES} samples, not {count}', field='poses')
@@ -62,10 +59,11 @@ def _read(message: bytes, frame_id: str) -> tuple[Floats, str, float | None]:
     samples = np.empty((count, 3))
     began: int | None = None
     for sample in range(count):
-        stamp, frame = reader.header()
+        stamp, frame = _header(reader)
         began = stamp if began is None else began
         frames.add(frame)
-        samples[sample] = *reader.position(), (stamp - began) * 1e-9
+        samples[sample, :2] = reader.doubles(1, _POSE)[0, :2]
+        samples[sample, 2] = (stamp - began) * 1e-9
     # A pose without a frame is in that of the path, and a path without one in that of its poses.
     named = sorted(frames - {''})
     if len(named) > 1:
@@ -77,52 +75,15 @@ def _read(message: bytes, frame_id: str) -> tuple[Floats, str, float | None]:
     return samples, '' if named in ([], [frame_id]) else named[0], first
 
 
-class _Reader:
-    """Reads the values of a message in CDR, one after the other."""
+def _header(reader: CdrReader) -> tuple[int, str]:
+    """
+    Return stamp [ns] and frame of a header.
 
-    def __init__(self, message: bytes) -> None:
-        self._data = memoryview(message)[_HEADER:]
-        self._at = 0
-        if len(message) < _HEADER:
-            raise struct.error('there is no header')
-        order = '<' if message[1] & 1 else '>'
-        self._stamp = struct.Struct(order + 'iII')
-        self._number = struct.Struct(order + 'I')
-        self._position = struct.Struct(order + '2d')
-
-    def header(self) -> tuple[int, str]:
-        """
-        Return stamp [ns] and frame of a header.
-
-        :raises Malformed: the name of the frame is too long
-        """
-        self._at += -self._at % 4
-        seconds, nanoseconds, length = self._stamp.unpack_from(self._data, self._at)
-        # Of four bytes in UTF-8 at most, and a NUL.
-        if length > 4 * LONGEST_NAME + 1:
-            raise Malformed(
-                f'the name of a frame has at most {LONGEST_NAME} characters',
-                field='header.frame_id',
-            )
-        begin = self._at + self._stamp.size
-        self._at = begin + length
-        last = self._at - 1
-        # A name that is not UTF-8 is that of no frame, and is refused as one.
-        frame = bytes(self._data[begin:last]).decode(errors='replace')
-        return seconds * 1_000_000_000 + nanoseconds, frame
-
-    def number(self) -> int:
-        """Return the number of elements of a sequence."""
-        self._at += -self._at % 4
-        (number,) = self._number.unpack_from(self._data, self._at)
-        self._at += self._number.size
-        return int(number)
-
-    def position(self) -> tuple[float, float]:
-        """Return x, y [m] of a pose, and skip the rest of it."""
-        self._at += -self._at % 8
-        x, y = self._position.unpack_from(self._data, self._at)
-        self._at += _POSE
-        if self._at > len(self._data):
-            raise struct.error('a pose is not all there')
-        return x, y
+    :raises Malformed: the name of the frame is too long
+    """
+    stamp, frame = reader.stamp(), reader.text()
+    if len(frame) > LONGEST_NAME:
+        raise Malformed(
+            f'the name of a frame has at most {LONGEST_NAME} characters', field='header.frame_id'
+        )
+    return stamp, frame

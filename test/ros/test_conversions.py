@@ -31,8 +31,18 @@ from physsim_ros.model.errors import (
     UnknownProperty,
     UnknownShape,
 )
-from physsim_ros.model.requests import Anchor, Axle, Delete, DeleteAll, Pin, Release, Spawn
+from physsim_ros.model.requests import (
+    Anchor,
+    Axle,
+    Command,
+    Delete,
+    DeleteAll,
+    Pin,
+    Release,
+    Spawn,
+)
 from physsim_ros.model.shapes import Box, Chain, Compound, Disc, MOST_POINTS, Polygon, Triangles
+from physsim_ros.ros.command_reader import command_from
 from physsim_ros.ros.conversions import (
     body_request,
     command_request,
@@ -41,6 +51,8 @@ from physsim_ros.ros.conversions import (
     point_request,
 )
 import pytest
+from rclpy.serialization import serialize_message
+from sensor_msgs.msg import MultiDOFJointState
 from visualization_msgs.msg import Marker
 
 from ..messages import box, command, delete, delete_all, ELL, marker, point, polygon
@@ -65,6 +77,11 @@ def properties_of(text: str) -> Properties:
     return spawn_of(box(text=text)).properties
 
 
+def command_request_of(message: MultiDOFJointState) -> Command:
+    decoded = command_from(serialize_message(message))
+    return command_request(decoded, frame_id='map')
+
+
 def refusal_of(message: Marker) -> Refusal:
     with pytest.raises(Refusal) as caught:
         body_request(message, frame_id='map')
@@ -85,7 +102,7 @@ def test_the_world_frame_has_two_spellings(frame: str, meant: str) -> None:
     assert spawn_of(box(frame=frame)).frame == meant
     assert point_request(Anchor, point(1, 2, frame), frame_id='map').frame == meant
     assert point_request(Release, point(1, 2, frame), frame_id='map').frame == meant
-    assert command_request(command('a/0', frame=frame), frame_id='map').frame == meant
+    assert command_request_of(command('a/0', frame=frame)).frame == meant
 
 
 @pytest.mark.parametrize('namespace', ['physsim:bounds', 'anchor:a', 'joint:j', 'lines:j'])
@@ -599,7 +616,7 @@ def test_a_command_takes_what_lies_in_the_plane() -> None:
     message = command('a/0', 'a/1', twists=[(1, 2, 3), (4, 5, 6)], wrenches=[(7, 8, 9), (0, 0, 0)])
     message.twist[0].linear.z = message.twist[0].angular.x = NAN
     message.wrench[0].force.z = message.wrench[0].torque.y = NAN
-    request = command_request(message, frame_id='map')
+    request = command_request_of(message)
     assert request.names == ('a/0', 'a/1')
     assert request.poses.tolist() == []
     assert request.twists.tolist() == [[1, 2, 3], [4, 5, 6]]
@@ -608,13 +625,13 @@ def test_a_command_takes_what_lies_in_the_plane() -> None:
 
 def test_a_commanded_pose_is_read_as_a_markers_pose_is() -> None:
     message = command('a/0', poses=[(1, 2, 0.7)])
-    (pose,) = command_request(message, frame_id='map').poses.tolist()
+    (pose,) = command_request_of(message).poses.tolist()
     assert tuple(pose) == spawn_of(box(at=(1, 2, 0.7))).pose
     message.transforms[0].rotation = Quaternion(x=0.0, y=0.0, z=0.0, w=0.0)
-    assert command_request(message, frame_id='map').poses.tolist() == [[1.0, 2.0, 0.0]]
+    assert command_request_of(message).poses.tolist() == [[1.0, 2.0, 0.0]]
     message.transforms[0].rotation = Quaternion(x=1.0)
     with pytest.raises(NotPlanar) as caught:
-        command_request(message, frame_id='map')
+        command_request_of(message)
     assert caught.value.field == 'transforms'
 
 
@@ -636,7 +653,7 @@ def test_a_commanded_pose_is_read_as_a_markers_pose_is() -> None:
 )
 def test_a_command_that_does_not_fit_is_malformed(message: Any, field: str) -> None:
     with pytest.raises(Malformed) as caught:
-        command_request(message, frame_id='map')
+        command_request_of(message)
     assert caught.value.field == field
 
 

@@ -38,7 +38,9 @@ from physsim_ros.model.errors import Refusal
 from physsim_ros.model.requests import Anchor, Axle, Pin, Release
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.ros import conversions, encoders
+from physsim_ros.ros.command_reader import command_from, CommandMessage
 from physsim_ros.simulation.simulation import Simulation
+from rclpy.serialization import serialize_message
 from sensor_msgs.msg import MultiDOFJointState
 from std_msgs.msg import ColorRGBA, Header
 from visualization_msgs.msg import Marker
@@ -164,7 +166,7 @@ def joints(draw: Any) -> Marker:
 
 
 @st.composite
-def commands(draw: Any) -> MultiDOFJointState:
+def commands(draw: Any) -> CommandMessage:
     """Return a command whose numbers, and sometimes names and lengths, are odd."""
     names = draw(st.lists(st.sampled_from(NAMES), min_size=1, max_size=2, unique=True))
     fits = st.lists if draw(st.booleans()) else None
@@ -184,13 +186,14 @@ def commands(draw: Any) -> MultiDOFJointState:
     number = numbers if odd else st.floats(-5.0, 5.0)
     vector = st.builds(Vector3, x=number, y=number, z=number)
     turn = quaternions if odd else turns
-    return MultiDOFJointState(
+    message = MultiDOFJointState(
         header=draw(headers) if odd else Header(),
         joint_names=names,
         transforms=some(st.builds(Transform, translation=vector, rotation=turn)),
         twist=some(st.builds(Twist, linear=vector, angular=vector)),
         wrench=some(st.builds(Wrench, force=vector, torque=vector)),
     )
+    return command_from(serialize_message(message))
 
 
 points = st.one_of(

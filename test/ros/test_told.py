@@ -25,6 +25,7 @@ from rcl_interfaces.msg import Parameter as ParameterMessage
 from rcl_interfaces.msg import ParameterType, ParameterValue
 from rcl_interfaces.srv import SetParameters, SetParametersAtomically
 from rclpy.serialization import serialize_message
+from sensor_msgs.msg import MultiDOFJointState
 from std_msgs.msg import Float64
 from visualization_msgs.msg import Marker, MarkerArray
 
@@ -128,15 +129,16 @@ def test_an_empty_array_is_answered(physsim: PhysSim, client: Client) -> None:
     assert physsim.spawn(MarkerArray()) == ''
 
 
+TOPICS = {Marker: '~/spawn', MarkerArray: '~/spawn_array', MultiDOFJointState: '~/command'}
 NOISE = [b'\0\1\0\0', b'\0\1\0\0' + b'\xff' * 16, b'\0\1\0\0' + bytes(range(256))]
 
 
-@pytest.mark.parametrize('kind', [Marker, MarkerArray])
+@pytest.mark.parametrize('kind', [Marker, MarkerArray, MultiDOFJointState])
 @pytest.mark.parametrize('noise', NOISE)
 def test_a_message_that_cannot_be_decoded_is_answered_and_counted(
     physsim: PhysSim, client: Client, kind: Any, noise: bytes
 ) -> None:
-    topic = '~/spawn' if kind is Marker else '~/spawn_array'
+    topic = TOPICS[kind]
     client.ask(topic, kind())
     told(client)
     before = physsim.digest()
@@ -156,7 +158,7 @@ def test_a_message_that_cannot_be_decoded_is_answered_and_counted(
 def test_a_message_that_is_too_large_is_refused_before_it_is_decoded(
     physsim: PhysSim, client: Client, monkeypatch: pytest.MonkeyPatch, kind: Any, most: int
 ) -> None:
-    topic = '~/spawn' if kind is Marker else '~/spawn_array'
+    topic = TOPICS[kind]
     client.ask(topic, kind())
     told(client)
     before = physsim.digest()

@@ -1,0 +1,62 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Deserialisation of commands: sensor_msgs/MultiDOFJointState to names and arrays.
+
+10,000 names with twists take 10 ms; rclpy takes 0.2 s to make objects of them, in which as much
+arrives as takes minutes.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from physsim_ros.model.arrays import Floats
+from physsim_ros.ros.cdr_reader import CdrReader
+
+
+class CommandMessage(NamedTuple):
+    """
+    The fields of a command.
+
+    :ivar frame_id: of its header
+    :ivar joint_names: of the bodies
+    :ivar transforms: (n, 7) float64: translation [m] and quaternion, x, y, z, w
+    :ivar twist: (n, 6) float64: linear [m/s] and angular [rad/s]
+    :ivar wrench: (n, 6) float64: force [N] and torque [N m]
+    """
+
+    frame_id: str
+    joint_names: tuple[str, ...]
+    transforms: Floats
+    twist: Floats
+    wrench: Floats
+
+
+def command_from(message: bytes) -> CommandMessage:
+    """
+    Return the fields of a serialised sensor_msgs/MultiDOFJointState.
+
+    :raises Truncated: it breaks off
+    """
+    reader = CdrReader(message)
+    reader.stamp()
+    return CommandMessage(
+        frame_id=reader.text(),
+        joint_names=tuple(reader.text() for _ in range(reader.number())),
+        transforms=reader.doubles(reader.number(), 7),
+        twist=reader.doubles(reader.number(), 6),
+        wrench=reader.doubles(reader.number(), 6),
+    )
