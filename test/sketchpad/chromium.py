@@ -215,10 +215,22 @@ class Stylus:
 
     def draw(self, places: Sequence[Sequence[float]]) -> None:
         """Draw a stroke from place to place [px]."""
-        self._send('mousePressed', places[0])
-        for place in places[1:]:
+        self.put(places[0])
+        self.move(places[1:])
+        self.lift(places[-1])
+
+    def put(self, place: Sequence[float]) -> None:
+        """Put it down [px]."""
+        self._send('mousePressed', place)
+
+    def move(self, places: Sequence[Sequence[float]]) -> None:
+        """Move it from place to place."""
+        for place in places:
             self._send('mouseMoved', place)
-        self._send('mouseReleased', places[-1])
+
+    def lift(self, place: Sequence[float]) -> None:
+        """Lift it."""
+        self._send('mouseReleased', place)
 
     def _send(self, kind: str, place: Sequence[float]) -> None:
         x, y = place

@@ -18,6 +18,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import pytest
+
 from .chromium import Sheet
 
 BACKGROUND = """name => getComputedStyle(
@@ -31,4 +33,25 @@ def test_a_pressed_button_is_told_from_others_in_the_colours_of_the_reader(
     sheet.press('Hand')
     hand, pen = (sheet.page.evaluate(BACKGROUND, name) for name in ('Hand', 'Pen'))
     assert hand != pen
+    sheet.close()
+
+
+@pytest.mark.parametrize('size', [(1366, 768), (390, 844), (844, 390), (683, 384)])
+def test_nothing_covers_the_walls_of_a_world_that_is_framed(
+    chromium: Any, address: str, size: tuple[int, int]
+) -> None:
+    width, height = size
+    sheet = Sheet(chromium, address, viewport={'width': width, 'height': height})
+    sheet.begin()
+    sheet.press('Rectangle')
+    hint = sheet.page.locator('#hint')
+    hint.get_by_text('then click the side across').wait_for()
+    (left, top), (right, bottom) = sheet.place(-8.0, 9.0), sheet.place(8.0, 0.0)
+    assert 0 < left < right < width
+    for each in ('#top', '#hint', '#status'):
+        box = sheet.page.locator(each).bounding_box()
+        assert box['y'] + box['height'] <= top, each
+    tools, bar = (sheet.page.locator(each).bounding_box() for each in ('#tools', '#bar'))
+    assert bottom <= bar['y']
+    assert bottom <= tools['y'] or tools['x'] + tools['width'] <= left
     sheet.close()

@@ -133,7 +133,7 @@ def test_all_that_is_to_be_read_has_contrast(chromium: Any, address: str, scheme
     sheet.page.mouse.click(*sheet.place(0.0, 0.5))
     sheet.page.get_by_role('complementary', name='Body').wait_for()
     assert poor(sheet) == {}
-    for name in ('Worlds', 'Save', 'Keys'):
+    for name in ('Worlds', 'Save', 'Help'):
         sheet.press(name)
         assert poor(sheet) == {}
         sheet.page.keyboard.press('Escape')
@@ -157,9 +157,9 @@ def test_nothing_moves_by_itself_for_those_who_wish_so(chromium: Any, address: s
 def test_a_screen_reader_finds_the_bodies_with_their_places(sheet: Sheet) -> None:
     items = sheet.page.get_by_role('list', name='Bodies').get_by_role('listitem')
     texts = (
-        'ball/0: disc, at 0.0, 0.5 m',
-        'box/0: polygon, at 4.0, 0.5 m',
-        'shelf/0: polygon, anchored, at -4.0, 3.0 m',
+        'ball/0: circle, at 0.0, 0.5 m',
+        'box/0: rectangle, at 4.0, 0.5 m',
+        'shelf/0: rectangle, anchored, at -4.0, 3.0 m',
     )
     # The list is renewed each second.
     for number, text in enumerate(texts):

@@ -117,7 +117,7 @@ def test_the_past_is_gone_to_by_the_slider_and_acting_there_starts_another_cours
     before = sheet.names()
     sheet.drag((0.0, 4.0), (0.4, 4.0))
     sheet.wait_for_new(before)
-    sheet.page.get_by_role('button', name='Go back to the course').first.click()
+    sheet.page.get_by_role('button', name='Go back to how it went').first.click()
     sheet.wait('count => Object.keys(physsim.bodies).length === count', len(before))
     slider.fill(str(end))
     sheet.wait('end => Math.abs(physsim.time - end) < 0.02', end)

@@ -69,6 +69,73 @@ def test_a_finger_draws_and_two_fingers_zoom(chromium: Any, address: str) -> Non
     sheet.close()
 
 
+def test_a_palm_does_not_end_the_stroke_of_a_stylus(chromium: Any, address: str) -> None:
+    sheet = Sheet(chromium, address, has_touch=True)
+    sheet.begin()
+    before = sheet.names()
+    stylus, palm = Stylus(sheet), Fingers(sheet)
+    places = [sheet.place(*point) for point in circle(1.0, 5.0, 0.8)]
+    corner = sheet.place(0.0, 0.0)
+    stylus.put(places[0])
+    stylus.move(places[1:8])
+    palm.put((900, 600))
+    stylus.move(places[8:])
+    palm.move((910, 605))
+    palm.lift()
+    stylus.lift(places[-1])
+    sheet.wait_for_new(before)
+    assert sheet.place(0.0, 0.0) == corner
+    sheet.close()
+
+
+def test_a_finger_beside_a_body_means_that_body(chromium: Any, address: str) -> None:
+    sheet = Sheet(chromium, address, has_touch=True)
+    sheet.begin()
+    x, y = sheet.place(0.0, 1.0)
+    sheet.press('Anchor')
+    sheet.page.touchscreen.tap(x, y - 8)
+    sheet.page.get_by_role('status').get_by_text('ball/0 anchored').wait_for()
+    sheet.press('Undo')
+    sheet.press('Hand')
+    fingers = Fingers(sheet)
+    fingers.put((x, y - 8))
+    fingers.move((x, y - 100))
+    sheet.wait('physsim.bodies["ball/0"][1] > 1')
+    fingers.lift()
+    sheet.close()
+
+
+def test_a_finger_that_stays_on_a_button_asks_what_it_does(chromium: Any, address: str) -> None:
+    sheet = Sheet(chromium, address, has_touch=True)
+    sheet.begin()
+    box = sheet.page.get_by_role('button', name='Hand', exact=True).bounding_box()
+    fingers = Fingers(sheet)
+    fingers.put((box['x'] + 20, box['y'] + 20))
+    sheet.page.get_by_role('tooltip').get_by_text('Drag and throw').wait_for()
+    fingers.lift()
+    sheet.press('Pen')
+    sheet.page.get_by_role('button', name='Pen', pressed=True).wait_for()
+    fingers.put((box['x'] + 20, box['y'] + 20))
+    fingers.lift()
+    sheet.page.get_by_role('button', name='Hand', pressed=True).wait_for()
+    sheet.close()
+
+
+def test_a_tap_that_opens_the_panel_works_nothing_in_it(chromium: Any, address: str) -> None:
+    sheet = Sheet(chromium, address, has_touch=True, viewport={'width': 844, 'height': 390})
+    sheet.begin()
+    sheet.press('Hand')
+    panel = sheet.page.get_by_role('complementary', name='Body')
+    sheet.page.touchscreen.tap(*sheet.place(4.0, 0.5))
+    panel.wait_for()
+    # The panel covers the place of the body, which the view makes room for.
+    left = panel.bounding_box()['x']
+    assert sheet.place(4.0, 0.5)[0] < left
+    friction = panel.get_by_role('slider', name='Friction')
+    assert friction.input_value() == '0.5'
+    sheet.close()
+
+
 def test_a_stylus_draws_and_from_then_on_a_finger_moves_the_view(
     chromium: Any, address: str
 ) -> None:

@@ -9,7 +9,7 @@ import {BodyPanel} from './body_panel.js';
 import {Camera} from './camera.js';
 import {Connection} from './connection.js';
 import {Cursor} from './cursor.js';
-import {createElement, elementOf, iconButton} from './dom.js';
+import {createElement, elementOf} from './dom.js';
 import {Gallery} from './gallery.js';
 import {Hints} from './hints.js';
 import {Keyboard} from './keyboard.js';
@@ -19,10 +19,12 @@ import {Readings} from './readings.js';
 import {Refusals} from './refusals.js';
 import {SceneView} from './scene_view.js';
 import {Selection} from './selection.js';
-import {switchTheme} from './theme.js';
 import {TimeBar} from './time_bar.js';
 import {Tips} from './tips.js';
 import {Toolbar} from './toolbar.js';
+import {TopBar} from './top_bar.js';
+import {VelocityArrow} from './velocity_arrow.js';
+import {shapeWord, Words} from './words.js';
 import {WorldState} from './world_state.js';
 
 /** @typedef {import('./pointer.js').Touch} Touch */
@@ -33,7 +35,8 @@ import {WorldState} from './world_state.js';
  *   clicks: of a gesture, where it is made by clicks; aims: colour of the body that it is pointed at
  */
 
-const GAP = 24; // px between the bars and a world that is framed
+const GAP = 24, LOW_GAP = 12; // px between the bars and a world that is framed, and on a low page
+const LOW = 500; // px
 const LABEL = 20; // px more, for the heights at the left
 const LISTED = 200; // bodies in the list for screen readers
 const LIST_EVERY = 1000; // ms
@@ -48,6 +51,7 @@ export class App {
     /** @type {Map<string, () => void>} to be done with the next frame of the page, by key */
     this.frameActions = new Map();
     this.framed = false;
+    this.bounds = ''; // of the world that was framed: another one, as in the past, is framed anew
 
     this.connection = new Connection();
     this.world = new WorldState(this.connection);
@@ -56,10 +60,12 @@ export class App {
     this.selection = new Selection(this);
     this.view.overlays.push((view) => this.tool.draw(view));
     this.cursor = new Cursor(this);
+    this.words = new Words(this.connection);
     this.notes = new Notes(this);
     this.refusals = new Refusals(this);
     this.readings = new Readings(this);
     this.panel = new BodyPanel(this);
+    this.arrow = new VelocityArrow(this);
     this.time = new TimeBar(this);
     this.gallery = new Gallery(this);
     /** @type {Tool} */
@@ -68,7 +74,7 @@ export class App {
     this.toolbar = new Toolbar(this);
     this.pointers = new Pointers(this);
     this.keyboard = new Keyboard(this);
-    this.#fillTop();
+    this.topBar = new TopBar(this);
     this.tips = new Tips(this.camera);
     this.#listen();
     this.connection.connect();
@@ -76,39 +82,12 @@ export class App {
     this.#followSizes();
   }
 
-  #fillTop() {
-    elementOf('files', HTMLElement).append(
-      iconButton('Worlds', 'worlds', () => this.gallery.showWorlds(), 'Worlds to open'),
-      iconButton('Save', 'save', () => this.gallery.showSave(), 'Save, link, picture'));
-    const toggle = (/** @type {'velocities' | 'contacts'} */ part, /** @type {string} */ name,
-      /** @type {string} */ id, /** @type {string} */ title) => {
-      const button = iconButton(name, id, () => {
-        this.arrows[part] = !this.arrows[part];
-        button.setAttribute('aria-pressed', String(this.arrows[part]));
-        this.askForParts();
-      }, title);
-      button.setAttribute('aria-pressed', 'false');
-      return button;
-    };
-    this.recording = createElement('a', {target: '_blank', rel: 'noopener', hidden: true, className: 'button',
-      textContent: 'Rerun', title: 'The recording'});
-    elementOf('looks', HTMLElement).append(
-      toggle('velocities', 'Show velocities', 'velocities', 'Velocities as arrows: 1 m is 1 m/s'),
-      toggle('contacts', 'Show forces', 'forces', 'Forces of contact as arrows: 1 m is 10 N'),
-      iconButton('Material', 'material', () => this.panel.showMaterial(), 'Material of new bodies; gravity'),
-      iconButton('Frame the world', 'fit', () => this.frame(), 'Frame the world (F)'),
-      iconButton('Light or dark', 'theme', switchTheme),
-      iconButton('Keys', 'keys', () => this.keyboard.show(), 'Keys (?)'), this.recording);
-  }
-
   #listen() {
     const {connection} = this, gone = elementOf('gone', HTMLElement);
-    connection.on('recording', ({rerun}) => this.#linkRecording(rerun));
-    connection.on('welcome', ({settings = {}, rerun, view_only: viewOnly}) => {
+    connection.on('welcome', ({settings = {}, view_only: viewOnly}) => {
       this.viewOnly ||= Boolean(viewOnly);
       document.body.classList.toggle('view', this.viewOnly);
       Object.assign(this.material, settings, {color: settings.draw_color ?? null});
-      this.#linkRecording(rerun);
       this.askForParts();
     });
     connection.on('open', () => {
@@ -125,13 +104,9 @@ export class App {
           'The server is gone. This page comes back with it.';
     });
     connection.on('frame', () => {
-      if (!this.framed && this.world.frame.epoch === this.world.scene.epoch) this.frame();
+      const {frame, scene} = this.world, others = String(scene.bounds) !== this.bounds;
+      if (frame.epoch === scene.epoch && (!this.framed || others && this.camera.fitted)) this.frame();
     });
-  }
-
-  /** @param {string} address of the recording; '' where no viewer serves browsers */
-  #linkRecording(address) {
-    Object.assign(this.recording ?? {}, {href: address, hidden: !address});
   }
 
   /** Keep the tools of a narrow page above its bar, and the world in a window that changes. */
@@ -141,7 +116,7 @@ export class App {
       document.documentElement.style.setProperty('--bar', `${bar.offsetHeight}px`);
       if (this.camera.fitted) this.frame();
     });
-    sizes.observe(bar);
+    sizes.observe(bar, {box: 'border-box'});
     sizes.observe(this.view.canvas);
   }
 
@@ -160,10 +135,11 @@ export class App {
     view.insets = this.viewOnly ? {left: 0, top: 0, right: 0, bottom: camera.height - box('bar').top} :
       {left: wide ? box('tools').right : 0, top: box('top').bottom, right: 0,
         bottom: camera.height - box(wide ? 'bar' : 'tools').top};
-    const {left, top, right, bottom} = view.insets;
+    const {left, top, right, bottom} = view.insets, gap = camera.height < LOW ? LOW_GAP : GAP;
     camera.fit(this.world.extent(),
-      {left: left + GAP + (wide ? LABEL : 0), top: top + GAP, right: right + GAP, bottom: bottom + GAP});
+      {left: left + gap + (wide ? LABEL : 0), top: top + gap, right: right + gap, bottom: bottom + gap});
     this.framed = true;
+    this.bounds = String(this.world.scene.bounds);
     view.dirty = true;
   }
 
@@ -189,9 +165,10 @@ export class App {
 
   #listBodies() {
     const {world} = this, {bodies} = world.scene;
-    const texts = bodies.slice(0, LISTED).map(({name, shape, anchored}, row) => {
+    const texts = bodies.slice(0, LISTED).map((body, row) => {
+      const {name, anchored} = body;
       const [x, y] = world.place(row, [0, 0]);
-      return `${name}: ${shape.kind}${anchored ? ', anchored' : ''}, at ${x.toFixed(1)}, ${y.toFixed(1)} m`;
+      return `${name}: ${shapeWord(body)}${anchored ? ', anchored' : ''}, at ${x.toFixed(1)}, ${y.toFixed(1)} m`;
     });
     if (bodies.length > LISTED) texts.push(`and ${bodies.length - LISTED} more`);
     const list = elementOf('list', HTMLElement);

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The panel of the selected bodies: properties of a body, its velocity as an arrow, its plots. */
+/** The panel of the selected bodies: properties of a body, its plots. */
 
 import {createElement, elementOf, iconButton} from './dom.js';
 import {Plots} from './plots.js';
-import {ARROW_GAP} from './tools/hand.js';
-
-/** @typedef {import('./wire.js').Point} Point */
+import {capital} from './words.js';
 
 /** Key, label, least, most, step. @type {[string, string, number, number, number][]} */
 const RANGES = [['density', 'Density [kg/m²]', 0.1, 10, 0.1], ['friction', 'Friction', 0, 2, 0.05],
   ['elasticity', 'Bounciness', 0, 1, 0.05]];
-const GRIP = 14; // px around the tip of the velocity arrow
 const COVERED = 80; // px: nearer to the edge of the panel, or beneath it, a body is covered
 const BESIDE = 0.5; // m: where a copy is put
 
@@ -21,9 +18,6 @@ export class BodyPanel {
     this.element = elementOf('panel', HTMLElement);
     this.plots = new Plots(app);
     this.name = '';
-    /** @type {?Point} tip of the velocity arrow while it is dragged [px] */
-    this.tip = null;
-    app.view.overlays.push((view) => this.#drawAim(view));
     app.connection.on('scene', () => this.#follow());
   }
 
@@ -43,15 +37,17 @@ export class BodyPanel {
     const anchored = createElement('input', {type: 'checkbox', checked: body.anchored,
       onchange: () => change({anchored: anchored.checked})});
     this.shown = JSON.stringify(body);
-    this.#show(name, [
+    const word = this.app.words.of(name);
+    this.#show(word === name ? name : capital(word), [
       ...fields(body, change),
       createElement('label', {}, 'Anchored', anchored),
       createElement('div', {className: 'row'},
         createElement('button', {type: 'button', textContent: 'Copy', onclick: () => this.copy()}),
         createElement('button', {type: 'button', className: 'danger', textContent: 'Delete body',
           onclick: () => this.app.selection.deleteBodies()})),
+      createElement('p', {hidden: body.anchored, textContent: 'Velocity: drag the ring of its arrow.'}),
       this.plots.element,
-    ]);
+    ], word === name ? '' : name);
     this.plots.watch(name);
     this.#uncover(row);
   }
@@ -110,14 +106,15 @@ export class BodyPanel {
   /**
    * @param {string} title
    * @param {Node[]} content
+   * @param {string} name of the body, where that is not the title
    */
-  #show(title, content) {
+  #show(title, content, name = '') {
     const size = iconButton('Larger', 'sheet', () => {
       const tall = this.element.classList.toggle('tall');
       size.setAttribute('aria-expanded', String(tall));
     });
     size.setAttribute('aria-expanded', String(this.element.classList.contains('tall')));
-    this.element.replaceChildren(createElement('header', {}, createElement('h2', {textContent: title}), size,
+    this.element.replaceChildren(createElement('header', {}, createElement('h2', {}, `${title} `, createElement('small', {textContent: name})), size,
       iconButton('Close', 'close', () => this.app.selection.select([]))), ...content);
     this.element.hidden = false;
   }
@@ -130,46 +127,6 @@ export class BodyPanel {
     else if (JSON.stringify(body) !== this.shown && !this.element.contains(document.activeElement)) {
       queueMicrotask(() => this.showBody(this.name));
     }
-  }
-
-  /** @returns {?{center: Point, tip: Point}} the velocity arrow of the selected body [px] */
-  #arrow() {
-    const {world, camera} = this.app, row = this.name ? world.row(this.name) : -1;
-    const velocities = world.frame.velocities;
-    if (row < 0 || !velocities || world.scene.bodies[row].anchored) return null;
-    const center = camera.toPage(...world.place(row, world.scene.bodies[row].centroid));
-    const vx = velocities.x[row] * camera.scale, vy = -velocities.y[row] * camera.scale;
-    const length = Math.hypot(vx, vy), [ux, uy] = length > 1 ? [vx / length, vy / length] : [1, 0];
-    return {center, tip: [center[0] + vx + ARROW_GAP * ux, center[1] + vy + ARROW_GAP * uy]};
-  }
-
-  /** @param {Point} page [px] */
-  aimedAt(page) {
-    const arrow = this.#arrow();
-    return arrow !== null && Math.hypot(page[0] - arrow.tip[0], page[1] - arrow.tip[1]) <= GRIP;
-  }
-
-  /** @param {Point} page [px] */
-  aim(page) {
-    this.tip = page;
-  }
-
-  setAim() {
-    const arrow = this.#arrow(), {app, tip} = this;
-    this.tip = null;
-    if (!arrow || !tip) return;
-    const dx = tip[0] - arrow.center[0], dy = tip[1] - arrow.center[1], length = Math.hypot(dx, dy);
-    const share = Math.max(length - ARROW_GAP, 0) / (length || 1) / app.camera.scale;
-    app.connection.send('change', {name: this.name, properties: {velocity: [dx * share, -dy * share]}});
-  }
-
-  /** @param {import('./scene_view.js').SceneView} view */
-  #drawAim(view) {
-    const arrow = this.#arrow();
-    if (!arrow) return;
-    const {camera} = this.app, tip = camera.toWorld(...this.tip ?? arrow.tip);
-    view.arrow(camera.toWorld(...arrow.center), tip, view.palette.accent);
-    view.ring(tip, 7, view.palette.accent);
   }
 }
 

@@ -4,6 +4,8 @@
 /** @typedef {import('./wire.js').Shape} Shape */
 /** @typedef {import('./wire.js').Point} Point */
 
+const INNER = 0.98; // share of a radius: a point that counts as one within
+
 /**
  * @param {Shape} shape
  * @returns {Path2D} closed but for chains
@@ -70,7 +72,34 @@ export function containsPoint(shape, [x, y], slop) {
   }
   if (shape.kind === 'chain') return distanceTo(shape.points, x, y) <= shape.thickness / 2 + slop;
   return inside(shape.outline, x, y) ||
-    (slop > 0 && distanceTo([...shape.outline, shape.outline[0]], x, y) <= slop);
+    (slop > 0 && distanceTo(closed(shape.outline), x, y) <= slop);
+}
+
+/**
+ * @param {Shape} shape
+ * @param {Point} point in the body's frame, outside of it [m]
+ * @returns {Point} in it, by little, as near as possible
+ */
+export function nearestWithin(shape, [x, y]) {
+  if (shape.kind === 'pieces') {
+    const points = shape.pieces.map((piece) => nearestWithin(piece, [x, y]));
+    return points.reduce((best, each) => Math.hypot(each[0] - x, each[1] - y) < Math.hypot(best[0] - x, best[1] - y) ? each : best);
+  }
+  if (shape.kind === 'disc') {
+    const [cx, cy] = shape.center ?? [0, 0], share = INNER * shape.radius / Math.hypot(x - cx, y - cy);
+    return [cx + (x - cx) * share, cy + (y - cy) * share];
+  }
+  if (shape.kind === 'chain') return nearestOn(shape.points, x, y);
+  const [px, py] = nearestOn(closed(shape.outline), x, y);
+  // Straight on from the point outside; at a sharp corner, towards a corner of the outline instead.
+  const towards = [[2 * px - x, 2 * py - y], ...shape.outline];
+  const inner = towards.map(([tx, ty]) => /** @type {Point} */ ([px + (1 - INNER) * (tx - px), py + (1 - INNER) * (ty - py)]));
+  return inner.find((point) => inside(shape.outline, ...point)) ?? [px, py];
+}
+
+/** @param {Point[]} outline */
+function closed(outline) {
+  return [...outline, outline[0]];
 }
 
 /**
@@ -94,12 +123,24 @@ export function inside(outline, x, y) {
  * @param {number} y
  */
 function distanceTo(points, x, y) {
-  let least = Infinity;
+  const [px, py] = nearestOn(points, x, y);
+  return Math.hypot(x - px, y - py);
+}
+
+/**
+ * @param {Point[]} points of a polyline
+ * @param {number} x
+ * @param {number} y
+ * @returns {Point} the nearest point of the polyline
+ */
+function nearestOn(points, x, y) {
+  let least = Infinity, nearest = points[0];
   for (let i = 1; i < points.length; i++) {
     const [ax, ay] = points[i - 1], dx = points[i][0] - ax, dy = points[i][1] - ay;
     const share = ((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy || 1);
     const at = Math.min(Math.max(share, 0), 1);
-    least = Math.min(least, Math.hypot(x - ax - at * dx, y - ay - at * dy));
+    const distance = Math.hypot(x - ax - at * dx, y - ay - at * dy);
+    if (distance < least) [least, nearest] = [distance, [ax + at * dx, ay + at * dy]];
   }
-  return least;
+  return nearest;
 }

@@ -20,6 +20,12 @@ export class Cursor {
       time: performance.now() / 1000, slop: 6 / camera.scale};
   }
 
+  /** @param {import('./wire.js').Point} page where it is put [px] */
+  put([x, y]) {
+    [this.x, this.y] = [x, y];
+    this.move(0, 0, false);
+  }
+
   hide() {
     this.shown = false;
     if (this.pressed) this.app.tool.cancel();

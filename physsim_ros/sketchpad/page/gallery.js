@@ -74,10 +74,10 @@ export class Gallery {
   /** @param {string} text of a world file */
   async #upload(text) {
     this.dialog.close();
-    const response = await fetch('/world', {method: 'POST', body: text,
-      headers: {'Content-Type': 'application/yaml'}});
-    const {ok, message} = await response.json().catch(() => ({ok: false, message: response.statusText}));
-    this.app.notes.showMessage(message, {ok});
+    const {ok, message} = await fetch('/world', {method: 'POST', body: text, headers: {'Content-Type': 'application/yaml'}})
+      .then((response) => response.json().catch(() => ({ok: false, message: response.statusText})),
+        () => ({ok: false, message: 'Not done: the server is gone'}));
+    this.app.notes.showMessage(this.app.words.tell({message}), {ok});
     if (ok) this.app.frameNext();
   }
 
@@ -111,6 +111,14 @@ export class Gallery {
     if (!packed || this.app.viewOnly) return;
     history.replaceState(null, '', location.pathname + location.search);
     this.show('This link holds a world', createElement('div', {className: 'row'}, createElement('button', {type: 'button',
-      textContent: 'Open it', autofocus: true, onclick: async () => this.#upload(await unpackText(packed))})));
+      textContent: 'Open it', autofocus: true, onclick: () => this.#openLink(packed)})));
+  }
+
+  /** @param {string} packed */
+  async #openLink(packed) {
+    const text = await unpackText(packed).catch(() => null);
+    if (text !== null) return this.#upload(text);
+    this.dialog.close();
+    this.app.notes.showMessage('This link is broken, or its world is too large.', {ok: false});
   }
 }

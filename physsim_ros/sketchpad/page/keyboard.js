@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The keys of the page; `?` shows them. */
 
-import {createElement} from './dom.js';
-import {EDIT, TIME} from './time_bar.js';
+import {showHelp} from './help.js';
 import {TOOLS} from './toolbar.js';
 
 const TURN = Math.PI / 12; // rad a press of R
@@ -10,11 +9,6 @@ const ZOOM = 1.25;
 const TAP = 300; // ms: a shorter press of the space bar plays or pauses
 /** @type {Record<string, [number, number]>} */
 const ARROWS = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]};
-const FURTHER = [['Space', 'Play or pause; held, dragging moves the view'],
-  ['Arrow keys', 'Move the cursor on the canvas, with Shift finely; Enter presses and lifts the tool'],
-  ['R, Shift+R', 'Turn the body in the hand, while paused'], ['N, Shift+N', 'Choose the next body, the last'],
-  ['Delete', 'Delete what is chosen'], ['Esc', 'Drop what is unfinished'], ['+ and −, F', 'Zoom; frame the world'],
-  ['Enter', 'Close a polygon'], ['?', 'This list']];
 
 export class Keyboard {
   /** @param {import('./app.js').App} app */
@@ -27,7 +21,7 @@ export class Keyboard {
     const callService = (/** @type {string} */ name) => () => app.time.callService(name);
     /** @type {Record<string, () => void>} */
     this.keys = {
-      '?': () => this.show(), f: () => app.frame(), '+': () => this.#zoom(ZOOM), '-': () => this.#zoom(1 / ZOOM),
+      '?': () => showHelp(app), f: () => app.frame(), '+': () => this.#zoom(ZOOM), '-': () => this.#zoom(1 / ZOOM),
       r: () => app.tool.turn?.(TURN), R: () => app.tool.turn?.(-TURN),
       n: () => this.#next(1), N: () => this.#next(-1),
       Delete: () => app.selection.deleteBodies(), Backspace: () => app.selection.deleteBodies(), Escape: () => this.#drop(),
@@ -36,13 +30,6 @@ export class Keyboard {
       '.': callService('step'), 0: callService('reset'),
     };
     for (const [id, , key] of TOOLS.flat()) this.keys[key] = () => app.toolbar.selectTool(id);
-  }
-
-  show() {
-    const rows = [...TOOLS.flat().map(([, name, key]) => [key.toUpperCase(), name]),
-      ...[...TIME, ...EDIT].map(([name, , key]) => [key, name]), ...FURTHER];
-    this.app.gallery.show('Keys', createElement('dl', {}, ...rows.map(([key, does]) =>
-      createElement('div', {}, createElement('dt', {}, createElement('kbd', {textContent: key})), createElement('dd', {textContent: does})))));
   }
 
   /** @param {KeyboardEvent} event */
@@ -90,7 +77,10 @@ export class Keyboard {
     const {app} = this, {bodies} = app.world.scene;
     if (!bodies.length) return;
     const row = bodies.findIndex(({name}) => app.selection.names.has(name));
-    app.selection.select([bodies[(row + by + bodies.length + (row < 0 && by < 0 ? 1 : 0)) % bodies.length].name]);
+    const next = (row + by + bodies.length + (row < 0 && by < 0 ? 1 : 0)) % bodies.length;
+    app.selection.select([bodies[next].name]);
+    // Enter grabs it, or whatever the tool does.
+    app.cursor.put(app.camera.toPage(...app.world.place(next, bodies[next].centroid)));
   }
 
   #drop() {

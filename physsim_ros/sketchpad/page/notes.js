@@ -3,7 +3,10 @@
 
 import {createElement, elementOf} from './dom.js';
 
-const SHOWN = 4000, READ = 6000; // ms: an answer, a note
+const SCENE_LATER = 250; // ms: the scene of what was added comes no later than that after the answer
+/** The clock shows the time, and a hand that missed was told so when it grabbed. */
+const SILENT = /^at [\d.]+ s$| holds no body$/;
+const SHOWN = 2500, REFUSED = 5000, READ = 6000; // ms: an answer, a refusal, a note
 
 export class Notes {
   /** @param {import('./app.js').App} app */
@@ -15,15 +18,26 @@ export class Notes {
     this.pinned = new Map();
     this.timer = 0;
     this.until = 0; // [ms] until then an answer to this page stays
+    this.expected = () => {}; // what is told with the next scene
     app.view.overlays.push(() => this.#place());
     app.connection.on('answer', (answer) => this.#tell(answer));
+    app.connection.on('scene', () => {
+      this.expected();
+      this.expected = () => {};
+    });
   }
 
   /** @param {import('./wire.js').Answer} answer */
-  #tell({request, ok, message}) {
-    const own = request !== '';
-    if (!own && performance.now() < this.until) return;
-    this.showMessage(message, {ok, quiet: !own});
+  #tell(answer) {
+    const {request, ok, message} = answer, own = request !== '';
+    if (SILENT.test(message) || !own && performance.now() < this.until) return;
+    const tell = () => this.showMessage(this.app.words.tell(answer), {ok, quiet: !own});
+    this.expected = () => {};
+    if (this.app.words.knows(answer.subject)) tell();
+    else {
+      this.expected = tell;
+      setTimeout(() => this.expected === tell && tell(), SCENE_LATER);
+    }
   }
 
   /**
@@ -33,9 +47,10 @@ export class Notes {
   showMessage(message, {ok = true, quiet = false} = {}) {
     this.status.textContent = message;
     this.status.className = `shown${ok ? '' : ' refused'}${quiet ? ' quiet' : ''}`;
-    if (!quiet) this.until = performance.now() + SHOWN;
+    const shown = ok ? SHOWN : REFUSED;
+    if (!quiet) this.until = performance.now() + shown;
     clearTimeout(this.timer);
-    this.timer = setTimeout(() => this.status.classList.remove('shown'), SHOWN);
+    this.timer = setTimeout(() => this.status.classList.remove('shown'), shown);
   }
 
   /**

@@ -19,6 +19,8 @@ export class Pointers {
     /** @type {Map<number, PointerEvent>} */
     this.down = new Map();
     this.working = -1; // id of the pointer that works the tool
+    /** @type {Pick<import('./app.js').Tool, 'down' | 'move' | 'up' | 'cancel'>} that it works */
+    this.worked = app.tool;
     this.stylus = false;
     this.space = false; // held: dragging moves the view
     const {canvas} = app.view;
@@ -28,6 +30,8 @@ export class Pointers {
     canvas.addEventListener('pointercancel', (event) => this.#cancel(event));
     canvas.addEventListener('pointerleave', () => app.selection.hover(null));
     canvas.addEventListener('wheel', (event) => this.#wheel(event), {passive: false});
+    // The click after a tap would go to the panel that the tap has opened.
+    canvas.addEventListener('touchend', (event) => event.cancelable && event.preventDefault());
     canvas.addEventListener('contextmenu', (event) => event.preventDefault());
   }
 
@@ -45,8 +49,12 @@ export class Pointers {
   #down(event) {
     const {app} = this;
     app.view.canvas.setPointerCapture(event.pointerId);
-    this.stylus ||= event.pointerType === 'pen';
+    if (event.pointerType === 'pen') {
+      this.stylus = true;
+      this.#forget();
+    } else if (this.down.get(this.working)?.pointerType === 'pen') return; // of the palm
     this.down.set(event.pointerId, event);
+    app.view.canvas.focus({preventScroll: true});
     app.cursor.hide();
     app.selection.hover(null);
     const moves = event.button > 0 || this.space || app.viewOnly ||
@@ -54,20 +62,30 @@ export class Pointers {
     if (this.down.size === 1 && !moves) {
       this.working = event.pointerId;
       app.time.endRewind();
-      app.tool.down(this.#touch(event));
+      const touch = this.#touch(event);
+      this.worked = app.arrow.isAt(touch) ? app.arrow : app.tool;
+      this.worked.down(touch);
     } else if (this.down.size > 1 && this.working >= 0 && !app.tool.turns) {
-      app.tool.cancel();
+      this.worked.cancel();
       this.working = -1;
     }
     app.view.dirty = true;
   }
 
+  /** Forget what fingers do. */
+  #forget() {
+    if (this.working >= 0) this.worked.cancel();
+    this.working = -1;
+    this.down.clear();
+  }
+
   /** @param {PointerEvent} event */
   #move(event) {
     const {app} = this, before = this.down.get(event.pointerId);
+    if (!before && event.pointerType === 'touch') return;
     if (event.pointerId === this.working) {
       const parts = event.getCoalescedEvents?.() ?? [];
-      for (const part of parts.length ? parts : [event]) app.tool.move(this.#touch(part));
+      for (const part of parts.length ? parts : [event]) this.worked.move(this.#touch(part));
     } else if (before) this.#moveView(event, before);
     else {
       app.tool.move(this.#touch(event));
@@ -106,14 +124,14 @@ export class Pointers {
     this.down.delete(event.pointerId);
     if (event.pointerId !== this.working) return;
     this.working = -1;
-    this.app.tool.up(this.#touch(event));
+    this.worked.up(this.#touch(event));
     this.app.view.dirty = true;
   }
 
   /** @param {PointerEvent} event */
   #cancel(event) {
     this.down.delete(event.pointerId);
-    if (event.pointerId === this.working) this.app.tool.cancel();
+    if (event.pointerId === this.working) this.worked.cancel();
     this.working = -1;
   }
 

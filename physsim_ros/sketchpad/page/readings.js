@@ -2,6 +2,7 @@
 /** Strokes until they are read, and their readings at the spot: what else it may be is one tap away. */
 
 import {createElement} from './dom.js';
+import {meaningWord} from './words.js';
 
 /** @typedef {import('./wire.js').Point} Point */
 
@@ -44,12 +45,12 @@ export class Readings {
     if (built) {
       this.#forget(request);
       const other = runner_up && runner_up_confidence > LIKELY ?
-        [this.#guessButton(`or ${runner_up}`, runner_up_confidence, request, '')] : [];
+        [this.#guessButton(`or ${meaningWord(runner_up)}`, request, '')] : [];
       this.dismiss = this.app.notes.pin(() => at, [labelOf(meaning, confidence), ...other],
         other.length ? {} : {shown: GLANCED});
       return;
     }
-    const choices = guesses.map(([guess, sure]) => this.#guessButton(guess, sure, request, guess));
+    const choices = guesses.map(([guess, sure]) => this.#guessButton(labelOf(guess, sure), request, guess));
     const close = createElement('button', {type: 'button', 'aria-label': 'Forget the stroke', textContent: '×',
       onclick: () => this.dismiss()});
     const words = choices.length ? 'Not sure. Is it' : 'Not recognised';
@@ -62,16 +63,15 @@ export class Readings {
 
   /**
    * @param {string} label
-   * @param {number} confidence
    * @param {string} request of the stroke
    * @param {string} meaning '' for the runner-up
    */
-  #guessButton(label, confidence, request, meaning) {
+  #guessButton(label, request, meaning) {
     return createElement('button', {type: 'button', onclick: () => {
       this.app.connection.send('instead', meaning ? {meaning} : {});
       this.dismiss();
       this.#forget(request);
-    }}, labelOf(label, confidence));
+    }}, label);
   }
 
   /** @param {string} request */
@@ -86,5 +86,5 @@ export class Readings {
  * @param {number} confidence 0 .. 1
  */
 function labelOf(meaning, confidence) {
-  return `${meaning.replaceAll('_', ' ')} ${Math.round(100 * confidence)} %`;
+  return `${meaningWord(meaning)} ${Math.round(100 * confidence)} %`;
 }

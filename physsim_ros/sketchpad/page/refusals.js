@@ -29,7 +29,7 @@ export class Refusals {
       if (ok || code === 'not_recognised' || request === '') return;
       const place = this.places.get(request) ?? {point: null, names: []};
       const name = values.body ?? subject;
-      this.#show(message, name ? {...place, names: [name]} : place);
+      this.#show(app.words.tell({message}), name ? {...place, names: [name]} : place);
     });
     app.view.overlays.push((view) => this.#draw(view));
   }

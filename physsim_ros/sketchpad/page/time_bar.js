@@ -2,6 +2,7 @@
 /** Time: the buttons, the slider over the history, with the courses that were left, the clock. */
 
 import {createElement, elementOf, iconButton} from './dom.js';
+import {capital} from './words.js';
 
 /** Name, service, key. @type {[string, string, string][]} */
 export const TIME = [
@@ -10,6 +11,8 @@ export const TIME = [
 ];
 /** @type {[string, string, string][]} */
 export const EDIT = [['Undo', 'undo', 'Ctrl+Z'], ['Redo', 'redo', 'Ctrl+Y'], ['Reset', 'reset', '0']];
+/** What a name alone does not say. */
+const MORE = new Map([['step', ': one frame on'], ['reset', ': back to the beginning']]);
 const SPEEDS = [1, 0.5, 0.25, 0.1];
 
 export class TimeBar {
@@ -24,7 +27,7 @@ export class TimeBar {
     this.buttons = new Map();
     for (const [id, group] of /** @type {const} */ ([['time', TIME], ['edit', EDIT]])) {
       for (const [name, service, key] of group) {
-        const button = iconButton(name, service, () => this.callService(service), `${name} (${key})`);
+        const button = iconButton(name, service, () => this.callService(service), `${name}${MORE.get(service) ?? ''} (${key})`);
         this.buttons.set(service, button);
         elementOf(id, HTMLElement).append(button);
       }
@@ -118,12 +121,12 @@ export class TimeBar {
     for (const [service, words] of [['undo', undo], ['redo', redo]]) {
       const button = this.buttons.get(service);
       button?.classList.toggle('idle', !words);
-      if (button) button.title = words ? words[0].toUpperCase() + words.slice(1) : `Nothing to ${service}`;
+      if (button) button.title = words ? capital(this.app.words.phrase(words)) : `Nothing to ${service}`;
     }
     this.clock.classList.toggle('past', state === 'in the past');
     this.clock.title = state;
     this.marks.replaceChildren(...courses.map(({id, from}) => {
-      const name = `Go back to the course left at ${from.toFixed(1)} s`;
+      const name = `Go back to how it went before, from ${from.toFixed(1)} s`;
       const mark = createElement('button', {type: 'button', 'aria-label': name, title: name,
         onclick: () => this.app.connection.send('course', {course: id})});
       mark.style.left = `${100 * (from - oldest) / (newest - oldest || 1)}%`;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The world as the server told it last: scene, frame, timeline. Nothing here is guessed. */
 
-import {boundsOf, containsPoint, unionOf} from './body_path.js';
+import {boundsOf, containsPoint, nearestWithin, unionOf} from './body_path.js';
 
 /** @typedef {import('./wire.js').Point} Point */
 
@@ -94,17 +94,36 @@ export class WorldState {
   /**
    * @param {Point} point [m]
    * @param {number} slop how far beside a body counts [m]
-   * @returns {number} the row of the topmost body there; -1 where there is none
+   * @returns {number} the row of the topmost body there, else of the topmost beside it; -1 where there is none
    */
-  bodyAt([x, y], slop = 0) {
-    const {frame, scene} = this;
-    for (let row = this.count - 1; row >= 0; row--) {
-      const dx = x - frame.x[row], dy = y - frame.y[row];
-      const cos = Math.cos(frame.yaw[row]), sin = Math.sin(frame.yaw[row]);
-      const local = /** @type {Point} */ ([cos * dx + sin * dy, cos * dy - sin * dx]);
-      if (containsPoint(scene.bodies[row].shape, local, slop)) return row;
+  bodyAt(point, slop = 0) {
+    for (const margin of slop ? [0, slop] : [0]) {
+      for (let row = this.count - 1; row >= 0; row--) {
+        if (containsPoint(this.scene.bodies[row].shape, this.toBody(row, point), margin)) return row;
+      }
     }
     return -1;
+  }
+
+  /**
+   * @param {number} row
+   * @param {Point} point in the world [m]
+   * @returns {Point} where a finger at or beside the body means it, in the frame of that body [m]
+   */
+  gripOn(row, point) {
+    const {shape} = this.scene.bodies[row], local = this.toBody(row, point);
+    return containsPoint(shape, local, 0) ? local : nearestWithin(shape, local);
+  }
+
+  /**
+   * @param {number} row
+   * @param {Point} point in the world [m]
+   * @returns {Point} in the frame of that body [m]
+   */
+  toBody(row, [x, y]) {
+    const {frame} = this, dx = x - frame.x[row], dy = y - frame.y[row];
+    const cos = Math.cos(frame.yaw[row]), sin = Math.sin(frame.yaw[row]);
+    return [cos * dx + sin * dy, cos * dy - sin * dx];
   }
 
   /** @returns {number[]} xmin, ymin, xmax, ymax of bounds or bodies [m] */

@@ -11,7 +11,7 @@ const DRAG = 6; // px: farther than that, letting go is a click too
 const CLOSE = 12; // px around the first corner of a polygon
 /** @type {Record<string, number>} */
 const CLICKS = {rectangle: 3, polygon: Infinity, anchor: 1, release: 1, pin: 1, axle: 1, delete: 1};
-const ARROWS = ['velocity', 'gravity'];
+const ARROWS = ['velocity', 'gravity'], JOINTS = ['spring', 'rod', 'rope'];
 
 export class ClickTool {
   /**
@@ -77,13 +77,23 @@ export class ClickTool {
     const {app, points} = this, closing = this.id === 'polygon' && points.length > 2 &&
       Math.hypot(touch.page[0] - points[0].page[0], touch.page[1] - points[0].page[1]) < CLOSE;
     this.request = app.connection.send('click',
-      {tool: this.id, point: closing ? points[0].at : touch.at});
+      {tool: this.id, point: closing ? points[0].at : this.#meant(touch)});
     if (this.request) points.push(touch);
     else this.points = [];
     if (closing || touch === points[0] && points.length > 1 || points.length >= this.clicks) {
       this.points = [];
     }
     app.view.dirty = true;
+  }
+
+  /**
+   * @param {Touch} touch
+   * @returns {Point} of a tool for bodies, in the body that a finger beside it means [m]
+   */
+  #meant({at, slop}) {
+    const {world} = this.app, ofBody = this.aims && !this.points.length || JOINTS.includes(this.id);
+    const row = ofBody ? world.bodyAt(at, slop) : -1;
+    return row < 0 ? at : world.place(row, world.gripOn(row, at));
   }
 
   /** @param {import('../scene_view.js').SceneView} view */

@@ -6,19 +6,20 @@
 
 const TAP = 4; // px
 const CATCH = 120; // ms after which a body that is pressed is caught
-export const ARROW_GAP = 22; // px between a body's centre and the tail of its velocity arrow
 
 export class Hand {
   /** @param {import('../app.js').App} app */
   constructor(app) {
     this.app = app;
-    /** @type {'' | 'pressed' | 'holding' | 'carrying' | 'panning' | 'aiming'} */
+    /** @type {'' | 'pressed' | 'holding' | 'carrying' | 'panning'} */
     this.state = '';
     /** @type {?Touch} */
     this.start = null;
     /** @type {?Touch} */
     this.last = null;
     this.name = '';
+    /** @type {Point} in the frame of the body [m] */
+    this.grip = [0, 0];
     this.yaw = 0;
     this.turned = false;
     this.moved = false;
@@ -35,10 +36,10 @@ export class Hand {
     const {world, view} = this.app, row = world.bodyAt(touch.at, touch.slop);
     this.start = this.last = touch;
     this.moved = false;
-    if (this.app.panel.aimedAt(touch.page)) this.state = 'aiming';
-    else if (row < 0) this.state = 'panning';
+    if (row < 0) this.state = 'panning';
     else {
       this.name = world.scene.bodies[row].name;
+      this.grip = world.gripOn(row, touch.at);
       this.yaw = world.frame.yaw[row];
       this.turned = false;
       this.state = world.scene.bodies[row].anchored ? 'carrying' : 'pressed';
@@ -59,7 +60,6 @@ export class Hand {
     }
     this.last = touch;
     if (this.state === 'holding') app.onNextFrame('move', () => this.#sendMove());
-    if (this.state === 'aiming') app.panel.aim(touch.page);
     app.view.dirty = true;
   }
 
@@ -73,8 +73,7 @@ export class Hand {
       this.#sendMove();
       app.connection.send('let_go');
       app.hints.completeStep('throw');
-    } else if (state === 'aiming') app.panel.setAim();
-    else if (!this.moved) app.selection.selectAt(touch);
+    } else if (!this.moved) app.selection.selectAt(touch);
     else if (state === 'carrying' && start) {
       app.connection.send('move_bodies', {names: [this.name],
         by: [touch.at[0] - start.at[0], touch.at[1] - start.at[1]]});
@@ -97,9 +96,11 @@ export class Hand {
 
   #grab() {
     clearTimeout(this.timer);
-    if (this.state !== 'pressed') return;
+    const {world, connection} = this.app, row = world.row(this.name);
+    if (this.state !== 'pressed' || row < 0) return;
     this.state = 'holding';
-    this.app.connection.send('grab', {point: this.start?.at});
+    // It has moved on since it was pressed.
+    connection.send('grab', {point: world.place(row, this.grip)});
   }
 
   #sendMove() {

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The help: gestures and tools for fingers, keys for a keyboard; first what this page is worked with. */
+
+import {createElement, icon} from './dom.js';
+import {EDIT, TIME} from './time_bar.js';
+import {TOOLS} from './toolbar.js';
+
+const TOUCHED = matchMedia('(pointer: coarse)');
+const GESTURES = [['Draw', 'A finger and the pen; with a stylus, the stylus draws and a finger moves the view'],
+  ['Grab and throw', 'The hand, on a body; let go while it moves'],
+  ['Place and turn', 'While paused: the hand on a body, and a second finger that turns about it'],
+  ['Change a body', 'Tap it, by pen, hand or lasso'], ['Move the view', 'Two fingers; or the hand, beside the bodies'],
+  ['Zoom', 'Two fingers, apart or together'], ['Go back in time', 'Drag the time line'],
+  ['Say what a button does', 'Keep a finger on it']];
+const MOVING = [['Space', 'Play or pause; held, dragging moves the view'],
+  ['Arrow keys', 'Move the cursor on the canvas, with Shift finely; Enter presses and lifts the tool'],
+  ['R, Shift+R', 'Turn the body in the hand, while paused'], ['N, Shift+N', 'Choose the next body, the last'],
+  ['Delete', 'Delete what is chosen'], ['Esc', 'Drop what is unfinished'], ['+ and −, F', 'Zoom; frame the world'],
+  ['Enter', 'Close a polygon'], ['?', 'This list']];
+
+/** @param {import('./app.js').App} app */
+export function showHelp(app) {
+  const key = (/** @type {string} */ name) => createElement('kbd', {textContent: name});
+  const keys = [...TOOLS.flat().map(([, name, letter]) => [key(letter.toUpperCase()), name]),
+    ...[...TIME, ...EDIT].map(([name, , letter]) => [key(letter), name]), ...MOVING.map(([name, does]) => [key(name), does])];
+  const tools = TOOLS.flat().map(([id, name, , hint]) => [icon(id), `${name}: ${hint[0].toLowerCase()}${hint.slice(1)}`]);
+  const parts = [section('Keys', keys)];
+  if (TOUCHED.matches) parts.unshift(section('Gestures', GESTURES), section('Tools', tools));
+  app.gallery.show('Help', ...parts.flat());
+}
+
+/**
+ * @param {string} title
+ * @param {(string | Node)[][]} rows what is done, and what it does
+ * @returns {Node[]}
+ */
+function section(title, rows) {
+  return [createElement('h3', {textContent: title}), createElement('dl', {}, ...rows.map(([done, does]) =>
+    createElement('div', {}, createElement('dt', {}, done), createElement('dd', {}, does))))];
+}

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The bar above: worlds, and how the world is shown; beside it the recording, where a browser can show it. */
+
+import {createElement, elementOf, iconButton} from './dom.js';
+import {showHelp} from './help.js';
+import {switchTheme} from './theme.js';
+
+export class TopBar {
+  /** @param {import('./app.js').App} app */
+  constructor(app) {
+    this.app = app;
+    this.recording = createElement('a', {target: '_blank', rel: 'noopener', hidden: true, className: 'button',
+      textContent: 'Rerun', title: 'The recording'});
+    elementOf('files', HTMLElement).append(
+      iconButton('Worlds', 'worlds', () => app.gallery.showWorlds(), 'Worlds to open'),
+      iconButton('Save', 'save', () => app.gallery.showSave(), 'Save, link, picture'));
+    elementOf('looks', HTMLElement).append(
+      this.#toggle('velocities', 'Show velocities', 'velocities', 'Velocities as arrows: 1 m is 1 m/s'),
+      this.#toggle('contacts', 'Show forces', 'forces', 'Forces of contact as arrows: 1 m is 10 N'),
+      iconButton('Material', 'material', () => app.panel.showMaterial(), 'Material of new bodies; gravity'),
+      iconButton('Frame the world', 'fit', () => app.frame(), 'Frame the world (F)'),
+      iconButton('Light or dark', 'theme', switchTheme),
+      iconButton('Help', 'help', () => showHelp(app), 'Help: keys and gestures (?)'));
+    elementOf('looks', HTMLElement).after(this.recording);
+    app.connection.on('recording', ({rerun}) => this.#link(rerun));
+    app.connection.on('welcome', ({rerun}) => this.#link(rerun));
+  }
+
+  /**
+   * @param {'velocities' | 'contacts'} part of frames
+   * @param {string} name
+   * @param {string} id of its icon
+   * @param {string} title
+   */
+  #toggle(part, name, id, title) {
+    const {app} = this;
+    const button = iconButton(name, id, () => {
+      const shown = app.arrows[part] = !app.arrows[part];
+      button.setAttribute('aria-pressed', String(shown));
+      app.notes.showMessage(shown ? title : `${title.split(':')[0]}: off`);
+      app.askForParts();
+    }, title);
+    button.setAttribute('aria-pressed', 'false');
+    return button;
+  }
+
+  /** @param {string} address of the recording; '' where no viewer serves browsers */
+  #link(address) {
+    Object.assign(this.recording, {href: address, hidden: !address});
+  }
+}

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The velocity of the selected body as an arrow; dragging the ring at its tip changes it, with any tool. */
+
+/** @typedef {import('./wire.js').Point} Point */
+/** @typedef {import('./pointer.js').Touch} Touch */
+
+const GRIP = 14; // px around the tip
+const GAP = 22; // px between a body's centre and the tail of its arrow
+const RING = 7; // px
+
+export class VelocityArrow {
+  /** @param {import('./app.js').App} app */
+  constructor(app) {
+    this.app = app;
+    /** @type {?Point} where the tip is dragged to [px] */
+    this.dragged = null;
+    app.view.overlays.push((view) => this.#draw(view));
+  }
+
+  /**
+   * @param {Touch} touch
+   * @returns {boolean} whether it is on the tip
+   */
+  isAt({page, slop}) {
+    const ends = this.#ends(), reach = GRIP + slop * this.app.camera.scale;
+    return ends !== null && Math.hypot(page[0] - ends.tip[0], page[1] - ends.tip[1]) <= reach;
+  }
+
+  /** @param {Touch} touch */
+  down({page}) {
+    this.dragged = page;
+  }
+
+  /** @param {Touch} touch */
+  move({page}) {
+    this.dragged = page;
+  }
+
+  /** @param {Touch} touch */
+  up({page}) {
+    const ends = this.#ends(), {app} = this;
+    this.dragged = null;
+    if (!ends) return;
+    const dx = page[0] - ends.center[0], dy = page[1] - ends.center[1], length = Math.hypot(dx, dy);
+    const share = Math.max(length - GAP, 0) / (length || 1) / app.camera.scale;
+    app.connection.send('change', {name: app.panel.name, properties: {velocity: [dx * share, -dy * share]}});
+  }
+
+  cancel() {
+    this.dragged = null;
+  }
+
+  /** @returns {?{center: Point, tip: Point}} [px]; null where no single body is selected that may move */
+  #ends() {
+    const {world, camera, panel} = this.app, row = panel.name ? world.row(panel.name) : -1;
+    const velocities = world.frame.velocities;
+    if (row < 0 || !velocities || world.scene.bodies[row].anchored) return null;
+    const center = camera.toPage(...world.place(row, world.scene.bodies[row].centroid));
+    const vx = velocities.x[row] * camera.scale, vy = -velocities.y[row] * camera.scale;
+    const length = Math.hypot(vx, vy), [ux, uy] = length > 1 ? [vx / length, vy / length] : [1, 0];
+    return {center, tip: [center[0] + vx + GAP * ux, center[1] + vy + GAP * uy]};
+  }
+
+  /** @param {import('./scene_view.js').SceneView} view */
+  #draw(view) {
+    const ends = this.#ends();
+    if (!ends) return;
+    const {camera} = this.app, tip = camera.toWorld(...this.dragged ?? ends.tip);
+    view.arrow(camera.toWorld(...ends.center), tip, view.palette.accent);
+    view.ring(tip, RING, view.palette.accent);
+  }
+}

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+/**
+ * Answers in the words of people. The server's sentences, which other nodes and logs have too, name bodies
+ * by their names and begin with the verb of the request: `spawned drawn/3` is *Circle added* here.
+ */
+
+/** @typedef {import('./wire.js').Body} Body */
+
+/** Verbs before the name of a body, and what is said after what it is. */
+const VERBS = new Map([['spawned', 'added'], ['changed', 'changed'], ['moved', 'moved'], ['deleted', 'deleted'],
+  ['anchored', 'anchored'], ['released', 'free again'], ['grabbed', 'grabbed'], ['let go of', 'let go']]);
+/** Whole sentences, and what is said instead. @type {[RegExp, string][]} */
+const SENTENCES = [
+  [/^saved .* to (.+)\.yaml(.*)/, 'Saved as $1$2'], [/^loaded .* from (.+)\.yaml/, 'Opened $1'],
+  [/^on course \d+, at .*/, 'Back on the other course'],
+  [/^course \d+ begins at .*/, 'From here on it goes otherwise'], [/^speed (.+)/, 'Speed $1×'], [/^.*; next: /, 'Next: '],
+  [/^undid (.+)/, 'Undone: $1'], [/^redid (.+)/, 'Done again: $1'],
+  [/ at \([^)]*\)$/, ' here'],
+];
+const EQUAL = 1e-3; // share of a diagonal: no farther apart is equal
+/** Names that nobody chose: of what a pen or a click has drawn. */
+const DRAWN = /\b(?:(body|joint|axle|pin|spring|rod|rope|motor|slider|gear) )?(drawn\/\d+)/g;
+
+export class Words {
+  /** @param {import('./connection.js').Connection} connection */
+  constructor(connection) {
+    /** Words for the bodies of the last scene, and of the one before: answers come before and after theirs. */
+    this.known = /** @type {Map<string, string>[]} */ ([new Map(), new Map()]);
+    connection.on('scene', ({bodies}) => {
+      this.known = [new Map(bodies.map((/** @type {Body} */ body) => [body.name, shapeWord(body)])), this.known[0]];
+    });
+  }
+
+  /** @param {string} name of what an answer is about */
+  knows(name) {
+    return !name.startsWith('drawn/') || this.known.some((words) => words.has(name));
+  }
+
+  /**
+   * @param {string} name of a body
+   * @returns {string} the name that somebody has chosen, else what it is
+   */
+  of(name) {
+    return name.startsWith('drawn/') ? this.known[0].get(name) ?? this.known[1].get(name) ?? 'body' : name;
+  }
+
+  /**
+   * @param {{message: string, subject?: string}} answer
+   * @returns {string} what it says
+   */
+  tell({message, subject = ''}) {
+    const verb = subject ? message.slice(0, Math.max(message.indexOf(subject), 0)).trimEnd() : '';
+    if (verb.startsWith('joined')) return capital(`${/ by (\w+) /.exec(message)?.[1] ?? 'joint'} added`);
+    const word = this.of(subject), done = VERBS.get(verb);
+    if (done) return `${word === subject ? word : capital(word)} ${done}`;
+    return capital(this.phrase(SENTENCES.reduce((text, [sentence, said]) => text.replace(sentence, said), message)));
+  }
+
+  /**
+   * @param {string} text with names of bodies
+   * @returns {string} with words for those that nobody chose
+   */
+  phrase(text) {
+    return text.replace(/\bspawn\b/, 'add').replace(DRAWN, (_, kind, name) => `the ${kind ?? this.of(name)}`);
+  }
+}
+
+/** @param {string} text */
+export function capital(text) {
+  return text.charAt(0).toUpperCase() + text.slice(1);
+}
+
+/**
+ * @param {Body} body
+ * @returns {string} what somebody calls it who sees it
+ */
+export function shapeWord({shape: {kind, outline}}) {
+  if (kind === 'disc') return 'circle';
+  if (kind === 'chain') return 'wall';
+  if (kind === 'polygon' && outline.length === 3) return 'triangle';
+  return kind === 'polygon' && isRectangle(outline) ? 'rectangle' : 'shape';
+}
+
+/** @param {import('./wire.js').Point[]} outline */
+function isRectangle([a, b, c, d, ...others]) {
+  // Its diagonals are of one length, and halve each other.
+  const [p, q] = [Math.hypot(c[0] - a[0], c[1] - a[1]), Math.hypot(d[0] - b[0], d[1] - b[1])];
+  const apart = Math.hypot(a[0] + c[0] - b[0] - d[0], a[1] + c[1] - b[1] - d[1]);
+  return !others.length && Math.abs(p - q) + apart < EQUAL * p;
+}
+
+/** @param {string} meaning of a stroke, as the server has it */
+export function meaningWord(meaning) {
+  return meaning === 'disc' ? 'circle' : meaning.replaceAll('_', ' ');
+}

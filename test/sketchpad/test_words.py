@@ -1,0 +1,80 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""What the page says of what was done, in the words of people."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+
+from .chromium import circle, Sheet
+
+
+@pytest.fixture
+def sheet(chromium: Any, address: str) -> Iterator[Sheet]:
+    """Give a test a page, and the world from its beginning, paused."""
+    sheet = Sheet(chromium, address)
+    sheet.begin()
+    yield sheet
+    sheet.close()
+
+
+def said(sheet: Sheet, text: str) -> None:
+    """Wait for the status line to say something."""
+    sheet.page.get_by_role('status').get_by_text(text, exact=True).wait_for()
+
+
+def test_what_nobody_has_named_is_called_what_it_is(sheet: Sheet) -> None:
+    before = sheet.names()
+    sheet.drag(*circle(1.0, 5.0, 0.8))
+    name = sheet.wait_for_new(before)
+    said(sheet, 'Circle added')
+    sheet.press('Anchor')
+    sheet.page.mouse.click(*sheet.place(1.0, 5.0))
+    said(sheet, 'Circle anchored')
+    sheet.press('Hand')
+    sheet.page.mouse.click(*sheet.place(1.0, 5.0))
+    title = sheet.page.get_by_role('complementary', name='Body').get_by_role('heading').first
+    assert title.inner_text().split() == ['Circle', name]
+    sheet.page.keyboard.press('Delete')
+    said(sheet, 'Circle deleted')
+    sheet.press('Undo')
+    sheet.press('Undo')
+    sheet.press('Undo')
+    said(sheet, 'Undone: add the circle')
+
+
+def test_what_somebody_has_named_is_called_by_its_name(sheet: Sheet) -> None:
+    sheet.press('Delete')
+    sheet.page.mouse.click(*sheet.place(4.0, 0.5))
+    said(sheet, 'box/0 deleted')
+
+
+def test_worlds_have_their_names(sheet: Sheet) -> None:
+    sheet.press('Save')
+    sheet.page.get_by_role('textbox', name='Name of the world').fill('mine')
+    sheet.press('Save world')
+    said(sheet, 'Saved as mine')
+    sheet.press('Worlds')
+    sheet.page.get_by_role('button', name='mine').click()
+    said(sheet, 'Opened mine')
+
+
+def test_a_refusal_says_here_for_its_place(sheet: Sheet) -> None:
+    sheet.press('Anchor')
+    sheet.page.mouse.click(*sheet.place(-2.0, 6.0))
+    said(sheet, 'There is no body here')
