@@ -32,6 +32,9 @@ Ids = NDArray[np.uint64]
 
 _STATE = batch.BodyFields.POSITION | batch.BodyFields.ANGLE
 _STATE |= batch.BodyFields.VELOCITY | batch.BodyFields.ANGULAR_VELOCITY
+# Of all spaces: numpy owns the memory that is written from, and the engine may neither grow nor free
+# it.
+_WRITTEN = batch.Buffer()
 
 
 class BatchIO:
@@ -43,9 +46,7 @@ class BatchIO:
 
     def __init__(self, space: pymunk.Space) -> None:
         self._space = space
-        # Pymunk 7.3 leaks a `Buffer` made for one call. There is one to read and one to write
-        # with, since the engine must not grow memory that numpy owns.
-        self._buffer, self._written = batch.Buffer(), batch.Buffer()
+        self._buffer = _new_buffer()
 
     def read_ids(self) -> Ids:
         """Return (m,) uint64: the engine's ids of all bodies, by slot."""
@@ -72,8 +73,8 @@ class BatchIO:
         Nothing may sleep: Pymunk 7.3 wakes a sleeping body as it writes it, which changes the
         slots of those behind it.
         """
-        self._written.set_float_buf(np.ascontiguousarray(states))
-        batch.set_space_bodies(self._space, _STATE, self._written)
+        _WRITTEN.set_float_buf(np.ascontiguousarray(states))
+        batch.set_space_bodies(self._space, _STATE, _WRITTEN)
 
     def read_contacts(self, fields: batch.ArbiterFields) -> tuple[Ids, Floats]:
         """
@@ -87,3 +88,12 @@ class BatchIO:
         batch.get_space_arbiters(self._space, fields, self._buffer)
         ints = np.frombuffer(self._buffer.int_buf(), dtype=np.uint64)
         return ints, np.frombuffer(self._buffer.float_buf(), dtype=np.float64)
+
+
+def _new_buffer() -> batch.Buffer:
+    """Return a buffer that frees its arrays; `Buffer` of Pymunk 7.3 never does."""
+    buffer = batch.Buffer()
+    free_floats, free_ints = batch.lib.pmFloatArrayFree, batch.lib.pmIntArrayFree
+    buffer._float_arr = batch.ffi.gc(buffer._float_arr, free_floats)  # noqa: SLF001
+    buffer._int_arr = batch.ffi.gc(buffer._int_arr, free_ints)  # noqa: SLF001
+    return buffer
