@@ -27,13 +27,14 @@ from numpy.typing import NDArray
 from physsim_ros.model.arrays import Floats
 import pymunk
 from pymunk import batch
+from pymunk._chipmunk_cffi import ffi, lib
 
 Ids = NDArray[np.uint64]
 
 _STATE = batch.BodyFields.POSITION | batch.BodyFields.ANGLE
 _STATE |= batch.BodyFields.VELOCITY | batch.BodyFields.ANGULAR_VELOCITY
-# Of all spaces: numpy owns the memory that is written from, and the engine may neither grow nor free
-# it.
+# Of all spaces: the memory that is written from is numpy's, which the engine may neither grow nor
+# free.
 _WRITTEN = batch.Buffer()
 
 
@@ -93,7 +94,7 @@ class BatchIO:
 def _new_buffer() -> batch.Buffer:
     """Return a buffer that frees its arrays; `Buffer` of Pymunk 7.3 never does."""
     buffer = batch.Buffer()
-    free_floats, free_ints = batch.lib.pmFloatArrayFree, batch.lib.pmIntArrayFree
-    buffer._float_arr = batch.ffi.gc(buffer._float_arr, free_floats)  # noqa: SLF001
-    buffer._int_arr = batch.ffi.gc(buffer._int_arr, free_ints)  # noqa: SLF001
+    free_floats, free_ints = lib.pmFloatArrayFree, lib.pmIntArrayFree
+    buffer._float_arr = ffi.gc(buffer._float_arr, free_floats)  # noqa: SLF001
+    buffer._int_arr = ffi.gc(buffer._int_arr, free_ints)  # noqa: SLF001
     return buffer

@@ -15,8 +15,7 @@
 """
 Deserialisation of commands: sensor_msgs/MultiDOFJointState to names and arrays.
 
-10,000 names with twists take 10 ms; rclpy takes 0.2 s to make objects of them, in which as much
-arrives as takes minutes.
+A command of 10,000 twists takes 12 ms; rclpy alone takes 57 ms to make objects of them.
 """
 
 from __future__ import annotations
