@@ -13,18 +13,20 @@
 # limitations under the License.
 
 """
-Broad phase: pairs of axis-aligned boxes that overlap, by a hierarchical grid.
+Broad phase: pairs of axis-aligned boxes that overlap, by a sweep or a hierarchical grid.
 
 Law: every overlapping pair is found once, whatever the sizes and wherever the boxes are; a pair
-costs the same whatever else is in the world. Boxes are kept by size, in cells of a power of two
-that is at least their size, so that a box overlaps others of its level in 3 x 3 cells only; a
-smaller box is looked up in each coarser level. Ericson, Real-Time Collision Detection, 7.2.
+costs the same whatever else is in the world. Hundreds of boxes are sorted and swept from left to
+right. Of more, boxes are kept by size, in cells of a power of two that is at least their size, so
+that a box overlaps others of its level in 3 x 3 cells only; a smaller box is looked up in each
+coarser level. Ericson, Real-Time Collision Detection, 7.5 and 7.2.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 import itertools
+from typing import Literal
 
 import numpy as np
 from physsim_ros.engine.islands import ranges
@@ -32,8 +34,9 @@ from physsim_ros.model.arrays import Flags, Floats, Ints
 
 # Smallest cell, as a power of two [m]: 1 µm, so that cells 1e12 m away have a 64-bit number.
 _FINEST = -20
-# Up to this count pairs are compared one by one: faster than a grid, with the same result.
-_FEW_PAIRS = 20_000
+# Counts of pairs up to which they are compared one by one, and up to which those are compared that
+# overlap from left to right: each faster than what comes after it, with the same result.
+_FEW_PAIRS, _FEW_BESIDE = 1_000, 10_000
 # Row numbers times this, modulo 2**64: rows of cells do not meet by chance. 2**64 / golden ratio.
 _HASH = np.int64(-7046029254386353131)
 
@@ -62,6 +65,10 @@ def pairs_in_parts(
         once = (one < other) | ~first[other]
         yield _overlapping(boxes, one[once], other[once])
         return
+    swept = _sweep(boxes, first)
+    if swept is not None:
+        yield _overlapping(boxes, *swept)
+        return
     for here, finer, cells in _levels(boxes):
         for one, other in _neighbours(cells, np.flatnonzero(first & (here | finer)), here, most):
             # Two of these in one level find each other.
@@ -71,6 +78,36 @@ def pairs_in_parts(
             queries = np.flatnonzero(~first & finer)
             for one, other in _neighbours(cells, queries, first & here, most):
                 yield _overlapping(boxes, other, one)
+
+
+def count_on_axes(boxes: Floats, weights: Floats) -> Floats:
+    """
+    Return the summed weights of the boxes that overlap each box on an axis, the lesser of the two.
+
+    No fewer overlap it in the plane, and no pair is listed: those that overlap a box on an axis
+    begin before its end, less those that end before its beginning.
+
+    :param boxes: (n, 4) float64: left, bottom, right, top [m]
+    :param weights: (k, n) float64
+    :return: (k, n) float64
+    """
+    sums = []
+    for begins, ends in ((boxes[:, 0], boxes[:, 2]), (boxes[:, 1], boxes[:, 3])):
+        begun = _running_sums(begins, weights, ends, 'right')
+        ended = _running_sums(ends, weights, begins, 'left')
+        sums.append(begun - ended)
+    return np.minimum(*sums)
+
+
+def _running_sums(
+    values: Floats, weights: Floats, until: Floats, side: Literal['left', 'right']
+) -> Floats:
+    """Return the summed weights of the values up to each of others, with it for 'right'."""
+    order = np.argsort(values)
+    running = np.cumsum(weights[:, order], axis=1)
+    running = np.concatenate((np.zeros((len(weights), 1)), running), axis=1)
+    sums: Floats = running[:, np.searchsorted(values[order], until, side)]
+    return sums
 
 
 def count_candidates(boxes: Floats, first: Flags, weights: Floats) -> Floats:
@@ -93,6 +130,28 @@ def count_candidates(boxes: Floats, first: Flags, weights: Floats) -> Floats:
             for start, count in ranges_near:
                 sums[asking] += running[start + count] - running[start]
     return sums
+
+
+def _sweep(boxes: Floats, first: Flags) -> tuple[Ints, Ints] | None:
+    """
+    Return the pairs of boxes that overlap from left to right, None if there are many.
+
+    Sort and sweep: a box overlaps those that begin between its own ends.
+    """
+    order = np.argsort(boxes[:, 0], kind='stable')
+    until = np.searchsorted(boxes[order, 0], boxes[order, 2], 'right')
+    first = first[order]
+    parts = []
+    for asking, members in ((first, np.ones_like(first)), (~first, first)):
+        begun = np.append(0, np.cumsum(members))
+        places = np.flatnonzero(asking)
+        counts = begun[until[places]] - begun[places + 1]
+        parts.append((places, np.flatnonzero(members), begun[places + 1], counts))
+    if sum(int(counts.sum()) for *_, counts in parts) > _FEW_BESIDE:
+        return None
+    one = [np.repeat(places, counts) for places, _, _, counts in parts]
+    other = [members[ranges(starts, counts)] for _, members, starts, counts in parts]
+    return order[np.concatenate(one)], order[np.concatenate(other)]
 
 
 def _levels(boxes: Floats) -> Iterator[tuple[Flags, Flags, Ints]]:

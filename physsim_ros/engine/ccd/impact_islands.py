@@ -72,16 +72,16 @@ class ImpactIslands:
         self._hulls = hulls
         count, more = len(poses), len(standing.hulls)
         self._count = count
-        ending, none = (0, more), (0, 0)
-        self._collides = np.pad(columns.solid, ending, constant_values=True)
-        self._turning = np.pad(columns.turning_radii, ending)
-        self._movable = np.pad(columns.dynamic[:-1], ending)
+        self._collides = np.append(columns.solid, np.ones(more, np.bool_))
+        self._turning = np.append(columns.turning_radii, np.zeros(more))
+        self._movable = np.append(columns.dynamic[:-1], np.zeros(more, np.bool_))
         self._places = np.concatenate((np.arange(count), standing.places))
         # The background, in place -1, is in no group.
         self._depths = np.append(columns.safe_depths, np.inf)[self._places]
         self._groups = np.append(columns.groups, 0)[self._places]
-        poses = np.pad(poses, (ending, none))
-        rates = np.pad(np.where(columns.solid[:, None], moves, 0.0), (ending, none))
+        nowhere = np.zeros((more, 3))
+        poses = np.concatenate((poses, nowhere))
+        rates = np.concatenate((np.where(columns.solid[:, None], moves, 0.0), nowhere))
         # A turning disc covers the same ground.
         rates[self._turning == 0.0, 2] = 0.0
         self._motions = Motions(np.zeros(count + more), poses, poses[:, :2].copy(), rates)

@@ -34,16 +34,13 @@ class Standing(NamedTuple):
     :ivar hulls: in the world
     :ivar boxes: (s, 4) float64: left, bottom, right, top [m]
     :ivar places: (s,) int64: of their bodies in the listing; -1 is the background
+    :ivar corners: (s,) float64: of each, the cost of continuous collision
     """
 
     hulls: list[Hull]
     boxes: Floats
     places: Ints
-
-    @property
-    def corners(self) -> Floats:
-        """Return (s,) float64: corners of each, the cost of continuous collision."""
-        return np.array([max(len(each.corners), ROUND) for each in self.hulls], np.float64)
+    corners: Floats
 
 
 def standing_shapes(space: pymunk.Space, table: BodyTable, hulls: Hulls) -> Standing:
@@ -52,8 +49,10 @@ def standing_shapes(space: pymunk.Space, table: BodyTable, hulls: Hulls) -> Stan
     for row, rigid in enumerate(table.bodies):
         if rigid.body.anchored and not rigid.body.sensor:
             shapes += [(shape, row) for shape in rigid.engine.shapes]
+    placed = [hulls.of_shape(shape).placed_on(body_of(shape)) for shape, _ in shapes]
     return Standing(
-        hulls=[hulls.of_shape(shape).placed_on(body_of(shape)) for shape, _ in shapes],
+        hulls=placed,
         boxes=np.array([tuple(shape.bb) for shape, _ in shapes], np.float64).reshape(-1, 4),
         places=np.array([place for _, place in shapes], np.int64),
+        corners=np.array([max(len(each.corners), ROUND) for each in placed], np.float64),
     )

@@ -31,7 +31,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-from physsim_ros.engine.ccd.broad_phase import count_candidates, pairs_in_parts
+from physsim_ros.engine.ccd.broad_phase import count_candidates, count_on_axes, pairs_in_parts
 from physsim_ros.engine.ccd.time_of_impact import Motions
 from physsim_ros.model.arrays import Flags, Floats, Ints
 
@@ -106,9 +106,7 @@ class SweptBoxes:
         if corners[first].sum() * corners.sum() <= BUDGET:
             return first
         for cut in range(_CUTS):
-            # Corners of bodies near a body, times those of fast ones: the pairs of its island.
-            cost = count_candidates(self.boxes, first, corners)
-            cost *= count_candidates(self.boxes, first, np.where(first, corners, 0.0))
+            cost = self._costs(first)
             rows = np.flatnonzero(cost > BUDGET)
             if not len(rows) or cut == _CUTS - 1:
                 break
@@ -117,6 +115,24 @@ class SweptBoxes:
             self._horizons[rows] = since + (self._horizons[rows] - since) * share
             self.fit_boxes(rows)
         return first & (cost <= BUDGET)
+
+    def _costs(self, first: Flags) -> Floats:
+        """
+        Return the pairs of corners in the island of each body, at most: near it, times fast ones.
+
+        :param first: (n + s,) bool: bodies in question, all of which are fast
+        :return: (n + s,) float64; 0 for others
+        """
+        near, fast = self._corners, np.where(first, self._corners, 0.0)
+        costs: Floats = count_on_axes(self.boxes, np.stack((near, fast))).prod(axis=0)
+        costs[~first] = 0.0
+        crowded = costs > BUDGET
+        if crowded.any():
+            # Bodies that are beside or above each other do not meet: counted in the plane.
+            counts = count_candidates(self.boxes, crowded, near)
+            counts *= count_candidates(self.boxes, crowded, fast)
+            costs[crowded] = counts[crowded]
+        return costs
 
     def come_near(self, one: Ints, other: Ints) -> Flags:
         """Tell which pairs have boxes that overlap at one time, which move on straight lines."""

@@ -33,13 +33,14 @@ from ...building import spawn
 
 
 @pytest.mark.parametrize('seed', range(5))
-@pytest.mark.parametrize('few', [0, 10**9])
+@pytest.mark.parametrize('few', [(0, 0), (0, 10**9), (10**9, 0)])
 @pytest.mark.parametrize('far', [0.0, 1e11])
 @pytest.mark.parametrize('most', [None, 100])
 def test_every_pair_of_boxes_that_overlap_is_found_once(
-    monkeypatch: pytest.MonkeyPatch, seed: int, few: int, far: float, most: int | None
+    monkeypatch: pytest.MonkeyPatch, seed: int, few: tuple[int, int], far: float, most: int | None
 ) -> None:
-    monkeypatch.setattr(broad_phase, '_FEW_PAIRS', few)
+    monkeypatch.setattr(broad_phase, '_FEW_PAIRS', few[0])
+    monkeypatch.setattr(broad_phase, '_FEW_BESIDE', few[1])
     pick = np.random.default_rng(seed)
     low = pick.uniform(-10.0, 10.0, (300, 2)) + far
     # From a millimetre to tens of metres.

@@ -20,7 +20,7 @@ from typing import Any
 
 import numpy as np
 from physsim_ros.engine.ccd import impact_islands, swept_boxes
-from physsim_ros.engine.ccd.broad_phase import boxes_overlap, count_candidates
+from physsim_ros.engine.ccd.broad_phase import boxes_overlap, count_candidates, count_on_axes
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Compound, Disc
 from physsim_ros.simulation.world import World
@@ -64,6 +64,9 @@ def test_what_is_near_a_box_weighs_at_least_what_overlaps_it() -> None:
     near = count_candidates(boxes, first, weights)
     overlap = boxes_overlap(boxes[:, None], boxes) @ weights
     assert (near[first] >= overlap[first]).all()
+    (on_axes,) = count_on_axes(boxes, weights[None])
+    assert (on_axes >= overlap).all()
+    assert (on_axes < weights.sum()).any()
     assert not near[~first].any()
 
 
