@@ -49,7 +49,7 @@ setup(
     packages=find_packages(include=[PACKAGE, f'{PACKAGE}.*']),
     package_data={
         PACKAGE: ['py.typed'],
-        f'{PACKAGE}.ros': ['*.xml'],
+        f'{PACKAGE}.ros.programs': ['*.xml'],
         f'{PACKAGE}.sketchpad': ['page/*', 'page/*/*'],
     },
     # Relative names, as setuptools wants them: every caller of setup.py stands beside it.
@@ -127,8 +127,8 @@ setup(
     },
     entry_points={
         'console_scripts': [
-            'physsim = physsim_ros.ros.program:main',
-            'physsim_draw = physsim_ros.ros.draw_cli:main',
+            'physsim = physsim_ros.ros.programs.physsim:main',
+            'physsim_draw = physsim_ros.ros.programs.physsim_draw:main',
         ],
         'pytest11': ['physsim = physsim_ros.testing'],
     },

@@ -69,7 +69,7 @@ def write_profiles(path: Path, partition: str) -> None:
 
     Nodes of another partition are on the same domain and neither hear nor are heard.
     """
-    shipped = ROOT / 'physsim_ros' / 'ros' / 'fastdds_profiles.xml'
+    shipped = ROOT / 'physsim_ros' / 'ros' / 'programs' / 'fastdds_profiles.xml'
     qos = f'<qos><partition><names><name>{partition}</name></names></partition></qos>'
     subscriber = f'<subscriber profile_name="s" is_default_profile="true">{qos}</subscriber>'
     text = shipped.read_text()

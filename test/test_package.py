@@ -158,8 +158,8 @@ def test_pip_installs_the_executable_and_the_pytest_plugin(installed, distributi
     points = {(point.group, point.name, point.value) for point in distribution.entry_points}
 
     assert points == {
-        ('console_scripts', 'physsim', 'physsim_ros.ros.program:main'),
-        ('console_scripts', 'physsim_draw', 'physsim_ros.ros.draw_cli:main'),
+        ('console_scripts', 'physsim', 'physsim_ros.ros.programs.physsim:main'),
+        ('console_scripts', 'physsim_draw', 'physsim_ros.ros.programs.physsim_draw:main'),
         ('pytest11', 'physsim', 'physsim_ros.testing'),
     }
     for program in ('physsim', 'physsim_draw'):

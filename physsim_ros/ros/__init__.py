@@ -17,6 +17,6 @@ The node: a Simulation as topics, services and parameters of ROS 2.
 
 Beside `testing`, only this folder imports rclpy and message packages. Not here: decisions about
 requests (`simulation`), geometry of pictures (`view`). Start with `node`, which connects the rest:
-`request_topics`, `drawing_topics`, `time_control` and `services` are its inputs, `frame_outputs`
-its outputs. `conversions` reads messages, `encoders` writes them.
+what arrives is in `requests`, what is published in `publishers` and `encoders`, and `programs` has
+what is started by a command.
 """

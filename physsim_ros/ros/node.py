@@ -31,15 +31,15 @@ from physsim_ros.model.requests import DeleteAll
 from physsim_ros.model.snapshot import Answer, Frame, Snapshot
 from physsim_ros.ros import parameters
 from physsim_ros.ros.diagnostics_publisher import DiagnosticsPublisher
-from physsim_ros.ros.drawing_topics import DrawingTopics
 from physsim_ros.ros.frame_outputs import FrameOutputs
 from physsim_ros.ros.live_parameters import LiveParameters
 from physsim_ros.ros.page_control import PageControl
 from physsim_ros.ros.qos_safe_node import NodeWithoutQosEvents
-from physsim_ros.ros.reply_pacer import ReplyPacer
-from physsim_ros.ros.request_topics import RequestTopics
-from physsim_ros.ros.services import create_services
-from physsim_ros.ros.subscriptions import RequestSubscriptions
+from physsim_ros.ros.requests.drawing_topics import DrawingTopics
+from physsim_ros.ros.requests.reply_pacer import ReplyPacer
+from physsim_ros.ros.requests.request_topics import RequestTopics
+from physsim_ros.ros.requests.services import create_services
+from physsim_ros.ros.requests.subscriptions import RequestSubscriptions
 from physsim_ros.ros.time_control import TimeControl
 from physsim_ros.ros.world_files import WorldFiles
 from physsim_ros.simulation.simulation import Simulation

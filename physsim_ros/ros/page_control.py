@@ -28,7 +28,7 @@ from physsim_ros.files import state_from, text_of
 from physsim_ros.model.errors import BadWorldFile, PhysSimError
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.ros import parameters
-from physsim_ros.ros.services import Action
+from physsim_ros.ros.requests.services import Action
 from physsim_ros.ros.time_control import TimeControl
 from physsim_ros.simulation.simulation import Simulation
 from rclpy.parameter import Parameter

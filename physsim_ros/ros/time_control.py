@@ -22,7 +22,7 @@ from typing import Any
 from physsim_ros.model.errors import Refusal, Running
 from physsim_ros.model.snapshot import Answer, run_state
 from physsim_ros.ros import parameters
-from physsim_ros.ros.subscriptions import RequestSubscriptions
+from physsim_ros.ros.requests.subscriptions import RequestSubscriptions
 from physsim_ros.simulation.simulation import Simulation
 from rclpy.node import Node
 from rclpy.parameter import Parameter

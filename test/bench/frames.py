@@ -33,7 +33,7 @@ from typing import NamedTuple
 
 from geometry_msgs.msg import Pose, PoseArray
 from physsim_ros.ros.node import PhysSimNode
-from physsim_ros.ros.program import reduce_latency
+from physsim_ros.ros.programs.physsim import reduce_latency
 from physsim_ros.simulation.world import World
 import rclpy
 from rclpy.logging import LoggingSeverity

@@ -19,15 +19,15 @@ from __future__ import annotations
 from typing import Any
 
 from physsim_ros.model.snapshot import Answer
-from physsim_ros.ros import event_publisher
-from physsim_ros.ros.event_publisher import (
+from physsim_ros.ros.publishers import event_publisher
+from physsim_ros.ros.publishers.event_publisher import (
     ACK_TIMEOUT,
     EVENTS_DEPTH,
     MOST_WAITING,
     PACE,
     PACED,
 )
-from physsim_ros.ros.publishers import Publishers
+from physsim_ros.ros.publishers.publishers import Publishers
 from physsim_ros.testing import PhysSim
 import pytest
 

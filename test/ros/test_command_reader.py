@@ -20,8 +20,8 @@ import struct
 
 from hypothesis import given
 from hypothesis import strategies as st
-from physsim_ros.ros.cdr_reader import Truncated
-from physsim_ros.ros.command_reader import command_from, CommandMessage
+from physsim_ros.ros.requests.cdr_reader import Truncated
+from physsim_ros.ros.requests.command_reader import command_from, CommandMessage
 import pytest
 from rclpy.serialization import deserialize_message, serialize_message
 from sensor_msgs.msg import MultiDOFJointState

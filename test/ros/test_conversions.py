@@ -42,8 +42,8 @@ from physsim_ros.model.requests import (
     Spawn,
 )
 from physsim_ros.model.shapes import Box, Chain, Compound, Disc, MOST_POINTS, Polygon, Triangles
-from physsim_ros.ros.command_reader import command_from
-from physsim_ros.ros.conversions import (
+from physsim_ros.ros.requests.command_reader import command_from
+from physsim_ros.ros.requests.conversions import (
     body_request,
     command_request,
     LONGEST_TEXT,

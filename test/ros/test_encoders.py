@@ -38,8 +38,8 @@ from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon, Triangles
 from physsim_ros.model.snapshot import Answer, Contacts, Frame, Snapshot
 from physsim_ros.ros import encoders
-from physsim_ros.ros.conversions import body_request
 from physsim_ros.ros.encoders.marker_symbols import body_symbols
+from physsim_ros.ros.requests.conversions import body_request
 import pytest
 from rclpy.serialization import deserialize_message, serialize_message
 from rosgraph_msgs.msg import Clock

@@ -40,7 +40,7 @@ THOUSAND = 'format: 1\nbodies:\n' + ''.join(
 BUG = """
 import psutil
 from physsim_ros.ros.frame_outputs import FrameOutputs
-from physsim_ros.ros.program import main
+from physsim_ros.ros.programs.physsim import main
 
 
 def fail(*_):
@@ -57,7 +57,7 @@ main()
 STUCK = """
 import ctypes
 from physsim_ros.ros.node import PhysSimNode
-from physsim_ros.ros.program import main
+from physsim_ros.ros.programs.physsim import main
 
 
 def wait_forever(*_):
@@ -76,7 +76,7 @@ main()
 FREEING = """
 import ctypes
 import sys
-from physsim_ros.ros.program import main
+from physsim_ros.ros.programs.physsim import main
 
 
 class Crowd:

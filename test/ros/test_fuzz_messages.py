@@ -37,8 +37,9 @@ import numpy as np
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.requests import Anchor, Axle, Pin, Release
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.ros import conversions, encoders
-from physsim_ros.ros.command_reader import command_from, CommandMessage
+from physsim_ros.ros import encoders
+from physsim_ros.ros.requests import conversions
+from physsim_ros.ros.requests.command_reader import command_from, CommandMessage
 from physsim_ros.simulation.simulation import Simulation
 from rclpy.serialization import serialize_message
 from sensor_msgs.msg import MultiDOFJointState

@@ -21,8 +21,8 @@ from collections.abc import Callable
 from itertools import pairwise
 from typing import Any
 
-from physsim_ros.ros import real_time_loop
-from physsim_ros.ros.real_time_loop import RealTimeLoop
+from physsim_ros.ros.programs import real_time_loop
+from physsim_ros.ros.programs.real_time_loop import RealTimeLoop
 import pytest
 
 MS = 1_000_000

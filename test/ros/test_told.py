@@ -18,7 +18,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from physsim_ros.ros import subscriptions
+from physsim_ros.ros.requests import subscriptions
 from physsim_ros.testing import PhysSim
 import pytest
 from rcl_interfaces.msg import Parameter as ParameterMessage

@@ -84,7 +84,7 @@ class _Usage(ArgumentParser):
 
     def format_help(self) -> str:
         """Return the help."""
-        from physsim_ros.ros.usage import physsim_help
+        from physsim_ros.ros.programs.usage import physsim_help
 
         return super().format_help() + physsim_help()
 
@@ -96,7 +96,7 @@ def main() -> None:
     # ROS and the engine take a second to import, during which a signal is received already.
     from physsim_ros.model.errors import PhysSimError
     from physsim_ros.ros.node import PhysSimNode
-    from physsim_ros.ros.real_time_loop import RealTimeLoop
+    from physsim_ros.ros.programs.real_time_loop import RealTimeLoop
     import rclpy
     from rclpy.experimental import EventsExecutor
     from rclpy.signals import SignalHandlerOptions

@@ -25,7 +25,7 @@ from collections.abc import Callable, Mapping
 
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.snapshot import Answer
-from physsim_ros.ros.reply_pacer import ReplyPacer, SERVICE_QOS
+from physsim_ros.ros.requests.reply_pacer import ReplyPacer, SERVICE_QOS
 from physsim_ros.simulation.request_queue import RequestQueue
 from rclpy.node import Node
 from std_srvs.srv import Trigger

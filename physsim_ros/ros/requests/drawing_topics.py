@@ -29,8 +29,8 @@ from nav_msgs.msg import Path
 from physsim_ros.drawing import DrawingSession, Reading, submit_reading
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.snapshot import Answer, Snapshot
-from physsim_ros.ros import conversions, stroke_reader
-from physsim_ros.ros.subscriptions import RequestSubscriptions
+from physsim_ros.ros.requests import conversions, stroke_reader
+from physsim_ros.ros.requests.subscriptions import RequestSubscriptions
 from physsim_ros.simulation.simulation import Simulation
 
 

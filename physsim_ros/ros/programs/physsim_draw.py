@@ -24,8 +24,8 @@ import sys
 from diagnostic_msgs.msg import DiagnosticStatus
 from physsim_ros.files import BadDrawing, drawings, find_drawing, load_drawing, Pace, shipped
 from physsim_ros.model.arrays import Floats
-from physsim_ros.ros.help_tables import files_table
-from physsim_ros.ros.stroke_publisher import Interrupted, StrokePublisher, Unanswered
+from physsim_ros.ros.programs.help_tables import files_table
+from physsim_ros.ros.programs.stroke_publisher import Interrupted, StrokePublisher, Unanswered
 import rclpy
 from rclpy.exceptions import InvalidTopicNameException
 from rclpy.signals import SignalHandlerOptions

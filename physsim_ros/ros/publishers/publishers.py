@@ -26,9 +26,9 @@ from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.model.timeline import TimelineStatus
 from physsim_ros.ros import encoders
 from physsim_ros.ros.encoders import Encoder
-from physsim_ros.ros.event_publisher import EventPublisher, EVENTS_DEPTH
-from physsim_ros.ros.streams import LatchedStream, Stream
-from physsim_ros.ros.timeline_publisher import TimelinePublisher
+from physsim_ros.ros.publishers.event_publisher import EventPublisher, EVENTS_DEPTH
+from physsim_ros.ros.publishers.stream import LatchedStream, Stream
+from physsim_ros.ros.publishers.timeline_publisher import TimelinePublisher
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy

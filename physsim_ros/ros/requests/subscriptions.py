@@ -26,9 +26,9 @@ from collections.abc import Callable
 from typing import Any
 
 from physsim_ros.model.errors import Malformed, Refusal
-from physsim_ros.ros.cdr_reader import Truncated
-from physsim_ros.ros.command_reader import command_from
 from physsim_ros.ros.qos_safe_node import LOSSLESS
+from physsim_ros.ros.requests.cdr_reader import Truncated
+from physsim_ros.ros.requests.command_reader import command_from
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from rclpy.serialization import deserialize_message

@@ -29,8 +29,8 @@ from geometry_msgs.msg import PointStamped
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.requests import Anchor, Axle, Pin, Release, Request
 from physsim_ros.model.snapshot import Answer
-from physsim_ros.ros import conversions
-from physsim_ros.ros.subscriptions import RequestSubscriptions
+from physsim_ros.ros.requests import conversions
+from physsim_ros.ros.requests.subscriptions import RequestSubscriptions
 from physsim_ros.simulation.request_queue import RequestQueue
 from sensor_msgs.msg import MultiDOFJointState
 from visualization_msgs.msg import InteractiveMarkerFeedback, Marker, MarkerArray

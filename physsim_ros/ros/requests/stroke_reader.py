@@ -26,7 +26,7 @@ from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import Malformed
 from physsim_ros.model.names import LONGEST_NAME
 from physsim_ros.model.settings import MOST_SAMPLES
-from physsim_ros.ros.cdr_reader import CdrReader, Truncated
+from physsim_ros.ros.requests.cdr_reader import CdrReader, Truncated
 
 # Numbers of a geometry_msgs/Pose: position and quaternion.
 _POSE = 7

@@ -17,8 +17,8 @@
 from __future__ import annotations
 
 from physsim_ros.files import shipped_worlds, user_worlds, worlds_in
-from physsim_ros.ros.help_tables import files_table, table
 from physsim_ros.ros.parameters import Spec, SPECS
+from physsim_ros.ros.programs.help_tables import files_table, table
 
 # Width of the column of names, and the least width of the column of meanings [characters].
 _ELSEWHERE = """\

@@ -23,7 +23,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from physsim_ros.model.arrays import Floats
-from physsim_ros.ros.cdr_reader import CdrReader
+from physsim_ros.ros.requests.cdr_reader import CdrReader
 
 
 class CommandMessage(NamedTuple):
