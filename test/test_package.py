@@ -314,7 +314,7 @@ def test_the_overlay_hides_the_source_tree(workspace, overlay, tmp_path):
 # None of those here, which would start over.
 SUBSET = (
     'test/style/test_xmllint.py::test_the_manifest_keeps_the_rules_of_rep_149',
-    'test/ros/test_draw_cli.py::test_every_stroke_is_drawn_and_its_answers_are_told',
+    'test/ros/test_physsim_draw.py::test_every_stroke_is_drawn_and_its_answers_are_told',
     'test/testing/test_plugin.py::test_a_robot_of_others_is_tested_with_the_same_bits_every_time',
 )
 
