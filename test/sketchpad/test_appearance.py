@@ -20,7 +20,7 @@ from typing import Any
 
 import pytest
 
-from .chromium import Sheet
+from .chromium import circle, Sheet
 
 BACKGROUND = """name => getComputedStyle(
     document.querySelector(`button[aria-label="${name}"]`)).backgroundColor"""
@@ -54,4 +54,21 @@ def test_nothing_covers_the_walls_of_a_world_that_is_framed(
     tools, bar = (sheet.page.locator(each).bounding_box() for each in ('#tools', '#bar'))
     assert bottom <= bar['y']
     assert bottom <= tools['y'] or tools['x'] + tools['width'] <= left
+    sheet.close()
+
+
+def test_a_stroke_that_begins_on_a_note_is_drawn(chromium: Any, address: str) -> None:
+    sheet = Sheet(chromium, address)
+    sheet.begin()
+    before = sheet.names()
+    sheet.drag(*circle(1.0, 5.0, 0.8))
+    sheet.wait_for_new(before)
+    note = sheet.page.locator('.note').bounding_box()
+    x, y = sheet.page.evaluate(
+        '([x, y]) => physsim.toWorld(x, y)', (note['x'] + 5, note['y'] + note['height'] / 2)
+    )
+    before = sheet.names()
+    sheet.drag(*circle(x - 1.0, y, 1.0))
+    sheet.wait_for_new(before)
+    assert sheet.page.evaluate('getSelection().toString()') == ''
     sheet.close()

@@ -14,7 +14,7 @@ const SENTENCES = [
   [/^saved .* to (.+)\.yaml(.*)/, 'Saved as $1$2'], [/^loaded .* from (.+)\.yaml/, 'Opened $1'],
   [/^on course \d+, at .*/, 'Back on the other course'],
   [/^course \d+ begins at .*/, 'From here on it goes otherwise'], [/^speed (.+)/, 'Speed $1×'], [/^.*; next: /, 'Next: '],
-  [/^undid (.+?)(, back at .*)?$/, 'Undone: $1'], [/^redid (.+)/, 'Done again: $1'],
+  [/^undid (.+?)(, back at .*)?$/, 'Undone: $1'], [/^redid .*/, 'Done again'], [/^(back )?at the beginning, .*/, 'Back at the beginning'],
   [/ at \([^)]*\)$/, ' here'],
 ];
 const EQUAL = 1e-3; // share of a diagonal: no farther apart is equal
