@@ -258,7 +258,7 @@ def test_chromium_shows_the_recording_and_calls_no_other_origin(
     # 43 MB are compiled, and each frame is drawn by the processor.
     deadline = time.monotonic() + 4.0 * PATIENCE
     while not shows_bodies(recording):
-        assert time.monotonic() < deadline, recording.locator('#status').text_content()
+        assert time.monotonic() < deadline, recording.locator('#recording').text_content()
     # All but what data and blobs hold is asked of this server.
     foreign = {url for url in called if not url.startswith((origin, 'data:', 'blob:'))}
     assert foreign == set()

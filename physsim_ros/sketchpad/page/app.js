@@ -27,13 +27,7 @@ import {VelocityArrow} from './velocity_arrow.js';
 import {shapeWord, Words} from './words.js';
 import {WorldState} from './world_state.js';
 
-/** @typedef {import('./pointer.js').Touch} Touch */
-/**
- * @typedef {{down(touch: Touch): void, move(touch: Touch): void, up(touch: Touch): void, cancel(): void,
- *   draw(view: SceneView): void, turns?: boolean, turn?(angle: number): void, clicks?: number,
- *   finish?(): boolean, aims?: 'accent' | 'warn'}} Tool
- *   clicks: of a gesture, where it is made by clicks; aims: colour of the body that it is pointed at
- */
+/** @import {Tool} from './types.js' */
 
 const GAP = 24, LOW_GAP = 12; // px between the bars and a world that is framed, and on a low page
 const LOW = 500; // px

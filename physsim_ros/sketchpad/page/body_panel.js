@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The panel of the selected bodies: properties of a body, its plots. */
 
-import {createElement, elementOf, iconButton} from './dom.js';
+import {createElement, elementOf, iconButton, textButton} from './dom.js';
 import {Plots} from './plots.js';
 import {capital} from './words.js';
+
+/** @import {App} from './types.js' */
 
 /** Key, label, least, most, step. @type {[string, string, number, number, number][]} */
 const RANGES = [['density', 'Density [kg/m²]', 0.1, 10, 0.1], ['friction', 'Friction', 0, 2, 0.05],
@@ -12,7 +14,7 @@ const COVERED = 80; // px: nearer to the edge of the panel, or beneath it, a bod
 const BESIDE = 0.5; // m: where a copy is put
 
 export class BodyPanel {
-  /** @param {import('./app.js').App} app */
+  /** @param {App} app */
   constructor(app) {
     this.app = app;
     this.element = elementOf('panel', HTMLElement);
@@ -42,9 +44,8 @@ export class BodyPanel {
       ...fields(body, change),
       createElement('label', {}, 'Anchored', anchored),
       createElement('div', {className: 'row'},
-        createElement('button', {type: 'button', textContent: 'Copy', onclick: () => this.copy()}),
-        createElement('button', {type: 'button', className: 'danger', textContent: 'Delete body',
-          onclick: () => this.app.selection.deleteBodies()})),
+        textButton('Copy', () => this.copy()),
+        textButton('Delete body', () => this.app.selection.deleteBodies(), 'danger')),
       createElement('p', {hidden: body.anchored, textContent: 'Velocity: drag the ring of its arrow.'}),
       this.plots.element,
     ], word === name ? '' : name);
@@ -69,8 +70,8 @@ export class BodyPanel {
     this.plots.watch('');
     this.#show(`${names.length} bodies`, [
       createElement('p', {textContent: 'Drag them with the lasso.'}),
-      createElement('div', {className: 'row'}, createElement('button', {type: 'button', className: 'danger',
-        textContent: 'Delete bodies', onclick: () => this.app.selection.deleteBodies()}))]);
+      createElement('div', {className: 'row'},
+        textButton('Delete bodies', () => this.app.selection.deleteBodies(), 'danger'))]);
   }
 
   /** Show the material of the next drawings, and gravity. */
@@ -109,12 +110,8 @@ export class BodyPanel {
    * @param {string} name of the body, where that is not the title
    */
   #show(title, content, name = '') {
-    const size = iconButton('Larger', 'sheet', () => {
-      const tall = this.element.classList.toggle('tall');
-      size.setAttribute('aria-expanded', String(tall));
-    });
-    size.setAttribute('aria-expanded', String(this.element.classList.contains('tall')));
-    this.element.replaceChildren(createElement('header', {}, createElement('h2', {}, `${title} `, createElement('small', {textContent: name})), size,
+    this.element.replaceChildren(createElement('header', {},
+      createElement('h2', {}, `${title} `, createElement('small', {textContent: name})),
       iconButton('Close', 'close', () => this.app.selection.select([]))), ...content);
     this.element.hidden = false;
   }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The geometry of bodies in their own frames: paths to draw, points to hit, extents. */
 
-/** @typedef {import('./wire.js').Shape} Shape */
-/** @typedef {import('./wire.js').Point} Point */
+/** @import {Point, Shape} from './types.js' */
 
 const INNER = 0.98; // share of a radius: a point that counts as one within
 

@@ -3,9 +3,8 @@
 
 import {pathOf, reachOf} from './body_path.js';
 
-/** @typedef {import('./wire.js').Point} Point */
-/** @typedef {import('./wire.js').Body} Body */
-/** @typedef {import('./wire.js').Frame} Frame */
+/** @import {Body, Camera, Frame, Palette, Point} from './types.js' */
+
 /** @typedef {{path: Path2D, reach: number, radius: number, inner: number, plain: boolean, dark: boolean,
  *   fill: string, line: string, tiny: string}} Appearance
  *   reach: of the farthest point from the body's origin, radius: of it from the centroid, inner: of a circle
@@ -19,7 +18,7 @@ const RIM = 1.2, MARK = 1.8; // px
 export class BodyView {
   /**
    * @param {CanvasRenderingContext2D} ctx
-   * @param {import('./camera.js').Camera} camera
+   * @param {Camera} camera
    */
   constructor(ctx, camera) {
     this.ctx = ctx;
@@ -32,7 +31,7 @@ export class BodyView {
     this.appearances = new WeakMap();
   }
 
-  /** @param {import('./theme.js').Palette} palette */
+  /** @param {Palette} palette */
   repaint({ink}) {
     this.ink = ink;
     this.hatches = [this.#hatch('#111'), this.#hatch('#eee')]; // on light bodies, and on dark ones

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The part of the world that is shown: metres, y up, to pixels of the page, y down. */
 
+/** @import {Point} from './types.js' */
+
 const LEAST_SCALE = 0.5, GREATEST_SCALE = 5000; // px/m
 const NARROW = 700; // px: a page of that width or less has its tools below, as in style.css
 const LEAST_SPAN = 4; // m; nothing smaller fills the page at first
@@ -21,7 +23,7 @@ export class Camera {
   /**
    * @param {number} x [m]
    * @param {number} y [m]
-   * @returns {import('./wire.js').Point} [px]
+   * @returns {Point} [px]
    */
   toPage(x, y) {
     return [this.width / 2 + (x - this.x) * this.scale, this.height / 2 - (y - this.y) * this.scale];
@@ -30,7 +32,7 @@ export class Camera {
   /**
    * @param {number} px [px]
    * @param {number} py [px]
-   * @returns {import('./wire.js').Point} [m]
+   * @returns {Point} [m]
    */
   toWorld(px, py) {
     return [this.x + (px - this.width / 2) / this.scale, this.y - (py - this.height / 2) / this.scale];

@@ -3,13 +3,15 @@
 
 import {decodeFrame} from './wire.js';
 
+/** @import {Answer} from './types.js' */
+
 const SHORTEST_PAUSE = 250, LONGEST_PAUSE = 3000; // ms between attempts to connect
 
 export class Connection {
   constructor() {
     /** @type {Map<string, ((message: any) => void)[]>} */
     this.listeners = new Map();
-    /** @type {Map<string, (answer: import('./wire.js').Answer) => void>} */
+    /** @type {Map<string, (answer: Answer) => void>} */
     this.waiting = new Map();
     this.number = 0;
     this.pause = SHORTEST_PAUSE;
@@ -56,7 +58,7 @@ export class Connection {
   /**
    * @param {string} type
    * @param {Record<string, unknown>} fields
-   * @returns {Promise<import('./wire.js').Answer>} never settles where the server goes
+   * @returns {Promise<Answer>} never settles where the server goes
    */
   ask(type, fields = {}) {
     const id = this.send(type, fields);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /** A cursor on the canvas for the keyboard: arrows move it, Enter presses and lifts the tool. */
 
+/** @import {App, Point, SceneView, Touch} from './types.js' */
+
 const STEP = 16, FINE = 2; // px
 
 export class Cursor {
-  /** @param {import('./app.js').App} app */
+  /** @param {App} app */
   constructor(app) {
     this.app = app;
     this.x = this.y = -1; // px
@@ -13,14 +15,14 @@ export class Cursor {
     app.view.overlays.push((view) => this.#draw(view));
   }
 
-  /** @returns {import('./pointer.js').Touch} */
+  /** @returns {Touch} */
   get touch() {
     const {camera} = this.app;
     return {at: camera.toWorld(this.x, this.y), page: [this.x, this.y],
       time: performance.now() / 1000, slop: 6 / camera.scale};
   }
 
-  /** @param {import('./wire.js').Point} page where it is put [px] */
+  /** @param {Point} page where it is put [px] */
   put([x, y]) {
     [this.x, this.y] = [x, y];
     this.move(0, 0, false);
@@ -62,7 +64,7 @@ export class Cursor {
     app.view.dirty = true;
   }
 
-  /** @param {import('./scene_view.js').SceneView} view */
+  /** @param {SceneView} view */
   #draw({ctx, palette}) {
     if (!this.shown) return;
     ctx.strokeStyle = palette.accent;

@@ -39,6 +39,15 @@ export function iconButton(name, id, onclick, title = name) {
 }
 
 /**
+ * @param {string} label
+ * @param {() => void} onclick
+ * @param {string} className
+ */
+export function textButton(label, onclick, className = '') {
+  return createElement('button', {type: 'button', textContent: label, onclick, className});
+}
+
+/**
  * @template {HTMLElement} T
  * @param {string} id
  * @param {new () => T} kind

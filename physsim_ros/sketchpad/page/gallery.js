@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Worlds: a gallery to open from, saving by name, files, a link that holds the world, a picture. */
 
-import {createElement, download, elementOf, icon, iconButton} from './dom.js';
+import {createElement, download, elementOf, icon, iconButton, textButton} from './dom.js';
 import {packText, unpackText} from './link.js';
+
+/** @import {App} from './types.js' */
 
 const LONGEST_LINK = 16000; // characters
 
 export class Gallery {
-  /** @param {import('./app.js').App} app */
+  /** @param {App} app */
   constructor(app) {
     this.app = app;
     this.dialog = elementOf('dialog', HTMLDialogElement);
@@ -41,10 +43,10 @@ export class Gallery {
     const file = createElement('input', {type: 'file', accept: '.yaml,.yml',
       onchange: async () => file.files?.[0] && this.#upload(await file.files[0].text())});
     this.show('Worlds', createElement('div', {className: 'row'},
-      createElement('button', {type: 'button', textContent: 'Empty world', onclick: () => {
+      textButton('Empty world', () => {
         this.app.time.callService('clear');
         this.dialog.close();
-      }}),
+      }),
       createElement('label', {className: 'file'}, 'Open a file', file)), createElement('div', {className: 'cards'}, ...cards));
   }
 
@@ -56,12 +58,10 @@ export class Gallery {
       this.app.connection.send('save', {name: name.value});
       this.dialog.close();
     }}, name, createElement('button', {textContent: 'Save world'}));
-    const action = (/** @type {string} */ label, /** @type {() => void} */ onclick) =>
-      createElement('button', {type: 'button', textContent: label, onclick});
     this.show('Save', form, createElement('div', {className: 'row'},
-      action('Download file', () => this.#download()),
-      action('Copy link', () => this.#copyLink()),
-      action('Picture (PNG)', () => this.app.view.canvas.toBlob((png) => png && download('world.png', png)))));
+      textButton('Download file', () => this.#download()),
+      textButton('Copy link', () => this.#copyLink()),
+      textButton('Picture (PNG)', () => this.app.view.canvas.toBlob((png) => png && download('world.png', png)))));
     name.select();
   }
 
@@ -110,8 +110,8 @@ export class Gallery {
     const packed = /^#world=(.+)/.exec(location.hash)?.[1];
     if (!packed || this.app.viewOnly) return;
     history.replaceState(null, '', location.pathname + location.search);
-    this.show('This link holds a world', createElement('div', {className: 'row'}, createElement('button', {type: 'button',
-      textContent: 'Open it', autofocus: true, onclick: () => this.#openLink(packed)})));
+    this.show('This link holds a world', createElement('div', {className: 'row'},
+      textButton('Open it', () => this.#openLink(packed))));
   }
 
   /** @param {string} packed */

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The grid in metres, and rulers at the edges whose steps follow the zoom. */
 
+/** @import {Camera, Palette} from './types.js' */
+
 const LEAST_STEP = 70; // px between labelled lines
 
 /**
@@ -14,8 +16,8 @@ function stepOf(scale) {
 
 /**
  * @param {CanvasRenderingContext2D} ctx in pixels of the page
- * @param {import('./camera.js').Camera} camera
- * @param {import('./theme.js').Palette} palette
+ * @param {Camera} camera
+ * @param {Palette} palette
  * @param {{left: number, bottom: number}} insets where the rulers lie [px]
  */
 export function drawGrid(ctx, camera, palette, insets) {

@@ -5,6 +5,8 @@ import {createElement, icon} from './dom.js';
 import {EDIT, TIME} from './time_bar.js';
 import {TOOLS} from './toolbar.js';
 
+/** @import {App} from './types.js' */
+
 const TOUCHED = matchMedia('(pointer: coarse)');
 const GESTURES = [['Draw', 'A finger and the pen; with a stylus, the stylus draws and a finger moves the view'],
   ['Grab and throw', 'The hand, on a body; let go while it moves'],
@@ -18,12 +20,12 @@ const MOVING = [['Space', 'Play or pause; held, dragging moves the view'],
   ['Delete', 'Delete what is chosen'], ['Esc', 'Drop what is unfinished'], ['+ and −, F', 'Zoom; frame the world'],
   ['Enter', 'Close a polygon'], ['?', 'This list']];
 
-/** @param {import('./app.js').App} app */
+/** @param {App} app */
 export function showHelp(app) {
   const key = (/** @type {string} */ name) => createElement('kbd', {textContent: name});
   const keys = [...TOOLS.flat().map(([, name, letter]) => [key(letter.toUpperCase()), name]),
     ...[...TIME, ...EDIT].map(([name, , letter]) => [key(letter), name]), ...MOVING.map(([name, does]) => [key(name), does])];
-  const tools = TOOLS.flat().map(([id, name, , hint]) => [icon(id), `${name}: ${hint[0].toLowerCase()}${hint.slice(1)}`]);
+  const tools = TOOLS.flat().map(([id, name, , hint]) => [icon(id), `${name}: ${hint}`]);
   const parts = [section('Keys', keys)];
   if (TOUCHED.matches) parts.unshift(section('Gestures', GESTURES), section('Tools', tools));
   app.gallery.show('Help', ...parts.flat());

@@ -6,6 +6,8 @@
 
 import {elementOf} from './dom.js';
 
+/** @import {App} from './types.js' */
+
 /** Id, text, and the button that is pointed at. @type {[string, string, string][]} */
 const STEPS = [
   ['draw', 'Draw a circle, a box, a line: it comes to life.', ''],
@@ -16,17 +18,15 @@ const STEPS = [
   ['ghost', 'Dashed: how it went before. The ring on the time line goes back there.', 'Play'],
 ];
 const KEY = 'physsim-hints';
-const TOOL_SHOWN = 7000, USED_SHOWN = 2500, LAST_SHOWN = 12000; // ms: how a tool is used, when it was used, the last step
-const USES = ['stroke', 'click', 'grab'];
+const TOOL_SHOWN = 5000, LAST_SHOWN = 12000; // ms: how a tool is used, the last step
 
 export class Hints {
-  /** @param {import('./app.js').App} app */
+  /** @param {App} app */
   constructor(app) {
     this.app = app;
     this.line = elementOf('hint', HTMLElement);
     this.step = Number(localStorage.getItem(KEY) ?? 0);
     this.timer = 0;
-    this.ofTool = false; // the line says how the tool is used
     const {connection} = app;
     connection.on('reading', ({built}) => built && this.completeStep('draw'));
     connection.on('answer', ({request, ok, topic, subject}) => {
@@ -36,9 +36,6 @@ export class Hints {
       if (state === 'rewinding' || state === 'in the past') this.completeStep('rewind');
       if (state === 'playing' && this.#isDone('draw')) this.completeStep('play');
       if (courses.length && this.#isDone('rewind')) this.completeStep('change');
-    });
-    connection.on('sent', ({type}) => {
-      if (USES.includes(type) && this.ofTool) this.#return(USED_SHOWN);
     });
     this.#showStep();
   }
@@ -59,14 +56,7 @@ export class Hints {
   /** @param {string} text how the tool in hand is used */
   showTool(text) {
     this.#show(text);
-    this.ofTool = true;
-    this.#return(TOOL_SHOWN);
-  }
-
-  /** @param {number} after [ms] the line shows the next step again */
-  #return(after) {
-    clearTimeout(this.timer);
-    this.timer = setTimeout(() => this.#showStep(), after);
+    this.timer = setTimeout(() => this.#showStep(), TOOL_SHOWN);
   }
 
   #showStep() {
@@ -80,7 +70,6 @@ export class Hints {
   /** @param {string} text '' hides the line */
   #show(text) {
     clearTimeout(this.timer);
-    this.ofTool = false;
     if (text) this.line.textContent = text;
     this.line.classList.toggle('faded', !text);
   }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Joints as what they are: coil, rod, rope, axle, motor, rail, toothed wheels. */
 
-/** @typedef {import('./wire.js').Point} Point */
-/** @typedef {import('./wire.js').Joint} Joint */
+/** @import {Camera, Joint, Palette, Point, WorldState} from './types.js' */
 
 const SIZE = 0.12; // m: half of a symbol
 const LEAST = 4, GREATEST = 14; // px, whatever the zoom
@@ -13,9 +12,9 @@ const TENSE = 10; // weights at which a joint is drawn in the colour of warning
 export class JointView {
   /**
    * @param {CanvasRenderingContext2D} ctx in pixels of the page
-   * @param {import('./world_state.js').WorldState} world
-   * @param {import('./camera.js').Camera} camera
-   * @param {import('./theme.js').Palette} palette
+   * @param {WorldState} world
+   * @param {Camera} camera
+   * @param {Palette} palette
    */
   constructor(ctx, world, camera, palette) {
     this.ctx = ctx;

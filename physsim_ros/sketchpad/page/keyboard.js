@@ -4,6 +4,8 @@
 import {showHelp} from './help.js';
 import {TOOLS} from './toolbar.js';
 
+/** @import {App} from './types.js' */
+
 const TURN = Math.PI / 12; // rad a press of R
 const ZOOM = 1.25;
 const TAP = 300; // ms: a shorter press of the space bar plays or pauses
@@ -11,7 +13,7 @@ const TAP = 300; // ms: a shorter press of the space bar plays or pauses
 const ARROWS = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]};
 
 export class Keyboard {
-  /** @param {import('./app.js').App} app */
+  /** @param {App} app */
   constructor(app) {
     this.app = app;
     this.since = 0;

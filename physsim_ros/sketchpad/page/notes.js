@@ -3,18 +3,20 @@
 
 import {createElement, elementOf} from './dom.js';
 
+/** @import {App, Answer, Point} from './types.js' */
+
 const SCENE_LATER = 250; // ms: the scene of what was added comes no later than that after the answer
 /** The clock shows the time, and a hand that missed was told so when it grabbed. */
 const SILENT = /^at [\d.]+ s$| holds no body$/;
 const SHOWN = 2500, REFUSED = 5000, READ = 6000; // ms: an answer, a refusal, a note
 
 export class Notes {
-  /** @param {import('./app.js').App} app */
+  /** @param {App} app */
   constructor(app) {
     this.app = app;
     this.status = elementOf('status', HTMLElement);
     this.places = elementOf('places', HTMLElement);
-    /** @type {Map<HTMLElement, () => ?import('./wire.js').Point>} */
+    /** @type {Map<HTMLElement, () => ?Point>} */
     this.pinned = new Map();
     this.timer = 0;
     this.until = 0; // [ms] until then an answer to this page stays
@@ -27,7 +29,7 @@ export class Notes {
     });
   }
 
-  /** @param {import('./wire.js').Answer} answer */
+  /** @param {Answer} answer */
   #tell(answer) {
     const {request, ok, message} = answer, own = request !== '';
     if (SILENT.test(message) || !own && performance.now() < this.until) return;
@@ -54,7 +56,7 @@ export class Notes {
   }
 
   /**
-   * @param {() => ?import('./wire.js').Point} at [m], or null where that is gone
+   * @param {() => ?Point} at [m], or null where that is gone
    * @param {(Node | string)[]} content
    * @param {{kind?: string, shown?: number}} how  shown: for how long [ms]; 0 is until it is taken away
    * @returns {() => void} takes it away

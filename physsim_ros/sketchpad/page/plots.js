@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Height, speed and energy of a body against time, beside the exact curves of free flight. */
 
-import {createElement, download} from './dom.js';
+import {createElement, download, textButton} from './dom.js';
+
+/** @import {App, Body, Palette} from './types.js' */
 
 /** @typedef {{time: number, x: number, y: number, vx: number, vy: number, spin: number}} Sample */
 
@@ -13,7 +15,7 @@ const SLACK = 5e-3, ROUNDING = 1e-6;
 const WIDTH = 272, HEIGHT = 84, LEFT = 40; // px
 
 export class Plots {
-  /** @param {import('./app.js').App} app */
+  /** @param {App} app */
   constructor(app) {
     this.app = app;
     this.name = '';
@@ -24,7 +26,7 @@ export class Plots {
       createElement('canvas', {role: 'img', 'aria-label': label, width: 2 * WIDTH, height: 2 * HEIGHT}));
     this.element = createElement('section', {className: 'plots', 'aria-label': 'Plots'}, ...this.canvases,
       createElement('p', {textContent: 'Broad: free flight, by its formula'}),
-      createElement('button', {type: 'button', textContent: 'Table (CSV)', onclick: () => this.#save()}));
+      textButton('Table (CSV)', () => this.#save()));
     app.connection.on('frame', () => this.#record());
     app.connection.on('timeline', ({course, now}) => {
       if (course !== this.course) this.samples = this.samples.filter(({time}) => time <= now);
@@ -102,7 +104,7 @@ function speedOf({vx, vy}) {
 
 /**
  * @param {Sample} sample
- * @param {import('./wire.js').Body} body
+ * @param {Body} body
  * @param {number[]} gravity
  */
 function energyOf({x, y, vx, vy, spin}, {mass, moment}, [gx, gy]) {
@@ -140,7 +142,7 @@ function flightsOf(samples, [gx, gy], end) {
 /**
  * @param {HTMLCanvasElement} canvas
  * @param {{start: number, end: number, now: number, label: string, curve: number[][],
- *   exact: number[][][], palette: import('./theme.js').Palette}} what
+ *   exact: number[][][], palette: Palette}} what
  */
 function plot(canvas, {start, end, now, label, curve, exact, palette}) {
   const ctx = /** @type {CanvasRenderingContext2D} */ (canvas.getContext('2d'));

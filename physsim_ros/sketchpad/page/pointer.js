@@ -4,22 +4,20 @@
  * the view; once a stylus was seen it draws, and a finger moves the view.
  */
 
-/** @typedef {import('./wire.js').Point} Point */
-/** @typedef {{at: Point, page: Point, time: number, slop: number}} Touch
- *   at [m], page [px], time [s], slop: how far beside a body counts [m] */
+/** @import {App, Tool, Touch} from './types.js' */
 
 const FINGER = 14, MOUSE = 2; // px of slop
 const WHEEL = 0.0015, PINCH = 0.01; // of zoom, in powers of e a pixel of wheel
 const WHEEL_TURN = 0.002; // rad a pixel
 
 export class Pointers {
-  /** @param {import('./app.js').App} app */
+  /** @param {App} app */
   constructor(app) {
     this.app = app;
     /** @type {Map<number, PointerEvent>} */
     this.down = new Map();
     this.working = -1; // id of the pointer that works the tool
-    /** @type {Pick<import('./app.js').Tool, 'down' | 'move' | 'up' | 'cancel'>} that it works */
+    /** @type {Pick<Tool, 'down' | 'move' | 'up' | 'cancel'>} that it works */
     this.worked = app.tool;
     this.stylus = false;
     this.space = false; // held: dragging moves the view

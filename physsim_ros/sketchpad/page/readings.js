@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Strokes until they are read, and their readings at the spot: what else it may be is one tap away. */
 
-import {createElement} from './dom.js';
+import {textButton} from './dom.js';
 import {meaningWord} from './words.js';
 
-/** @typedef {import('./wire.js').Point} Point */
+/** @import {App, Point, Reading} from './types.js' */
 
 const LIKELY = 0.05; // the least confidence of a runner-up that is offered
 const GLANCED = 2500; // ms: a reading without one
 
 export class Readings {
-  /** @param {import('./app.js').App} app */
+  /** @param {App} app */
   constructor(app) {
     this.app = app;
     /** @type {Map<string, Point[]>} strokes by their request */
@@ -35,7 +35,7 @@ export class Readings {
     if (request) this.strokes.set(request, stroke);
   }
 
-  /** @param {import('./wire.js').Reading} reading */
+  /** @param {Reading} reading */
   #show({request, meaning, confidence, runner_up, runner_up_confidence, guesses, outline, built}) {
     const stroke = this.strokes.get(request) ?? outline;
     if (!stroke.length) return;
@@ -51,8 +51,8 @@ export class Readings {
       return;
     }
     const choices = guesses.map(([guess, sure]) => this.#guessButton(labelOf(guess, sure), request, guess));
-    const close = createElement('button', {type: 'button', 'aria-label': 'Forget the stroke', textContent: '×',
-      onclick: () => this.dismiss()});
+    const close = textButton('×', () => this.dismiss());
+    close.ariaLabel = 'Forget the stroke';
     const words = choices.length ? 'Not sure. Is it' : 'Not recognised';
     const remove = this.app.notes.pin(() => at, [words, ...choices, close], {shown: 0});
     this.dismiss = () => {
@@ -67,11 +67,11 @@ export class Readings {
    * @param {string} meaning '' for the runner-up
    */
   #guessButton(label, request, meaning) {
-    return createElement('button', {type: 'button', onclick: () => {
+    return textButton(label, () => {
       this.app.connection.send('instead', meaning ? {meaning} : {});
       this.dismiss();
       this.#forget(request);
-    }}, label);
+    });
   }
 
   /** @param {string} request */

@@ -8,6 +8,7 @@
  */
 
 import {elementOf} from './dom.js';
+import {watchTheme} from './theme.js';
 
 /** Time from a batch to its picture that is told [s]. */
 const SLOW = 1;
@@ -15,7 +16,7 @@ const SLOW = 1;
 const MOST_FRAMES = 8;
 const CHANNEL = 'physsim';
 
-const status = elementOf('status', HTMLElement);
+const status = elementOf('recording', HTMLElement);
 /** Time that the viewer shows, on its timeline [ns]. */
 let shown = -1;
 
@@ -74,6 +75,7 @@ function connect(viewer) {
   socket.addEventListener('close', () => { status.textContent = 'The recording has ended; load the page again.'; });
 }
 
+watchTheme();
 try {
   connect(await startViewer());
 } catch (error) {

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Refusals at their places: at the body that the answer names, or where the request was made. */
 
-/** @typedef {import('./wire.js').Point} Point */
+/** @import {App, Point, SceneView} from './types.js' */
+
 /** @typedef {{point: ?Point, names: string[]}} Place of a request: a point [m], or bodies */
 
 const KEPT = 50; // requests whose places are known
-const SHAKEN = 400, OUTLINED = 2500; // ms for which a body shakes, and has an outline
-const SWING = 3, PERIOD = 100; // px and ms of the shaking
+const OUTLINED = 2500; // ms for which a body has an outline
 /** Messages that are no deed of the reader. */
 const QUIET = ['show', 'watch', 'move', 'let_go', 'drop'];
 
 export class Refusals {
-  /** @param {import('./app.js').App} app */
+  /** @param {App} app */
   constructor(app) {
     this.app = app;
     /** @type {Map<string, Place>} by request */
@@ -19,7 +19,6 @@ export class Refusals {
     /** @type {Map<string, number>} bodies, and when they were refused [ms] */
     this.bodies = new Map();
     this.dismiss = () => {};
-    this.moves = matchMedia('(prefers-reduced-motion: no-preference)');
     const {connection} = app;
     connection.on('sent', (message) => this.#note(message));
     connection.on('unsent', (message) => {
@@ -56,17 +55,13 @@ export class Refusals {
     else if (point) this.dismiss = app.notes.pin(() => point, [reason], {kind: 'refusal'});
   }
 
-  /** @param {import('./scene_view.js').SceneView} view */
+  /** @param {SceneView} view */
   #draw(view) {
     const now = performance.now();
     for (const [name, since] of this.bodies) {
-      const row = this.app.world.row(name), age = now - since;
-      if (age > OUTLINED || row < 0) this.bodies.delete(name);
-      else {
-        const swing = this.moves.matches && age < SHAKEN ?
-          SWING * Math.sin(2 * Math.PI * age / PERIOD) / this.app.camera.scale : 0;
-        view.outline(row, view.palette.warn, [swing, 0]);
-      }
+      const row = this.app.world.row(name);
+      if (now - since > OUTLINED || row < 0) this.bodies.delete(name);
+      else view.outline(row, view.palette.warn);
       view.dirty = true;
     }
   }

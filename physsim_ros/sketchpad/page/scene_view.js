@@ -6,9 +6,7 @@ import {drawGrid} from './grid_view.js';
 import {JointView} from './joint_view.js';
 import {readPalette, watchTheme} from './theme.js';
 
-/** @typedef {import('./wire.js').Point} Point */
-/** @typedef {import('./wire.js').Body} Body */
-/** @typedef {import('./wire.js').Frame} Frame */
+/** @import {Body, Camera, Frame, Point, WorldState} from './types.js' */
 
 const NEWTONS = 10; // of a contact's arrow of one metre
 const HEAD = 9; // px: of an arrow
@@ -17,8 +15,8 @@ const DASHED = 9; // px: half of the size from which on the outline of a ghost i
 export class SceneView {
   /**
    * @param {HTMLCanvasElement} canvas
-   * @param {import('./world_state.js').WorldState} world
-   * @param {import('./camera.js').Camera} camera
+   * @param {WorldState} world
+   * @param {Camera} camera
    */
   constructor(canvas, world, camera) {
     this.canvas = canvas;

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The selection: bodies that are selected, and the one that is pointed at, with its name beside it. */
 
-/** @typedef {import('./pointer.js').Touch} Touch */
+/** @import {App, Body, Point, SceneView, Touch} from './types.js' */
 
 export class Selection {
-  /** @param {import('./app.js').App} app */
+  /** @param {App} app */
   constructor(app) {
     this.app = app;
     /** @type {Set<string>} of bodies */
     this.names = new Set();
     this.hovered = ''; // name of a body
-    /** @type {import('./wire.js').Point | undefined} [px] */
+    /** @type {Point | undefined} [px] */
     this.hoveredAt = undefined;
     app.view.overlays.push((view) => this.#draw(view));
     app.connection.on('scene', ({bodies}) => {
-      const known = new Set(bodies.map((/** @type {import('./wire.js').Body} */ {name}) => name));
+      const known = new Set(bodies.map((/** @type {Body} */ {name}) => name));
       for (const name of this.names) if (!known.has(name)) this.names.delete(name);
     });
   }
@@ -52,7 +52,7 @@ export class Selection {
     this.hoveredAt = touch?.page;
   }
 
-  /** @param {import('./scene_view.js').SceneView} view */
+  /** @param {SceneView} view */
   #draw(view) {
     const {ctx, palette} = view, {world, tool} = this.app;
     for (const name of this.names) {

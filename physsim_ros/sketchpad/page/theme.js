@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Light and dark: as the system has it until the reader chooses; the colours of the canvas. */
 
-/** @typedef {{paper: string, minor: string, major: string, faint: string, ink: string,
- *   accent: string, force: string, warn: string}} Palette */
+/** @import {Palette} from './types.js' */
 
 const KEY = 'physsim-theme';
 const NAMES = ['paper', 'minor', 'major', 'faint', 'ink', 'accent', 'force', 'warn'];
@@ -15,7 +14,7 @@ export function readPalette() {
 }
 
 /** @param {() => void} listener */
-export function watchTheme(listener) {
+export function watchTheme(listener = () => {}) {
   const dark = matchMedia('(prefers-color-scheme: dark)');
   const set = () => {
     const chosen = localStorage.getItem(KEY);

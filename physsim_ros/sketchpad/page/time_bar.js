@@ -4,6 +4,8 @@
 import {createElement, elementOf, iconButton} from './dom.js';
 import {capital} from './words.js';
 
+/** @import {App} from './types.js' */
+
 /** Name, service, key. @type {[string, string, string][]} */
 export const TIME = [
   ['Fast rewind', 'fast_rewind', 'Shift+J'], ['Rewind', 'rewind', 'J'], ['Pause', 'pause', 'K'],
@@ -16,7 +18,7 @@ const MORE = new Map([['step', ': one frame on'], ['reset', ': back to the begin
 const SPEEDS = [1, 0.5, 0.25, 0.1];
 
 export class TimeBar {
-  /** @param {import('./app.js').App} app */
+  /** @param {App} app */
   constructor(app) {
     this.app = app;
     this.slider = elementOf('slider', HTMLInputElement);

@@ -3,11 +3,13 @@
 
 import {createElement} from './dom.js';
 
+/** @import {Camera} from './types.js' */
+
 const HELD = 500; // ms that a finger stays on a button to ask what it does
 const GAP = 8; // px between a button and its tip, and to the edges of the page
 
 export class Tips {
-  /** @param {import('./camera.js').Camera} camera */
+  /** @param {Camera} camera */
   constructor(camera) {
     this.camera = camera;
     this.tip = document.body.appendChild(createElement('div', {id: 'tip', role: 'tooltip', hidden: true}));

@@ -7,39 +7,41 @@ import {Hand} from './tools/hand.js';
 import {Lasso} from './tools/lasso.js';
 import {Pen} from './tools/pen.js';
 
+/** @import {App, Tool} from './types.js' */
+
 /** Groups of tools: id, name, key, hint. @type {[string, string, string, string][][]} */
 export const TOOLS = [[
-  ['pen', 'Pen', 'p', 'Draw freely: circles, boxes, lines; a zigzag is a spring, a small circle an axle, an x anchors'],
-  ['hand', 'Hand', 'h', 'Drag and throw bodies; tap one to change it'],
-  ['lasso', 'Lasso', 's', 'Choose several bodies; drag them, or delete them'],
+  ['pen', 'Pen', 'p', 'draw freely: circles, boxes, lines; a zigzag is a spring, a small circle an axle, an x anchors'],
+  ['hand', 'Hand', 'h', 'drag and throw bodies; tap one to change it'],
+  ['lasso', 'Lasso', 's', 'choose several bodies; drag them, or delete them'],
 ], [
-  ['circle', 'Circle', 'c', 'From the centre to the rim'],
-  ['circle_diameter', 'Circle by diameter', 'd', 'From edge to edge'],
-  ['rectangle', 'Rectangle', 'b', 'Drag one side, then click the side across'],
-  ['polygon', 'Polygon', 'g', 'Corner after corner; the first one again closes it'],
-  ['wall', 'Wall', 'w', 'A fixed line'],
+  ['circle', 'Circle', 'c', 'from the centre to the rim'],
+  ['circle_diameter', 'Circle by diameter', 'd', 'from edge to edge'],
+  ['rectangle', 'Rectangle', 'b', 'drag one side, then click the side across'],
+  ['polygon', 'Polygon', 'g', 'corner after corner; the first one again closes it'],
+  ['wall', 'Wall', 'w', 'a fixed line'],
 ], [
-  ['anchor', 'Anchor', 'a', 'Fix a body to the background'],
-  ['release', 'Release', 'e', 'Free a body of anchor, pins and axles'],
-  ['pin', 'Pin', 'i', 'Weld two bodies'],
-  ['axle', 'Axle', 'x', 'Let two bodies turn about a point'],
-  ['spring', 'Spring', 'z', 'From body to body, or to the background'],
-  ['rod', 'Rod', 'o', 'Keeps the distance of two points'],
-  ['rope', 'Rope', 'y', 'Pulls, but does not push'],
+  ['anchor', 'Anchor', 'a', 'fix a body to the background'],
+  ['release', 'Release', 'e', 'free a body of anchor, pins and axles'],
+  ['pin', 'Pin', 'i', 'weld two bodies'],
+  ['axle', 'Axle', 'x', 'let two bodies turn about a point'],
+  ['spring', 'Spring', 'z', 'from body to body, or to the background'],
+  ['rod', 'Rod', 'o', 'keeps the distance of two points'],
+  ['rope', 'Rope', 'y', 'pulls, but does not push'],
 ], [
-  ['velocity', 'Velocity', 'v', 'Drag an arrow from a body: 1 m is 1 m/s'],
-  ['gravity', 'Gravity', 'u', 'Drag an arrow: down is there'],
-  ['delete', 'Delete', 't', 'Take a body away'],
+  ['velocity', 'Velocity', 'v', 'drag an arrow from a body: 1 m is 1 m/s'],
+  ['gravity', 'Gravity', 'u', 'drag an arrow: down is there'],
+  ['delete', 'Delete', 't', 'take a body away'],
 ]];
 
-/** @type {Record<string, new (app: import('./app.js').App) => import('./app.js').Tool>} */
+/** @type {Record<string, new (app: App) => Tool>} */
 const OWN = {pen: Pen, hand: Hand, lasso: Lasso};
 
 export class Toolbar {
-  /** @param {import('./app.js').App} app */
+  /** @param {App} app */
   constructor(app) {
     this.app = app;
-    /** @type {Map<string, {tool: import('./app.js').Tool, button: HTMLButtonElement}>} */
+    /** @type {Map<string, {tool: Tool, button: HTMLButtonElement}>} */
     this.tools = new Map();
     const bar = elementOf('tools', HTMLElement);
     for (const group of TOOLS) {
@@ -61,7 +63,7 @@ export class Toolbar {
   selectTool(id) {
     this.#select(id);
     const [, name, , hint] = TOOLS.flat().find(([each]) => each === id) ?? ['', '', '', ''];
-    this.app.hints.showTool(`${name}: ${hint[0].toLowerCase()}${hint.slice(1)}.`);
+    this.app.hints.showTool(`${name}: ${hint}.`);
   }
 
   /** @param {string} id */

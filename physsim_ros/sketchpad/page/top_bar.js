@@ -5,8 +5,10 @@ import {createElement, elementOf, iconButton} from './dom.js';
 import {showHelp} from './help.js';
 import {switchTheme} from './theme.js';
 
+/** @import {App} from './types.js' */
+
 export class TopBar {
-  /** @param {import('./app.js').App} app */
+  /** @param {App} app */
   constructor(app) {
     this.app = app;
     this.recording = createElement('a', {target: '_blank', rel: 'noopener', hidden: true, className: 'button',

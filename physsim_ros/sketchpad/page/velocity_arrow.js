@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The velocity of the selected body as an arrow; dragging the ring at its tip changes it, with any tool. */
 
-/** @typedef {import('./wire.js').Point} Point */
-/** @typedef {import('./pointer.js').Touch} Touch */
+/** @import {App, Point, SceneView, Touch} from './types.js' */
 
 const GRIP = 14; // px around the tip
 const GAP = 22; // px between a body's centre and the tail of its arrow
 const RING = 7; // px
 
 export class VelocityArrow {
-  /** @param {import('./app.js').App} app */
+  /** @param {App} app */
   constructor(app) {
     this.app = app;
     /** @type {?Point} where the tip is dragged to [px] */
@@ -61,7 +60,7 @@ export class VelocityArrow {
     return {center, tip: [center[0] + vx + GAP * ux, center[1] + vy + GAP * uy]};
   }
 
-  /** @param {import('./scene_view.js').SceneView} view */
+  /** @param {SceneView} view */
   #draw(view) {
     const ends = this.#ends();
     if (!ends) return;

@@ -1,36 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The messages of the server (docs/page_protocol.md): their types, and frames decoded. */
+/** Frames of the server, decoded (docs/page_protocol.md). */
 
-/** @typedef {[number, number]} Point x, y [m]; on the page [px] */
-/** @typedef {{kind: string, radius: number, center?: Point, outline: Point[], points: Point[], thickness: number,
- *   pieces: Shape[]}} Shape of a body, in its frame [m]; the fields are those of its kind */
-/** @typedef {{name: string, shape: Shape, color: number[], anchored: boolean, kinematic: boolean,
- *   sensor: boolean, mass: number, moment: number, density: number, friction: number,
- *   elasticity: number, centroid: Point}} Body */
-/** @typedef {{name: string, kind: string, a: number, b: number, points: Point[], axis: Point,
- *   rest_length: number, lower?: number, upper?: number, rate?: number}} Joint
- *   a, b: rows of its bodies, -1 the background */
-/** @typedef {{epoch: number, bodies: Body[], joints: Joint[], gravity: Point, bounds: number[],
- *   damping: number}} Scene */
-/** @typedef {{id: number, from: number, to: number}} Course that was left, from .. to [s] */
-/** @typedef {{state: string, oldest: number, now: number, newest: number, course: number,
- *   undo: string, redo: string, speed: number, courses?: Course[]}} Timeline */
-/** @typedef {{request: string, ok: boolean, code: string, message: string, subject: string,
- *   topic: string,
- *   values: Record<string, string>}} Answer */
-/** @typedef {{request: string, meaning: string, confidence: number, runner_up: string,
- *   runner_up_confidence: number, guesses: [string, number][], outline: Point[],
- *   built: boolean}} Reading of a stroke */
-/**
- * The state of the world after a step, a column for each quantity; rows as in the scene.
- * @typedef {{epoch: number, time: number, speed: number, ghost: boolean,
- *   x: Float32Array, y: Float32Array, yaw: Float32Array,
- *   velocities?: {x: Float32Array, y: Float32Array, spin: Float32Array},
- *   contacts?: {x: Float32Array, y: Float32Array, nx: Float32Array, ny: Float32Array,
- *     impulse: Float32Array},
- *   forces?: Float32Array,
- *   hands?: {x: Float32Array, y: Float32Array, toX: Float32Array, toY: Float32Array}}} Frame
- */
+/** @import {Frame} from './types.js' */
 
 const HEADER = 24; // bytes
 const VELOCITIES = 1, CONTACTS = 2, FORCES = 4, HANDS = 8, GHOST = 16;

@@ -4,7 +4,7 @@
  * by their names and begin with the verb of the request: `spawned drawn/3` is *Circle added* here.
  */
 
-/** @typedef {import('./wire.js').Body} Body */
+/** @import {Body, Connection, Point} from './types.js' */
 
 /** Verbs before the name of a body, and what is said after what it is. */
 const VERBS = new Map([['spawned', 'added'], ['changed', 'changed'], ['moved', 'moved'], ['deleted', 'deleted'],
@@ -22,7 +22,7 @@ const EQUAL = 1e-3; // share of a diagonal: no farther apart is equal
 const DRAWN = /\b(?:(body|joint|axle|pin|spring|rod|rope|motor|slider|gear) )?(drawn\/\d+)/g;
 
 export class Words {
-  /** @param {import('./connection.js').Connection} connection */
+  /** @param {Connection} connection */
   constructor(connection) {
     /** Words for the bodies of the last scene, and of the one before: answers come before and after theirs. */
     this.known = /** @type {Map<string, string>[]} */ ([new Map(), new Map()]);
@@ -81,7 +81,7 @@ export function shapeWord({shape: {kind, outline}}) {
   return kind === 'polygon' && isRectangle(outline) ? 'rectangle' : 'shape';
 }
 
-/** @param {import('./wire.js').Point[]} outline */
+/** @param {Point[]} outline */
 function isRectangle([a, b, c, d, ...others]) {
   // Its diagonals are of one length, and halve each other.
   const [p, q] = [Math.hypot(c[0] - a[0], c[1] - a[1]), Math.hypot(d[0] - b[0], d[1] - b[1])];

@@ -3,22 +3,22 @@
 
 import {boundsOf, containsPoint, nearestWithin, unionOf} from './body_path.js';
 
-/** @typedef {import('./wire.js').Point} Point */
+/** @import {Body, Connection, Frame, Point, Scene, Timeline} from './types.js' */
 
 export class WorldState {
-  /** @param {import('./connection.js').Connection} connection */
+  /** @param {Connection} connection */
   constructor(connection) {
-    /** @type {import('./wire.js').Scene} */
+    /** @type {Scene} */
     this.scene = {epoch: -1, bodies: [], joints: [], gravity: [0, -9.81], bounds: [], damping: 0};
-    /** @type {import('./wire.js').Frame} */
+    /** @type {Frame} */
     this.frame = {epoch: -1, time: 0, speed: 0, ghost: false,
       x: new Float32Array(), y: new Float32Array(), yaw: new Float32Array()};
-    /** @type {import('./wire.js').Timeline} */
+    /** @type {Timeline} */
     this.timeline = {state: 'paused', oldest: 0, now: 0, newest: 0, course: 0, undo: '', redo: '',
       speed: 0, courses: []};
-    /** @type {?import('./wire.js').Frame} of a course that was left, at the time that is shown */
+    /** @type {?Frame} of a course that was left, at the time that is shown */
     this.ghost = null;
-    /** @type {{epoch: number, bodies: import('./wire.js').Body[]}} */
+    /** @type {{epoch: number, bodies: Body[]}} */
     this.ghostScene = {epoch: 0, bodies: []};
     this.rate = 60; // frames a second of simulation
     this.version = 0; // of all that is drawn

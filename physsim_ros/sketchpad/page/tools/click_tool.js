@@ -4,8 +4,7 @@
  * edge, a side and then its distance. The unfinished shape follows the pointer.
  */
 
-/** @typedef {import('../pointer.js').Touch} Touch */
-/** @typedef {import('../wire.js').Point} Point */
+/** @import {App, Point, SceneView, Touch} from '../types.js' */
 
 const DRAG = 6; // px: farther than that, letting go is a click too
 const CLOSE = 12; // px around the first corner of a polygon
@@ -15,7 +14,7 @@ const ARROWS = ['velocity', 'gravity'], JOINTS = ['spring', 'rod', 'rope'];
 
 export class ClickTool {
   /**
-   * @param {import('../app.js').App} app
+   * @param {App} app
    * @param {string} id of the tool
    */
   constructor(app, id) {
@@ -96,7 +95,7 @@ export class ClickTool {
     return row < 0 ? at : world.place(row, world.gripOn(row, at));
   }
 
-  /** @param {import('../scene_view.js').SceneView} view */
+  /** @param {SceneView} view */
   draw(view) {
     if (!this.points.length || !this.last) return;
     const color = view.palette.accent, points = [...this.points.map(({at}) => at), this.last.at];

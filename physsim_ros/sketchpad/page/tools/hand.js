@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The hand: pulls a body and throws it; in a paused world places and turns it; else moves the view. */
 
-/** @typedef {import('../pointer.js').Touch} Touch */
-/** @typedef {import('../wire.js').Point} Point */
+/** @import {App, Point, SceneView, Touch} from '../types.js' */
 
 const TAP = 4; // px
 const CATCH = 120; // ms after which a body that is pressed is caught
 
 export class Hand {
-  /** @param {import('../app.js').App} app */
+  /** @param {App} app */
   constructor(app) {
     this.app = app;
     /** @type {'' | 'pressed' | 'holding' | 'carrying' | 'panning'} */
@@ -108,7 +107,7 @@ export class Hand {
     this.app.connection.send('move', {point: this.last?.at, ...yaw});
   }
 
-  /** @param {import('../scene_view.js').SceneView} view */
+  /** @param {SceneView} view */
   draw(view) {
     if (this.state !== 'carrying' || !this.start || !this.last) return;
     const row = this.app.world.row(this.name);

@@ -3,12 +3,12 @@
 
 import {inside} from '../body_path.js';
 
-/** @typedef {import('../pointer.js').Touch} Touch */
+/** @import {App, Point, SceneView, Touch} from '../types.js' */
 
 const TAP = 5; // px
 
 export class Lasso {
-  /** @param {import('../app.js').App} app */
+  /** @param {App} app */
   constructor(app) {
     this.app = app;
     /** @type {Touch[]} */
@@ -45,7 +45,7 @@ export class Lasso {
     this.path = [];
   }
 
-  /** @param {import('../scene_view.js').SceneView} view */
+  /** @param {SceneView} view */
   draw(view) {
     if (!this.path.length) return;
     if (!this.carrying) view.line(this.path.map(({at}) => at), view.palette.accent, [6, 6]);
@@ -58,7 +58,7 @@ export class Lasso {
 
 /**
  * @param {Touch[]} path
- * @returns {import('../wire.js').Point} from its first to its last point [m]
+ * @returns {Point} from its first to its last point [m]
  */
 function offset(path) {
   const [x, y] = path[0].at, [endX, endY] = path[path.length - 1].at;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The pen: a freehand stroke, sent when the pen is lifted; a tap selects the body under it. */
 
-/** @typedef {import('../pointer.js').Touch} Touch */
+/** @import {App, SceneView, Touch} from '../types.js' */
 
 const TAP = 5; // px: no farther, and no longer than TAP_TIME, is a tap
 const TAP_TIME = 0.4; // s
 const MOST_SAMPLES = 4000;
 
 export class Pen {
-  /** @param {import('../app.js').App} app */
+  /** @param {App} app */
   constructor(app) {
     this.app = app;
     /** @type {Touch[]} */
@@ -43,7 +43,7 @@ export class Pen {
     this.samples = [];
   }
 
-  /** @param {import('../scene_view.js').SceneView} view */
+  /** @param {SceneView} view */
   draw(view) {
     if (this.samples.length) view.line(this.samples.map(({at}) => at), view.palette.accent);
   }

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+/**
+ * Types that files of the page share: messages of the server (docs/page_protocol.md), and tools.
+ *
+ * The browser never loads this file; `make lint` and editors read it.
+ */
+
+export type {App} from './app.js';
+export type {Camera} from './camera.js';
+export type {Connection} from './connection.js';
+export type {SceneView} from './scene_view.js';
+export type {WorldState} from './world_state.js';
+
+import type {SceneView} from './scene_view.js';
+
+/** x, y [m]; on the page [px]. */
+export type Point = [number, number];
+
+/** Of a body, in its frame [m]; the fields are those of its kind. */
+export interface Shape {
+  kind: string;
+  radius: number;
+  center?: Point;
+  outline: Point[];
+  points: Point[];
+  thickness: number;
+  pieces: Shape[];
+}
+
+export interface Body {
+  name: string;
+  shape: Shape;
+  color: number[];
+  anchored: boolean;
+  kinematic: boolean;
+  sensor: boolean;
+  mass: number;
+  moment: number;
+  density: number;
+  friction: number;
+  elasticity: number;
+  centroid: Point;
+}
+
+export interface Joint {
+  name: string;
+  kind: string;
+  /** Rows of its bodies; -1 is the background. */
+  a: number;
+  b: number;
+  points: Point[];
+  axis: Point;
+  rest_length: number;
+  lower?: number;
+  upper?: number;
+  rate?: number;
+}
+
+export interface Scene {
+  epoch: number;
+  bodies: Body[];
+  joints: Joint[];
+  gravity: Point;
+  bounds: number[];
+  damping: number;
+}
+
+/** The state of the world after a step, a column for each quantity; rows as in the scene. */
+export interface Frame {
+  epoch: number;
+  time: number;
+  speed: number;
+  ghost: boolean;
+  x: Float32Array;
+  y: Float32Array;
+  yaw: Float32Array;
+  velocities?: {x: Float32Array, y: Float32Array, spin: Float32Array};
+  contacts?: {x: Float32Array, y: Float32Array, nx: Float32Array, ny: Float32Array, impulse: Float32Array};
+  forces?: Float32Array;
+  hands?: {x: Float32Array, y: Float32Array, toX: Float32Array, toY: Float32Array};
+}
+
+/** A course that was left, from .. to [s]. */
+export interface Course {
+  id: number;
+  from: number;
+  to: number;
+}
+
+export interface Timeline {
+  state: string;
+  oldest: number;
+  now: number;
+  newest: number;
+  course: number;
+  undo: string;
+  redo: string;
+  speed: number;
+  courses?: Course[];
+}
+
+export interface Answer {
+  request: string;
+  ok: boolean;
+  code: string;
+  message: string;
+  subject: string;
+  topic: string;
+  values: Record<string, string>;
+}
+
+/** What a stroke is read as. */
+export interface Reading {
+  request: string;
+  meaning: string;
+  confidence: number;
+  runner_up: string;
+  runner_up_confidence: number;
+  guesses: [string, number][];
+  outline: Point[];
+  built: boolean;
+}
+
+/** Colours of the canvas. */
+export interface Palette {
+  paper: string;
+  minor: string;
+  major: string;
+  faint: string;
+  ink: string;
+  accent: string;
+  force: string;
+  warn: string;
+}
+
+/** A pointer on the canvas. */
+export interface Touch {
+  /** [m] */
+  at: Point;
+  /** [px] */
+  page: Point;
+  /** [s] */
+  time: number;
+  /** How far beside a body counts [m]. */
+  slop: number;
+}
+
+/** What works a pointer: a tool of the toolbar, or the arrow of a velocity. */
+export interface Tool {
+  down(touch: Touch): void;
+  move(touch: Touch): void;
+  up(touch: Touch): void;
+  cancel(): void;
+  draw(view: SceneView): void;
+  /** Whether wheel, R and a second finger turn the body in the tool. */
+  turns?: boolean;
+  /** @param angle [rad] */
+  turn?(angle: number): void;
+  /** Of a gesture, where it is made by clicks. */
+  clicks?: number;
+  /** Finish an open gesture; false where there is none. */
+  finish?(): boolean;
+  /** Colour of the body that it is pointed at. */
+  aims?: 'accent' | 'warn';
+}
