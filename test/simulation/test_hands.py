@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Hands grab bodies, drag, throw and place them; every drag is rewound to the same bits."""
+"""Hands grab bodies, drag, throw and let go."""
 
 from __future__ import annotations
 
@@ -22,7 +22,6 @@ import numpy as np
 from physsim_ros.model.errors import Malformed, Refusal
 from physsim_ros.model.requests import (
     Anchor,
-    Configure,
     Delete,
     DeleteAll,
     Grab,
@@ -32,7 +31,7 @@ from physsim_ros.model.requests import (
     Spawn,
 )
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Box, Compound, Disc
+from physsim_ros.model.shapes import Box, Disc
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.model.transform import Point
 from physsim_ros.simulation.simulation import Simulation
@@ -41,7 +40,6 @@ import pytest
 
 from ..building import BOX, DISC, DT, NOWHERE, spawn, spawning, twist
 
-PERIOD = 1e9 / 60
 TOPIC = '~/drag/feedback'
 # A rod, and the arm of a grip near its end [m].
 ROD, ARM = Box(width=2.0, height=0.1), 0.9
@@ -224,282 +222,3 @@ def test_a_body_keeps_its_hand_when_its_shape_changes() -> None:
     dragged(world, (2.2, 0.0), 240)
 
     assert world.snapshot().poses[0, 0] == pytest.approx(2.0, abs=1e-3)
-
-
-# In time
-
-
-def drag(sim: Simulation, *, frames: int = 120) -> None:
-    """Drag `a/0` along a circle among other bodies, throw it, and go on for as long."""
-    sim.perform(FLOOR)
-    for number in range(8):
-        sim.perform(spawning(f'a/{number}', BOX, (number / 10, 0.5 + number, 0.0)))
-    for number in range(frames):
-        angle = number / 15
-        point = (2.0 * math.sin(angle), 1.5 - math.cos(angle))
-        sim.requests.submit(
-            MoveHand(hand='h', point=point) if number else Grab(hand='h', point=(0.0, 0.5)),
-            topic=TOPIC,
-        )
-        sim.advance_frame()
-    sim.requests.submit(LetGo(hand='h'), topic=TOPIC)
-    for _ in range(frames):
-        sim.advance_frame()
-
-
-def test_a_drag_is_rewound_and_played_again_to_the_same_bits() -> None:
-    # Checkpoints lie in the middle of the drag.
-    sim = Simulation(checkpoints=0.5)
-    drag(sim)
-    last, end = sim.world.digest(), sim.world.stamp
-    digests = {}
-    for stamp in (10**9 // 2, 10**9, 10**9 * 3 // 2, end, 10**9 // 4):
-        sim.seek(stamp)
-        digests[stamp] = sim.world.digest()
-    assert digests[end] == last
-    assert len(sim.world.grips) == 1
-
-    # Forward again, past checkpoints and the release.
-    while sim.world.stamp < end:
-        frame = sim.advance_frame()
-        assert not frame.answers
-        assert digests.get(sim.world.stamp, sim.world.digest()) == sim.world.digest()
-    assert sim.world.digest() == last
-
-
-def test_a_drag_is_one_gesture_to_undo_and_to_redo() -> None:
-    sim = Simulation()
-    drag(sim, frames=20)
-    last = sim.world.digest()
-
-    sim.undo()
-
-    assert sim.step == 0
-    assert len(sim.world) == 9
-    assert sim.world.grips == ()
-    sim.redo()
-    assert sim.world.digest() == last
-
-
-def test_only_the_grab_and_its_end_are_answered() -> None:
-    sim = Simulation(settings=NOWHERE)
-    sim.perform(spawning('a/0', DISC))
-    frames = []
-    for request in (
-        Grab(hand='h', point=(0.0, 0.0)),
-        *(MoveHand(hand='h', point=(x / 10, 0.0)) for x in range(10)),
-        LetGo(hand='h'),
-    ):
-        sim.requests.submit(request, topic=TOPIC)
-        frames.append(sim.advance_frame())
-
-    assert [answer.message for frame in frames for answer in frame.answers] == [
-        'grabbed a/0',
-        'let go of a/0',
-    ]
-
-
-def test_a_thousand_moves_between_two_frames_are_logged_as_one() -> None:
-    sim = Simulation(settings=NOWHERE)
-    sim.perform(spawning('a/0', DISC))
-    sim.requests.submit(Grab(hand='h', point=(0.0, 0.0)), topic=TOPIC)
-    for number in range(1001):
-        sim.requests.submit(MoveHand(hand='h', point=(number / 1000, 0.0)), topic=TOPIC)
-    frame = sim.advance_frame()
-
-    assert frame.snapshot.grips[0].target == (1.0, 0.0)
-    history = sim.past.timeline.history
-    assert [type(entry.request).__name__ for entry in history.log.entries_between(1, 9)] == [
-        'Grab',
-        'MoveHand',
-    ]
-
-
-def test_moves_do_not_pass_what_a_hand_does_in_between() -> None:
-    sim = Simulation(settings=NOWHERE)
-    sim.perform(spawning('a/0', DISC))
-    for request in (
-        Grab(hand='h', point=(0.0, 0.0)),
-        MoveHand(hand='h', point=(0.1, 0.0)),
-        LetGo(hand='h'),
-        Grab(hand='h', point=(0.0, 0.1)),
-        MoveHand(hand='h', point=(0.0, 0.2)),
-    ):
-        sim.requests.submit(request, topic=TOPIC)
-
-    (grip,) = sim.advance_frame().snapshot.grips
-    assert (grip.anchor, grip.target) == ((0.0, 0.1), (0.0, 0.2))
-
-
-def test_a_silent_hand_lets_go_after_five_seconds_of_running_time() -> None:
-    sim = Simulation(settings=NOWHERE)
-    sim.perform(spawning('a/0', DISC))
-    sim.requests.submit(Grab(hand='h', point=(0.0, 0.0)), topic=TOPIC)
-    answers = []
-    for number in range(400):
-        if number == 60:
-            sim.requests.submit(MoveHand(hand='h', point=(0.5, 0.0)), topic=TOPIC)
-        for frame in sim.advance(round(number * PERIOD)):
-            answers += [(number, answer.message) for answer in frame.answers]
-
-    (_, grabbed), (number, told) = answers
-    assert (grabbed, told) == ('grabbed a/0', 'h is silent and has let go of a/0')
-    assert number == pytest.approx(60 + 300, abs=3)
-    # It is one gesture still.
-    sim.undo()
-    assert (sim.step, sim.world.grips) == (0, ())
-
-
-def test_a_pause_is_no_silence() -> None:
-    sim = Simulation(settings=NOWHERE)
-    sim.perform(spawning('a/0', DISC))
-    sim.requests.submit(Grab(hand='h', point=(0.0, 0.0)), topic=TOPIC)
-    sim.advance(0)
-    sim.speed = 0.0
-    for seconds in range(1, 60):
-        sim.advance(seconds * 10**9)
-    sim.speed = 1.0
-
-    assert sim.advance_frame().snapshot.grips
-
-
-def test_a_hand_that_grabbed_at_another_time_changes_nothing() -> None:
-    sim = Simulation(settings=NOWHERE)
-    sim.perform(spawning('a/0', DISC))
-    sim.advance_frame()
-    sim.requests.submit(Grab(hand='h', point=(0.0, 0.0)), topic=TOPIC)
-    for _ in range(60):
-        sim.advance_frame()
-    end = sim.world.stamp
-    sim.seek(10**9 // 2)
-    before = sim.world.digest()
-
-    sim.requests.submit(MoveHand(hand='h', point=(7.0, 0.0)), topic=TOPIC)
-    sim.requests.submit(LetGo(hand='h'), topic=TOPIC)
-    frame = sim.settle()
-
-    assert frame is not None
-    assert [answer.message for answer in frame.answers] == ['h holds no body']
-    assert sim.world.digest() == before
-    # The hand of the past lets go where its past ends.
-    while sim.world.stamp < end:
-        assert sim.advance_frame().snapshot.grips
-    assert not sim.advance_frame().snapshot.grips
-
-
-def test_a_branch_has_no_hands_of_the_course_that_it_left() -> None:
-    sim = Simulation(settings=NOWHERE)
-    sim.perform(spawning('a/0', DISC))
-    sim.requests.submit(Grab(hand='h', point=(0.0, 0.0)), topic=TOPIC)
-    for _ in range(60):
-        sim.advance_frame()
-    sim.seek(10**9 // 2)
-    sim.perform(Configure(changes={'damping': 0.5}))
-
-    assert not sim.advance_frame().snapshot.grips
-
-
-@pytest.mark.parametrize('action', ['reset', 'undo'])
-def test_a_hand_lives_through_a_change_of_course(action: str) -> None:
-    sim = Simulation(settings=NOWHERE)
-    sim.perform(spawning('a/0', DISC))
-    sim.requests.submit(Grab(hand='h', point=(0.0, 0.0)), topic=TOPIC)
-    sim.advance_frame()
-    getattr(sim, action)()
-
-    for request in (MoveHand(hand='h', point=(7.0, 0.0)), LetGo(hand='h')):
-        sim.requests.submit(request, topic=TOPIC)
-    frame = sim.advance_frame()
-
-    assert [answer.message for answer in frame.answers][-1] == 'h holds no body'
-    assert not frame.snapshot.grips
-
-
-# In a paused world
-
-
-def paused(*spawns: Spawn) -> Simulation:
-    sim = Simulation(speed=0.0)
-    for request in spawns:
-        sim.perform(request)
-    return sim
-
-
-def test_in_a_paused_world_the_body_is_placed_and_turned() -> None:
-    sim = paused(spawning('a/0', BOX, (0.0, 3.0, 0.0), velocity=(1.0, 2.0)))
-    sim.requests.submit(Grab(hand='h', point=(0.4, 3.0)), topic=TOPIC)
-    sim.requests.submit(MoveHand(hand='h', point=(5.4, 4.0)), topic=TOPIC)
-    (frame,) = sim.advance(0)
-    assert frame.snapshot.poses[0] == pytest.approx([5.0, 4.0, 0.0])
-
-    sim.requests.submit(MoveHand(hand='h', point=(5.4, 4.0), yaw=math.pi / 2), topic=TOPIC)
-    sim.requests.submit(LetGo(hand='h'), topic=TOPIC)
-    (frame,) = sim.advance(1)
-
-    assert frame.snapshot.poses[0] == pytest.approx([5.4, 3.6, math.pi / 2])
-    assert frame.snapshot.twists[0] == pytest.approx([1.0, 2.0, 0.0])
-    assert frame.snapshot.step == 0
-
-
-def test_placing_is_one_gesture_and_the_same_bits_again() -> None:
-    sim = paused(FLOOR, spawning('a/0', BOX, (0.0, 0.5, 0.0)), spawning('a/1', BOX, (0, 1.5, 0)))
-    sim.advance_frame()
-    before = sim.world.digest()
-    sim.requests.submit(Grab(hand='h', point=(0.0, 1.5)), topic=TOPIC)
-    for number in range(10):
-        sim.requests.submit(MoveHand(hand='h', point=(number / 5, 1.5)), topic=TOPIC)
-        sim.advance(number)
-    sim.requests.submit(LetGo(hand='h'), topic=TOPIC)
-    for _ in range(60):
-        sim.advance_frame()
-    last, end = sim.world.digest(), sim.world.stamp
-
-    sim.seek(0)
-    sim.seek(end)
-    assert sim.world.digest() == last
-    sim.undo()
-    assert sim.world.digest() == before
-
-
-def test_in_a_paused_world_a_wall_can_be_placed_but_what_moves_comes_first() -> None:
-    wall = spawning('wall/0', BOX, anchored=True)
-    sim = paused(spawning('a/0', DISC), wall)
-    for number, (hand, point) in enumerate((('g', (0.0, 0.0)), ('h', (0.45, 0.45)))):
-        sim.requests.submit(Grab(hand=hand, point=point), topic=TOPIC)
-        sim.requests.submit(
-            MoveHand(hand=hand, point=(point[0] + 3.0, point[1] + number)), topic=TOPIC
-        )
-
-    (frame,) = sim.advance(0)
-
-    assert frame.snapshot.poses[:, :2] == pytest.approx(np.array([[3.0, 0.0], [3.0, 1.0]]))
-
-
-def test_a_body_grabbed_in_a_paused_world_is_dragged_when_time_goes_on() -> None:
-    sim = paused(spawning('a/0', DISC, (0.0, 3.0, 0.0)))
-    sim.requests.submit(Grab(hand='h', point=(0.0, 3.0)), topic=TOPIC)
-    sim.advance(0)
-    sim.speed = 1.0
-    for number in range(60):
-        sim.advance(round(number * PERIOD))
-    sim.requests.submit(MoveHand(hand='h', point=(1.0, 3.0)), topic=TOPIC)
-    for number in range(60, 120):
-        sim.advance(round(number * PERIOD))
-
-    assert sim.world.snapshot().poses[0, :2] == pytest.approx([1.0, 3.0], abs=0.02)
-
-
-def test_a_body_is_not_placed_where_too_much_would_overlap() -> None:
-    heap = Compound(element=Disc(radius=1.0), centers=((0.0, 0.0),) * 8)
-    sim = Simulation(speed=0.0, settings=WorldSettings(max_overlaps=60))
-    for number in range(2):
-        sim.perform(spawning(f'a/{number}', heap, (9.0 * number, 0.0, 0.0)))
-    sim.requests.submit(Grab(hand='h', point=(9.0, 0.0)), topic=TOPIC)
-    sim.advance(0)
-    before = sim.world.digest()
-
-    sim.requests.submit(MoveHand(hand='h', point=(0.0, 0.0)), topic=TOPIC)
-    (frame,) = sim.advance(1)
-
-    assert [answer.code for answer in frame.answers] == ['world_full']
-    assert sim.world.digest() == before
