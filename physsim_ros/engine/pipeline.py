@@ -40,8 +40,9 @@ from physsim_ros.engine.batch_io import BatchIO
 from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.ccd.continuous import ContinuousCollision
 from physsim_ros.engine.ccd.hulls import Hulls
-from physsim_ros.engine.contacts.contact_points import set_contact
+from physsim_ros.engine.contacts.contact import read_contact, write_contact
 from physsim_ros.engine.contacts.contact_report import ContactReport
+from physsim_ros.engine.contacts.side import read_sides
 from physsim_ros.engine.joints.joint_set import JointSet
 from physsim_ros.engine.stages.contact_normal import contact_at_impact
 from physsim_ros.engine.stages.contact_projection import project_contact
@@ -137,15 +138,15 @@ class Pipeline:
         """Handle two shapes that begin to touch, before the solver runs."""
         if self._context is None:
             return
-        contact, shapes = arbiter.contact_point_set, arbiter.shapes
-        if self._false_contacts.reject(arbiter, contact, shapes):
+        contact, sides = read_contact(arbiter), read_sides(arbiter)
+        if self._false_contacts.reject(arbiter, contact, sides):
             return
-        if contact.points and not any(shape.sensor for shape in shapes):
+        if not (sides[0].shape.sensor or sides[1].shape.sensor):
             found = contact
-            contact = contact_at_impact(contact, shapes, self._context) or contact
-            contact = self._internal_edges.slide_over(contact, shapes) or contact
+            contact = contact_at_impact(contact, sides, self._context) or contact
+            contact = self._internal_edges.slide_over(contact, sides) or contact
             if contact is not found:
-                set_contact(arbiter, contact)
-            project_contact(contact, shapes, space, self._placed)
+                write_contact(arbiter, contact)
+            project_contact(contact, sides, space, self._placed)
         if self._context.watching:
-            self.contact_report.add_first_touch(arbiter, contact)
+            self.contact_report.add_first_touch(contact, sides)

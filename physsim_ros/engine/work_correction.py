@@ -23,8 +23,8 @@ from __future__ import annotations
 
 import math
 
+from physsim_ros.engine.plane_vectors import coordinates, dot
 import pymunk
-from pymunk import Vec2d
 
 
 def is_jointed(space: pymunk.Space, body: pymunk.Body) -> bool:
@@ -36,22 +36,23 @@ def is_jointed(space: pymunk.Space, body: pymunk.Body) -> bool:
     return dynamic and any(joint in inside for joint in body.constraints)
 
 
-def take_back_work(space: pymunk.Space, body: pymunk.Body, back: Vec2d, dt: float) -> None:
+def take_back_work(space: pymunk.Space, body: pymunk.Body, back: complex, dt: float) -> None:
     """
     Set the velocity of a body that is set back to that which it had at that place.
 
     :param back: the way by which it is set back [m]
     :param dt: of a step [s]
     """
-    pull = space.gravity + body.force / body.mass
-    work = pull.dot(back)
+    pull = complex(*space.gravity) + complex(*body.force) / body.mass
+    work = dot(pull, back)
     if not work:
         return
-    along = back.normalized()
+    velocity, along = complex(*body.velocity), back / abs(back)
     # The engine's velocity is that of half a step before.
-    speed = body.velocity.dot(along) + pull.dot(along) * dt / 2
+    speed = dot(velocity, along) + dot(pull, along) * dt / 2
     square = speed * speed + 2.0 * work
-    body.velocity += along * (math.copysign(math.sqrt(max(square, 0.0)), speed) - speed)
+    change = math.copysign(math.sqrt(max(square, 0.0)), speed) - speed
+    body.velocity = coordinates(velocity + along * change)
     if square < 0.0:
         # It has come so far by turning.
         spin = body.angular_velocity

@@ -34,11 +34,11 @@ from physsim_ros.engine.ccd.broad_phase import boxes_overlap
 from physsim_ros.engine.ccd.hulls import Hulls
 from physsim_ros.engine.ccd.impact_islands import ImpactIslands
 from physsim_ros.engine.ccd.standing import Standing, standing_shapes
+from physsim_ros.engine.plane_vectors import coordinates, dot
 from physsim_ros.engine.step_context import StepContext
 from physsim_ros.engine.work_correction import is_jointed, take_back_work
 from physsim_ros.model.arrays import Floats, Ints
 import pymunk
-from pymunk import Vec2d
 
 # So few fast bodies have their boxes compared first: it saves the rest, and changes no result.
 FEW = 8
@@ -79,13 +79,13 @@ class ContinuousCollision:
         step = ImpactIslands(table, self._standing, moves, self._hulls)
         for row, shift in step.shifts(fast):
             engine = table.bodies[row].engine
-            back = Vec2d(*shift[:2].tolist())
-            engine.position += back
+            back = complex(*shift[:2].tolist())
+            engine.position += coordinates(back)
             engine.angle += float(shift[2])
             if not is_jointed(self._space, engine):
-                way = Vec2d(*moves[row, :2].tolist())
+                way = complex(*moves[row, :2].tolist())
                 # As far as another body carries it, that is none of its own way.
-                share = -way.dot(back) / max(way.dot(way), 1e-300)
+                share = -dot(way, back) / max(dot(way, way), 1e-300)
                 take_back_work(self._space, engine, -way * min(max(share, 0.0), 1.0), dt)
                 context.twists[row] = *engine.velocity, engine.angular_velocity
             table.forget_state()

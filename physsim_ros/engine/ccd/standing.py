@@ -22,7 +22,6 @@ import numpy as np
 from physsim_ros.engine.body_table import BodyTable
 from physsim_ros.engine.ccd.hulls import Hull, Hulls
 from physsim_ros.engine.ccd.time_of_impact import ROUND
-from physsim_ros.engine.shape_pair import body_of
 from physsim_ros.model.arrays import Floats, Ints
 import pymunk
 
@@ -45,14 +44,15 @@ class Standing(NamedTuple):
 
 def standing_shapes(space: pymunk.Space, table: BodyTable, hulls: Hulls) -> Standing:
     """Return all shapes that never move, but sensors."""
-    shapes = [(shape, -1) for shape in space.static_body.shapes]
+    bodies = [(space.static_body, -1)]
     for row, rigid in enumerate(table.bodies):
         if rigid.body.anchored and not rigid.body.sensor:
-            shapes += [(shape, row) for shape in rigid.engine.shapes]
-    placed = [hulls.of_shape(shape).placed_on(body_of(shape)) for shape, _ in shapes]
+            bodies.append((rigid.engine, row))
+    shapes = [(shape, body, place) for body, place in bodies for shape in body.shapes]
+    placed = [hulls.of_shape(shape).placed_on(body) for shape, body, _ in shapes]
     return Standing(
         hulls=placed,
-        boxes=np.array([tuple(shape.bb) for shape, _ in shapes], np.float64).reshape(-1, 4),
-        places=np.array([place for _, place in shapes], np.int64),
+        boxes=np.array([tuple(shape.bb) for shape, *_ in shapes], np.float64).reshape(-1, 4),
+        places=np.array([place for *_, place in shapes], np.int64),
         corners=np.array([max(len(each.corners), ROUND) for each in placed], np.float64),
     )

@@ -29,6 +29,7 @@ from collections.abc import Callable
 import numpy as np
 from physsim_ros.engine.batch_io import BatchIO, Ids
 from physsim_ros.engine.body_table import BodyTable
+from physsim_ros.engine.contacts.contact import Contact
 from physsim_ros.engine.contacts.contact_listing import (
     list_pairs,
     PairListing,
@@ -36,10 +37,10 @@ from physsim_ros.engine.contacts.contact_listing import (
 )
 from physsim_ros.engine.contacts.manifolds import LastManifolds
 from physsim_ros.engine.contacts.pair_ids import find_pairs, NO_PAIRS, oriented, Renaming
+from physsim_ros.engine.contacts.side import Side
 from physsim_ros.engine.contacts.sleeping_pairs import read_sleeping_pairs, SleepingPairs
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.snapshot import Contacts, NO_CONTACTS
-import pymunk
 from pymunk import batch
 
 _F = batch.ArbiterFields
@@ -85,10 +86,10 @@ class ContactReport:
         # Whether no pair has begun to touch since the ids were read: as many pairs are the same.
         self.settled = False
 
-    def add_first_touch(self, arbiter: pymunk.Arbiter, contact: pymunk.ContactPointSet) -> None:
+    def add_first_touch(self, contact: Contact, sides: tuple[Side, Side]) -> None:
         """Store the manifold of two shapes that begin to touch: they may part within the frame."""
         self.settled = False
-        a, b = (body.id for body in arbiter.bodies)
+        a, b = (side.body.id for side in sides)
         self._last.add_first_touch(a, b, contact)
 
     def add_step(self, table: BodyTable) -> None:

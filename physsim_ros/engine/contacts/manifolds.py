@@ -23,22 +23,22 @@ from __future__ import annotations
 
 import numpy as np
 from physsim_ros.engine.batch_io import Ids
+from physsim_ros.engine.contacts.contact import Contact
 from physsim_ros.engine.contacts.pair_ids import find_pairs, NO_PAIRS, Renaming
 from physsim_ros.model.arrays import Floats
-import pymunk
 
 NO_MANIFOLDS: Floats = np.empty((5, 0))
 
 
-def manifold_of(contact: pymunk.ContactPointSet, sign: int) -> tuple[float, ...]:
+def manifold_of(contact: Contact, sign: int) -> tuple[float, ...]:
     """
     Return the manifold of a contact.
 
     :param sign: -1 where the engine has the body of the greater id first, else 1
     """
-    points = [(each.point_a + each.point_b) / 2 for each in contact.points]
-    mean = sum(points, pymunk.Vec2d(0, 0)) / max(1, len(points))
-    return (*(sign * contact.normal), len(points), *mean)
+    normal, count = sign * contact.normal, len(contact.points)
+    mean = sum((each.a + each.b) / 2 for each in contact.points) / max(1, count)
+    return normal.real, normal.imag, count, mean.real, mean.imag
 
 
 class LastManifolds:
@@ -53,9 +53,9 @@ class LastManifolds:
         self.ids: Ids = NO_PAIRS
         self.manifolds: Floats = NO_MANIFOLDS
         # By ids of the pair: the sign of the normal, and the contact.
-        self._first_touches: dict[tuple[int, int], tuple[int, pymunk.ContactPointSet]] = {}
+        self._first_touches: dict[tuple[int, int], tuple[int, Contact]] = {}
 
-    def add_first_touch(self, a: int, b: int, contact: pymunk.ContactPointSet) -> None:
+    def add_first_touch(self, a: int, b: int, contact: Contact) -> None:
         """Add the manifold of two bodies, by their ids, that begin to touch."""
         self._first_touches[min(a, b), max(a, b)] = (1 if a < b else -1, contact)
 

@@ -21,6 +21,7 @@ from typing import NamedTuple
 import numpy as np
 from physsim_ros.engine.batch_io import Ids
 from physsim_ros.engine.body_table import BodyTable
+from physsim_ros.engine.contacts.contact import read_contact
 from physsim_ros.engine.contacts.manifolds import manifold_of, NO_MANIFOLDS
 from physsim_ros.engine.contacts.pair_ids import NO_PAIRS
 from physsim_ros.model.arrays import Floats
@@ -54,7 +55,7 @@ def read_sleeping_pairs(table: BodyTable) -> SleepingPairs:
         a, b = (body.id for body in arbiter.bodies)
         sign = 1 if a < b else -1
         impulse = sign * arbiter.total_impulse
-        manifold = manifold_of(arbiter.contact_point_set, sign)
+        manifold = manifold_of(read_contact(arbiter), sign)
         key = arbiter._arbiter  # noqa: SLF001 - identifies a pair of shapes
         found[key] = (min(a, b), max(a, b)), (impulse.x, impulse.y), manifold
 

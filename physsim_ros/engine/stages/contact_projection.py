@@ -32,7 +32,9 @@ from collections import Counter
 import math
 
 from physsim_ros.engine.ccd.time_of_impact import SLOP
-from physsim_ros.engine.shape_pair import body_of, ShapePair
+from physsim_ros.engine.contacts.contact import Contact
+from physsim_ros.engine.contacts.side import Side
+from physsim_ros.engine.plane_vectors import coordinates, dot
 from physsim_ros.engine.work_correction import is_jointed, take_back_work
 import pymunk
 
@@ -41,8 +43,8 @@ MOST_PIECES = 4000
 
 
 def project_contact(
-    contact: pymunk.ContactPointSet,
-    shapes: ShapePair,
+    contact: Contact,
+    sides: tuple[Side, Side],
     space: pymunk.Space,
     placed: Counter[pymunk.Body],
 ) -> None:
@@ -54,30 +56,29 @@ def project_contact(
     point = min(contact.points, key=lambda point: point.distance)
     if -point.distance <= SLOP:
         return
-    bodies = tuple(body_of(shape) for shape in shapes)
-    if any(placed[body] >= MOST_PIECES for body in bodies):
+    if any(placed[side.body] >= MOST_PIECES for side in sides):
         return
-    dt, normal = space.current_time_step, contact.normal
-    sides = tuple(zip(bodies, (1.0, -1.0), (point.point_a, point.point_b), strict=True))
-    ahead = [
-        sign * body.velocity_at_world_point(place).dot(normal) * dt for body, sign, place in sides
-    ]
+    dt, (a, b) = space.current_time_step, sides
+    ahead = (
+        dot(a.velocity_at(point.a), contact.normal) * dt,
+        -dot(b.velocity_at(point.b), contact.normal) * dt,
+    )
     excess = min(-point.distance - SLOP, sum(ahead))
     if excess <= 0.0:
         return
-    inverse = [1.0 / body.mass if _may_move(body) else 0.0 for body in bodies]
+    inverse = [1.0 / side.body.mass if _may_move(side.body) else 0.0 for side in sides]
     if not any(inverse):
         return
-    jointed = any(is_jointed(space, body) for body in bodies)
-    for (body, sign, _), own, share in zip(sides, ahead, inverse, strict=True):
+    jointed = any(is_jointed(space, side.body) for side in sides)
+    for side, sign, own, share in zip(sides, (1.0, -1.0), ahead, inverse, strict=True):
         if not share:
             continue
-        back = excess * share / sum(inverse)
-        body.position -= normal * sign * back
+        body, back = side.body, excess * share / sum(inverse)
+        body.position = coordinates(side.position - contact.normal * sign * back)
         if not jointed:
             # Its own share only: the rest of the way is that of the other body.
             own_back = math.copysign(min(back, max(own, 0.0)), -sign)
-            take_back_work(space, body, normal * own_back, dt)
+            take_back_work(space, body, contact.normal * own_back, dt)
         # Further shapes of it, and further contacts, are found where it is now.
         for shape in body.shapes:
             shape.cache_bb()

@@ -35,7 +35,9 @@ from __future__ import annotations
 from typing import Any
 
 from physsim_ros.engine.ccd.hulls import Hull, Hulls
-from physsim_ros.engine.shape_pair import body_of, ShapePair
+from physsim_ros.engine.contacts.contact import Contact
+from physsim_ros.engine.contacts.side import Side
+from physsim_ros.engine.plane_vectors import coordinates
 import pymunk
 from pymunk._chipmunk_cffi import lib
 
@@ -58,21 +60,19 @@ class FalseContacts:
             arbiter.state = lib.CP_ARBITER_STATE_CACHED
         self._rejected.clear()
 
-    def reject(
-        self, arbiter: pymunk.Arbiter, contact: pymunk.ContactPointSet, shapes: ShapePair
-    ) -> bool:
+    def reject(self, arbiter: pymunk.Arbiter, contact: Contact, sides: tuple[Side, Side]) -> bool:
         """
         Let the engine ignore a contact that is false.
 
         :param contact: of two shapes that begin to touch
         :return: whether it is
         """
-        a, b = shapes
+        a, b = (side.shape for side in sides)
         if isinstance(a, pymunk.Circle) or isinstance(b, pymunk.Circle):
             return False
-        if (b.bb.center() - a.bb.center()).dot(contact.normal) >= 0.0:
+        if (b.bb.center() - a.bb.center()).dot(coordinates(contact.normal)) >= 0.0:
             return False
-        one, other = (self._hulls.of_shape(shape).placed_on(body_of(shape)) for shape in shapes)
+        one, other = (self._hulls.of_shape(it.shape).placed_on(it.body) for it in sides)
         if not (_separates(one, other) or _separates(other, one)):
             return False
         arbiter.process_collision = False

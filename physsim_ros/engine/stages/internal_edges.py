@@ -21,20 +21,19 @@ the side for what was hit ("ghost collision": Catto, Ghost Collisions, box2d.org
 `btInternalEdgeUtility`). A contact that begins at a corner, while a face is entered by no more
 than the slop and under no more than 10 degrees, is given the normal of that face.
 
-Cost: some 30 us for each contact that begins (`make ablate` has its share of a step). Without it
+Cost: some 20 us for each contact that begins (`make ablate` has its share of a step). Without it
 `test/engine/stages/test_internal_edges.py` fails.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-import math
+from typing import NamedTuple
 
-import numpy as np
-from physsim_ros.engine.ccd.hulls import Hull, Hulls
+from physsim_ros.engine.ccd.hulls import Hulls
 from physsim_ros.engine.ccd.time_of_impact import SLOP
-from physsim_ros.engine.shape_pair import body_of, ShapePair
-from pymunk import Circle, ContactPoint, ContactPointSet, Vec2d
+from physsim_ros.engine.contacts.contact import Contact, ContactPoint
+from physsim_ros.engine.contacts.side import Side
+from physsim_ros.engine.plane_vectors import dot, rotation, vectors
 
 # Distance from a corner within which overlaps of the slop along two faces lie [m]: the diagonal
 # of their rhombus, for faces that enclose 30 degrees or more.
@@ -53,55 +52,69 @@ class InternalEdges:
     def __init__(self, hulls: Hulls) -> None:
         self._hulls = hulls
 
-    def slide_over(self, contact: ContactPointSet, shapes: ShapePair) -> ContactPointSet | None:
+    def slide_over(self, contact: Contact, sides: tuple[Side, Side]) -> Contact | None:
         """
         Return the contact of two shapes that begin to touch at a seam.
 
         :param contact: with a point or two, of the engine or at the impact
         :return: along the face that the shapes approach slowest; None where they meet no seam
         """
-        point, (body_a, body_b) = contact.points[0], (body_of(shape) for shape in shapes)
-        velocity = body_b.velocity_at_world_point(point.point_b)
-        velocity -= body_a.velocity_at_world_point(point.point_a)
-        slowest, chosen = -velocity.dot(contact.normal), None
-        if slowest <= 0.0 or not self._is_at_corners(shapes, point):
+        point, (side_a, side_b) = contact.points[0], sides
+        velocity = side_b.velocity_at(point.b) - side_a.velocity_at(point.a)
+        slowest, chosen = -dot(velocity, contact.normal), None
+        if slowest <= 0.0:
             return None
-        slowest = min(slowest, _GRAZING * velocity.length)
-        middles = [(it.point_a + it.point_b) / 2 for it in contact.points]
-        a, b = (self._hulls.of_shape(shape).placed_on(body_of(shape)) for shape in shapes)
+        slowest = min(slowest, _GRAZING * abs(velocity))
+        if (a := self._corner_at(side_a, point.a)) is None:
+            return None
+        if (b := self._corner_at(side_b, point.b)) is None:
+            return None
+        middles = [(it.a + it.b) / 2 for it in contact.points]
         for one, other, sign in ((a, b, 1.0), (b, a, -1.0)):
-            for normal, depth in _shallow_faces(one, other):
-                approach = -velocity.dot(normal) * sign
-                if approach < slowest:
+            for corner, normal in one.faces:
+                approach = -dot(velocity, normal) * sign
+                deepest = min(dot(normal, each) for each in other.corners)
+                depth = dot(normal, corner) - deepest + one.radius + other.radius
+                if approach < slowest and 0.0 <= depth <= SLOP:
                     slowest, chosen = approach, (normal * sign, depth)
                     if len(other.corners) == 1:
                         # A disc is touched below its centre.
-                        middles = [Vec2d(*other.corners[0].tolist()) - normal * other.radius]
+                        middles = [other.corners[0] - normal * other.radius]
         if chosen is None:
             return None
         normal, depth = chosen
         half = normal * (depth / 2)
         points = tuple(ContactPoint(it + half, it - half, -depth) for it in middles)
-        return ContactPointSet(normal, points)
+        return Contact(normal, points)
 
-    def _is_at_corners(self, shapes: ShapePair, point: ContactPoint) -> bool:
-        """Return whether a contact lies near a corner of each shape that has some."""
-        places = zip(shapes, (point.point_a, point.point_b), strict=True)
-        cornered = [(shape, place) for shape, place in places if not isinstance(shape, Circle)]
-        for shape, place in cornered:
-            x, y = body_of(shape).world_to_local(place)
-            local = self._hulls.of_shape(shape)
-            near = _NEAR + local.radius
-            if all(math.hypot(x - u, y - v) > near for u, v in local.corners.tolist()):
-                return False
-        return bool(cornered)
+    def _corner_at(self, side: Side, place: complex) -> _Corner | None:
+        """Return the corner of a shape at a place in the world; None where it has none there."""
+        hull, turn = self._hulls.of_shape(side.shape), rotation(side.yaw)
+        local, corners = (place - side.position) / turn, vectors(hull.corners)
+        near = [abs(local - corner) <= _NEAR + hull.radius for corner in corners]
+        if True not in near:
+            return None
+        corners = [side.position + turn * corner for corner in corners]
+        # The face of each normal goes from its corner to the next one. That of a disc is 0.
+        faces = [
+            (corner, turn * normal)
+            for corner, normal, begins, ends in zip(
+                corners, vectors(hull.normals), near, near[1:] + near[:1], strict=True
+            )
+            if normal and (begins or ends)
+        ]
+        return _Corner(faces, corners, hull.radius)
 
 
-def _shallow_faces(one: Hull, other: Hull) -> Iterator[tuple[Vec2d, float]]:
-    """Return the faces of a hull behind which another is no deeper than the slop, with depths."""
-    if len(one.corners) < 2:
-        return
-    faces = (one.corners * one.normals).sum(axis=1)
-    depths = faces - (one.normals @ other.corners.T).min(axis=1) + one.radius + other.radius
-    for face in np.flatnonzero((depths >= 0.0) & (depths <= SLOP)).tolist():
-        yield Vec2d(*one.normals[face].tolist()), float(depths[face])
+class _Corner(NamedTuple):
+    """
+    A corner of a shape, in the world; a disc is a rounded one.
+
+    :ivar faces: beginning and normal of those that meet there
+    :ivar corners: all of the shape [m]
+    :ivar radius: of their rounding [m]
+    """
+
+    faces: list[tuple[complex, complex]]
+    corners: list[complex]
+    radius: float

@@ -14,7 +14,7 @@
 
 """Contacts of two points are set as they are given."""
 
-from physsim_ros.engine.contacts.contact_points import set_contact
+from physsim_ros.engine.contacts.contact import Contact, ContactPoint, read_contact, write_contact
 import pymunk
 
 
@@ -28,20 +28,20 @@ def test_each_point_of_a_contact_is_set():
     contacts = []
 
     def begin(arbiter, _space, _data):
-        found = arbiter.contact_point_set
-        aside = pymunk.Vec2d(0.1, 0.0)
-        moved = [
-            pymunk.ContactPoint(point.point_a + aside, point.point_b + aside, -0.002)
-            for point in found.points
-        ]
-        wanted = pymunk.ContactPointSet(found.normal, tuple(moved))
-        set_contact(arbiter, wanted)
-        contacts.append((wanted, arbiter.contact_point_set))
+        found = read_contact(arbiter)
+        moved = [ContactPoint(point.a + 0.1, point.b + 0.1, -0.002) for point in found.points]
+        wanted = Contact(found.normal, tuple(moved))
+        write_contact(arbiter, wanted)
+        contacts.append((wanted, read_contact(arbiter), arbiter.contact_point_set))
 
     space.on_collision(begin=begin)
     space.step(0.01)
-    ((wanted, found),) = contacts
-    assert [(point.point_a, point.point_b) for point in found.points] == [
-        (point.point_a, point.point_b) for point in wanted.points
+    ((wanted, found, engines),) = contacts
+    assert [(point.a, point.b) for point in found.points] == [
+        (point.a, point.b) for point in wanted.points
     ]
-    assert len({point.point_a for point in found.points}) == 2
+    assert [complex(*point.point_a) for point in engines.points] == [
+        point.a for point in found.points
+    ]
+    assert complex(*engines.normal) == found.normal
+    assert len({point.a for point in found.points}) == 2

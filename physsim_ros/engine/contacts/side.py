@@ -1,0 +1,58 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Sides: the two shapes that begin to touch, with the states of their bodies at that moment."""
+
+from __future__ import annotations
+
+from typing import cast, NamedTuple
+
+import pymunk
+
+
+class Side(NamedTuple):
+    """
+    One of the two shapes of a contact.
+
+    :ivar shape: of the engine
+    :ivar body: of the shape
+    :ivar position: of the body [m]
+    :ivar yaw: of the body [rad]
+    :ivar velocity: of the body's origin [m/s]
+    :ivar spin: of the body [rad/s]
+    """
+
+    shape: pymunk.Shape
+    body: pymunk.Body
+    position: complex
+    yaw: float
+    velocity: complex
+    spin: float
+
+    def velocity_at(self, place: complex) -> complex:
+        """Return the velocity of the body's material at a place in the world [m/s]."""
+        return self.velocity + 1j * self.spin * (place - self.position)
+
+
+def read_sides(arbiter: pymunk.Arbiter) -> tuple[Side, Side]:
+    """Return the two sides of a contact."""
+    a, b = arbiter.shapes
+    return _read_side(a), _read_side(b)
+
+
+def _read_side(shape: pymunk.Shape) -> Side:
+    # Pymunk's type allows for a shape without a body.
+    body = cast('pymunk.Body', shape.body)
+    position, velocity = complex(*body.position), complex(*body.velocity)
+    return Side(shape, body, position, body.angle, velocity, body.angular_velocity)
