@@ -8,11 +8,10 @@
 import {BodyPanel} from './body_panel.js';
 import {Camera} from './camera.js';
 import {Connection} from './connection.js';
-import {Cursor} from './cursor.js';
 import {createElement, elementOf} from './dom.js';
 import {Gallery} from './gallery.js';
 import {Hints} from './hints.js';
-import {Keyboard} from './keyboard.js';
+import {Cursor, Keyboard} from './keyboard.js';
 import {Notes} from './notes.js';
 import {Pointers} from './pointer.js';
 import {Readings} from './readings.js';
@@ -42,8 +41,6 @@ export class App {
     /** @type {Record<string, any>} properties of the next drawings */
     this.material = {density: 1, friction: 0.5, elasticity: 0.5};
     this.arrows = {velocities: false, contacts: false, forces: true};
-    /** @type {Map<string, () => void>} to be done with the next frame of the page, by key */
-    this.frameActions = new Map();
     this.framed = false;
     this.bounds = ''; // of the world that was framed: another one, as in the past, is framed anew
 
@@ -140,21 +137,6 @@ export class App {
   /** Frame the world that comes next. */
   frameNext() {
     this.framed = false;
-  }
-
-  /**
-   * Do something once with the next frame of the page; of several under one key, the last.
-   * @param {string} key
-   * @param {() => void} action
-   */
-  onNextFrame(key, action) {
-    if (!this.frameActions.has(key)) {
-      requestAnimationFrame(() => {
-        this.frameActions.get(key)?.();
-        this.frameActions.delete(key);
-      });
-    }
-    this.frameActions.set(key, action);
   }
 
   #listBodies() {

@@ -2,11 +2,11 @@
 /** Worlds: a gallery to open from, saving by name, files, a link that holds the world, a picture. */
 
 import {createElement, download, elementOf, icon, iconButton, textButton} from './dom.js';
-import {packText, unpackText} from './link.js';
 
 /** @import {App} from './types.js' */
 
 const LONGEST_LINK = 16000; // characters
+const LARGEST = 1 << 20; // bytes; no larger world is unpacked from a link
 
 export class Gallery {
   /** @param {App} app */
@@ -120,5 +120,31 @@ export class Gallery {
     if (text !== null) return this.#upload(text);
     this.dialog.close();
     this.app.notes.showMessage('This link is broken, or its world is too large.', {ok: false});
+  }
+}
+
+/**
+ * @param {string} text
+ * @returns {Promise<string>} for a link: deflated, then base64 for addresses (RFC 4648, section 5)
+ */
+async function packText(text) {
+  const stream = new Blob([text]).stream().pipeThrough(new CompressionStream('deflate-raw'));
+  const bytes = new Uint8Array(await new Response(stream).arrayBuffer());
+  const binary = Array.from(bytes, (byte) => String.fromCharCode(byte)).join('');
+  return btoa(binary).replaceAll('+', '-').replaceAll('/', '_').replaceAll('=', '');
+}
+
+/** @param {string} packed */
+async function unpackText(packed) {
+  const binary = atob(packed.replaceAll('-', '+').replaceAll('_', '/'));
+  const bytes = Uint8Array.from(binary, (character) => character.charCodeAt(0));
+  const reader = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate-raw')).getReader();
+  const parts = [];
+  for (let size = 0; ;) {
+    const {value, done} = await reader.read();
+    if (done) return new Blob(parts).text();
+    size += value.length;
+    if (size > LARGEST) throw new RangeError('the world of this link is too large');
+    parts.push(value);
   }
 }

@@ -24,24 +24,16 @@ export function drawGrid(ctx, camera, palette, insets) {
   const step = stepOf(camera.scale), digits = Math.max(0, -Math.floor(Math.log10(step)));
   const [left, top] = camera.toWorld(0, 0), [right, bottom] = camera.toWorld(camera.width, camera.height);
   const minor = new Path2D(), major = new Path2D();
-  /** @type {[string, number, number, boolean][]} */
+  /** @type {[string, number, number][]} */
   const labels = [];
-  for (let i = Math.floor(5 * Math.min(left, bottom) / step); ; i++) {
-    const value = i * step / 5;
-    if (value > Math.max(right, top)) break;
-    const path = i % 5 ? minor : major;
-    const [px, py] = camera.toPage(value, value);
-    const x = Math.round(px) + 0.5, y = Math.round(py) + 0.5;
-    if (value >= left && value <= right) {
-      path.moveTo(x, 0);
-      path.lineTo(x, camera.height);
-      if (i % 5 === 0) labels.push([value.toFixed(digits), x, 0, true]);
-    }
-    if (value >= bottom && value <= top) {
-      path.moveTo(0, y);
-      path.lineTo(camera.width, y);
-      if (i % 5 === 0) labels.push([value.toFixed(digits), 0, y, false]);
-    }
+  for (let i = Math.floor(5 * Math.min(left, bottom) / step); i * step / 5 <= Math.max(right, top); i++) {
+    const value = i * step / 5, path = i % 5 ? minor : major;
+    const [x, y] = camera.toPage(value, value).map((at) => Math.round(at) + 0.5);
+    path.moveTo(x, 0);
+    path.lineTo(x, camera.height);
+    path.moveTo(0, y);
+    path.lineTo(camera.width, y);
+    if (path === major) labels.push([value.toFixed(digits), x, y]);
   }
   ctx.lineWidth = 1;
   ctx.strokeStyle = palette.minor;
@@ -50,13 +42,11 @@ export function drawGrid(ctx, camera, palette, insets) {
   ctx.stroke(major);
   ctx.fillStyle = palette.faint;
   ctx.font = '11px system-ui, sans-serif';
-  for (const [text, x, y, across] of labels) {
-    if (across && x > insets.left + 40 && x < camera.width - 20) {
-      ctx.textAlign = 'center';
-      ctx.fillText(text, x, camera.height - insets.bottom - 6);
-    } else if (!across && y < camera.height - insets.bottom - 24 && y > 20) {
-      ctx.textAlign = 'left';
-      ctx.fillText(`${text} m`, insets.left + 6, y - 4);
-    }
+  const low = camera.height - insets.bottom;
+  for (const [text, x, y] of labels) {
+    ctx.textAlign = 'center';
+    if (x > insets.left + 40 && x < camera.width - 20) ctx.fillText(text, x, low - 6);
+    ctx.textAlign = 'left';
+    if (y > 20 && y < low - 24) ctx.fillText(`${text} m`, insets.left + 6, y - 4);
   }
 }

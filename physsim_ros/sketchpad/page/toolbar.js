@@ -3,9 +3,8 @@
 
 import {createElement, elementOf, iconButton} from './dom.js';
 import {ClickTool} from './tools/click_tool.js';
+import {Lasso, Pen} from './tools/freehand.js';
 import {Hand} from './tools/hand.js';
-import {Lasso} from './tools/lasso.js';
-import {Pen} from './tools/pen.js';
 
 /** @import {App, Tool} from './types.js' */
 

@@ -39,7 +39,7 @@ export class TopBar {
     const button = iconButton(name, id, () => {
       const shown = app.arrows[part] = !app.arrows[part];
       button.setAttribute('aria-pressed', String(shown));
-      app.notes.showMessage(shown ? title : `${title.split(':')[0]}: off`);
+      if (shown) app.notes.showMessage(title);
       app.askForParts();
     }, title);
     button.setAttribute('aria-pressed', 'false');

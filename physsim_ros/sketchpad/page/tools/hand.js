@@ -23,6 +23,7 @@ export class Hand {
     this.turned = false;
     this.moved = false;
     this.timer = 0;
+    this.request = 0; // of a frame of the page
   }
 
   /** @returns {boolean} whether wheel, R and a second finger turn the body */
@@ -58,7 +59,7 @@ export class Hand {
       app.camera.pan(touch.page[0] - last.page[0], touch.page[1] - last.page[1]);
     }
     this.last = touch;
-    if (this.state === 'holding') app.onNextFrame('move', () => this.#sendMove());
+    if (this.state === 'holding') this.#sendSoon();
     app.view.dirty = true;
   }
 
@@ -90,7 +91,7 @@ export class Hand {
   turn(angle) {
     this.yaw += angle;
     this.turned = true;
-    this.app.onNextFrame('move', () => this.#sendMove());
+    this.#sendSoon();
   }
 
   #grab() {
@@ -100,6 +101,14 @@ export class Hand {
     this.state = 'holding';
     // It has moved on since it was pressed.
     connection.send('grab', {point: world.place(row, this.grip)});
+  }
+
+  /** Send where the hand is once a frame of the page. */
+  #sendSoon() {
+    this.request ||= requestAnimationFrame(() => {
+      this.request = 0;
+      if (this.state === 'holding') this.#sendMove();
+    });
   }
 
   #sendMove() {
