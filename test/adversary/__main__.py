@@ -42,6 +42,8 @@ from ..outside import Outside, own_domain, Program
 # Disturbances in a round, and how long a world is left alone after them [s].
 ROUND = 25
 QUIET = 4.0
+# Of the past [MB]: resets and courses that were left fill it within minutes.
+BUDGET = 24.0
 SCENES = (
     scenes.one_pose,
     scenes.sphere_lists,
@@ -56,14 +58,17 @@ def main(minutes: float, seed: int) -> int:
         os.environ['PYTHONFAULTHANDLER'] = '1'
         outside = Outside(directory, domain, closing)
         world = outside.start_world(
-            record_file=directory / 'soak.rrd', world_dir=directory, history=60.0
+            record_file=directory / 'soak.rrd',
+            world_dir=directory,
+            history=60.0,
+            history_memory=BUDGET,
         )
         world.wait_for('ready')
         os.environ.update(outside.environment)
         driver = start_driver(seed)
         closing.callback(rclpy.shutdown)
         closing.callback(driver.close)
-        monitor = Monitor(world.process.pid)
+        monitor = Monitor(world.process.pid, BUDGET)
         faults = []
         try:
             _soak(minutes, driver, monitor, outside)
@@ -77,7 +82,7 @@ def main(minutes: float, seed: int) -> int:
         faults += monitor.faults() + [f'divergence: {each}' for each in driver.divergences]
         if any('Traceback' in line for line in world.lines):
             faults.append(''.join(world.lines[-30:]))
-    print(f'memory slope of the second half: {monitor.slope:+.0f} MB/h')
+    print(monitor.words)
     print('events:', ', '.join(f'{code or "done"} {n}' for code, n in driver.codes.most_common()))
     print('\n'.join(f'FAULT: {fault}' for fault in faults) or 'no faults')
     return bool(faults)

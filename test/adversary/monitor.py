@@ -21,11 +21,14 @@ from pathlib import Path
 from statistics import median
 from typing import NamedTuple
 
+import numpy as np
 import psutil
 
 # Memory that a run may gain between its middle and its end [MB], without that of the past, which
 # has a budget: pages of allocators.
 MEMORY_GAIN = 40.0
+# Share of its budget from which on the past is full: what goes at once may be a part of it.
+FULL = 0.75
 # Threads and descriptors more than in the first third: those of discovered participants come late.
 COUNT_GAIN = 4
 # Frames a second of the world [Hz].
@@ -54,9 +57,11 @@ class Monitor:
     Samples of a process.
 
     :param pid: of the process
+    :param budget: of the past [MB]
     """
 
-    def __init__(self, pid: int) -> None:
+    def __init__(self, pid: int, budget: float) -> None:
+        self._budget = budget
         self._process = psutil.Process(pid)
         self._schedule = Path(f'/proc/{pid}/schedstat')
         self.samples: list[Sample] = []
@@ -100,17 +105,21 @@ class Monitor:
         return found
 
     @property
-    def slope(self) -> float:
-        """Return the slope of own memory over the second half, by least squares [MB/h]."""
-        begin = len(self.samples) // 2
-        half = self.samples[begin:]
-        if len(half) < 2:
-            return 0.0
-        hours = [each.minutes / 60 for each in half]
-        middle = sum(hours) / len(hours)
-        spread = sum((hour - middle) ** 2 for hour in hours)
-        rise = sum((h - middle) * each.own for h, each in zip(hours, half, strict=True))
-        return rise / spread
+    def words(self) -> str:
+        """Return a sentence about the slope of own memory since the past was full."""
+        full = (n for n, each in enumerate(self.samples) if each.past >= FULL * self._budget)
+        first = next(full, len(self.samples))
+        since = self.samples[first:]
+        if len(since) < 4:
+            return f'the past took less than {FULL * self._budget:.0f} MB: no slope of memory'
+        # By least squares.
+        hours = np.array([each.minutes / 60 for each in since])
+        fit, covariance = np.polyfit(hours, [each.own for each in since], 1, cov=True)
+        error = math.sqrt(covariance[0, 0])
+        return (
+            f'slope of own memory in {(hours[-1] - hours[0]) * 60:.0f} min with a full past: '
+            f'{fit[0]:+.0f} MB/h, standard error {error:.0f}'
+        )
 
     def faults(self) -> list[str]:
         """Return a sentence about each quantity that has grown, and about late frames."""
