@@ -172,6 +172,7 @@ class PhysSimNode(NodeWithoutQosEvents):
             actions,
             simulation.requests,
             self._reply_pacer,
+            queue=self.requests.queue,
             on_success=self._note_change,
         )
         self._page_control = PageControl(

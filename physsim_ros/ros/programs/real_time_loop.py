@@ -43,6 +43,7 @@ class RealTimeLoop:
 
     def __init__(self, node: PhysSimNode, executor: Executor, is_over: Callable[[], bool]) -> None:
         self._node = node
+        self._messages = node.requests.queue
         self._executor = executor
         self._is_over = is_over
         self._period = round(node.publish_period * 1e9)
@@ -78,11 +79,11 @@ class RealTimeLoop:
             self._executor.spin_once(timeout_sec=0)
 
     def _queue_mark(self) -> None:
-        """Queue a task behind the messages that have arrived, to measure how long they wait."""
+        """Queue a call behind the messages that have arrived, to measure how long they wait."""
         now = time.monotonic_ns()
         if self._queued is None:
             self._queued = now
-            self._executor.create_task(self._reach_mark)
+            self._messages.add_call_behind_arrived(self._reach_mark)
         else:
             self._node.message_delay = (now - self._queued) * 1e-9
 

@@ -27,7 +27,7 @@ from collections import deque
 from collections.abc import Callable
 from functools import partial
 import time
-from typing import Any
+from typing import Any, NamedTuple
 
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
@@ -41,9 +41,17 @@ BURST = 5
 READING = 1e-3
 
 
+class _Reply(NamedTuple):
+    """A reply that waits; it is sent when its action is done."""
+
+    service: str
+    is_complete: Callable[[], bool]
+    send: Callable[[], None]
+
+
 class ReplyPacer:
     """
-    Delays the replies of services, in their order, and not their actions.
+    Delays the replies of services, in the order of their calls, and not their actions.
 
     :param node: that offers the services
     """
@@ -51,16 +59,26 @@ class ReplyPacer:
     def __init__(self, node: Node) -> None:
         self.paced = False
         self._node = node
-        self._waiting: deque[tuple[str, Callable[[], None]]] = deque()
+        self._waiting: deque[_Reply] = deque()
         # Steady time at which all clients have read all replies [s].
         self._read = 0.0
 
-    def add(self, service: Service) -> None:
-        """Delay the replies of a service from now on, while `paced`."""
+    def add(self, service: Service, *, is_complete: Callable[[Any], bool]) -> None:
+        """
+        Delay the replies of a service from now on, while `paced`, and until they are complete.
+
+        :param is_complete: whether a response is what is to be sent
+        """
         send = service.send_response
 
         def send_response(response: Any, header: Any) -> None:
-            self._waiting.append((service.srv_name, partial(send, response, header)))
+            self._waiting.append(
+                _Reply(
+                    service.srv_name,
+                    partial(is_complete, response),
+                    partial(send, response, header),
+                )
+            )
             self.flush()
 
         # The executor looks this name up for each reply.
@@ -68,12 +86,10 @@ class ReplyPacer:
 
     def flush(self) -> None:
         """Send the replies that are due; called at each tick."""
-        while self._waiting:
-            name, send = self._waiting[0]
-            pause = READING * self._node.count_clients(name)
+        while self._waiting and self._waiting[0].is_complete():
+            pause = READING * self._node.count_clients(self._waiting[0].service)
             now = time.monotonic()
             if self.paced and self._read > now + BURST * pause:
                 return
             self._read = max(self._read, now) + pause
-            self._waiting.popleft()
-            send()
+            self._waiting.popleft().send()

@@ -22,12 +22,15 @@ is told on `~/events`, too.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import partial
 
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.snapshot import Answer
+from physsim_ros.ros.requests.message_queue import MessageQueue
 from physsim_ros.ros.requests.reply_pacer import ReplyPacer, SERVICE_QOS
 from physsim_ros.simulation.request_queue import RequestQueue
 from rclpy.node import Node
+from rclpy.service import Service
 from std_srvs.srv import Trigger
 
 # Carries out a service, and returns a message about it; raises a Refusal where it cannot.
@@ -40,28 +43,21 @@ def create_services(
     requests: RequestQueue,
     pacer: ReplyPacer,
     *,
+    queue: MessageQueue,
     on_success: Callable[[], None],
 ) -> None:
     """
-    Create a service for each action.
+    Create a service for each action, which replies and tells the same sentence as an event.
 
     :param node: that offers them
     :param actions: by the names of the services
     :param requests: the queue that their answers are added to
     :param pacer: of their replies
+    :param queue: of messages, behind which a service comes that was called after them
     :param on_success: called after each service that was not refused
     """
-    for name, action in actions.items():
-        callback = _callback(action, f'~/{name}', requests, on_success)
-        pacer.add(node.create_service(Trigger, f'~/{name}', callback, qos_profile=SERVICE_QOS))
 
-
-def _callback(
-    action: Action, topic: str, requests: RequestQueue, on_success: Callable[[], None]
-) -> Callable[..., Trigger.Response]:
-    """Return the callback of a service, which replies and tells the same sentence as an event."""
-
-    def callback(_: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+    def answer(action: Action, topic: str, response: Trigger.Response) -> None:
         try:
             response.message = action()
             response.success = True
@@ -71,6 +67,17 @@ def _callback(
             response.message = f'{refusal.code}: {refusal}'
             response.success = False
             requests.refuse(refusal, topic=topic, subject='')
-        return response
+        pacer.flush()
 
-    return callback
+    def create_service(action: Action, topic: str) -> Service:
+        def callback(_: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+            queue.add_call(partial(answer, action, topic, response))
+            return response
+
+        return node.create_service(Trigger, topic, callback, qos_profile=SERVICE_QOS)
+
+    for name, action in actions.items():
+        # Each says what it did, or why not.
+        pacer.add(
+            create_service(action, f'~/{name}'), is_complete=lambda reply: bool(reply.message)
+        )

@@ -17,7 +17,7 @@ Subscriptions of requests.
 
 Law: no message is lost in a burst, and one that cannot be decoded is answered, too. rclpy drops
 such a message without a word, so that messages arrive as bytes here and are decoded in the
-callback, at 15 µs more than in rclpy; those of many numbers without rclpy.
+callback, or, large ones, one by one behind what has arrived.
 """
 
 from __future__ import annotations
@@ -25,10 +25,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from physsim_ros.model.errors import Malformed, Refusal
+from physsim_ros.model.errors import Busy, Malformed, Refusal
 from physsim_ros.ros.qos_safe_node import LOSSLESS
 from physsim_ros.ros.requests.cdr_reader import Truncated
 from physsim_ros.ros.requests.command_reader import command_from
+from physsim_ros.ros.requests.message_queue import MessageQueue
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from rclpy.serialization import deserialize_message
@@ -55,10 +56,12 @@ class RequestSubscriptions:
     :param node: that owns them
     :param refuse: answers a refused message, by refusal and topic
     :ivar undecodable: number of messages that could not be decoded
+    :ivar queue: of messages that wait to be decoded
     """
 
     def __init__(self, node: Node, refuse: Callable[[Refusal, str], None]) -> None:
         self.undecodable = 0
+        self.queue = MessageQueue(node)
         self._node = node
         self._refuse = refuse
 
@@ -83,7 +86,14 @@ class RequestSubscriptions:
 
     def add_raw(self, kind: type, topic: str, callback: Callable[[bytes], None]) -> None:
         """Subscribe to messages of a type, which the callback decodes itself."""
-        self._node.create_subscription(kind, topic, callback, LOSSLESS, raw=True)
+
+        def receive(data: bytes) -> None:
+            try:
+                self.queue.add_message(callback, data)
+            except Busy as refusal:
+                self._refuse(refusal, topic)
+
+        self._node.create_subscription(kind, topic, receive, LOSSLESS, raw=True)
 
     def refuse_undecodable(self, kind: type, topic: str) -> None:
         """Count and refuse a message that cannot be decoded."""

@@ -1,0 +1,87 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+The queue of messages that have been taken from the middleware and wait to be decoded.
+
+Laws: messages and calls of services are handled in the order in which they came; what waits is
+bounded in memory. The middleware itself bounds it by count alone (5,000 of Fast DDS, KEEP_ALL):
+arrays of 2 MB that came faster than they were decoded took a gigabyte, and keep it for ever.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable
+
+from physsim_ros.model.errors import Busy
+from rclpy.node import Node
+
+# Size from which on messages wait, and others behind them [bytes]; smaller ones are decoded at
+# once, in less than 1 ms.
+LARGE = 2**14
+# Memory that they may take [bytes]: four of the largest messages that are decoded, or a burst of
+# 4,000 of the smallest that wait.
+MOST_WAITING = 2**26
+
+
+class MessageQueue:
+    """
+    Messages that wait to be decoded, and what waits behind them.
+
+    :param node: whose executor handles one after the other, behind all messages that have arrived
+    """
+
+    def __init__(self, node: Node) -> None:
+        self._node = node
+        self._waiting: deque[tuple[Callable[[], None], int]] = deque()
+        self._size = 0
+
+    def add_message(self, decode: Callable[[bytes], None], data: bytes) -> None:
+        """
+        Decode a small message, or add a large one, and any behind it.
+
+        :param decode: decodes a message and submits it
+        :raises Busy: too many wait; it is not decoded
+        """
+        if self._waiting and self._size + len(data) > MOST_WAITING:
+            raise Busy(f'{self._size / 2**20:.0f} MiB of messages wait to be decoded')
+        self._add(lambda: decode(data), len(data))
+
+    def add_call(self, call: Callable[[], None]) -> None:
+        """Call something behind the messages that wait; at once where none does."""
+        self._add(call, 0)
+
+    def add_call_behind_arrived(self, call: Callable[[], None]) -> None:
+        """Call something behind the messages that the middleware has, and those that wait."""
+        if self._node.executor is not None:
+            self._node.executor.create_task(self.add_call, call)
+
+    def _add(self, call: Callable[[], None], size: int) -> None:
+        executor = self._node.executor
+        if executor is None or (size < LARGE and not self._waiting):
+            call()
+            return
+        if not self._waiting:
+            executor.create_task(self._handle_next)
+        self._waiting.append((call, size))
+        self._size += size
+
+    def _handle_next(self) -> None:
+        call, size = self._waiting.popleft()
+        self._size -= size
+        if self._waiting and self._node.executor is not None:
+            # Behind the messages that have arrived meanwhile.
+            self._node.executor.create_task(self._handle_next)
+        call()

@@ -1,0 +1,83 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Large messages are taken at once and decoded in their order; too many are refused undecoded."""
+
+from __future__ import annotations
+
+from physsim_ros.ros.requests import message_queue
+from physsim_ros.testing import PhysSim
+import pytest
+from std_srvs.srv import Trigger
+from visualization_msgs.msg import Marker, MarkerArray
+
+from .. import messages
+from ..client import Client
+
+
+def array(number: int, count: int = 100) -> MarkerArray:
+    """Return an array of 20 KB, whose bodies lie apart."""
+    return MarkerArray(
+        markers=[
+            messages.disc(f'disc/{number * count + each}', at=(2.0 * each, 2.0 * number))
+            for each in range(count)
+        ]
+    )
+
+
+def test_large_and_small_messages_are_carried_out_in_their_order(
+    physsim: PhysSim, client: Client
+) -> None:
+    client.ask('~/spawn', Marker(action=Marker.DELETEALL))
+    client.publish('~/spawn_array', array(0))
+    client.publish('~/spawn', messages.delete('disc/7'))
+    client.publish('~/spawn_array', array(1))
+    client.publish('~/spawn', messages.disc('disc/7', at=(0.0, -5.0)))
+    physsim.settle()
+    physsim.node.apply_requests()
+    names = physsim.node.frame.snapshot.scene.names
+    assert [name for name in names if name == 'disc/7'] == ['disc/7']
+    assert (len(names), names[-1]) == (200, 'disc/7')
+
+
+def test_a_service_comes_behind_the_messages_that_were_sent_before(
+    physsim: PhysSim, client: Client
+) -> None:
+    client.ask('~/spawn_array', array(0, 1))
+    clear = client.node.create_client(Trigger, '/physsim/clear')
+    client.spin_until(clear.service_is_ready)
+    client.publish('~/spawn_array', array(1))
+    cleared = clear.call_async(Trigger.Request())
+    client.spin_until(cleared.done)
+    assert cleared.result().message == 'deleted 101 bodies'
+
+
+def test_messages_that_are_too_many_are_refused_undecoded(
+    physsim: PhysSim, client: Client, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    client.ask('~/spawn_array', array(0, 1))
+    client.events.clear()
+    before = physsim.digest()
+    monkeypatch.setattr(message_queue, 'MOST_WAITING', 0)
+    client.publish('~/spawn_array', array(1))
+    client.publish('~/spawn_array', array(2))
+    client.publish('~/spawn', messages.disc('disc/9', at=(0.0, -5.0)))
+    physsim.settle()
+    physsim.node.apply_requests()
+    physsim.settle()
+    codes = [event.code for event in client.events]
+    assert sorted(codes) == ['busy', 'busy'] + ['ok'] * 100
+    assert physsim.digest() != before
+    # None waits any more.
+    assert {event.code for event in client.ask('~/spawn_array', array(3))} == {'ok'}
