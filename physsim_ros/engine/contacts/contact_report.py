@@ -73,9 +73,9 @@ class ContactReport:
         # Manifolds of the pairs, (5, m), where another space has made the last step.
         self._copied_manifolds: Floats | None = None
         self._sleeping = SleepingPairs()
-        self._slot_changes = 0
-        # Whether the contacts of the step before were not read.
-        self._unwatched = True
+        # The table at the step before and how often its slots had changed, by bodies that fall
+        # asleep or wake; None where the contacts of that step were not read.
+        self._slots: tuple[BodyTable, int] | None = None
         # Count of steps since the frame began.
         self._steps = 0
         # Pairs that touched at the end of an earlier step of the frame and not of the next: ids
@@ -100,10 +100,10 @@ class ContactReport:
         """
         self._steps += 1
         self._copied_manifolds = None
-        if table.slot_changes != self._slot_changes:
-            self._slot_changes, self.settled = table.slot_changes, False
+        slots = table, table.slot_changes
+        sleep_changed = slots != self._slots
         sleeping = len(self._sleeping.ids)
-        if self.settled:
+        if self.settled and not sleep_changed:
             firsts, impulses = self._io.read_contacts(_FIRSTS_AND_IMPULSES)
             if len(firsts) == len(self._ids) - sleeping:
                 # The engine turns a pair round as its bodies move, in a contact that goes on too.
@@ -115,8 +115,9 @@ class ContactReport:
         self._first_ids = ints[::2].copy()
         impulses = impulses.reshape(-1, 2).copy()
         ids, self._signs = oriented(ints.reshape(-1, 2))
-        self._sleeping = self._find_sleeping(table, ids)
-        self._unwatched = False
+        if sleep_changed:
+            self._sleeping = self._find_sleeping(table, ids)
+            self._slots = slots
         ids = np.concatenate((ids, self._sleeping.ids))
         if not np.array_equal(ids, self._ids):
             self._begin_listing(ids)
@@ -127,14 +128,17 @@ class ContactReport:
         """Return the pairs of the step before that sleep now."""
         if not table.asleep.any():
             return SleepingPairs()
-        if self._unwatched:
+        if self._slots is None:
             return read_sleeping_pairs(table)
-        asleep = np.append(table.asleep, False)[table.rows_of(self._ids)].any(axis=1)
-        asleep &= ~find_pairs(self._ids, listed)[1]
-        ids, last = self._ids[asleep], self._last
+        rows, asleep = table.rows_of(self._ids), np.append(table.asleep, False)
+        # A sensor that moves wakes nobody: its pairs are listed, until they part.
+        awake = table.columns.dynamic & ~asleep
+        sleeps = asleep[rows].any(axis=1) & ~awake[rows].any(axis=1)
+        sleeps &= ~find_pairs(self._ids, listed)[1]
+        ids, last = self._ids[sleeps], self._last
         same = np.array_equal(last.ids, self._ids)
-        manifolds = last.manifolds[:, asleep] if same else last.of_pairs(ids)
-        return SleepingPairs(ids, self._impulses[asleep], manifolds)
+        manifolds = last.manifolds[:, sleeps] if same else last.of_pairs(ids)
+        return SleepingPairs(ids, self._impulses[sleeps], manifolds)
 
     def _add_impulses(self, impulses: Floats) -> None:
         self._impulses = np.concatenate((impulses * self._signs, self._sleeping.impulses))
@@ -191,7 +195,7 @@ class ContactReport:
 
     def skip_step(self) -> None:
         """Drop all contacts: those of the step that has just been made are not read."""
-        self._sleeping, self._unwatched = SleepingPairs(), True
+        self._sleeping, self._slots = SleepingPairs(), None
         self._ids, self._sums = NO_PAIRS, np.empty((0, 2))
         self._impulses = self._sums
         self.clear()

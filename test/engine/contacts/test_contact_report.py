@@ -296,6 +296,19 @@ def test_a_sensor_in_the_very_middle_of_a_body_has_a_normal_too() -> None:
     assert contacts.pairs.tolist() == [[0, 1]]
 
 
+def test_a_sensor_that_has_passed_over_a_sleeping_body_overlaps_it_no_more() -> None:
+    world = resting()
+    spawn(world, 'gate/0', DISC, (1.5, 0.6, 0.0), sensor=True, velocity=(6.0, 3.0))
+
+    passing = [frame(world).pairs.tolist() for _ in range(40)]
+
+    # Row 0 is the box, which sleeps on the floor, -1; row 1 is the sensor.
+    overlapping = [[0, 1] in pairs for pairs in passing]
+    assert True in overlapping[:20]
+    assert True not in overlapping[30:]
+    assert all([0, -1] in pairs for pairs in passing)
+
+
 def test_bodies_of_one_group_are_not_told_of() -> None:
     world = watched()
     for number in range(2):
