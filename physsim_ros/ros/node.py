@@ -38,7 +38,7 @@ from physsim_ros.ros.qos_safe_node import NodeWithoutQosEvents
 from physsim_ros.ros.requests.drawing_topics import DrawingTopics
 from physsim_ros.ros.requests.reply_pacer import ReplyPacer
 from physsim_ros.ros.requests.request_topics import RequestTopics
-from physsim_ros.ros.requests.services import create_services
+from physsim_ros.ros.requests.services import create_services, Turns
 from physsim_ros.ros.requests.subscriptions import RequestSubscriptions
 from physsim_ros.ros.time_control import TimeControl
 from physsim_ros.ros.world_files import WorldFiles
@@ -166,11 +166,12 @@ class PhysSimNode(NodeWithoutQosEvents):
             'load_world': lambda: self.world_files.load(confined=True),
             'save_world': self.world_files.save,
         }
+        turns = Turns(simulation.requests, self._is_there)
         self._reply_pacer = ReplyPacer(self)
         create_services(
             self,
             actions,
-            simulation.requests,
+            turns,
             self._reply_pacer,
             queue=self.requests.queue,
             on_success=self._note_change,
@@ -180,6 +181,7 @@ class PhysSimNode(NodeWithoutQosEvents):
             values=self._values,
             time_control=self._time_control,
             actions=actions,
+            turns=turns,
             set_parameters=self.set_parameters,
             current_snapshot=self._current_snapshot,
         )

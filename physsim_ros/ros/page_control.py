@@ -28,7 +28,7 @@ from physsim_ros.files import state_from, text_of
 from physsim_ros.model.errors import BadWorldFile, PhysSimError
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.ros import parameters
-from physsim_ros.ros.requests.services import Action
+from physsim_ros.ros.requests.services import Action, Turns
 from physsim_ros.ros.time_control import TimeControl
 from physsim_ros.simulation.simulation import Simulation
 from rclpy.parameter import Parameter
@@ -44,6 +44,7 @@ class PageControl:
     :param values: of the parameters, by name, always up to date
     :param time_control: of the node
     :param actions: of the services, by name
+    :param turns: of the services
     :param set_parameters: sets parameters of the node
     :param current_snapshot: applies the waiting requests, and returns the snapshot that is shown
     """
@@ -55,6 +56,7 @@ class PageControl:
         values: Mapping[str, Any],
         time_control: TimeControl,
         actions: Mapping[str, Action],
+        turns: Turns,
         set_parameters: SetParameters,
         current_snapshot: Callable[[], Snapshot],
     ) -> None:
@@ -63,6 +65,7 @@ class PageControl:
         self._values = values
         self._time_control = time_control
         self._actions = actions
+        self.call_in_turn = turns.call
         self._set_parameters = set_parameters
 
     @property

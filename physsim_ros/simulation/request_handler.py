@@ -29,7 +29,7 @@ from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.hands import Hands, placing
 from physsim_ros.simulation.past.past import Past
 from physsim_ros.simulation.playback import Playback
-from physsim_ros.simulation.request_queue import Amend, RequestQueue, Seek, Waiting
+from physsim_ros.simulation.request_queue import Amend, Call, RequestQueue, Seek, Waiting
 
 
 class RequestHandler:
@@ -62,6 +62,9 @@ class RequestHandler:
             request = waiting.request
             if isinstance(request, Answer):
                 self.answers.append(request)
+                continue
+            if isinstance(request, Call):
+                self.answers.append(request.call())
                 continue
             if isinstance(request, Amend):
                 self.answers += self._amend(request, waiting)

@@ -23,7 +23,7 @@ bounded in count and in memory, and what is too much is refused.
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 from physsim_ros.model.errors import Busy, Refusal
@@ -72,6 +72,17 @@ class Amend:
     requests: tuple[Request, ...]
 
 
+@dataclass(frozen=True, slots=True)
+class Call:
+    """
+    Call something that reads or replaces the world, between the requests before and after it.
+
+    :param call: returns the answer to whoever asked for it
+    """
+
+    call: Callable[[], Answer]
+
+
 _NO_REQUESTS = Seek | Refusal | Answer
 
 
@@ -80,8 +91,8 @@ class Waiting:
     """
     A request that waits, the refusal of a message that is no request, or an answer.
 
-    :param request: to be applied, gestures to amend, a time to go to, a refusal, or an answer
-        without a request
+    :param request: to be applied, gestures to amend, a time to go to, a call, a refusal, or an
+        answer without a request
     :param topic: that it came from
     :param subject: name of the body or joint that it names, or ''
     :param gesture: requests of one gesture are undone together
@@ -89,7 +100,7 @@ class Waiting:
     :param asker: key of the message that asks, which the answer names; '' for none
     """
 
-    request: Request | Amend | Seek | Refusal | Answer
+    request: Request | Amend | Seek | Call | Refusal | Answer
     topic: str
     subject: str
     gesture: int
@@ -109,6 +120,7 @@ class RequestQueue:
         self._waiting: deque[Waiting] = deque()
         # Memory of the requests that wait [bytes].
         self._size = 0
+        self._is_taken = False
         # The last move of each hand; a later one takes its place.
         self._moves: dict[str, Waiting] = {}
 
@@ -174,6 +186,17 @@ class RequestQueue:
             last.request = Answer(topic=last.topic, message=message, asker=last.asker)
         self._waiting.append(Waiting(Seek(stamp), topic, '', self.gesture))
 
+    def submit_call(self, call: Callable[[], Answer], *, topic: str) -> None:
+        """
+        Add a call, which waits for the end of a seek as a request does.
+
+        :param topic: that it comes from
+        :raises Busy: too many wait
+        """
+        if len(self) >= MOST_WAITING:
+            raise Busy(f'{len(self)} requests wait; this one was one too many')
+        self._waiting.append(Waiting(Call(call), topic, '', self.begin_gesture()))
+
     def refuse(
         self,
         refusal: Refusal,
@@ -197,11 +220,17 @@ class RequestQueue:
         self._waiting.append(Waiting(answer, answer.topic, answer.subject, self.gesture))
 
     def take_all(self) -> Iterator[Waiting]:
-        """Remove and yield the waiting requests, in order."""
+        """Remove and yield the waiting requests, in order; to a call among them, none wait."""
+        if self._is_taken:
+            return
+        self._is_taken = True
         self._moves.clear()
         self._size = 0
-        while self._waiting:
-            yield self._waiting.popleft()
+        try:
+            while self._waiting:
+                yield self._waiting.popleft()
+        finally:
+            self._is_taken = False
 
 
 def _size_of(request: Request | Amend) -> int:

@@ -23,12 +23,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import replace
+from functools import partial
 import time
 from typing import Any
 
 import numpy as np
 from physsim_ros.drawing import DrawingSession, Reading, submit_reading, Tool
-from physsim_ros.model.errors import NotRecognised, PhysSimError, Refusal, WorldFull
+from physsim_ros.model.errors import Busy, NotRecognised, PhysSimError, Refusal, WorldFull
 from physsim_ros.model.preview import NO_PREVIEW, Preview
 from physsim_ros.model.requests import KeepHand, LetGo, Request
 from physsim_ros.model.snapshot import Answer
@@ -227,9 +228,14 @@ class PageSession:
 
     def _perform(self, message: messages.Perform, asker: str) -> None:
         action, world = message.action, message.world
-        self._report(f'~/{action}', asker, lambda: self._world.perform(action, world))
-        if action == 'save_world':
-            self._on_save()
+
+        def perform() -> str:
+            done = self._world.perform(action, world)
+            if action == 'save_world':
+                self._on_save()
+            return done
+
+        self._report_in_turn(action, asker, perform)
 
     def _set_speed(self, message: messages.SetSpeed, asker: str) -> None:
         self._report('~/speed', asker, lambda: self._world.set_speed(message.speed))
@@ -242,7 +248,8 @@ class PageSession:
         self._report('~/timeline', asker, lambda: simulation.return_to_course(message.course))
 
     def _upload(self, message: messages.Upload, asker: str) -> None:
-        self._report('~/load_world', asker, lambda: self._world.replace_world(message.content))
+        content = message.content
+        self._report_in_turn('load_world', asker, lambda: self._world.replace_world(content))
 
     def _share(self, _: messages.Share, asker: str) -> None:
         text = self._world.world_text()
@@ -260,15 +267,25 @@ class PageSession:
     # Answers
 
     def _report(self, topic: str, asker: str, action: Callable[[], str]) -> None:
-        """Perform an action, and queue the answer of its message or of its refusal."""
+        """Perform an action, and queue its answer."""
+        self._tell(self._perform_action(topic, asker, action))
+
+    def _report_in_turn(self, service: str, asker: str, action: Callable[[], str]) -> None:
+        """Perform an action when it is the turn of its service, and queue its answer."""
+        topic = f'~/{service}'
         try:
-            message = action()
-        except Refusal as refusal:
+            self._world.call_in_turn(service, partial(self._perform_action, topic, asker, action))
+        except Busy as refusal:
             self._refuse(refusal, topic, asker)
+
+    def _perform_action(self, topic: str, asker: str, action: Callable[[], str]) -> Answer:
+        """Perform an action, and return the answer of its message or of its refusal."""
+        try:
+            return Answer(topic=topic, message=action(), asker=asker)
+        except Refusal as refusal:
+            return Answer.refused(refusal, topic=topic, asker=asker)
         except PhysSimError as error:
-            self._tell(Answer(topic=topic, message=str(error), code='refused', asker=asker))
-        else:
-            self._tell(Answer(topic=topic, message=message, asker=asker))
+            return Answer(topic=topic, message=str(error), code='refused', asker=asker)
 
     def _refuse(self, refusal: Refusal, topic: str, asker: str) -> None:
         self._world.simulation.requests.refuse(refusal, topic=topic, subject='', asker=asker)

@@ -17,11 +17,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any, Protocol
 
 from physsim_ros.drawing import DrawingSettings
-from physsim_ros.model.snapshot import Snapshot
+from physsim_ros.model.snapshot import Answer, Snapshot
 from physsim_ros.simulation.simulation import Simulation
 
 
@@ -38,6 +38,14 @@ class WorldControl(Protocol):
 
     def current_snapshot(self) -> Snapshot:
         """Apply the waiting requests, and return the snapshot that is shown."""
+
+    def call_in_turn(self, service: str, call: Callable[[], Answer]) -> None:
+        """
+        Call something and tell its answer, at once or when a seek is done that it must wait for.
+
+        :param service: whose turn it takes
+        :raises Busy: too many requests wait
+        """
 
     def perform(self, action: str, world: str) -> str:
         """

@@ -458,3 +458,29 @@ def test_saving_over_a_file_replaces_it_whole(
     succeeded(client.call('~/save_world'))
     assert 'a/0' not in (tmp_path / 'mine.yaml').read_text()
     assert [path.name for path in tmp_path.iterdir()] == ['mine.yaml']
+
+
+def test_a_service_that_needs_the_world_waits_for_the_end_of_a_seek_and_replies_then(
+    physsim: PhysSim, client: Client, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    simulation = physsim.node.simulation
+    client.ask('~/spawn', disc('disc/0', at=(0.0, 5.0)))
+    client.ask('~/spawn', disc('disc/1', at=(3.0, 5.0)))
+    physsim.run(1.0)
+    clear = client.node.create_client(Trigger, '/physsim/clear')
+    pause = client.node.create_client(Trigger, '/physsim/pause')
+    client.spin_until(lambda: clear.service_is_ready() and pause.service_is_ready())
+    # As with ticks, which bring the world to the cached frame that is shown.
+    monkeypatch.setattr(physsim.node, '_started', True)
+    simulation.seek(500_000_000)
+    assert not simulation.is_there
+    cleared, paused = clear.call_async(Trigger.Request()), pause.call_async(Trigger.Request())
+    physsim.settle()
+    assert not simulation.is_there
+    client.spin_until(paused.done)
+    assert not cleared.done()
+    physsim.node.apply_requests()
+    client.spin_until(cleared.done)
+    assert succeeded(cleared.result()) == 'deleted 2 bodies'
+    assert simulation.world.stamp == 500_000_000
+    assert len(simulation.world) == 0

@@ -16,8 +16,10 @@
 
 from __future__ import annotations
 
+from physsim_ros.model.checkpoint import WorldState
+from physsim_ros.model.requests import DeleteAll
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.snapshot import Frame
+from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.simulation.request_queue import Amend
 from physsim_ros.simulation.simulation import Simulation
 import pytest
@@ -75,6 +77,35 @@ def test_requests_wait_for_the_end_of_a_seek_and_apply_there(
     _, frame = ticks_to_a_frame(simulation, 0)
     assert [answer.subject for answer in frame.answers if answer.topic == '~/spawn'] == ['late/0']
     assert frame.snapshot.step == 240
+
+
+def test_a_call_waits_for_the_end_of_a_seek_in_its_turn_among_requests(
+    past: tuple[Simulation, dict[int, str]],
+) -> None:
+    simulation, _ = past
+    simulation.speed = 0.0
+    simulation.seek(SECOND)
+    requests = simulation.requests
+    saved: list[WorldState] = []
+
+    def clear() -> Answer:
+        saved.append(simulation.save())
+        return Answer(topic='~/clear', message=simulation.perform(DeleteAll()))
+
+    requests.submit(spawning('early/0', DISC, (5.0, 1.0, 0.0)), topic='~/spawn')
+    requests.submit_call(clear, topic='~/clear')
+    requests.submit(spawning('late/0', DISC, (7.0, 1.0, 0.0)), topic='~/spawn')
+    ticks, frame = ticks_to_a_frame(simulation, 0)
+    assert ticks > 50
+    assert len(saved[0].bodies) == 5
+    messages = [answer.message for answer in frame.answers if answer.topic.startswith('~')]
+    assert messages == ['spawned early/0', 'deleted 5 bodies', 'spawned late/0']
+    assert frame.snapshot.scene.names == ('late/0',)
+    assert frame.snapshot.step == 240
+    simulation.undo()
+    assert len(simulation.world) == 0
+    simulation.undo()
+    assert len(simulation.world) == 5
 
 
 def test_a_change_of_earlier_gestures_waits_for_the_end_of_a_seek(

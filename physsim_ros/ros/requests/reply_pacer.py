@@ -51,7 +51,7 @@ class _Reply(NamedTuple):
 
 class ReplyPacer:
     """
-    Delays the replies of services, in the order of their calls, and not their actions.
+    Delays the replies of services, and not their actions.
 
     :param node: that offers the services
     """
@@ -86,10 +86,11 @@ class ReplyPacer:
 
     def flush(self) -> None:
         """Send the replies that are due; called at each tick."""
-        while self._waiting and self._waiting[0].is_complete():
-            pause = READING * self._node.count_clients(self._waiting[0].service)
+        for reply in [each for each in self._waiting if each.is_complete()]:
+            pause = READING * self._node.count_clients(reply.service)
             now = time.monotonic()
             if self.paced and self._read > now + BURST * pause:
                 return
             self._read = max(self._read, now) + pause
-            self._waiting.popleft().send()
+            self._waiting.remove(reply)
+            reply.send()

@@ -24,7 +24,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from functools import partial
 
-from physsim_ros.model.errors import Refusal
+from physsim_ros.model.errors import Busy, Refusal
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.ros.requests.message_queue import MessageQueue
 from physsim_ros.ros.requests.reply_pacer import ReplyPacer, SERVICE_QOS
@@ -35,12 +35,43 @@ from std_srvs.srv import Trigger
 
 # Carries out a service, and returns a message about it; raises a Refusal where it cannot.
 Action = Callable[[], str]
+# Services that need the world itself: they wait for the end of a seek, as requests do.
+IN_TURN = frozenset({'clear', 'load_world', 'save_world'})
+
+
+class Turns:
+    """
+    The turns of services: at once, or among the requests that wait for the end of a seek.
+
+    :param requests: the queue of requests and answers
+    :param is_there: tells whether the world is where it is shown, and no seek is under way
+    """
+
+    def __init__(self, requests: RequestQueue, is_there: Callable[[], bool]) -> None:
+        self._requests = requests
+        self._is_there = is_there
+
+    def call(self, service: str, call: Callable[[], Answer]) -> None:
+        """
+        Call something, and tell its answer.
+
+        :param service: whose turn it takes
+        :raises Busy: too many requests wait
+        """
+        if service in IN_TURN and not self._is_there():
+            self._requests.submit_call(call, topic=f'~/{service}')
+        else:
+            self._requests.tell(call())
+
+    def tell(self, answer: Answer) -> None:
+        """Tell an answer at once."""
+        self._requests.tell(answer)
 
 
 def create_services(
     node: Node,
     actions: Mapping[str, Action],
-    requests: RequestQueue,
+    turns: Turns,
     pacer: ReplyPacer,
     *,
     queue: MessageQueue,
@@ -51,33 +82,42 @@ def create_services(
 
     :param node: that offers them
     :param actions: by the names of the services
-    :param requests: the queue that their answers are added to
+    :param turns: of the services
     :param pacer: of their replies
     :param queue: of messages, behind which a service comes that was called after them
     :param on_success: called after each service that was not refused
     """
 
-    def answer(action: Action, topic: str, response: Trigger.Response) -> None:
+    def perform(name: str, response: Trigger.Response) -> Answer:
         try:
-            response.message = action()
+            response.message = actions[name]()
             response.success = True
             on_success()
-            requests.tell(Answer(topic=topic, message=response.message))
+            return Answer(topic=f'~/{name}', message=response.message)
         except Refusal as refusal:
-            response.message = f'{refusal.code}: {refusal}'
-            response.success = False
-            requests.refuse(refusal, topic=topic, subject='')
-        pacer.flush()
+            return refuse(name, response, refusal)
+        finally:
+            pacer.flush()
 
-    def create_service(action: Action, topic: str) -> Service:
+    def refuse(name: str, response: Trigger.Response, refusal: Refusal) -> Answer:
+        response.message = f'{refusal.code}: {refusal}'
+        response.success = False
+        return Answer.refused(refusal, topic=f'~/{name}')
+
+    def answer(name: str, response: Trigger.Response) -> None:
+        try:
+            turns.call(name, partial(perform, name, response))
+        except Busy as refusal:
+            turns.tell(refuse(name, response, refusal))
+            pacer.flush()
+
+    def create_service(name: str) -> Service:
         def callback(_: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
-            queue.add_call(partial(answer, action, topic, response))
+            queue.add_call(partial(answer, name, response))
             return response
 
-        return node.create_service(Trigger, topic, callback, qos_profile=SERVICE_QOS)
+        return node.create_service(Trigger, f'~/{name}', callback, qos_profile=SERVICE_QOS)
 
-    for name, action in actions.items():
+    for name in actions:
         # Each says what it did, or why not.
-        pacer.add(
-            create_service(action, f'~/{name}'), is_complete=lambda reply: bool(reply.message)
-        )
+        pacer.add(create_service(name), is_complete=lambda reply: bool(reply.message))
