@@ -202,7 +202,7 @@ def test_hints_lead_from_a_first_body_to_a_changed_past(chromium: Any, address: 
     sheet.wait('physsim.speed === 0')
     sheet.press('Hand')
     with sheet.dragging(tuple(sheet.pose(name)[:2]), (2.0, 6.0)):
-        sheet.page.get_by_role('status').get_by_text('grabbed').wait_for()
+        sheet.wait('name => physsim.bodies[name][0] > 1', name)
     hint.get_by_text('rewind').wait_for()
     sheet.press('Play')
     sheet.wait('physsim.time > 0.5')

@@ -30,7 +30,7 @@ import {WorldState} from './world_state.js';
 
 const GAP = 24, LOW_GAP = 12; // px between the bars and a world that is framed, and on a low page
 const LOW = 500; // px
-const LABEL = 20; // px more, for the heights at the left
+const LABEL = 10; // px more, for the heights at the left
 const LISTED = 200; // bodies in the list for screen readers
 const LIST_EVERY = 1000; // ms
 
@@ -128,15 +128,17 @@ export class App {
         bottom: camera.height - box(wide ? 'bar' : 'tools').top};
     const {left, top, right, bottom} = view.insets, gap = camera.height < LOW ? LOW_GAP : GAP;
     camera.fit(this.world.extent(),
-      {left: left + gap + (wide ? LABEL : 0), top: top + gap, right: right + gap, bottom: bottom + gap});
+      {left: left + gap + LABEL, top: top + gap, right: right + gap, bottom: bottom + gap});
     this.framed = true;
     this.bounds = String(this.world.scene.bounds);
     view.dirty = true;
   }
 
-  /** Frame the world that comes next. */
+  /** Frame the world that comes next, in which nothing is selected. */
   frameNext() {
     this.framed = false;
+    this.cursor.hide();
+    this.selection.select([]);
   }
 
   #listBodies() {

@@ -25,6 +25,7 @@ export class BodyPanel {
 
   close() {
     this.element.hidden = true;
+    if (this.app.camera.fitted) this.app.frame();
     this.name = '';
     this.plots.watch('');
   }
@@ -58,10 +59,12 @@ export class BodyPanel {
    * @param {number} row
    */
   #uncover(row) {
-    const {camera, world} = this.app, {left, top, bottom} = this.element.getBoundingClientRect();
+    const {camera, world} = this.app, {fitted} = camera;
+    const {left, top, bottom} = this.element.getBoundingClientRect();
     const [x, y] = camera.toPage(...world.place(row, world.scene.bodies[row].centroid));
     if (camera.narrow) camera.pan(0, Math.min(top - COVERED - y, 0));
     else if (y < bottom) camera.pan(Math.min(left - COVERED - x, 0), 0);
+    camera.fitted = fitted;
   }
 
   /** @param {string[]} names of several bodies */

@@ -32,6 +32,7 @@ export class Gallery {
       iconButton('Close', 'close', () => this.dialog.close(), '')),
     ...content);
     if (!this.dialog.open) this.dialog.showModal();
+    this.dialog.scrollTop = 0;
   }
 
   showWorlds() {

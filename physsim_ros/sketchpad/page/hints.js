@@ -32,9 +32,12 @@ export class Hints {
     connection.on('answer', ({request, ok, topic, subject}) => {
       if (request && ok && topic === 'clicked_point' && subject) this.completeStep('draw');
     });
-    connection.on('timeline', ({state, courses = []}) => {
-      if (state === 'rewinding' || state === 'in the past') this.completeStep('rewind');
-      if (state === 'playing' && this.#isDone('draw')) this.completeStep('play');
+    // What others do to the world teaches nobody here.
+    connection.on('sent', ({type, name}) => {
+      if (type === 'speed' || name === 'play' && this.#isDone('draw')) this.completeStep('play');
+      if (type === 'seek' || name === 'rewind') this.completeStep('rewind');
+    });
+    connection.on('timeline', ({courses = []}) => {
       if (courses.length && this.#isDone('rewind')) this.completeStep('change');
     });
     this.#showStep();
@@ -55,6 +58,7 @@ export class Hints {
 
   /** @param {string} text how the tool in hand is used */
   showTool(text) {
+    this.app.notes.hide();
     this.#show(text);
     this.timer = setTimeout(() => this.#showStep(), TOOL_SHOWN);
   }

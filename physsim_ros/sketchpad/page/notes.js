@@ -6,8 +6,8 @@ import {createElement, elementOf} from './dom.js';
 /** @import {App, Answer, Point} from './types.js' */
 
 const SCENE_LATER = 250; // ms: the scene of what was added comes no later than that after the answer
-/** The clock shows the time, and a hand that missed was told so when it grabbed. */
-const SILENT = /^at [\d.]+ s$| holds no body$/;
+/** The clock shows the time, and the hand what it holds. */
+const SILENT = /^at [\d.]+ s$|^grabbed |^let go of | holds no body$/;
 const SHOWN = 2500, REFUSED = 5000, READ = 6000; // ms: an answer, a refusal, a note
 
 export class Notes {
@@ -52,7 +52,12 @@ export class Notes {
     const shown = ok ? SHOWN : REFUSED;
     if (!quiet) this.until = performance.now() + shown;
     clearTimeout(this.timer);
-    this.timer = setTimeout(() => this.status.classList.remove('shown'), shown);
+    this.timer = setTimeout(() => this.hide(), shown);
+  }
+
+  /** Hide the last answer. */
+  hide() {
+    this.status.classList.remove('shown');
   }
 
   /**

@@ -8,7 +8,7 @@
 
 /** Verbs before the name of a body, and what is said after what it is. */
 const VERBS = new Map([['spawned', 'added'], ['changed', 'changed'], ['moved', 'moved'], ['deleted', 'deleted'],
-  ['anchored', 'anchored'], ['released', 'free again'], ['grabbed', 'grabbed'], ['let go of', 'let go']]);
+  ['anchored', 'anchored'], ['released', 'free again']]);
 /** Whole sentences, and what is said instead. @type {[RegExp, string][]} */
 const SENTENCES = [
   [/^saved .* to (.+)\.yaml(.*)/, 'Saved as $1$2'], [/^loaded .* from (.+)\.yaml/, 'Opened $1'],
@@ -31,9 +31,9 @@ export class Words {
     });
   }
 
-  /** @param {string} name of what an answer is about */
+  /** @param {string} name of what an answer is about; one that was free may be used again */
   knows(name) {
-    return !name.startsWith('drawn/') || this.known.some((words) => words.has(name));
+    return !name.startsWith('drawn/') || this.known[0].has(name);
   }
 
   /**
