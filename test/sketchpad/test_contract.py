@@ -164,7 +164,7 @@ def test_a_screen_reader_finds_the_bodies_with_their_places(sheet: Sheet) -> Non
     # The list is renewed each second.
     for number, text in enumerate(texts):
         items.nth(number).filter(has_text=text).wait_for(state='attached')
-    assert items.count() == len(texts)
+    sheet.until(lambda: items.count() == len(texts), 'a list of three')
 
 
 def test_a_button_says_what_it_does_as_soon_as_it_is_pointed_at(
