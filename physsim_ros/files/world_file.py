@@ -47,6 +47,8 @@ _LONGEST_LIST = 500
 _SUFFIX = '.yaml'
 # Greatest size of a world file [bytes]: 100,000 bodies have 30 MB.
 MOST_BYTES = 64 * 2**20
+# Length in which a file names its format [characters]: YAML takes half a second for so many.
+_HEAD = 2**20
 
 
 def user_worlds() -> Path:
@@ -239,7 +241,7 @@ def _check_place(path: Path, name: str, directories: tuple[Path, ...]) -> None:
 def _is_world_file(path: Path) -> bool:
     """Return whether a file exists whose format is that of world files."""
     try:
-        return first_value(read_file(path, MOST_BYTES), 'format') == str(FORMAT)
+        return first_value(read_file(path, MOST_BYTES)[:_HEAD], 'format') == str(FORMAT)
     except (OSError, UnicodeDecodeError):
         return False
 

@@ -25,6 +25,8 @@ import yaml
 from yaml.composer import Composer
 
 _TAG = 'tag:yaml.org,2002:'
+# Depth of brackets: Python's recursion ends the composer at some 300, too.
+_DEEPEST = 100
 
 
 class NotYaml(Malformed):
@@ -174,7 +176,8 @@ def first_value(text: str, key: str) -> str | None:
     """
     Return the scalar of a key of the mapping in a YAML text; None where there is none.
 
-    The text is read up to it and no further.
+    The text is read up to it and no further, and as far as its brackets are nested by `_DEEPEST`:
+    libyaml takes a time that grows with the square of that.
     """
     depth = nodes = 0
     named = False
@@ -184,6 +187,8 @@ def first_value(text: str, key: str) -> str | None:
                 if depth == 0 and not isinstance(event, yaml.MappingStartEvent):
                     return None
                 depth += 1
+                if depth > _DEEPEST:
+                    return None
                 continue
             ended = isinstance(event, yaml.CollectionEndEvent)
             depth -= ended
