@@ -1,0 +1,175 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Bodies in the picture: where they are, how large, of which colour and shape."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon, Triangles
+from physsim_ros.model.transform import cross
+import pytest
+
+from .picture_file import BLUE, body, COLOR_TOLERANCE, frame, RED, scene, TOLERANCE, unpack
+
+
+def test_a_box_has_the_place_turn_size_and_colour_that_were_asked_for(recording):
+    recording.draw(frame(scene(body()), [(-3.0, 4.0, math.pi / 2)]))
+
+    box = recording.shape('world/bodies/box/0')
+    assert box.bounds == pytest.approx((-3.5, 3.0, -2.5, 5.0), abs=TOLERANCE)
+    assert box.color_at(-3.0, 4.0) == pytest.approx(RED, abs=COLOR_TOLERANCE)
+    assert box.color_at(-3.6, 4.0) is None
+
+
+def test_bodies_that_look_alike_are_one_entity_and_each_has_its_own_size_and_name(recording):
+    sizes = (0.45, 0.5, 0.54)
+    discs = [body(f'ball/{n}', Disc(radius=size)) for n, size in enumerate(sizes)]
+
+    recording.draw(frame(scene(*discs), [(4.0 * n, 1.0, 9.0) for n in range(3)]))
+
+    (drawn,) = recording.shapes('world/bodies/ball/0')
+    for number, (size, disc) in enumerate(zip(sizes, drawn, strict=True)):
+        box = (4 * number - size, 1 - size, 4 * number + size, 1 + size)
+        assert disc.bounds == pytest.approx(box, abs=0.002 * size)
+    assert [*recording.last('world/bodies/ball/0', 'name')] == ['ball/0', 'ball/1', 'ball/2']
+
+
+def test_every_body_has_its_name_at_its_centre(recording):
+    both = scene(body('box/0'), body('box/1'))
+
+    recording.draw(*(frame(both, [(0, 0, 0), (step, 2, 0)], step=4 * step) for step in range(7)))
+
+    assert [*recording.last('world/names', 'Points3D:labels')] == ['box/0', 'box/1']
+    rows = recording.rows('world/names', 'Points3D:positions')
+    assert [row.frame for row in rows] == [0, 6]
+    assert rows[-1].value[:, :2].tolist() == [[0, 0], [6, 2]]
+
+
+def test_a_disc_is_round(recording):
+    recording.draw(frame(scene(body(shape=Disc(radius=100.0))), [(0, 0, 0)]))
+
+    disc = recording.shape('world/bodies/box/0')
+    reach = np.hypot(*disc.corners.T)
+    rim = disc.corners[reach > 99.9]
+    angles = np.sort(np.arctan2(rim[:, 1], rim[:, 0]))
+    # The middle of a chord: half a pixel within a circle of 400 pixels.
+    assert 1 - math.cos(np.diff(angles).max() / 2) < 0.5 / 400
+
+
+def test_every_body_has_an_outline_that_is_darker_than_it(recording):
+    star = Polygon(outline=((0, 0), (4, 0), (4, 4), (2, 1), (0, 4)))
+    recording.draw(frame(scene(body(shape=star)), [(0, 0, 0)]))
+
+    drawn = recording.shape('world/bodies/box/0')
+    fill, edge = drawn.color_at(2.0, 0.5), drawn.color_at(2.0, 0.005)
+    assert fill == pytest.approx(RED, abs=COLOR_TOLERANCE)
+    assert all(dark <= light for dark, light in zip(edge, fill, strict=True))
+    assert edge[0] < 0.7 * fill[0]
+
+
+def test_a_mark_on_a_disc_shows_that_it_rolls(recording):
+    disc = scene(body(shape=Disc(radius=1.0)))
+
+    recording.draw(frame(disc, [(0, 0, 0)]), frame(disc, [(0, 0, math.pi / 2)], step=4))
+
+    (first,), (second,) = recording.shapes('world/bodies/box/0')
+    assert first.color_at(0.5, 0.003) != first.color_at(0.003, 0.5)
+    assert second.color_at(0.003, 0.5) == first.color_at(0.5, 0.003)
+    assert second.color_at(0.5, 0.003) == pytest.approx(RED, abs=COLOR_TOLERANCE)
+
+
+@pytest.mark.parametrize(
+    'shape',
+    [
+        Polygon(outline=((0, 0), (4, 0), (0, 2))),
+        Polygon(outline=((0, 0), (0, 2), (4, 0))),
+        Polygon(outline=((0, 0), (2, 0), (2, 2), (1, 0.5))),
+        Triangles(vertices=((0, 0), (1, 0), (0, 1), (2, 0), (3, 0), (2, -1))),
+        Chain(points=((0, 0), (4, 0), (4, 3)), thickness=0.2),
+        Compound(element=Box(width=0.2, height=0.2), centers=((-1, 0), (1, 0))),
+    ],
+    ids=['ramp', 'clockwise', 'concave', 'triangles', 'chain', 'compound'],
+)
+def test_a_shape_is_filled_where_it_is_and_nowhere_else(recording, shape):
+    recording.draw(frame(scene(body(shape=shape)), [(5.0, 1.0, 0.4)]))
+
+    drawn = recording.shape('world/bodies/box/0')
+    grid = np.random.default_rng(7).uniform(-1.3, 4.3, (2000, 2))
+    there = grid @ np.array([[math.cos(0.4), math.sin(0.4)], [-math.sin(0.4), math.cos(0.4)]])
+    filled = [drawn.color_at(x, y) is not None for x, y in there + np.array((5.0, 1.0))]
+    expected = np.array([is_within(shape, *point) for point in grid])
+    # Points within a hundredth of an edge may lie on either side of a chord.
+    assert np.mean(filled != expected) < 0.005
+
+
+def is_within(shape, x, y):
+    """Tell whether a point lies in a shape, by its pieces."""
+    for piece in shape.form.pieces:
+        if hasattr(piece, 'vertices'):
+            corners = np.array(piece.vertices)
+            edges = np.roll(corners, -1, axis=0) - corners
+            if (cross(edges, (x, y) - corners) >= 0).all():
+                return True
+        else:
+            start, end = np.array(piece.start), np.array(piece.end)
+            along = np.clip(
+                (((x, y) - start) @ (end - start)) / ((end - start) @ (end - start)), 0, 1
+            )
+            if math.dist((x, y), start + along * (end - start)) <= piece.radius:
+                return True
+    return False
+
+
+def test_a_later_body_lies_above_an_earlier_one(recording):
+    two = scene(body('a/0', color=RED), body('a/1', color=BLUE), body('a/2', color=RED))
+
+    recording.draw(frame(two, [(0, 0, 0), (0.5, 0, 0), (0.7, 0, 0)]))
+
+    ((first, last),) = recording.shapes('world/bodies/a/0')
+    assert first.z < recording.shape('world/bodies/a/1').z < last.z
+
+
+def test_an_anchored_body_bears_an_anchor_and_a_free_one_does_not(recording):
+    both = scene(body(anchored=True), body('box/1', color=BLUE))
+    recording.draw(frame(both, [(3.0, 4.0, 0.0), (9.0, 4.0, 0.0)]))
+
+    anchored, free = recording.shape('world/bodies/box/0'), recording.shape('world/bodies/box/1')
+    # The shank of the anchor is upright, in the middle of the body.
+    assert anchored.color_at(3.001, 4.001) != pytest.approx(RED, abs=COLOR_TOLERANCE)
+    assert free.color_at(9.001, 4.001) == pytest.approx(BLUE, abs=COLOR_TOLERANCE)
+
+
+def test_the_anchor_of_a_concave_body_lies_on_the_body(recording):
+    horseshoe = Polygon(outline=((0, 0), (4, 0), (4, 4), (3, 4), (3, 1), (1, 1), (1, 4), (0, 4)))
+
+    recording.draw(frame(scene(body(shape=horseshoe, anchored=True)), [(0, 0, 0)]))
+
+    drawn = recording.shape('world/bodies/box/0')
+    inked = drawn.corners[(drawn.colors[:, :3] > 0.99).all(axis=1)]
+    assert len(inked)
+    assert all(is_within(horseshoe, *corner) for corner in inked)
+
+
+def test_a_sensor_is_translucent(recording):
+    recording.draw(frame(scene(body(sensor=True), body('box/1')), [(0, 0, 0), (5, 0, 0)]))
+
+    factors = [
+        unpack(recording.last(f'world/bodies/box/{n}', 'Mesh3D:albedo_factor'))[0, 3]
+        for n in (0, 1)
+    ]
+    assert factors[0] < 0.5
+    assert factors[1] == 1

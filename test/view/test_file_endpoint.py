@@ -1,0 +1,157 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Whatever happens to a disk, the world is neither slowed nor stopped by it."""
+
+from __future__ import annotations
+
+import os
+import sys
+import threading
+
+from physsim_ros.view import ViewerMode
+from physsim_ros.view.sinks import file_endpoint
+
+from .viewers import CONTEXT, Events, frame, PATIENCE, rows, run_alone, show, until
+
+
+def test_a_recording_holds_every_frame_once_it_is_closed(viewers, tmp_path):
+    path = tmp_path / 'it.rrd'
+    viewer = viewers(mode=ViewerMode.NONE, record_file=str(path))
+
+    show(viewer, 1000)
+    viewer.close()
+
+    assert rows(path)['/world/bodies/box/0'] >= 1000
+    assert ', ended, 1000 frames, 0 dropped' in viewer.state
+
+
+def test_a_file_that_cannot_be_written_is_told_and_the_rest_goes_on(viewers, server, tmp_path):
+    path = tmp_path / 'nowhere' / 'it.rrd'
+    server.start()
+    viewer = viewers(mode=ViewerMode.CONNECT, url=server.url, record_file=str(path))
+    events = Events(viewer)
+
+    failure = events.wait_for('record_failed')
+    events.wait_for('')
+    show(viewer, 50)
+    viewer.close()
+
+    assert failure.topic == 'viewer'
+    assert str(path) in failure.message
+    server.wait_for('/world/bodies/box/0', 50)
+
+
+def test_a_file_that_is_no_regular_one_is_refused_and_blocks_nothing(viewers, tmp_path):
+    path = tmp_path / 'fifo.rrd'
+    os.mkfifo(path)
+    viewer = viewers(record_file=path)
+
+    assert 'no regular file' in Events(viewer).wait_for('record_failed').message
+    until(lambda: not viewer.is_open)
+
+
+def test_a_share_that_does_not_answer_is_told_and_delays_nothing(viewers, tmp_path, monkeypatch):
+    monkeypatch.setattr('physsim_ros.view.sinks.sink_worker.SILENT_AFTER', 0.1)
+    go_on = threading.Event()
+    create = file_endpoint._create_regular_file  # noqa: SLF001  it stands for the share
+
+    def late(path):
+        assert go_on.wait(PATIENCE)
+        return create(path)
+
+    monkeypatch.setattr(file_endpoint, '_create_regular_file', late)
+    viewer = viewers(record_file=tmp_path / 'it.rrd')
+    events = Events(viewer)
+
+    assert 'no answer' in events.wait_for('record_failed').message
+    show(viewer, 10)
+    go_on.set()
+    events.wait_for('')
+    until(lambda: ', open, 10 frames' in viewer.state)
+
+
+def test_a_recording_that_was_deleted_is_told_once_and_begun_again(viewers, tmp_path):
+    path = tmp_path / 'it.rrd'
+    viewer = viewers(record_file=path)
+    events = Events(viewer)
+    events.wait_for('')
+    show(viewer, 10)
+
+    path.unlink()
+    assert 'gone' in events.wait_for('record_failed').message
+    until(lambda: not viewer.is_open)
+    assert 'the file is gone' in viewer.failure
+    viewer.show(frame(10, 'before'), context=CONTEXT)
+    assert 'failed (the file is gone' in viewer.state
+    viewer.open_viewer(ViewerMode.NONE)
+    events.wait_for('')
+    assert viewer.failure == ''
+    viewer.show(frame(20, 'after'), context=CONTEXT)
+    viewer.close()
+
+    assert not [each for each in [*events.all, *viewer.poll()] if each.code]
+    # With the last frame of before.
+    assert rows(path)['/events'] == 2
+
+
+# A process whose files cannot grow past a limit: a disk that is full, and has space again later.
+FULL_DISK = """
+    import sys
+    from pathlib import Path
+    from resource import getrlimit, RLIM_INFINITY, RLIMIT_FSIZE, setrlimit
+    from test.view.viewers import bulk, CONTEXT, Events, frame, until
+    from physsim_ros.view import Viewer, ViewerMode
+    from physsim_ros.view.sinks.file_endpoint import FileEndpoint
+
+    FileEndpoint.patience = 1.0
+    setrlimit(RLIMIT_FSIZE, (300_000, RLIM_INFINITY))
+    viewer = Viewer()
+    viewer.record(Path(sys.argv[1]))
+    events = Events(viewer)
+    events.wait_for('')
+    for step in range(10):
+        viewer.show(frame(step, bulk()), context=CONTEXT)
+    print(events.wait_for('record_failed').message)
+    until(lambda: not viewer.is_open)
+    setrlimit(RLIMIT_FSIZE, (RLIM_INFINITY, RLIM_INFINITY))
+    viewer.open_viewer(ViewerMode.NONE)
+    print(events.wait_for('').message)
+    for step in range(10, 20):
+        viewer.show(frame(step, bulk()), context=CONTEXT)
+    viewer.close()
+    print([each.code for each in (*events.all, *viewer.poll())])
+"""
+
+
+def test_a_disk_that_is_full_is_told_once_and_recording_begins_again_beside(tmp_path):
+    path = tmp_path / 'it.rrd'
+
+    failed, begun, others = run_alone(FULL_DISK, path).splitlines()
+
+    assert str(path) in failed
+    assert begun == f'record: {tmp_path / "it-2.rrd"}'
+    assert others == '[]'
+    assert path.stat().st_size <= 300_000
+    # The last frame of before, and all since.
+    assert rows(tmp_path / 'it-2.rrd')['/events'] == 11
+
+
+def test_where_there_is_no_rerun_that_is_told_and_nothing_is_open(viewers, tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, 'rerun', None)
+    viewer = viewers(record_file=str(tmp_path / 'it.rrd'))
+
+    assert 'rerun' in Events(viewer).wait_for('record_failed').message
+    until(lambda: not viewer.is_open)
+    assert 'failed' in viewer.state

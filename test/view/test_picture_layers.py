@@ -1,0 +1,174 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Over and under the bodies: walls, grid, contacts, time, what is being drawn; and the camera."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from physsim_ros.model.preview import NO_PREVIEW, Preview
+from physsim_ros.model.snapshot import Contacts
+from physsim_ros.view.preview_lines import LINGER
+import pytest
+
+from .picture_file import body, frame, scene, TOLERANCE
+
+
+def test_the_walls_lie_just_outside_the_bounds(recording):
+    recording.draw(frame(scene(bounds=(-10.0, 0.0, 10.0, 12.0)), []))
+
+    corners = recording.last('world/walls', 'Mesh3D:vertex_positions')[:, :2].reshape(-1, 6, 2)
+    low, high = corners.min(axis=1), corners.max(axis=1)
+    floor, ceiling, left, right = np.hstack((low, high))
+    assert floor[3] == pytest.approx(0.0, abs=1e-6)
+    assert ceiling[1] == pytest.approx(12.0)
+    assert left[2] == pytest.approx(-10.0)
+    assert right[0] == pytest.approx(10.0)
+
+
+def test_the_grid_has_a_line_at_every_whole_metre_and_says_which(recording):
+    recording.draw(frame(scene(bounds=(-10.0, 0.0, 10.0, 12.0)), []))
+
+    lines = [
+        np.array(line) for line in recording.last('world/grid', 'LineStrips3D:strips').tolist()
+    ]
+    upright = sorted(line[0, 0] for line in lines if line[0, 0] == line[1, 0])
+    assert np.diff(upright) == pytest.approx(1.0)
+    assert any(abs(x) < TOLERANCE for x in upright)
+    places = recording.last('world/grid/metres', 'Points3D:positions')
+    labels = recording.last('world/grid/metres', 'Points3D:labels')
+    for (x, y, _), label in zip(places, labels, strict=True):
+        # Labels hang below their points: those at the left are raised by half their height.
+        assert label in {f'{x:g} m', f'{math.floor(y):g} m'}
+        assert x < -10.0 or y < 0.0, 'a label covers the world'
+
+
+def contacts(*impulses, pair=(0, -1)):
+    """Return contacts at (1, 2) with impulses on the second body [N s]."""
+    count = len(impulses)
+    return Contacts(
+        pairs=np.array([pair] * count, dtype=np.int64).reshape(-1, 2),
+        points=np.array([[1.0, 2.0]] * count).reshape(-1, 2),
+        normals=np.array([[0.0, -1.0]] * count).reshape(-1, 2),
+        impulses=np.array(impulses, dtype=np.float64).reshape(-1, 2),
+    )
+
+
+def test_contacts_are_arrows_by_force_on_the_movable_body_as_long_as_they_last(recording):
+    box = scene(body())
+    weight = 2.0 * 9.81
+    press, heavy = contacts((0.0, -weight / 60)), contacts((0.0, -2 * weight / 60))
+
+    for number, each in enumerate((contacts(), press, heavy, contacts(), contacts())):
+        recording.draw(frame(box, [(number, 0, 0)], step=4 * number, contacts=each))
+
+    origins = recording.rows('world/contacts', 'Arrows3D:origins')
+    vectors = recording.rows('world/contacts', 'Arrows3D:vectors')
+    assert [(row.frame, len(row.value)) for row in origins] == [(1, 1), (2, 1), (3, 0)]
+    assert origins[0].value[0, :2] == pytest.approx((1.0, 2.0))
+    first, second = vectors[0].value[0], vectors[1].value[0]
+    assert first[0] == 0
+    assert first[1] > 0
+    assert second == pytest.approx(2 * first, rel=1e-4)
+
+
+def test_thousands_of_contacts_are_sent_less_often(recording):
+    box = scene(body())
+    crowd = contacts(*[(0.0, -1.0)] * 1500)
+
+    recording.draw(*(frame(box, [(n, 0, 0)], step=4 * n, contacts=crowd) for n in range(60)))
+
+    rows = recording.rows('world/contacts', 'Arrows3D:origins')
+    assert 1 < len(rows) <= 8
+    assert rows[-1].frame == 59
+
+
+def test_time_speed_and_the_past_are_written_in_the_picture(recording):
+    box = scene(body())
+    for number, (step, speed) in enumerate(((240, 1.0), (236, -2.0), (236, 0.0))):
+        past = step < 240
+        recording.draw(frame(box, [(number, 0, 0)], step=step, speed=speed, past=past))
+
+    words = [row.value.item() for row in recording.rows('world/camera/status', 'Points2D:labels')]
+    assert words == [
+        '1.00 s  × 1',
+        '0.98 s  × 2 back  in the past',
+        '0.98 s  paused  in the past',
+    ]
+
+
+def test_what_is_half_drawn_lies_over_the_world_until_it_is_dropped(recording):
+    box, half = scene(body()), Preview(lines=(((0, 0), (3, 4)),), points=((3, 4),), label='wall')
+    # Nothing moves: a preview alone is something new to see.
+    for preview in (NO_PREVIEW, half, half, NO_PREVIEW):
+        recording.draw(frame(box, [(0, 0, 0)], moved=False, preview=preview))
+
+    (shown, cleared) = recording.rows('world/preview/lines', 'LineStrips3D:strips')
+    assert (shown.frame, cleared.frame) == (1, 2)
+    ((start, end),) = shown.value
+    assert [*start[:2], *end[:2]] == [0, 0, 3, 4]
+    assert len(cleared.value) == 0
+    labels = recording.rows('world/preview/label', 'Points3D:labels')
+    assert [[*row.value] for row in labels] == [['wall'], []]
+
+
+def test_the_reading_of_a_stroke_is_seen_for_a_while(recording):
+    box, read = scene(body()), Preview(lines=(((0, 0), (3, 4)),), label='wall 90%')
+    for step in range(LINGER + 2):
+        recording.draw(frame(box, [(step, 0, 0)], step=4 * step, preview=read))
+
+    rows = recording.rows('world/preview/lines', 'LineStrips3D:strips')
+    assert [(row.frame, len(row.value)) for row in rows] == [(0, 1), (LINGER, 0)]
+
+
+def eyes(recording):
+    return [row.value[0] for row in recording.rows('world/camera', 'Transform3D:translation')]
+
+
+def test_the_camera_stands_still_while_bodies_move(recording):
+    one, two = scene(body()), scene(body(), body('box/1'))
+
+    recording.draw(*(frame(one, [(step, 0, 0)], step=step) for step in range(20)))
+    recording.draw(frame(two, [(0.5, 0, 0), (0, 0.5, 0)], step=20))
+
+    first, second = eyes(recording)
+    assert first == pytest.approx(second)
+
+
+def test_the_camera_looks_at_the_bounds_and_follows_them(recording):
+    recording.draw(frame(scene(bounds=(0.0, 0.0, 10.0, 2.0)), []))
+    recording.draw(frame(scene(bounds=(100.0, 0.0, 300.0, 40.0)), [], step=4))
+
+    first, second = eyes(recording)
+    assert first[:2] == pytest.approx((5.0, 1.0))
+    assert second[:2] == pytest.approx((200.0, 20.0))
+    assert second[2] == pytest.approx(20 * first[2], rel=1e-5)
+
+
+def test_the_camera_steps_back_for_bodies_that_are_far_outside(recording):
+    near, far = scene(body()), scene(body(), body('box/1'))
+
+    recording.draw(frame(near, [(0, 0, 0)]))
+    recording.draw(frame(far, [(0, 0, 0), (100, 0, 0)], step=4))
+
+    _, eye = eyes(recording)
+    assert eye[:2] == pytest.approx((50.0, 0.0))
+
+
+def test_an_empty_world_can_be_drawn(recording):
+    recording.draw(frame(scene(), []), frame(scene(), [], step=4))
+
+    assert len(eyes(recording)) == 2

@@ -1,0 +1,76 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Plots beside the picture: energies, momenta, counts, pace, and traced bodies."""
+
+from __future__ import annotations
+
+from physsim_ros.model.shapes import Disc
+import pytest
+
+from .picture_file import body, frame, scene, STEP_NS
+
+
+def test_energies_and_momenta_are_plotted(recording):
+    now = frame(scene(body()), [(2, 3, 0)])
+
+    recording.draw(now)
+
+    kinetic, potential = now.snapshot.kinetic_energy, now.snapshot.potential_energy
+    energies = recording.last('plots/energy', 'Scalars:scalars')
+    assert energies == pytest.approx([kinetic, potential, 0.0, kinetic + potential])
+    # 2 kg at 1 m/s along x and y, at (2, 3), and a moment of 5/6 kg m² at 1 rad/s.
+    assert recording.last('plots/momentum', 'Scalars:scalars') == pytest.approx([2.0, 2.0])
+    about = recording.last('plots/angular_momentum', 'Scalars:scalars')
+    assert about == pytest.approx(2 * (2 - 3) + 5 / 6)
+
+
+@pytest.mark.parametrize(('speed', 'factor', 'shown'), [(4.0, 2.0, 0.5), (-1.0, -1.0, 1.0)])
+def test_the_real_time_factor_is_by_the_speed_that_was_asked(recording, speed, factor, shown):
+    recording.draw(frame(scene(body()), [(0, 3, 0)], speed=speed), real_time_factor=factor)
+
+    assert recording.last('plots/pace', 'Scalars:scalars') == pytest.approx(shown)
+
+
+def test_a_world_that_nothing_paces_has_no_real_time_factor(recording):
+    recording.draw(frame(scene(body()), [(0, 3, 0)]), real_time_factor=0.0)
+
+    assert recording.rows('plots/pace', 'Scalars:scalars') == []
+
+
+def test_counts_are_sent_when_they_change_and_each_second(recording):
+    few, more = scene(body()), scene(body(), body('box/1'))
+    steps = range(0, 600, 4)
+    recording.draw(*(frame(few, [(0.0, 0.0, 0.0)], step=step) for step in steps[:100]))
+    recording.draw(*(frame(more, [(0.0, 0.0, 0.0)] * 2, step=step) for step in steps[100:]))
+    rows = recording.rows('plots/counts', 'Scalars:scalars')
+    assert [row.value[0] for row in rows] == [1.0, 1.0, 2.0]
+    # A plot shows what lies in its last 15 s; values are sampled every tenth of a second.
+    assert [row.frame for row in rows[:2]] == [0, 60]
+    assert 100 <= rows[2].frame <= 106
+
+
+def test_a_body_that_is_traced_leaves_its_way_and_flies_beside_its_parabola(recording):
+    ball = scene(body('ball/0', Disc(radius=0.5)))
+    for number in range(10):
+        time = 4 * number * STEP_NS * 1e-9
+        at = (time, 5 + time - 9.81 * time**2 / 2, 0)
+        recording.draw(frame(ball, [at], step=4 * number), traced=('ball/0', 'nobody/0'))
+
+    heights = [row.value for row in recording.rows('plots/bodies/ball/0', 'Scalars:scalars')]
+    assert len(heights) == 10
+    for height, flight in heights:
+        assert flight == pytest.approx(height, abs=1e-9)
+    way = recording.last('world/traces', 'LineStrips3D:strips')
+    assert len(way) == 1

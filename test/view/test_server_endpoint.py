@@ -1,0 +1,198 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Viewers in browsers: their server is started, found, and ended with the world."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+import threading
+from urllib.parse import parse_qs, urlsplit
+from urllib.request import urlopen
+
+from physsim_ros.view import ViewerMode
+from physsim_ros.view.sinks.sink_worker import SinkWorker
+import pytest
+
+from .viewers import Events, PATIENCE, rows_when, show, until
+from ..rerun_program import is_open, rerun
+
+psutil = pytest.importorskip('psutil')
+
+
+def page(event):
+    return event.message.removeprefix('web: ')
+
+
+def test_the_web_viewer_is_served_on_this_machine_alone(viewers):
+    viewer = viewers(mode=ViewerMode.WEB)
+    show(viewer, 10)
+
+    url = page(Events(viewer).wait_for(''))
+    stream = urlsplit(parse_qs(urlsplit(url).query)['url'][0])
+    until(lambda: is_open(urlsplit(url).port))
+    with urlopen(url) as answer:  # noqa: S310  an address of our own
+        text = answer.read().decode()
+
+    assert 'rerun' in text.lower()
+    assert url in viewer.state
+    ours = [psutil.Process(), *psutil.Process().children(recursive=True)]
+    ports = {urlsplit(url).port, stream.port}
+    listening = {
+        connection.laddr
+        for process in ours
+        for connection in process.net_connections('inet')
+        if connection.status == psutil.CONN_LISTEN and connection.laddr.port in ports
+    }
+    assert {(address.ip, address.port) for address in listening} == {
+        ('127.0.0.1', port) for port in ports
+    }
+
+
+def test_who_looks_late_at_what_is_served_sees_all_of_it(viewers, tmp_path):
+    viewer = viewers(mode=ViewerMode.WEB)
+    stream = parse_qs(urlsplit(page(Events(viewer).wait_for(''))).query)['url'][0]
+    show(viewer, 20)
+    until(lambda: ' 20 frames' in viewer.state)
+
+    path = tmp_path / 'late.rrd'
+    late = rerun(stream, '--save', path)
+    try:
+        rows_when(path, '/world/bodies/box/0', 20)
+    finally:
+        late.kill()
+        late.wait()
+
+
+def test_nothing_is_left_running_after_closing(viewers):
+    viewer = viewers(mode=ViewerMode.WEB)
+    Events(viewer).wait_for('')
+    (program,) = psutil.Process().children()
+
+    viewer.close()
+
+    assert not program.is_running()
+
+
+@pytest.fixture
+def impatient(monkeypatch):
+    """Make closing give up at once on a viewer that has not ended."""
+    monkeypatch.setattr('physsim_ros.view.sinks.endpoints.ServerEndpoint.closing', 0.0)
+
+
+def test_nothing_is_started_after_closing(viewers, monkeypatch, impatient):
+    began, go_on, started = threading.Event(), threading.Event(), []
+
+    def program():
+        # As long as it takes to begin: Rerun may have to be read from a cold disk.
+        began.set()
+        assert go_on.wait(PATIENCE)
+        return 'rerun'
+
+    monkeypatch.setattr('physsim_ros.view.sinks.endpoints._program', program)
+    monkeypatch.setattr('subprocess.Popen', lambda *_, **__: started.append('a program'))
+    viewer = viewers(mode=ViewerMode.WEB)
+    assert began.wait(PATIENCE)
+
+    viewer.close()
+    go_on.set()
+
+    until(lambda: not viewer.is_open)
+    assert started == []
+
+
+def test_what_is_just_being_started_is_ended_by_closing(viewers, monkeypatch, impatient):
+    began, closed, started = threading.Event(), threading.Event(), []
+    start, join = subprocess.Popen, SinkWorker.join
+
+    def slowly(*arguments, **options):
+        began.set()
+        assert closed.wait(PATIENCE)
+        started.append(start(*arguments, **options))
+        return started[0]
+
+    def joins(worker):
+        closed.set()
+        return join(worker)
+
+    monkeypatch.setattr('physsim_ros.view.sinks.endpoints._program', lambda: shutil.which('yes'))
+    monkeypatch.setattr('subprocess.Popen', slowly)
+    viewer = viewers(mode=ViewerMode.WEB)
+    assert began.wait(PATIENCE)
+    monkeypatch.setattr(SinkWorker, 'join', joins)
+
+    viewer.close()
+
+    assert started[0].poll() is not None
+
+
+def test_a_page_server_that_dies_is_started_again(viewers, monkeypatch):
+    # It has settled at once.
+    monkeypatch.setattr('physsim_ros.view.sinks.endpoints.SETTLING', 0.0)
+    viewer = viewers(mode=ViewerMode.WEB)
+    events = Events(viewer)
+    events.wait_for('')
+    (program,) = psutil.Process().children()
+
+    program.kill()
+    events.wait_for('viewer_lost')
+
+    port = until(lambda: urlsplit(viewer.state.removeprefix('web: ').split(', ')[0]).port)
+    until(lambda: is_open(port))
+
+
+@pytest.mark.parametrize('program', ['true', 'false'])
+def test_a_page_server_that_ends_at_once_is_not_started_again(viewers, monkeypatch, program):
+    started = []
+    monkeypatch.setattr(
+        'physsim_ros.view.sinks.endpoints._program',
+        lambda: started.append(program) or shutil.which(program),
+    )
+    viewer = viewers(mode=ViewerMode.WEB)
+
+    assert 'no page could be served' in Events(viewer).wait_for('viewer_lost').message
+    assert len(started) == 1
+    # The address is for a viewer that is installed elsewhere.
+    assert viewer.is_open
+    assert 'any Rerun viewer at rerun+http://127.0.0.1:' in viewer.state
+
+
+@pytest.fixture
+def no_display(monkeypatch):
+    monkeypatch.delenv('DISPLAY', raising=False)
+    monkeypatch.delenv('WAYLAND_DISPLAY', raising=False)
+
+
+def test_where_there_is_no_display_auto_is_a_page(viewers, no_display):
+    viewer = viewers(mode=ViewerMode.AUTO)
+
+    assert Events(viewer).wait_for('').message.startswith('web: http://127.0.0.1:')
+
+
+def test_where_there_is_no_display_a_window_becomes_a_page_and_that_is_told(viewers, no_display):
+    viewer = viewers(mode=ViewerMode.SPAWN)
+
+    why = Events(viewer).wait_for('viewer_lost').message
+
+    assert 'http://127.0.0.1:' in why
+    assert 'there is no display' in why
+
+
+def test_where_no_window_can_be_opened_it_becomes_a_page(viewers, monkeypatch):
+    monkeypatch.setenv('DISPLAY', ':987')
+    monkeypatch.delenv('WAYLAND_DISPLAY', raising=False)
+    viewer = viewers(mode=ViewerMode.AUTO)
+
+    assert 'no window could be opened' in Events(viewer).wait_for('viewer_lost').message

@@ -1,0 +1,151 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""What the tests of viewers share: frames to show, and what is told and recorded of them."""
+
+from __future__ import annotations
+
+from collections import Counter
+import os
+from pathlib import Path
+import subprocess
+import sys
+import textwrap
+import threading
+import time
+import warnings
+
+import numpy as np
+from physsim_ros.model.scene import Scene
+from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.snapshot import Answer, Frame, Snapshot
+from physsim_ros.view import FrameContext
+import pytest
+
+from ..building import PLAIN_BODY
+from ..rerun_program import free_port, is_open, rerun
+
+chunk = pytest.importorskip('rerun.chunk')
+
+# Ten times what anything here takes; importing Rerun alone is a second.
+PATIENCE = 20.0
+
+CONTEXT = FrameContext(real_time_factor=1.0)
+SCENE = Scene(bodies=(PLAIN_BODY,), settings=WorldSettings())
+
+
+def frame(step, *messages):
+    pose = np.array([[float(step), 0.0, 0.0]])
+    snapshot = Snapshot(step=step, stamp=step * 4_166_667, scene=SCENE, poses=pose, twists=pose)
+    answers = tuple(Answer(topic='~/spawn', message=each) for each in messages)
+    return Frame(snapshot=snapshot, contacts=None, answers=answers)
+
+
+def until(predicate, timeout=PATIENCE):
+    """Wait until something holds; return it."""
+    deadline = time.monotonic() + timeout
+    pause = threading.Event()
+    while not (result := predicate()):
+        assert time.monotonic() < deadline, 'it did not come to hold'
+        pause.wait(0.01)
+    return result
+
+
+def show(viewer, count, first=0):
+    for step in range(first, first + count):
+        viewer.show(frame(step), context=CONTEXT)
+
+
+def bulk():
+    """Return words that cannot be compressed, so that a few hundred frames fill every buffer."""
+    return os.urandom(100_000).hex()
+
+
+def rows(path):
+    """Return how many rows each entity of a recording has, which may be written meanwhile."""
+    counts = Counter()
+    with warnings.catch_warnings():
+        warnings.filterwarnings('ignore', 'RRD file has no footer')
+        for each in chunk.RrdReader(path).stream():
+            if not each.is_static:
+                counts[each.entity_path] += each.num_rows
+    return counts
+
+
+def rows_when(path, entity, count):
+    """Wait until a recording that is being written has so many rows of an entity; return all."""
+
+    def enough():
+        try:
+            counts = rows(path)
+        except (OSError, RuntimeError, ValueError):
+            # Not there yet, or in the middle of a message.
+            return None
+        return counts if counts[entity] >= count else None
+
+    return until(enough)
+
+
+def run_alone(program, *arguments):
+    """Run a program in a process of its own, and return what it prints."""
+    done = subprocess.run(
+        [sys.executable, '-c', textwrap.dedent(program), *map(str, arguments)],
+        cwd=Path(__file__).parents[2],
+        stdout=subprocess.PIPE,
+        text=True,
+        timeout=3 * PATIENCE,
+        check=True,
+    )
+    return done.stdout
+
+
+class Server:
+    """A Rerun server that writes what it is sent, of somebody else's."""
+
+    def __init__(self, path):
+        self.path = path
+        self.port = free_port()
+        self.url = f'rerun+http://127.0.0.1:{self.port}/proxy'
+        self.process = None
+
+    def start(self):
+        self.process = rerun(f'--port={self.port}', '--save', self.path)
+        until(lambda: is_open(self.port))
+
+    def kill(self):
+        self.process.kill()
+        self.process.wait()
+
+    def wait_for(self, entity, count):
+        """Wait until it has written so many rows of an entity; return how many of all."""
+        return rows_when(self.path, entity, count)
+
+
+class Events:
+    """The answers of a viewer so far."""
+
+    def __init__(self, viewer):
+        self._viewer = viewer
+        self.all = []
+
+    def wait_for(self, code):
+        """Return the first event with that code that has not been waited for."""
+
+        def found():
+            self.all += self._viewer.poll()
+            return [each for each in self.all if each.code == code]
+
+        first = until(found)[0]
+        self.all.remove(first)
+        return first
