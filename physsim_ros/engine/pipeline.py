@@ -24,7 +24,7 @@ The pipeline: one step of the engine, stage by stage in this order.
 7. Joints: the target velocity of constraints is set to the centripetal term.
 8. Pymunk's step: positions, narrow phase, solver, sleeping. In the middle of it: false contacts
    are rejected, contact normal at impact, internal edges and contact projection as two shapes
-   begin to touch, and impact propagation before the solver runs.
+   begin to touch, and impact propagation and the block solver before the solver runs.
 9. Joints: gaps are closed in positions.
 10. Half-step velocity: free flight is found, and does not fall asleep.
 11. Contact report: impulses are added up.
@@ -44,6 +44,7 @@ from physsim_ros.engine.contacts.contact import read_contact, write_contact
 from physsim_ros.engine.contacts.contact_report import ContactReport
 from physsim_ros.engine.contacts.side import read_sides
 from physsim_ros.engine.joints.joint_set import JointSet
+from physsim_ros.engine.stages.block_solver import BlockSolver
 from physsim_ros.engine.stages.contact_normal import contact_at_impact
 from physsim_ros.engine.stages.contact_projection import project_contact
 from physsim_ros.engine.stages.false_contacts import FalseContacts
@@ -89,6 +90,7 @@ class Pipeline:
         hulls = Hulls()
         self.continuous_collision = ContinuousCollision(engine, hulls)
         self.impact_propagation = ImpactPropagation(engine, io)
+        self._block_solver = BlockSolver(engine)
         self.contact_report = ContactReport(io)
         self._false_contacts = FalseContacts(hulls)
         self._internal_edges = InternalEdges(hulls)
@@ -148,5 +150,6 @@ class Pipeline:
             if contact is not found:
                 write_contact(arbiter, contact)
             project_contact(contact, sides, space, self._placed)
+            self._block_solver.add_contact(arbiter)
         if self._context.watching:
             self.contact_report.add_first_touch(contact, sides)

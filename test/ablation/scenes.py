@@ -136,6 +136,14 @@ def _seams() -> float:
     return 1.0 - float(run(sim, 1.0).twists[row, 0]) / 3.0
 
 
+def _flat_fall() -> float:
+    """Drop an upright box flat; return its greatest turn in 2 s."""
+    sim = simulation(elasticity=0.5)
+    floor(sim)
+    row = spawn(sim, 'box/0', Box(width=0.5, height=1.0), (0.0, 1.5, 0.0))
+    return max(abs(float(each.poses[row, 2])) for each in steps(sim, 480))
+
+
 def _stack() -> float:
     """Put down a stack of ten boxes, top first; return its speed after 5 s."""
     sim, size = simulation(), 0.3
@@ -300,6 +308,7 @@ SCENES = (
     Scene('bounce (7)', 'm', 0.01, _bounce),
     Scene('disc on a corner (6)', 'v', 1e-6, _corner),
     Scene('seams of tiles', 'v', 0.01, _seams),
+    Scene('flat fall (8)', 'rad', 1e-4, _flat_fall),
     Scene('stack of ten (18)', 'm/s', 1e-3, _stack),
     Scene('removed floor', 'm, rad', 1e-3, _removed_floor),
     Scene('cradle, 2 and 3 of 5 (17)', 'v', 0.02, _cradle),

@@ -32,6 +32,7 @@ from physsim_ros.engine.ccd.continuous import ContinuousCollision
 from physsim_ros.engine.joints import joint_table
 from physsim_ros.engine.joints.joint_set import JointSet
 from physsim_ros.engine.stages import half_step
+from physsim_ros.engine.stages.block_solver import BlockSolver
 from physsim_ros.engine.stages.half_step import HalfStep
 from physsim_ros.engine.stages.impact_propagation import ImpactPropagation
 from physsim_ros.engine.stages.internal_edges import InternalEdges
@@ -132,6 +133,11 @@ STAGES = (
         'impact propagation',
         (((ImpactPropagation, '_propagate'), _nothing),),
         ((ImpactPropagation, '_propagate'),),
+    ),
+    Stage(
+        'block solver',
+        (((BlockSolver, '_solve'), _nothing),),
+        ((BlockSolver, '_solve_impacts'),),
     ),
     Stage(
         'joint targets',

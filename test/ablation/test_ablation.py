@@ -46,6 +46,7 @@ def test_every_stage_can_be_switched_off(stage):
         ('bounce (7)', 'contact projection'),
         ('disc on a corner (6)', 'contact normal at impact'),
         ('seams of tiles', 'internal edges'),
+        ('flat fall (8)', 'block solver'),
         ('elastic rows, 2 of 5 (36)', 'impact propagation'),
         ('checkpoint (26)', 'warm start'),
     ],

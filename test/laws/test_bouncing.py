@@ -17,10 +17,10 @@
 import math
 
 import numpy as np
-from physsim_ros.model.shapes import Box, Disc
+from physsim_ros.model.shapes import Box, Disc, Polygon
 import pytest
 
-from .scenes import DT, G, NOWHERE, simulation, spawn, steps, turned, walls
+from .scenes import DT, G, NOWHERE, run, simulation, spawn, steps, turned, walls
 
 
 @pytest.mark.parametrize('side', [0, 40, 90, 180, 270])
@@ -49,6 +49,73 @@ def test_a_body_bounces_to_the_square_of_its_elasticity(report, elasticity, shap
     report.check(8, f'bounce from 1 m, e = {elasticity:g}', first, elasticity**2, 0.02, '–',
                  relative=True)  # fmt: skip
     assert len(heights) >= 4
+
+
+# Outlines that stand on y = 0.
+FLAT = {
+    'upright': ((-0.25, 0.0), (0.25, 0.0), (0.25, 1.0), (-0.25, 1.0)),
+    'wide': ((-1.0, 0.0), (1.0, 0.0), (1.0, 0.5), (-1.0, 0.5)),
+    'trapezium': ((-0.3, 0.0), (0.3, 0.0), (0.15, 0.8), (-0.15, 0.8)),
+    'wedge': ((-0.5, 0.0), (0.5, 0.0), (0.5, 0.3), (-0.5, 0.9)),
+    'arch': (
+        *((-0.5, 0.0), (-0.3, 0.0), (-0.3, 0.6), (0.3, 0.6)),
+        *((0.3, 0.0), (0.5, 0.0), (0.5, 0.8), (-0.5, 0.8)),
+    ),
+}
+
+
+@pytest.mark.parametrize('below', ['ground', 'turned ground', 'body', 'posts'])
+@pytest.mark.parametrize('name', FLAT)
+@pytest.mark.parametrize('elasticity', [0.0, 0.5, 0.7])
+def test_a_body_that_falls_flat_bounces_flat(report, elasticity, name, below):
+    angle = 0.7 if below == 'turned ground' else 0.0
+    up, along = turned((0.0, 1.0), angle), turned((1.0, 0.0), angle)
+    sim = simulation(gravity=tuple(-G * up), elasticity=elasticity)
+    if below == 'posts':
+        for number, side in enumerate((-0.35, 0.35)):
+            post = Box(width=0.25, height=1.0)
+            spawn(sim, f'post/{number}', post, (side, -0.5, 0.0), anchored=True)
+    else:
+        spawn(sim, 'floor/0', Box(width=20.0, height=2.0), (*(-up), angle), anchored=True)
+    if below == 'body':
+        spawn(sim, 'body/0', Box(width=4.0, height=1.0), (0.0, 0.5, 0.0), mass=1000.0)
+        run(sim, 0.5)
+    begin = (2.0 if below == 'body' else 1.0) * up
+    row = spawn(sim, 'flat/0', Polygon(outline=FLAT[name]), (*begin, angle))
+
+    heights, tilts, aside = [], [], []
+    for snapshot in steps(sim, 480):
+        place = snapshot.poses[row, :2] - begin
+        heights.append(1.0 + place @ up)
+        aside.append(abs(place @ along))
+        tilts.append(abs(snapshot.poses[row, 2] - angle))
+
+    law = f'falls flat, e = {elasticity:g}'
+    report.check(8, f'{law}, tilt', max(tilts), 0.0, 1e-4, 'rad')
+    report.check(8, f'{law}, way aside', max(aside), 0.0, 1e-4, 'm')
+    if elasticity:
+        lowest = int(np.argmin(heights[:120]))
+        first = max(heights[lowest:])
+        report.check(8, f'{law}, bounce from 1 m', first, elasticity**2, 0.01, '–', relative=True)
+
+
+@pytest.mark.parametrize('seed', [1, 2])
+def test_a_gas_of_polygons_keeps_its_energy(report, seed):
+    random = np.random.default_rng(seed)
+    sim = simulation(gravity=NOWHERE, elasticity=1.0, friction=0.0)
+    walls(sim, -3.0, -3.0, 3.0, 3.0)
+    for number in range(25):
+        place = (np.array((number % 5, number // 5)) - 2.0) * 1.08
+        angles = 2.0 * math.pi * np.arange(number % 4 + 3) / (number % 4 + 3)
+        outline = 0.35 * np.column_stack((np.cos(angles), np.sin(angles)))
+        shape = Polygon(outline=tuple(map(tuple, outline.tolist())))
+        heading = random.uniform(0.0, 2.0 * math.pi)
+        velocity = 2.0 * math.cos(heading), 2.0 * math.sin(heading)
+        pose = (*place, random.uniform(0.0, 2.0 * math.pi))
+        spawn(sim, f'polygon/{number}', shape, pose, velocity=velocity)
+    start = sim.world.snapshot()
+    ratio = run(sim, 20.0).kinetic_energy / start.kinetic_energy
+    report.check(21, '25 polygons, e = 1, 20 s at 2 m/s, energy', ratio, 1.0, 0.01, '–')
 
 
 def _gas(speed, seed):

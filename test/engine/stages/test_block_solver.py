@@ -1,0 +1,80 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Impacts of several points at once are solved as one: they turn nothing and gain no energy."""
+
+import math
+
+import numpy as np
+from physsim_ros.model.requests import Configure
+from physsim_ros.model.shapes import Box, Compound, Disc
+import pytest
+
+from ...laws.scenes import floor, NOWHERE, run, simulation, spawn, steps, turned
+
+
+def test_a_box_hit_flat_by_another_leaves_without_a_turn():
+    sim = simulation(gravity=NOWHERE, elasticity=1.0, friction=0.5)
+    spawn(sim, 'hit/0', Box(width=0.5, height=1.0), (0.0, 0.0, 0.3), mass=2.0)
+    normal = turned((1.0, 0.0), 0.3)
+    pose, velocity = (*(-1.5 * normal), 0.3), tuple(3.0 * normal)
+    spawn(sim, 'hits/0', Box(width=0.5, height=1.0), pose, mass=1.0, velocity=velocity)
+    twists = run(sim, 1.0).twists
+    # https://en.wikipedia.org/wiki/Elastic_collision
+    assert twists[0] == pytest.approx((*(2.0 * normal), 0.0), abs=1e-9)
+    assert twists[1] == pytest.approx((*(-1.0 * normal), 0.0), abs=1e-9)
+
+
+def test_two_balls_on_one_body_are_its_feet():
+    sim = simulation(elasticity=0.6)
+    floor(sim)
+    feet = Compound(element=Disc(radius=0.1), centers=((-0.15, 0.0), (0.15, 0.0), (0.0, 0.9)))
+    row = spawn(sim, 'body/0', feet, (0.0, 1.5, 0.0))
+    # The third ball is in the middle, high above the feet.
+    assert max(abs(each.poses[row, 2]) for each in steps(sim, 720)) < 1e-4
+
+
+def test_damping_and_a_boundary_change_nothing_in_that():
+    sim = simulation(elasticity=0.5)
+    sim.perform(Configure(changes={'damping': 0.9, 'bounds': (-9.0, 0.0, 9.0, 9.0)}))
+    row = spawn(sim, 'box/0', Box(width=0.5, height=1.0), (0.0, 2.5, 0.0))
+    assert max(abs(each.poses[row, 2]) for each in steps(sim, 480)) < 1e-4
+
+
+def test_a_box_that_hits_with_a_corner_turns():
+    sim = simulation(elasticity=0.5)
+    floor(sim)
+    row = spawn(sim, 'box/0', Box(width=1.0, height=1.0), (0.0, 2.0, math.radians(20.0)))
+    assert max(abs(each.twists[row, 2]) for each in steps(sim, 240)) > 1.0
+
+
+@pytest.mark.parametrize('crease', [2.0, 10.0, 20.0, 60.0])
+def test_a_disc_that_hits_both_sides_of_a_valley_keeps_its_energy(crease):
+    sim = simulation(gravity=NOWHERE, elasticity=1.0, friction=0.0)
+    lean = math.radians(crease) / 2
+    for side in (-1.0, 1.0):
+        place = (side * math.sin(lean), -math.cos(lean), side * lean)
+        spawn(sim, f'side/{side:.0f}', Box(width=20.0, height=2.0), place, anchored=True)
+    row = spawn(sim, 'disc/0', Disc(radius=0.3), (0.0, 1.5, 0.0), velocity=(0.0, -2.0))
+    assert np.hypot(*run(sim, 3.0).twists[row, :2]) == pytest.approx(2.0, rel=1e-3)
+
+
+def test_a_box_on_a_pillar_of_boxes_bounces_straight():
+    sim = simulation(elasticity=0.6)
+    floor(sim)
+    for number in range(2):
+        spawn(sim, f'pillar/{number}', Box(width=0.5, height=0.5), (0.0, 0.25 + number * 0.5, 0.0))
+    run(sim, 1.0)
+    row = spawn(sim, 'box/0', Box(width=0.5, height=1.0), (0.0, 3.5, 0.0), mass=0.05)
+    assert max(abs(each.poses[row, 2]) for each in steps(sim, 480)) < 1e-3

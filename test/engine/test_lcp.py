@@ -1,0 +1,40 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Linear complementarity problems of impacts."""
+
+import numpy as np
+from physsim_ros.engine.lcp import solve_lcp
+import pytest
+
+
+@pytest.mark.parametrize('seed', range(40))
+def test_impulses_push_and_contacts_do_not_approach(seed):
+    random = np.random.default_rng(seed)
+    rows = random.integers(1, 12)
+    jacobian = random.normal(size=(rows, rows + 2))
+    matrix, rates = jacobian @ jacobian.T, random.normal(size=rows)
+    impulses = solve_lcp(matrix, rates)
+    assert impulses is not None
+    after = matrix @ impulses + rates
+    assert impulses.min() >= 0.0
+    assert after.min() > -1e-6
+    assert np.abs(impulses * after).max() < 1e-6
+
+
+def test_three_points_of_which_two_would_do_share_the_impulse_evenly():
+    # Feet at -1, 0 and 1 m of a body of 1 kg and 1 kg m², in units of their effective masses.
+    jacobian = np.array([(1.0, -1.0), (1.0, 0.0), (1.0, 1.0)])
+    impulses = solve_lcp(jacobian @ jacobian.T, np.array([-3.0, -3.0, -3.0]))
+    assert impulses == pytest.approx([0.75, 1.5, 0.75])
