@@ -150,6 +150,6 @@ class Pipeline:
             if contact is not found:
                 write_contact(arbiter, contact)
             project_contact(contact, sides, space, self._placed)
-            self._block_solver.add_contact(arbiter)
+            self._block_solver.add_contact(arbiter, contact, sides)
         if self._context.watching:
             self.contact_report.add_first_touch(contact, sides)
