@@ -11,6 +11,7 @@
 # WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
 # See the License for the specific language governing permissions and
 # limitations under the License.
+
 """
 Linear complementarity problems: λ >= 0, A λ + b >= 0, one of the two 0 in each row.
 
