@@ -119,8 +119,8 @@ class BlockSolver:
         )
         # Bodies further away are as heavy as the ground.
         held = inverse * [[body in moved] for body in columns]
-        twists = np.array([(*each[_VELOCITY : _VELOCITY + 2], each[_SPIN]) for each in bodies])
-        forces = np.array([(*each[_FORCE : _FORCE + 2], each[_TORQUE]) for each in bodies])
+        twists = np.array([(each[_VELOCITY], each[_VELOCITY + 1], each[_SPIN]) for each in bodies])
+        forces = np.array([(each[_FORCE], each[_FORCE + 1], each[_TORQUE]) for each in bodies])
         free = twists * kept + (forces * held + (gx, gy, 0.0)) * dt
         points = [(each, each.contacts[place]) for each in contacts for place in range(each.count)]
         jacobian = np.array([_row(contact, point, columns) for contact, point in points])
