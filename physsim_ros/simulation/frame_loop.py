@@ -57,7 +57,9 @@ class FrameLoop:
             playback.seek_shown()
         if not playback.continue_seek(is_overdue):
             return ()
-        self._handler.apply_waiting()
+        self._handler.apply_up_to_seek()
+        if not playback.continue_seek(is_overdue):
+            return ()
         if playback.frames_due:
             playback.frames_due -= 1
             return (self.advance_period(),)

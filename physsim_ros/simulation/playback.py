@@ -75,6 +75,11 @@ class Playback:
         return self._shown is not None
 
     @property
+    def is_there(self) -> bool:
+        """Return whether the world is at the moment that is shown, without a replay."""
+        return self._shown is None and not self._past.timeline.is_seeking
+
+    @property
     def step(self) -> int:
         """Return the step that is shown."""
         if self._shown is not None:

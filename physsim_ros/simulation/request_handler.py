@@ -58,7 +58,14 @@ class RequestHandler:
 
     def apply_waiting(self) -> None:
         """Apply the requests that wait, and collect their answers."""
-        for waiting in self._queue.take_all():
+        self._apply(self._queue.take())
+
+    def apply_up_to_seek(self) -> None:
+        """Apply the requests that wait, but those behind a seek, which wait for its end."""
+        self._apply(self._queue.take(lambda: self._playback.is_there))
+
+    def _apply(self, requests: Iterator[Waiting]) -> None:
+        for waiting in requests:
             request = waiting.request
             if isinstance(request, Answer):
                 self.answers.append(request)

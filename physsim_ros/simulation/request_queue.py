@@ -98,6 +98,7 @@ class Waiting:
     :param gesture: requests of one gesture are undone together
     :param field: the only field of the message, to be named by a refusal; '' if it has several
     :param asker: key of the message that asks, which the answer names; '' for none
+    :param size: memory of the request [bytes]
     """
 
     request: Request | Amend | Seek | Call | Refusal | Answer
@@ -106,6 +107,12 @@ class Waiting:
     gesture: int
     field: str = ''
     asker: str = ''
+    size: int = 0
+
+    @property
+    def is_for_world(self) -> bool:
+        """Return whether it is applied to the world."""
+        return not isinstance(self.request, _NO_REQUESTS)
 
 
 class RequestQueue:
@@ -130,7 +137,7 @@ class RequestQueue:
     @property
     def has_requests(self) -> bool:
         """Return whether a request of the world is among what waits."""
-        return any(not isinstance(each.request, _NO_REQUESTS) for each in self._waiting)
+        return any(each.is_for_world for each in self._waiting)
 
     def begin_gesture(self) -> int:
         """Return the number of a new gesture."""
@@ -165,7 +172,7 @@ class RequestQueue:
             )
             return
         gesture = self.gesture if joined else self.begin_gesture()
-        waiting = Waiting(request, topic, subject, gesture, field, asker)
+        waiting = Waiting(request, topic, subject, gesture, field, asker, size)
         self._waiting.append(waiting)
         self._size += size
         match request:
@@ -219,16 +226,23 @@ class RequestQueue:
         """Add an answer without a request, so that answers keep their order."""
         self._waiting.append(Waiting(answer, answer.topic, answer.subject, self.gesture))
 
-    def take_all(self) -> Iterator[Waiting]:
-        """Remove and yield the waiting requests, in order; to a call among them, none wait."""
+    def take(self, is_there: Callable[[], bool] = lambda: True) -> Iterator[Waiting]:
+        """
+        Remove and yield the waiting requests, in order; to a call among them, none wait.
+
+        :param is_there: whether the next may be applied to the world; else it waits, and all
+            behind it
+        """
         if self._is_taken:
             return
         self._is_taken = True
-        self._moves.clear()
-        self._size = 0
         try:
-            while self._waiting:
-                yield self._waiting.popleft()
+            while self._waiting and (not self._waiting[0].is_for_world or is_there()):
+                waiting = self._waiting.popleft()
+                self._size -= waiting.size
+                if isinstance(waiting.request, MoveHand):
+                    self._moves.pop(waiting.request.hand, None)
+                yield waiting
         finally:
             self._is_taken = False
 

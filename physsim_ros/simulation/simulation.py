@@ -245,7 +245,7 @@ class Simulation:
     @property
     def is_there(self) -> bool:
         """Whether the world is at the moment that is shown, without a replay."""
-        return not (self._playback.is_frame_cached or self.past.timeline.is_seeking)
+        return self._playback.is_there
 
     def continue_seek(self, is_overdue: Callable[[], bool] = lambda: False) -> bool:
         """

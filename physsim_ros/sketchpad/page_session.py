@@ -241,11 +241,13 @@ class PageSession:
         self._report('~/speed', asker, lambda: self._world.set_speed(message.speed))
 
     def _seek(self, message: messages.Seek, asker: str) -> None:
-        self._report('~/seek', asker, lambda: self._world.seek(message.stamp))
+        self._report_in_turn('seek', asker, lambda: self._world.seek(message.stamp))
 
     def _return_to_course(self, message: messages.ReturnToCourse, asker: str) -> None:
         simulation = self._world.simulation
-        self._report('~/timeline', asker, lambda: simulation.return_to_course(message.course))
+        self._report_in_turn(
+            'timeline', asker, lambda: simulation.return_to_course(message.course)
+        )
 
     def _upload(self, message: messages.Upload, asker: str) -> None:
         content = message.content

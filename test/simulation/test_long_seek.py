@@ -79,6 +79,30 @@ def test_requests_wait_for_the_end_of_a_seek_and_apply_there(
     assert frame.snapshot.step == 240
 
 
+@pytest.mark.parametrize('speed', [0.0, 1.0])
+def test_a_seek_that_waited_is_made_bit_by_bit_and_those_behind_it_wait(
+    past: tuple[Simulation, dict[int, str]], speed: float
+) -> None:
+    simulation, _ = past
+    simulation.past.frame_cache.drop_from(0)
+    simulation.speed = speed
+    simulation.requests.submit_seek(2 * SECOND, topic='~/seek')
+    simulation.requests.submit(spawning('late/0', DISC, (5.0, 1.0, 0.0)), topic='~/spawn')
+    simulation.requests.submit_seek(SECOND, topic='~/seek')
+    simulation.requests.submit(spawning('early/0', DISC, (5.0, 1.0, 0.0)), topic='~/spawn')
+    # Up to the first seek, and to the second, which begins when the first is done.
+    ticks, frame = ticks_to_a_frame(simulation, 0)
+    assert ticks > 150
+    answers = list(simulation.take_answers())
+    while 'early/0' not in frame.snapshot.scene.names:
+        _, frame = ticks_to_a_frame(simulation, ticks * SECOND)
+    answers += frame.answers
+    messages = [answer.message for answer in answers if answer.topic.startswith('~')]
+    assert messages[-4:] == ['at 2.000 s', 'spawned late/0', 'at 1.000 s', 'spawned early/0']
+    assert frame.snapshot.step in (240, 244)
+    assert 'late/0' not in frame.snapshot.scene.names
+
+
 def test_a_call_waits_for_the_end_of_a_seek_in_its_turn_among_requests(
     past: tuple[Simulation, dict[int, str]],
 ) -> None:

@@ -37,6 +37,8 @@ from std_srvs.srv import Trigger
 Action = Callable[[], str]
 # Services that need the world itself: they wait for the end of a seek, as requests do.
 IN_TURN = frozenset({'clear', 'load_world', 'save_world'})
+# What takes the place of a seek, unless requests wait for the end of that.
+REPLACING = frozenset({'undo', 'redo', 'reset', 'seek', 'timeline'})
 
 
 class Turns:
@@ -58,7 +60,8 @@ class Turns:
         :param service: whose turn it takes
         :raises Busy: too many requests wait
         """
-        if service in IN_TURN and not self._is_there():
+        waits = service in IN_TURN or (service in REPLACING and self._requests.has_requests)
+        if waits and not self._is_there():
             self._requests.submit_call(call, topic=f'~/{service}')
         else:
             self._requests.tell(call())
