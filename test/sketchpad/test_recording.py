@@ -117,6 +117,8 @@ def test_the_files_of_the_viewer_come_through_this_server_and_none_else(browser:
     script = browser.fetch('/rerun/re_viewer.js')
     assert (script.code, script.body.decode()) == (200, SCRIPT)
     assert script.headers['Content-Type'].startswith('text/javascript')
+    known = {'If-None-Match': script.headers['Etag']}
+    assert browser.fetch('/rerun/re_viewer.js', headers=known).code == 304
     assert browser.fetch('/rerun/re_viewer_bg.wasm').code == 502
     for path in ('/rerun/secret.txt', '/rerun/..%2fsecret.txt', '/rerun/re_viewer.js/'):
         assert browser.fetch(path).code == 404

@@ -77,7 +77,10 @@ function connect(viewer) {
 
 watchTheme();
 try {
-  connect(await startViewer());
+  const viewer = await startViewer();
+  // Without a graphics card that takes seconds, in which the browser draws nothing else.
+  status.textContent = 'Rerun draws its first picture …';
+  connect(viewer);
 } catch (error) {
   status.textContent = `Rerun cannot be shown: ${error instanceof Error ? error.message : error}`;
 }
