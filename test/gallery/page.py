@@ -131,9 +131,8 @@ class Film:
         sheet.page.wait_for_timeout(500)
         self.shoot()
         self._drag(line((x, y), (x, y - DOWN)), every=2)
-        # A tap beside the bodies chooses none, and closes the panel.
+        # A tap beside the bodies chooses none, and closes the panel, which gives the view back.
         sheet.drag((0.0, 8.0))
-        sheet.press('Frame the world')
         sheet.page.wait_for_timeout(500)
         self.shoot()
 
