@@ -93,7 +93,9 @@ class Access:
     def allows_host(self, host: str) -> bool:
         """Tell whether a Host header names this machine: by an address, or by its own name."""
         try:
-            name = urlsplit(f'//{host}').hostname or ''
+            parts = urlsplit(f'//{host}')
+            # A port that is none raises, too.
+            name, _ = parts.hostname or '', parts.port
         except ValueError:
             return False
         if name in self._hosts:

@@ -235,7 +235,7 @@ class Server:
             max_body_size=MOST_BYTES,
             max_buffer_size=2 * MOST_BYTES,
             max_header_size=2**16,
-            idle_connection_timeout=60.0,
+            idle_connection_timeout=10.0,
             body_timeout=10.0,
         )
         server.add_sockets(self._sockets)

@@ -95,6 +95,7 @@ def test_a_foreign_name_of_this_machine_is_refused(browser: Browser) -> None:
     ('host', 'allowed'),
     [
         ('127.0.0.1:8765', True),
+        ('127.0.0.1:8765.evil.example', False),
         ('localhost:8765', True),
         ('[::1]:8765', True),
         ('192.168.0.7', True),
@@ -332,3 +333,13 @@ def test_roles_have_tokens_of_their_own() -> None:
     assert [access.role_of(access.tokens[role]) for role in Role] == list(Role)
     assert access.role_of('') is None
     assert access.role_of('ü\ud800') is None
+
+
+def test_half_a_character_is_no_message(browser: Browser) -> None:
+    page = browser.open_page()
+    before = browser.physsim.digest()
+    page.send_raw('{"id": "half", "type": "save", "name": "\\ud800"}')
+    page.until(lambda: page.of_type('answer'))
+    (answer,) = page.of_type('answer')
+    assert (answer['ok'], answer['code']) == (False, 'malformed')
+    assert browser.physsim.digest() == before

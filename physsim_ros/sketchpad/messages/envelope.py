@@ -15,7 +15,7 @@
 """
 The envelope of a message: untrusted text to identifier, type and fields.
 
-Law: text that is no JSON, too deep or too long goes no further than here.
+Law: text that is no JSON or no Unicode, too deep or too long goes no further than here.
 """
 
 from __future__ import annotations
@@ -53,6 +53,10 @@ def read_envelope(text: str) -> Envelope:
     """
     try:
         value = json.loads(text, parse_constant=_refuse_constant)
+        if '\\u' in text:
+            # JSON may escape half of a surrogate pair (RFC 8259, section 8.2), which no file name
+            # and no ROS message holds.
+            json.dumps(value, ensure_ascii=False).encode()
     except (ValueError, RecursionError) as error:
         raise Malformed('the message is not JSON', field='message') from error
     if not isinstance(value, dict):
