@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The help: gestures and tools for fingers, keys for a keyboard; first what this page is worked with. */
+/** The help: keys, and where there are fingers, gestures and tools first. */
 
 import {createElement, icon} from './dom.js';
 import {EDIT, TIME} from './time_bar.js';

@@ -5,7 +5,6 @@
 
 /** @typedef {{point: ?Point, names: string[]}} Place of a request: a point [m], or bodies */
 
-const KEPT = 50; // requests whose places are known
 const OUTLINED = 2500; // ms for which a body has an outline
 /** Messages that are no deed of the reader. */
 const QUIET = ['show', 'watch', 'move', 'let_go', 'drop'];
@@ -14,7 +13,7 @@ export class Refusals {
   /** @param {App} app */
   constructor(app) {
     this.app = app;
-    /** @type {Map<string, Place>} by request */
+    /** @type {Map<string, Place>} by request, until its answer */
     this.places = new Map();
     /** @type {Map<string, number>} bodies, and when they were refused [ms] */
     this.bodies = new Map();
@@ -25,8 +24,9 @@ export class Refusals {
       if (!QUIET.includes(message.type)) this.#show('Not done: the server is gone', placeOf(message));
     });
     connection.on('answer', ({request, ok, code, message, subject, values}) => {
-      if (ok || code === 'not_recognised' || request === '') return;
       const place = this.places.get(request) ?? {point: null, names: []};
+      this.places.delete(request);
+      if (ok || code === 'not_recognised' || request === '') return;
       const name = values.body ?? subject;
       this.#show(app.words.tell({message}), name ? {...place, names: [name]} : place);
     });
@@ -35,9 +35,7 @@ export class Refusals {
 
   /** @param {any} message */
   #note(message) {
-    if (QUIET.includes(message.type)) return;
-    this.places.set(message.id, placeOf(message));
-    if (this.places.size > KEPT) this.places.delete(this.places.keys().next().value ?? '');
+    if (!QUIET.includes(message.type)) this.places.set(message.id, placeOf(message));
   }
 
   /**

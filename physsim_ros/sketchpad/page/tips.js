@@ -13,7 +13,7 @@ export class Tips {
   constructor(camera) {
     this.camera = camera;
     this.tip = document.body.appendChild(createElement('div', {id: 'tip', role: 'tooltip', hidden: true}));
-    /** @type {?HTMLElement} whose title is shown; meanwhile it has none, so that the browser shows no second */
+    /** @type {?HTMLElement} whose title is shown; it has none meanwhile, or the browser would show it too */
     this.owner = null;
     this.timer = 0;
     this.asked = false; // by a finger, what a button does

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The bar above: worlds, and how the world is shown; beside it the recording, where a browser can show it. */
+/** The bar above: worlds, how the world is shown, and the recording. */
 
 import {createElement, elementOf, iconButton} from './dom.js';
 import {showHelp} from './help.js';

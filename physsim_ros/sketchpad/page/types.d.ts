@@ -25,6 +25,8 @@ export interface Shape {
   points: Point[];
   thickness: number;
   pieces: Shape[];
+  /** Of a rectangle. */
+  width?: number;
 }
 
 export interface Body {

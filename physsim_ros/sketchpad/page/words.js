@@ -4,7 +4,7 @@
  * by their names and begin with the verb of the request: `spawned drawn/3` is *Circle added* here.
  */
 
-/** @import {Body, Connection, Point} from './types.js' */
+/** @import {Body, Connection} from './types.js' */
 
 /** Verbs before the name of a body, and what is said after what it is. */
 const VERBS = new Map([['spawned', 'added'], ['changed', 'changed'], ['moved', 'moved'], ['deleted', 'deleted'],
@@ -17,7 +17,6 @@ const SENTENCES = [
   [/^undid (.+?)(, back at .*)?$/, 'Undone: $1'], [/^redid .*/, 'Done again'], [/^(back )?at the beginning, .*/, 'Back at the beginning'],
   [/ at \([^)]*\)$/, ' here'],
 ];
-const EQUAL = 1e-3; // share of a diagonal: no farther apart is equal
 /** Names that nobody chose: of what a pen or a click has drawn. */
 const DRAWN = /\b(?:(body|joint|axle|pin|spring|rod|rope|motor|slider|gear) )?(drawn\/\d+)/g;
 
@@ -74,19 +73,11 @@ export function capital(text) {
  * @param {Body} body
  * @returns {string} what somebody calls it who sees it
  */
-export function shapeWord({shape: {kind, outline}}) {
+export function shapeWord({shape: {kind, outline, width}}) {
   if (kind === 'disc') return 'circle';
   if (kind === 'chain') return 'wall';
-  if (kind === 'polygon' && outline.length === 3) return 'triangle';
-  return kind === 'polygon' && isRectangle(outline) ? 'rectangle' : 'shape';
-}
-
-/** @param {Point[]} outline */
-function isRectangle([a, b, c, d, ...others]) {
-  // Its diagonals are of one length, and halve each other.
-  const [p, q] = [Math.hypot(c[0] - a[0], c[1] - a[1]), Math.hypot(d[0] - b[0], d[1] - b[1])];
-  const apart = Math.hypot(a[0] + c[0] - b[0] - d[0], a[1] + c[1] - b[1] - d[1]);
-  return !others.length && Math.abs(p - q) + apart < EQUAL * p;
+  if (width) return 'rectangle';
+  return kind === 'polygon' && outline.length === 3 ? 'triangle' : 'shape';
 }
 
 /** @param {string} meaning of a stroke, as the server has it */
