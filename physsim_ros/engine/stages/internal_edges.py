@@ -34,6 +34,7 @@ from physsim_ros.engine.ccd.time_of_impact import SLOP
 from physsim_ros.engine.contacts.contact import Contact, ContactPoint
 from physsim_ros.engine.contacts.side import Side
 from physsim_ros.engine.plane_vectors import dot, rotation, vectors
+from pymunk import Circle
 
 # Distance from a corner within which overlaps of the slop along two faces lie [m]: the diagonal
 # of their rhombus, for faces that enclose 30 degrees or more.
@@ -60,7 +61,7 @@ class InternalEdges:
         :return: along the face that the shapes approach slowest; None where they meet no seam
         """
         point, (side_a, side_b) = contact.points[0], sides
-        velocity = side_b.velocity_at(point.b) - side_a.velocity_at(point.a)
+        velocity = _velocity_at(side_b, point.b) - _velocity_at(side_a, point.a)
         slowest, chosen = -dot(velocity, contact.normal), None
         if slowest <= 0.0:
             return None
@@ -104,6 +105,13 @@ class InternalEdges:
             if normal and (begins or ends)
         ]
         return _Corner(faces, corners, hull.radius)
+
+
+def _velocity_at(side: Side, place: complex) -> complex:
+    """Return the velocity at which a shape moves at a place [m/s]; the spin of a disc is none."""
+    if isinstance(side.shape, Circle):
+        place = side.position + complex(*side.shape.offset) * rotation(side.yaw)
+    return side.velocity_at(place)
 
 
 class _Corner(NamedTuple):

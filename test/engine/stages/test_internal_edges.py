@@ -34,7 +34,7 @@ def tiled_floor(angle=0.0, step=0.0, **settings):
     :param step: by which the tiles from 2 m on are higher [m]
     """
     gravity = tuple(turned((0.0, -G), angle))
-    sim = simulation(friction=0.0, gravity=gravity, **settings)
+    sim = simulation(**{'friction': 0.0, 'gravity': gravity, **settings})
     for number in range(16):
         along = 0.5 * number
         place = turned((along, -0.25 + step * (along >= 2.0)), angle)
@@ -58,6 +58,17 @@ def test_a_body_slides_over_a_seam(shape, elasticity, speed, begin, angle):
     assert along == pytest.approx(1.0, abs=0.01)
     assert up == pytest.approx(0.0, abs=0.02)
     assert snapshot.twists[row, 2] == pytest.approx(0.0, abs=0.02)
+
+
+@pytest.mark.parametrize('elasticity', [0.0, 0.6])
+@pytest.mark.parametrize('speed', [0.5, 2.0])
+def test_a_disc_rolls_over_a_seam(speed, elasticity):
+    sim = tiled_floor(elasticity=elasticity, friction=0.5)
+    spin = -speed / DISC.radius
+    row = spawn(sim, 'disc/0', DISC, (0.2, 0.15, 0.0), velocity=(speed, 0.0), spin=spin)
+    for snapshot in steps(sim, int(240 * 0.6 / speed)):
+        assert snapshot.poses[row, 1] == pytest.approx(0.15, abs=2e-4)
+    assert snapshot.twists[row, 0] == pytest.approx(speed, rel=0.01)
 
 
 @pytest.mark.parametrize('step', [0.02, 0.1])
