@@ -150,7 +150,7 @@ class PhysSimNode(NodeWithoutQosEvents):
             self._values,
             is_there=self._is_there,
             advance_frame=self.advance_frame,
-            on_seek=self._note_seek,
+            on_seek=self.outputs.statistics.reset_pace,
         )
         self._time_control.subscribe(self.requests, self._refuse_message)
 
@@ -282,18 +282,14 @@ class PhysSimNode(NodeWithoutQosEvents):
         self.simulation.watch_contacts(self.outputs.wants_contacts)
 
     def _is_there(self) -> bool:
-        """Return whether the world is where it is shown; without ticks it goes at once."""
-        return self.simulation.is_there or not self._started
+        """Return whether what waits has been applied; without ticks the world goes at once."""
+        return not self._started or self.simulation.apply_up_to_seek()
 
     def _current_snapshot(self) -> Snapshot:
         """Return the snapshot that is shown, with the waiting requests but during a seek."""
         if self._is_there():
             self.apply_requests()
         return self.simulation.world.snapshot() if self.frame is None else self.frame.snapshot
-
-    def _note_seek(self) -> None:
-        self.outputs.statistics.reset_pace()
-        self._note_change()
 
     def _note_change(self) -> None:
         """Have the parameters mirror the world, and a short seek be done at once."""

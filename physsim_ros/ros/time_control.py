@@ -39,9 +39,9 @@ class TimeControl:
     :param node: whose parameter `speed` is the speed
     :param simulation: of the node
     :param values: of the parameters of the node, by name, always up to date
-    :param is_there: tells whether the world is where it is shown, and no seek is under way
+    :param is_there: applies what waits, and tells whether no seek is under way
     :param advance_frame: advances the world by one frame, and publishes it
-    :param on_seek: called where time jumps
+    :param on_seek: called before time jumps
     """
 
     def __init__(
@@ -95,8 +95,8 @@ class TimeControl:
 
         def seek(message: Clock) -> None:
             stamp = message.clock.sec * 10**9 + message.clock.nanosec
-            self._simulation.requests.submit_seek(stamp, topic='~/seek')
             self._on_seek()
+            self._simulation.requests.submit_seek(stamp, topic='~/seek')
 
         subscriptions.add(Float64, '~/speed', set_speed)
         subscriptions.add(Clock, '~/seek', seek)
@@ -120,9 +120,8 @@ class TimeControl:
 
         :raises Refusal: it is not in the history
         """
-        message = self._simulation.seek(stamp)
         self._on_seek()
-        return message
+        return self._simulation.seek(stamp)
 
     def step(self) -> str:
         """

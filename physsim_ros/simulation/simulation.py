@@ -242,9 +242,9 @@ class Simulation:
 
     # Time
 
-    @property
-    def is_there(self) -> bool:
-        """Whether the world is at the moment that is shown, without a replay."""
+    def apply_up_to_seek(self) -> bool:
+        """Apply what waits, but what is behind a seek; return whether the world is there."""
+        self._handler.apply_up_to_seek()
         return self._playback.is_there
 
     def continue_seek(self, is_overdue: Callable[[], bool] = lambda: False) -> bool:

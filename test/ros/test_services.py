@@ -460,8 +460,12 @@ def test_saving_over_a_file_replaces_it_whole(
     assert [path.name for path in tmp_path.iterdir()] == ['mine.yaml']
 
 
+@pytest.mark.parametrize('waits', [False, True])
 def test_a_service_that_needs_the_world_waits_for_the_end_of_a_seek_and_replies_then(
-    physsim: PhysSim, client: Client, monkeypatch: pytest.MonkeyPatch
+    physsim: PhysSim,
+    client: Client,
+    monkeypatch: pytest.MonkeyPatch,
+    waits: bool,
 ) -> None:
     simulation = physsim.node.simulation
     client.ask('~/spawn', disc('disc/0', at=(0.0, 5.0)))
@@ -472,11 +476,12 @@ def test_a_service_that_needs_the_world_waits_for_the_end_of_a_seek_and_replies_
     client.spin_until(lambda: clear.service_is_ready() and pause.service_is_ready())
     # As with ticks, which bring the world to the cached frame that is shown.
     monkeypatch.setattr(physsim.node, '_started', True)
-    simulation.seek(500_000_000)
-    assert not simulation.is_there
+    simulation.requests.submit_seek(500_000_000, topic='~/seek')
+    if not waits:
+        assert not simulation.apply_up_to_seek()
     cleared, paused = clear.call_async(Trigger.Request()), pause.call_async(Trigger.Request())
     physsim.settle()
-    assert not simulation.is_there
+    assert not simulation.apply_up_to_seek()
     client.spin_until(paused.done)
     assert not cleared.done()
     physsim.node.apply_requests()

@@ -154,7 +154,7 @@ def test_single_frames_are_made_one_by_one_after_the_end_of_a_seek(
     simulation, digests = past
     simulation.speed = 0.0
     simulation.seek(2 * SECOND)
-    assert not simulation.is_there
+    assert not simulation.apply_up_to_seek()
     times = [simulation.queue_frame(), simulation.queue_frame()]
     assert times == [round(step * SECOND / 240) for step in (484, 488)]
     steps = []
@@ -164,7 +164,7 @@ def test_single_frames_are_made_one_by_one_after_the_end_of_a_seek(
             steps.append(frame.snapshot.step)
             assert simulation.world.digest() == digests[frame.snapshot.step]
     assert steps == [484, 488]
-    assert simulation.is_there
+    assert simulation.apply_up_to_seek()
 
 
 def test_another_seek_takes_the_place_of_one_and_of_its_frames(

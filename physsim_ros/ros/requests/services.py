@@ -46,7 +46,7 @@ class Turns:
     The turns of services: at once, or among the requests that wait for the end of a seek.
 
     :param requests: the queue of requests and answers
-    :param is_there: tells whether the world is where it is shown, and no seek is under way
+    :param is_there: applies what waits, and tells whether no seek is under way
     """
 
     def __init__(self, requests: RequestQueue, is_there: Callable[[], bool]) -> None:
