@@ -25,6 +25,17 @@ from .chromium import circle, Sheet
 BACKGROUND = """name => getComputedStyle(
     document.querySelector(`button[aria-label="${name}"]`)).backgroundColor"""
 
+# The ends of the lines of a grid at a place of the world [m], as they are asked of a canvas [px].
+GRID_LINES = """async at => {
+    const {drawGrid} = await import('/page/grid_view.js'), lines = [];
+    const camera = Object.assign(new (await import('/page/camera.js')).Camera(),
+        {x: at, y: 5, scale: 60, width: 1200, height: 800});
+    const ctx = {beginPath() {}, moveTo() {}, stroke() {}, fillText() {},
+        lineTo: (...end) => lines.push(end)};
+    drawGrid(ctx, camera, {}, {left: 0, bottom: 0});
+    return lines;
+}"""
+
 
 def test_a_pressed_button_is_told_from_others_in_the_colours_of_the_reader(
     chromium: Any, address: str
@@ -71,4 +82,14 @@ def test_a_stroke_that_begins_on_a_note_is_drawn(chromium: Any, address: str) ->
     sheet.drag(*circle(x - 1.0, y, 1.0))
     sheet.wait_for_new(before)
     assert sheet.page.evaluate('getSelection().toString()') == ''
+    sheet.close()
+
+
+def test_the_grid_far_from_the_origin_has_no_line_beside_the_page(
+    chromium: Any, address: str
+) -> None:
+    sheet = Sheet(chromium, address)
+    near, far = (sheet.page.evaluate(GRID_LINES, at) for at in (0.0, 10_000.0))
+    assert len(far) == len(near) > 50
+    assert all(0 <= x <= 1200.5 and 0 <= y <= 800.5 for x, y in far)
     sheet.close()

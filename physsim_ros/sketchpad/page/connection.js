@@ -105,7 +105,7 @@ export class Connection {
  */
 function decodeFrame(buffer) {
   const view = new DataView(buffer);
-  if (view.getUint8(0) !== 1) throw new RangeError('another version of frames');
+  if (view.getUint8(0) !== 1) throw new RangeError('another version of frames: load the page again');
   const flags = view.getUint8(1);
   let at = HEADER, count = view.getUint32(20, true);
   const column = () => {

@@ -15,6 +15,16 @@ function stepOf(scale) {
 }
 
 /**
+ * @param {number} step
+ * @param {number} from
+ * @param {number} to
+ */
+function multiplesOf(step, from, to) {
+  const first = Math.ceil(from / step);
+  return Array.from({length: Math.floor(to / step) - first + 1}, (_, i) => (first + i) * step);
+}
+
+/**
  * @param {CanvasRenderingContext2D} ctx in pixels of the page
  * @param {Camera} camera
  * @param {Palette} palette
@@ -23,30 +33,33 @@ function stepOf(scale) {
 export function drawGrid(ctx, camera, palette, insets) {
   const step = stepOf(camera.scale), digits = Math.max(0, -Math.floor(Math.log10(step)));
   const [left, top] = camera.toWorld(0, 0), [right, bottom] = camera.toWorld(camera.width, camera.height);
-  const minor = new Path2D(), major = new Path2D();
-  /** @type {[string, number, number][]} */
-  const labels = [];
-  for (let i = Math.floor(5 * Math.min(left, bottom) / step); i * step / 5 <= Math.max(right, top); i++) {
-    const value = i * step / 5, path = i % 5 ? minor : major;
-    const [x, y] = camera.toPage(value, value).map((at) => Math.round(at) + 0.5);
-    path.moveTo(x, 0);
-    path.lineTo(x, camera.height);
-    path.moveTo(0, y);
-    path.lineTo(camera.width, y);
-    if (path === major) labels.push([value.toFixed(digits), x, y]);
-  }
+  const pixelX = (/** @type {number} */ x) => Math.round(camera.toPage(x, 0)[0]) + 0.5;
+  const pixelY = (/** @type {number} */ y) => Math.round(camera.toPage(0, y)[1]) + 0.5;
   ctx.lineWidth = 1;
-  ctx.strokeStyle = palette.minor;
-  ctx.stroke(minor);
-  ctx.strokeStyle = palette.major;
-  ctx.stroke(major);
+  for (const [spacing, color] of /** @type {[number, string][]} */ ([[step / 5, palette.minor], [step, palette.major]])) {
+    ctx.strokeStyle = color;
+    ctx.beginPath();
+    for (const x of multiplesOf(spacing, left, right).map(pixelX)) {
+      ctx.moveTo(x, 0);
+      ctx.lineTo(x, camera.height);
+    }
+    for (const y of multiplesOf(spacing, bottom, top).map(pixelY)) {
+      ctx.moveTo(0, y);
+      ctx.lineTo(camera.width, y);
+    }
+    ctx.stroke();
+  }
   ctx.fillStyle = palette.faint;
   ctx.font = '11px system-ui, sans-serif';
   const low = camera.height - insets.bottom;
-  for (const [text, x, y] of labels) {
-    ctx.textAlign = 'center';
-    if (x > insets.left + 40 && x < camera.width - 20) ctx.fillText(text, x, low - 6);
-    ctx.textAlign = 'left';
-    if (y > 20 && y < low - 24) ctx.fillText(`${text} m`, insets.left + 6, y - 4);
+  ctx.textAlign = 'center';
+  for (const value of multiplesOf(step, left, right)) {
+    const x = pixelX(value);
+    if (x > insets.left + 40 && x < camera.width - 20) ctx.fillText(value.toFixed(digits), x, low - 6);
+  }
+  ctx.textAlign = 'left';
+  for (const value of multiplesOf(step, bottom, top)) {
+    const y = pixelY(value);
+    if (y > 20 && y < low - 24) ctx.fillText(`${value.toFixed(digits)} m`, insets.left + 6, y - 4);
   }
 }

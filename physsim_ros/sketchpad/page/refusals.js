@@ -13,7 +13,7 @@ export class Refusals {
   /** @param {App} app */
   constructor(app) {
     this.app = app;
-    /** @type {Map<string, Place>} by request, until its answer */
+    /** @type {Map<string, Place>} by request, until its answer or the end of its socket */
     this.places = new Map();
     /** @type {Map<string, number>} bodies, and when they were refused [ms] */
     this.bodies = new Map();
@@ -30,6 +30,7 @@ export class Refusals {
       const name = values.body ?? subject;
       this.#show(app.words.tell({message}), name ? {...place, names: [name]} : place);
     });
+    connection.on('closed', () => this.places.clear());
     app.view.overlays.push((view) => this.#draw(view));
   }
 
