@@ -23,6 +23,13 @@ import pytest
 
 from .chromium import circle, Sheet
 
+# Bodies from another socket of this page: name, x [m].
+SPAWN = """bodies => new Promise((resolve) => {
+    const socket = new WebSocket(`ws://${location.host}/ws`);
+    socket.onopen = () => resolve(bodies.forEach(([name, x]) => socket.send(JSON.stringify(
+        {type: 'spawn', id: '', body: {name, box: {width: 1, height: 1}, at: [x, 6]}}))));
+})"""
+
 
 @pytest.fixture
 def sheet(chromium: Any, address: str) -> Iterator[Sheet]:
@@ -78,3 +85,29 @@ def test_a_refusal_says_here_for_its_place(sheet: Sheet) -> None:
     sheet.press('Anchor')
     sheet.page.mouse.click(*sheet.place(-2.0, 6.0))
     said(sheet, 'There is no body here')
+
+
+@pytest.mark.parametrize(
+    ('name', 'title'),
+    [
+        ('<img src=x onerror=window.hit=1>/0', '<img src=x onerror=window.hit=1>/0'),
+        (f'{"W" * 998}/0', f'{"W" * 24}…{"W" * 10}/0'),
+    ],
+    ids=['markup', 'long'],
+)
+def test_names_are_shown_as_text_and_long_ones_short(sheet: Sheet, name: str, title: str) -> None:
+    sheet.page.evaluate(SPAWN, [[name, 0.0]])
+    sheet.wait('name => name in physsim.bodies', name)
+    sheet.press('Hand')
+    sheet.page.mouse.click(*sheet.place(0.0, 6.0))
+    panel = sheet.page.get_by_role('complementary', name='Body')
+    assert panel.get_by_role('heading').first.inner_text().strip() == title
+    # Playwright clicks only what nothing covers.
+    panel.get_by_label('Anchored').click()
+    said(sheet, f'{title} changed')
+    with sheet.page.expect_download():
+        sheet.press('Table (CSV)')
+    undo = sheet.page.get_by_role('button', name='Undo', exact=True)
+    undo.hover()
+    sheet.page.get_by_role('tooltip').get_by_text(title).wait_for()
+    assert sheet.page.evaluate('window.hit') is None

@@ -3,7 +3,7 @@
 
 import {createElement, elementOf, iconButton, textButton} from './dom.js';
 import {Plots} from './plots.js';
-import {capital} from './words.js';
+import {isDrawn} from './words.js';
 
 /** @import {App} from './types.js' */
 
@@ -40,8 +40,7 @@ export class BodyPanel {
     const anchored = createElement('input', {type: 'checkbox', checked: body.anchored,
       onchange: () => change({anchored: anchored.checked})});
     this.shown = JSON.stringify(body);
-    const word = this.app.words.of(name);
-    this.#show(word === name ? name : capital(word), [
+    this.#show(this.app.words.title(name), [
       ...fields(body, change),
       createElement('label', {}, 'Anchored', anchored),
       createElement('div', {className: 'row'},
@@ -49,7 +48,7 @@ export class BodyPanel {
         textButton('Delete body', () => this.app.selection.deleteBodies(), 'danger')),
       createElement('p', {hidden: body.anchored, textContent: 'Velocity: drag the ring of its arrow.'}),
       this.plots.element,
-    ], word === name ? '' : name);
+    ], isDrawn(name) ? name : '');
     this.plots.watch(name);
     this.#uncover(row);
   }

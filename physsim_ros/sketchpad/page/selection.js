@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The selection: bodies that are selected, and the one that is pointed at, with its name beside it. */
 
+import {shorten} from './words.js';
+
 /** @import {App, Body, Point, SceneView, Touch} from './types.js' */
 
 export class Selection {
@@ -62,13 +64,13 @@ export class Selection {
     const row = this.hovered ? world.row(this.hovered) : -1;
     if (row < 0 || !this.hoveredAt) return;
     if (tool.aims) view.outline(row, palette[tool.aims]);
-    const [x, y] = this.hoveredAt;
+    const [x, y] = this.hoveredAt, text = shorten(this.hovered);
     ctx.font = '13px system-ui, sans-serif';
     ctx.textAlign = 'left';
     ctx.lineWidth = 4;
     ctx.strokeStyle = palette.paper;
-    ctx.strokeText(this.hovered, x + 16, y - 10);
+    ctx.strokeText(text, x + 16, y - 10);
     ctx.fillStyle = palette.ink;
-    ctx.fillText(this.hovered, x + 16, y - 10);
+    ctx.fillText(text, x + 16, y - 10);
   }
 }

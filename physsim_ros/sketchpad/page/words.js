@@ -17,6 +17,8 @@ const SENTENCES = [
   [/^undid (.+?)(, back at .*)?$/, 'Undone: $1'], [/^redid .*/, 'Done again'], [/^(back )?at the beginning, .*/, 'Back at the beginning'],
   [/ at \([^)]*\)$/, ' here'],
 ];
+/** Long words, as of a name: it may have 1,000 characters, of which the ends are shown. */
+const LONG = /(\S{24})\S{16,}(\S{12})/g;
 /** Names that nobody chose: of what a pen or a click has drawn. */
 const DRAWN = /\b(?:(body|joint|axle|pin|spring|rod|rope|motor|slider|gear) )?(drawn\/\d+)/g;
 
@@ -32,15 +34,20 @@ export class Words {
 
   /** @param {string} name of what an answer is about; one that was free may be used again */
   knows(name) {
-    return !name.startsWith('drawn/') || this.known[0].has(name);
+    return !isDrawn(name) || this.known[0].has(name);
   }
 
   /**
    * @param {string} name of a body
-   * @returns {string} the name that somebody has chosen, else what it is
+   * @returns {string} the name that somebody has chosen, short, else what it is
    */
   of(name) {
-    return name.startsWith('drawn/') ? this.known[0].get(name) ?? this.known[1].get(name) ?? 'body' : name;
+    return isDrawn(name) ? this.known[0].get(name) ?? this.known[1].get(name) ?? 'body' : shorten(name);
+  }
+
+  /** @param {string} name of a body */
+  title(name) {
+    return isDrawn(name) ? capital(this.of(name)) : this.of(name);
   }
 
   /**
@@ -50,8 +57,8 @@ export class Words {
   tell({message, subject = ''}) {
     const verb = subject ? message.slice(0, Math.max(message.indexOf(subject), 0)).trimEnd() : '';
     if (verb.startsWith('joined')) return capital(`${/ by (\w+) /.exec(message)?.[1] ?? 'joint'} added`);
-    const word = this.of(subject), done = VERBS.get(verb);
-    if (done) return `${word === subject ? word : capital(word)} ${done}`;
+    const done = VERBS.get(verb);
+    if (done) return `${this.title(subject)} ${done}`;
     return capital(this.phrase(SENTENCES.reduce((text, [sentence, said]) => text.replace(sentence, said), message)));
   }
 
@@ -60,8 +67,18 @@ export class Words {
    * @returns {string} with words for those that nobody chose
    */
   phrase(text) {
-    return text.replace(/\bspawn\b/, 'add').replace(DRAWN, (_, kind, name) => `the ${kind ?? this.of(name)}`);
+    return shorten(text).replace(/\bspawn\b/, 'add').replace(DRAWN, (_, kind, name) => `the ${kind ?? this.of(name)}`);
   }
+}
+
+/** @param {string} name of a body */
+export function isDrawn(name) {
+  return name.startsWith('drawn/');
+}
+
+/** @param {string} text */
+export function shorten(text) {
+  return text.replace(LONG, '$1…$2');
 }
 
 /** @param {string} text */
