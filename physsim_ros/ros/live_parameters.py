@@ -66,7 +66,6 @@ class LiveParameters:
         self._on_change = on_change
         # The settings of the world that the parameters have; None where they may differ.
         self._mirrored: WorldSettings | None = simulation.settings
-        self._services = parameters.ParameterServices(node, simulation.requests.tell)
         node.add_on_set_parameters_callback(self._check)
         node.add_post_set_parameters_callback(self._apply)
 

@@ -36,9 +36,10 @@ from physsim_ros.ros.live_parameters import LiveParameters
 from physsim_ros.ros.page_control import PageControl
 from physsim_ros.ros.qos_safe_node import NodeWithoutQosEvents
 from physsim_ros.ros.requests.drawing_topics import DrawingTopics
+from physsim_ros.ros.requests.parameter_services import ParameterServices
 from physsim_ros.ros.requests.reply_pacer import ReplyPacer
 from physsim_ros.ros.requests.request_topics import RequestTopics
-from physsim_ros.ros.requests.services import create_services, Turns
+from physsim_ros.ros.requests.services import create_services, ServiceCalls, Turns
 from physsim_ros.ros.requests.subscriptions import RequestSubscriptions
 from physsim_ros.ros.time_control import TimeControl
 from physsim_ros.ros.world_files import WorldFiles
@@ -168,14 +169,9 @@ class PhysSimNode(NodeWithoutQosEvents):
         }
         turns = Turns(simulation.requests, self._is_there)
         self._reply_pacer = ReplyPacer(self)
-        create_services(
-            self,
-            actions,
-            turns,
-            self._reply_pacer,
-            queue=self.requests.queue,
-            on_success=self._note_change,
-        )
+        calls = ServiceCalls(self.requests.queue, turns, self._reply_pacer)
+        create_services(self, actions, calls, on_success=self._note_change)
+        self._parameter_services = ParameterServices(self, calls)
         self._page_control = PageControl(
             simulation=simulation,
             values=self._values,

@@ -71,7 +71,7 @@ class RequestHandler:
                 self.answers.append(request)
                 continue
             if isinstance(request, Call):
-                self.answers.append(request.call())
+                self.answers += request.call()
                 continue
             if isinstance(request, Amend):
                 self.answers += self._amend(request, waiting)

@@ -23,7 +23,7 @@ bounded in count and in memory, and what is too much is refused.
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
 from physsim_ros.model.errors import Busy, Refusal
@@ -77,10 +77,10 @@ class Call:
     """
     Call something that reads or replaces the world, between the requests before and after it.
 
-    :param call: returns the answer to whoever asked for it
+    :param call: returns the answers to whoever asked for it
     """
 
-    call: Callable[[], Answer]
+    call: Callable[[], Iterable[Answer]]
 
 
 _NO_REQUESTS = Seek | Refusal | Answer
@@ -193,7 +193,7 @@ class RequestQueue:
             last.request = Answer(topic=last.topic, message=message, asker=last.asker)
         self._waiting.append(Waiting(Seek(stamp), topic, '', self.gesture))
 
-    def submit_call(self, call: Callable[[], Answer], *, topic: str) -> None:
+    def submit_call(self, call: Callable[[], Iterable[Answer]], *, topic: str) -> None:
         """
         Add a call, which waits for the end of a seek as a request does.
 

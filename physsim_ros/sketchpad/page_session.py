@@ -23,7 +23,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import replace
-from functools import partial
 import time
 from typing import Any
 
@@ -276,7 +275,7 @@ class PageSession:
         """Perform an action when it is the turn of its service, and queue its answer."""
         topic = f'~/{service}'
         try:
-            self._world.call_in_turn(service, partial(self._perform_action, topic, asker, action))
+            self._world.call_in_turn(service, lambda: [self._perform_action(topic, asker, action)])
         except Busy as refusal:
             self._refuse(refusal, topic, asker)
 

@@ -17,7 +17,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any, Protocol
 
 from physsim_ros.drawing import DrawingSettings
@@ -39,9 +39,9 @@ class WorldControl(Protocol):
     def current_snapshot(self) -> Snapshot:
         """Apply the waiting requests, and return the snapshot that is shown."""
 
-    def call_in_turn(self, service: str, call: Callable[[], Answer]) -> None:
+    def call_in_turn(self, service: str, call: Callable[[], Iterable[Answer]]) -> None:
         """
-        Call something and tell its answer, at once or when a seek is done that it must wait for.
+        Call something and tell its answers, at once or when a seek is done that it must wait for.
 
         :param service: whose turn it takes
         :raises Busy: too many requests wait

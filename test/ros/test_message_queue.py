@@ -19,6 +19,8 @@ from __future__ import annotations
 from physsim_ros.ros.requests import message_queue
 from physsim_ros.testing import PhysSim
 import pytest
+from rcl_interfaces.srv import SetParameters, SetParametersAtomically
+from rclpy.parameter import Parameter
 from std_srvs.srv import Trigger
 from visualization_msgs.msg import Marker, MarkerArray
 
@@ -61,6 +63,28 @@ def test_a_service_comes_behind_the_messages_that_were_sent_before(
     cleared = clear.call_async(Trigger.Request())
     client.spin_until(cleared.done)
     assert cleared.result().message == 'deleted 101 bodies'
+
+
+def test_a_parameter_is_set_behind_the_messages_that_were_sent_before(
+    physsim: PhysSim, client: Client
+) -> None:
+    client.ask('~/spawn_array', array(9, 1))
+    clients = [
+        client.node.create_client(SetParameters, '/physsim/set_parameters'),
+        client.node.create_client(SetParametersAtomically, '/physsim/set_parameters_atomically'),
+    ]
+    client.spin_until(lambda: all(each.service_is_ready() for each in clients))
+    client.events.clear()
+    for number in range(5):
+        client.publish('~/spawn_array', array(number))
+    parameter = Parameter('density', value=5.0).to_parameter_msg()
+    replies = [each.call_async(each.srv_type.Request(parameters=[parameter])) for each in clients]
+    client.spin_until(lambda: all(each.done() for each in replies))
+    physsim.node.apply_requests()
+    physsim.settle()
+    topics = [event.name for event in client.events]
+    assert topics == ['~/spawn_array'] * 500 + ['~/set_parameters'] * 2
+    assert {each.body.density for each in physsim.node.simulation.world.save().bodies} == {1.0}
 
 
 def test_messages_that_are_too_many_are_refused_undecoded(

@@ -21,6 +21,8 @@ from pathlib import Path
 
 from physsim_ros.testing import PhysSim
 import pytest
+from rcl_interfaces.srv import SetParameters
+from rclpy.parameter import Parameter
 from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
 
@@ -489,3 +491,50 @@ def test_a_service_that_needs_the_world_waits_for_the_end_of_a_seek_and_replies_
     assert succeeded(cleared.result()) == 'deleted 2 bodies'
     assert simulation.world.stamp == 500_000_000
     assert len(simulation.world) == 0
+
+
+def test_a_world_that_waits_to_be_loaded_is_that_which_was_named_before(
+    physsim: PhysSim, client: Client, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    physsim.spawn(disc('first/0', at=(0.0, 5.0)))
+    set_parameter(physsim, 'world_file', 'first')
+    succeeded(client.call('~/save_world'))
+    load = client.node.create_client(Trigger, '/physsim/load_world')
+    name = client.node.create_client(SetParameters, '/physsim/set_parameters')
+    client.spin_until(lambda: load.service_is_ready() and name.service_is_ready())
+    physsim.run(1.0)
+    # As with ticks, which bring the world to the cached frame that is shown.
+    monkeypatch.setattr(physsim.node, '_started', True)
+    physsim.node.simulation.seek(500_000_000)
+    loaded = load.call_async(Trigger.Request())
+    physsim.settle()
+    second = Parameter('world_file', value='second').to_parameter_msg()
+    named = name.call_async(SetParameters.Request(parameters=[second]))
+    physsim.settle()
+    assert not loaded.done()
+    physsim.node.apply_requests()
+    client.spin_until(lambda: loaded.done() and named.done())
+    assert 'first.yaml' in succeeded(loaded.result())
+    assert parameter(physsim, 'world_file') == 'second'
+
+
+@pytest.mark.parametrize('name', ['gravity', 'tool'])
+def test_a_parameter_waits_for_the_end_of_a_seek_where_the_world_has_it(
+    physsim: PhysSim, client: Client, monkeypatch: pytest.MonkeyPatch, name: str
+) -> None:
+    service = client.node.create_client(SetParameters, '/physsim/set_parameters')
+    client.spin_until(service.service_is_ready)
+    physsim.run(1.0)
+    monkeypatch.setattr(physsim.node, '_started', True)
+    simulation = physsim.node.simulation
+    simulation.seek(500_000_000)
+    value = [0.0, -1.0] if name == 'gravity' else 'anchor'
+    request = SetParameters.Request(parameters=[Parameter(name, value=value).to_parameter_msg()])
+    named = service.call_async(request)
+    physsim.settle()
+    physsim.settle()
+    assert not simulation.apply_up_to_seek()
+    assert named.done() is (name == 'tool')
+    physsim.node.apply_requests()
+    client.spin_until(named.done)
+    assert parameter(physsim, name) == value

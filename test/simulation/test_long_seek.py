@@ -112,9 +112,9 @@ def test_a_call_waits_for_the_end_of_a_seek_in_its_turn_among_requests(
     requests = simulation.requests
     saved: list[WorldState] = []
 
-    def clear() -> Answer:
+    def clear() -> list[Answer]:
         saved.append(simulation.save())
-        return Answer(topic='~/clear', message=simulation.perform(DeleteAll()))
+        return [Answer(topic='~/clear', message=simulation.perform(DeleteAll()))]
 
     requests.submit(spawning('early/0', DISC, (5.0, 1.0, 0.0)), topic='~/spawn')
     requests.submit_call(clear, topic='~/clear')

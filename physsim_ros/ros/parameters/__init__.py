@@ -21,9 +21,9 @@ is a setting of the world or of drawing has its default and range from there (`m
 """
 
 from physsim_ros.ros.parameters.declaration import check, declare
-from physsim_ros.ros.parameters.parameter_services import ParameterServices
 from physsim_ros.ros.parameters.settings import (
     drawing_settings,
+    is_world_setting,
     traced_names,
     world_changes,
     world_parameters,
@@ -34,11 +34,11 @@ from physsim_ros.ros.parameters.table import SPECS
 
 __all__ = [
     'SPECS',
-    'ParameterServices',
     'Spec',
     'check',
     'declare',
     'drawing_settings',
+    'is_world_setting',
     'traced_names',
     'world_changes',
     'world_parameters',

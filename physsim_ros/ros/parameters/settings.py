@@ -31,6 +31,11 @@ _WORLD = {each.name for each in fields(WorldSettings)}
 _DRAWING = {each.name for each in fields(DrawingSettings)}
 
 
+def is_world_setting(name: str) -> bool:
+    """Return whether a parameter is a setting of the world."""
+    return name in _WORLD
+
+
 def world_changes(parameters: Iterable[Parameter]) -> dict[str, Any]:
     """Return the settings of the world that parameters change, by name."""
     return {

@@ -27,11 +27,12 @@ from collections import deque
 from collections.abc import Callable
 from functools import partial
 import time
-from typing import Any, NamedTuple
+from typing import Any
 
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.service import Service
+from rclpy.task import Future
 
 # Depth of the requests that wait to be read: 50 clients with 20 calls each.
 SERVICE_QOS = QoSProfile(depth=1000, reliability=ReliabilityPolicy.RELIABLE)
@@ -39,14 +40,6 @@ SERVICE_QOS = QoSProfile(depth=1000, reliability=ReliabilityPolicy.RELIABLE)
 BURST = 5
 # Time for a client to read a reply [s]: a SingleThreadedExecutor takes 0.5 ms.
 READING = 1e-3
-
-
-class _Reply(NamedTuple):
-    """A reply that waits; it is sent when its action is done."""
-
-    service: str
-    is_complete: Callable[[], bool]
-    send: Callable[[], None]
 
 
 class ReplyPacer:
@@ -59,38 +52,38 @@ class ReplyPacer:
     def __init__(self, node: Node) -> None:
         self.paced = False
         self._node = node
-        self._waiting: deque[_Reply] = deque()
+        # Replies that are finished: the name of the service, and the call that sends it.
+        self._finished: deque[tuple[str, Callable[[], None]]] = deque()
         # Steady time at which all clients have read all replies [s].
         self._read = 0.0
 
-    def add(self, service: Service, *, is_complete: Callable[[Any], bool]) -> None:
-        """
-        Delay the replies of a service from now on, while `paced`, and until they are complete.
-
-        :param is_complete: whether a response is what is to be sent
-        """
+    def add(self, service: Service) -> None:
+        """Delay the replies of a service, whose callback returns futures of its responses."""
         send = service.send_response
 
-        def send_response(response: Any, header: Any) -> None:
-            self._waiting.append(
-                _Reply(
-                    service.srv_name,
-                    partial(is_complete, response),
-                    partial(send, response, header),
-                )
-            )
+        def send_when_finished(reply: Any, header: Any) -> None:
+            def add_finished(_: Future) -> None:
+                self._finished.append((service.srv_name, partial(send, reply.result(), header)))
+
+            reply.add_done_callback(add_finished)
             self.flush()
 
         # The executor looks this name up for each reply.
-        service.send_response = send_response  # type: ignore[method-assign]
+        service.send_response = send_when_finished  # type: ignore[method-assign, assignment]
+
+    def finish(self, reply: Future, response: Any) -> None:
+        """Set the response of a reply, which is sent as soon as the pace allows it."""
+        reply.set_result(response)
+        self.flush()
 
     def flush(self) -> None:
         """Send the replies that are due; called at each tick."""
-        for reply in [each for each in self._waiting if each.is_complete()]:
-            pause = READING * self._node.count_clients(reply.service)
+        while self._finished:
+            service, send = self._finished[0]
+            pause = READING * self._node.count_clients(service)
             now = time.monotonic()
             if self.paced and self._read > now + BURST * pause:
                 return
             self._read = max(self._read, now) + pause
-            self._waiting.remove(reply)
-            reply.send()
+            self._finished.popleft()
+            send()

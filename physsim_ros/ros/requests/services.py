@@ -21,8 +21,9 @@ is told on `~/events`, too.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from functools import partial
+from typing import Any
 
 from physsim_ros.model.errors import Busy, Refusal
 from physsim_ros.model.snapshot import Answer
@@ -31,14 +32,19 @@ from physsim_ros.ros.requests.reply_pacer import ReplyPacer, SERVICE_QOS
 from physsim_ros.simulation.request_queue import RequestQueue
 from rclpy.node import Node
 from rclpy.service import Service
+from rclpy.task import Future
 from std_srvs.srv import Trigger
 
 # Carries out a service, and returns a message about it; raises a Refusal where it cannot.
 Action = Callable[[], str]
-# Services that need the world itself: they wait for the end of a seek, as requests do.
-IN_TURN = frozenset({'clear', 'load_world', 'save_world'})
-# What takes the place of a seek, unless requests wait for the end of that.
-REPLACING = frozenset({'undo', 'redo', 'reset', 'seek', 'timeline'})
+# Fills in a response, with a refusal where too many wait, and returns the answers.
+Fill = Callable[[Busy | None], Iterable[Answer]]
+# What needs the world itself waits for the end of a seek, as requests do; `configure` sets
+# parameters that are settings of the world.
+NEEDING_WORLD = frozenset({'clear', 'load_world', 'save_world', 'configure'})
+# What takes the place of a seek, or does not concern it, comes at once, but behind requests that
+# wait for the end of that.
+BEHIND_REQUESTS = frozenset({'undo', 'redo', 'reset', 'seek', 'timeline', 'set_parameters'})
 
 
 class Turns:
@@ -53,31 +59,71 @@ class Turns:
         self._requests = requests
         self._is_there = is_there
 
-    def call(self, service: str, call: Callable[[], Answer]) -> None:
+    def call(self, service: str, call: Callable[[], Iterable[Answer]]) -> None:
         """
-        Call something, and tell its answer.
+        Call something, and tell its answers.
 
         :param service: whose turn it takes
         :raises Busy: too many requests wait
         """
-        waits = service in IN_TURN or (service in REPLACING and self._requests.has_requests)
+        waits = service in NEEDING_WORLD or (
+            service in BEHIND_REQUESTS and self._requests.has_requests
+        )
         if waits and not self._is_there():
             self._requests.submit_call(call, topic=f'~/{service}')
         else:
-            self._requests.tell(call())
+            self.tell(call())
 
-    def tell(self, answer: Answer) -> None:
-        """Tell an answer at once."""
-        self._requests.tell(answer)
+    def tell(self, answers: Iterable[Answer]) -> None:
+        """Tell answers at once."""
+        for answer in answers:
+            self._requests.tell(answer)
+
+
+class ServiceCalls:
+    """
+    Calls of services: in the order of messages, in their turns, with replies at a pace.
+
+    :param queue: of messages, behind which a service comes that was called after them
+    :param turns: of the services
+    :param pacer: of their replies
+    """
+
+    def __init__(self, queue: MessageQueue, turns: Turns, pacer: ReplyPacer) -> None:
+        self._queue = queue
+        self._turns = turns
+        self._pacer = pacer
+        self.delay_replies = pacer.add
+
+    def add(self, service: str, response: Any, fill: Fill) -> Future:
+        """
+        Have a response filled in when it is its turn, and return its future.
+
+        :param service: whose turn it takes
+        """
+        reply = Future()
+
+        def finish(refusal: Busy | None = None) -> Iterable[Answer]:
+            answers = fill(refusal)
+            self._pacer.finish(reply, response)
+            return answers
+
+        def unless_busy(call: Callable[[], None]) -> None:
+            try:
+                call()
+            except Busy as refusal:
+                self._turns.tell(finish(refusal))
+
+        take_turn = partial(unless_busy, partial(self._turns.call, service, finish))
+        unless_busy(partial(self._queue.add_call, take_turn))
+        return reply
 
 
 def create_services(
     node: Node,
     actions: Mapping[str, Action],
-    turns: Turns,
-    pacer: ReplyPacer,
+    calls: ServiceCalls,
     *,
-    queue: MessageQueue,
     on_success: Callable[[], None],
 ) -> None:
     """
@@ -85,42 +131,28 @@ def create_services(
 
     :param node: that offers them
     :param actions: by the names of the services
-    :param turns: of the services
-    :param pacer: of their replies
-    :param queue: of messages, behind which a service comes that was called after them
+    :param calls: of the services
     :param on_success: called after each service that was not refused
     """
 
-    def perform(name: str, response: Trigger.Response) -> Answer:
+    def fill(name: str, response: Trigger.Response, busy: Busy | None) -> list[Answer]:
+        topic = f'~/{name}'
         try:
+            if busy is not None:
+                raise busy
             response.message = actions[name]()
-            response.success = True
-            on_success()
-            return Answer(topic=f'~/{name}', message=response.message)
         except Refusal as refusal:
-            return refuse(name, response, refusal)
-        finally:
-            pacer.flush()
-
-    def refuse(name: str, response: Trigger.Response, refusal: Refusal) -> Answer:
-        response.message = f'{refusal.code}: {refusal}'
-        response.success = False
-        return Answer.refused(refusal, topic=f'~/{name}')
-
-    def answer(name: str, response: Trigger.Response) -> None:
-        try:
-            turns.call(name, partial(perform, name, response))
-        except Busy as refusal:
-            turns.tell(refuse(name, response, refusal))
-            pacer.flush()
+            response.message = f'{refusal.code}: {refusal}'
+            return [Answer.refused(refusal, topic=topic)]
+        response.success = True
+        on_success()
+        return [Answer(topic=topic, message=response.message)]
 
     def create_service(name: str) -> Service:
-        def callback(_: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
-            queue.add_call(partial(answer, name, response))
-            return response
+        def callback(_: Trigger.Request, response: Trigger.Response) -> Future:
+            return calls.add(name, response, partial(fill, name, response))
 
         return node.create_service(Trigger, f'~/{name}', callback, qos_profile=SERVICE_QOS)
 
     for name in actions:
-        # Each says what it did, or why not.
-        pacer.add(create_service(name), is_complete=lambda reply: bool(reply.message))
+        calls.delay_replies(create_service(name))

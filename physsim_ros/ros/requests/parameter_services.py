@@ -16,65 +16,95 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable, Sequence
+from typing import Any
 
 from physsim_ros.model.checks import shown
-from physsim_ros.model.errors import BadProperty, UnknownProperty
+from physsim_ros.model.errors import BadProperty, Busy, UnknownProperty
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.model.texts import abbreviated, message_text, nearest_name
+from physsim_ros.ros.parameters import is_world_setting, SPECS
 from physsim_ros.ros.parameters.spec import Type
-from physsim_ros.ros.parameters.table import SPECS
+from physsim_ros.ros.requests.services import Fill, ServiceCalls
 from rcl_interfaces.msg import Parameter as ParameterMessage
 from rcl_interfaces.msg import SetParametersResult
 from rcl_interfaces.srv import SetParameters, SetParametersAtomically
 from rclpy.node import Node
 from rclpy.parameter_service import ParameterService
+from rclpy.task import Future
 
 _TYPES = {each.value for each in Type}
 
 
 class ParameterServices(ParameterService):
     """
-    The parameter services of a node, whose results are answers, too.
+    The parameter services of a node, which set in the order of messages and requests.
 
     rclpy.parameter_service.ParameterService of ROS 2 Jazzy raises on a type of value that it does
     not know, which ends the node; such a value is refused here.
 
     :param node: whose parameters are set
-    :param tell: called with the answer to each parameter that is set or refused
+    :param calls: of its services
     """
 
-    def __init__(self, node: Node, tell: Callable[[Answer], None]) -> None:
+    def __init__(self, node: Node, calls: ServiceCalls) -> None:
         super().__init__(node)
-        self._tell = tell
+        self._calls = calls
+        for service in node.services:
+            if service.srv_type in (SetParameters, SetParametersAtomically):
+                calls.delay_replies(service)
 
     def _set_parameters_callback(
         self, request: SetParameters.Request, response: SetParameters.Response
-    ) -> SetParameters.Response:
-        _replace_unknown_types(request.parameters)
-        response = super()._set_parameters_callback(request, response)
-        for parameter, result in zip(request.parameters, response.results, strict=True):
-            self._tell_result(parameter.name, result)
-        return response
+    ) -> Future:
+        set_each = super()._set_parameters_callback
+
+        def fill(refusal: Busy | None) -> list[Answer]:
+            if refusal is None:
+                set_each(request, response)
+            else:
+                response.results = [_refused(refusal) for _ in request.parameters]
+            return self._answers(request.parameters, response.results)
+
+        return self._add_call(request.parameters, response, fill)
 
     def _set_parameters_atomically_callback(
         self,
         request: SetParametersAtomically.Request,
         response: SetParametersAtomically.Response,
-    ) -> SetParametersAtomically.Response:
-        _replace_unknown_types(request.parameters)
-        response = super()._set_parameters_atomically_callback(request, response)
-        for parameter in request.parameters:
-            self._tell_result(parameter.name, response.result)
-        return response
+    ) -> Future:
+        set_all = super()._set_parameters_atomically_callback
 
-    def _tell_result(self, name: str, result: SetParametersResult) -> None:
-        """Answer with the result for one parameter, whose reason becomes the message."""
+        def fill(refusal: Busy | None) -> list[Answer]:
+            if refusal is None:
+                set_all(request, response)
+            else:
+                response.result = _refused(refusal)
+            results = [response.result] * len(request.parameters)
+            return self._answers(request.parameters, results)
+
+        return self._add_call(request.parameters, response, fill)
+
+    def _add_call(self, messages: Sequence[ParameterMessage], response: Any, fill: Fill) -> Future:
+        _replace_unknown_types(messages)
+        changes_world = any(is_world_setting(each.name) for each in messages)
+        turn = 'configure' if changes_world else 'set_parameters'
+        return self._calls.add(turn, response, fill)
+
+    def _answers(
+        self, messages: Iterable[ParameterMessage], results: Iterable[SetParametersResult]
+    ) -> list[Answer]:
+        return [
+            self._answer(message.name, result)
+            for message, result in zip(messages, results, strict=True)
+        ]
+
+    def _answer(self, name: str, result: SetParametersResult) -> Answer:
+        """Return the result for one parameter as an answer, whose message is its reason, too."""
         topic = '~/set_parameters'
         if result.successful:
             result.reason = f'{name} is {shown(self._get_node().get_parameter(name).value)}'
-            self._tell(Answer(topic=topic, message=result.reason))
-            return
+            return Answer(topic=topic, message=result.reason)
         if not self._get_node().has_parameter(name):
             # rclpy 7.1 does not name the parameter that it refuses.
             nearest = nearest_name(abbreviated(name), SPECS)
@@ -85,8 +115,11 @@ class ParameterServices(ParameterService):
             # A refusal by rclpy: there is no such parameter, or it is read-only.
             code = BadProperty.code if name in SPECS else UnknownProperty.code
             reason = result.reason
-        answer = Answer(topic=topic, message=reason, code=code, field=abbreviated(name))
-        self._tell(answer)
+        return Answer(topic=topic, message=reason, code=code, field=abbreviated(name))
+
+
+def _refused(refusal: Busy) -> SetParametersResult:
+    return SetParametersResult(successful=False, reason=f'{refusal.code}: {refusal}')
 
 
 def _replace_unknown_types(messages: Iterable[ParameterMessage]) -> None:
