@@ -49,6 +49,17 @@ COLORS, COLOR_TOLERANCE = ((0xD0, 0x20, 0x20), (0x20, 0xA0, 0x40)), 3
 SOME_PIXELS = 20
 SCRIPT = 'let wasm_bindgen;\n' * 20_000
 
+# A viewer in place of Rerun's that takes 0.7 s for each batch, as one without a graphics card.
+SLOW_VIEWER = """let wasm_bindgen = Object.assign(async () => {}, {WebHandle: class {
+    constructor(options) { this.options = options; }
+    start() {}
+    open_channel() {}
+    send_rrd_to_channel() {
+        for (const end = performance.now() + 700; performance.now() < end;);
+        this.options.on_viewer_event('{"type": "time_update", "time": 1e18}');
+    }
+}})"""
+
 
 @pytest.fixture
 def viewer_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
@@ -264,4 +275,20 @@ def test_chromium_shows_the_recording_and_calls_no_other_origin(
     # All but what data and blobs hold is asked of this server.
     foreign = {url for url in called if not url.startswith((origin, 'data:', 'blob:'))}
     assert foreign == set()
+    context.close()
+
+
+def test_a_browser_that_draws_slowly_says_how_far_it_is_behind(
+    chromium: Any, outside: Outside
+) -> None:
+    _, address = started_world(outside, viewer='web')
+    context = chromium.new_context()
+    context.route(
+        '**/re_viewer.js',
+        lambda route: route.fulfill(body=SLOW_VIEWER, content_type='text/javascript'),
+    )
+    page = context.new_page()
+    page.goto(address)
+    page.goto(f'{address.partition("/login")[0]}/rerun/')
+    page.get_by_role('status').get_by_text('0.7 s behind').wait_for()
     context.close()

@@ -10,8 +10,8 @@
 import {elementOf} from './dom.js';
 import {watchTheme} from './theme.js';
 
-/** Time from a batch to its picture that is told [s]. */
-const SLOW = 1;
+/** Time from a batch to its picture that is told [s]: a delay between a deed and its picture that is seen. */
+const SLOW = 0.5;
 /** Frames of the viewer after which a batch is acknowledged that it does not show, as while it is paused. */
 const MOST_FRAMES = 8;
 const CHANNEL = 'physsim';
