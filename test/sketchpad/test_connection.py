@@ -44,6 +44,30 @@ def test_the_page_comes_back_when_its_socket_was_cut(chromium: Any, address: str
     sheet.close()
 
 
+def test_the_page_is_loaded_again_where_another_version_of_the_server_comes_back(
+    chromium: Any, address: str
+) -> None:
+    sheet = Sheet(chromium, 'about:blank')
+    sockets: list[Any] = []
+
+    def pass_on(socket: Any) -> None:
+        sockets.append(socket)
+        server = socket.connect_to_server()
+        if len(sockets) > 1:
+            version = '"version":1', '"version":2'
+            server.on_message(
+                lambda text: socket.send(text.replace(*version) if isinstance(text, str) else text)
+            )
+
+    sheet.page.route_web_socket('**/ws*', pass_on)
+    sheet.page.goto(address)
+    sheet.begin()
+    with sheet.page.expect_navigation():
+        sockets[0].close()
+    sheet.wait('Object.keys(physsim.bodies).length === 3')
+    sheet.close()
+
+
 def test_the_page_says_that_the_server_is_gone_and_comes_back_with_it(
     chromium: Any, outside: Outside
 ) -> None:

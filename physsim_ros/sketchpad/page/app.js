@@ -41,6 +41,8 @@ export class App {
     /** @type {Record<string, any>} properties of the next drawings */
     this.material = {density: 1, friction: 0.5, elasticity: 0.5};
     this.arrows = {velocities: false, contacts: false, forces: true};
+    /** @type {number | undefined} of the server's protocol */
+    this.version = undefined;
     this.framed = false;
     this.bounds = ''; // of the world that was framed: another one, as in the past, is framed anew
 
@@ -75,7 +77,9 @@ export class App {
 
   #listen() {
     const {connection} = this, gone = elementOf('gone', HTMLElement);
-    connection.on('welcome', ({settings = {}, view_only: viewOnly}) => {
+    connection.on('welcome', ({version, settings = {}, view_only: viewOnly}) => {
+      // These scripts are of the server before, and may not know the messages of this one.
+      if (version !== (this.version ??= version)) location.reload();
       this.viewOnly ||= Boolean(viewOnly);
       document.body.classList.toggle('view', this.viewOnly);
       Object.assign(this.material, settings, {color: settings.draw_color ?? null});
