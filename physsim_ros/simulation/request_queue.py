@@ -16,8 +16,8 @@
 The queue of requests that wait for the next frame.
 
 Laws: what is submitted is taken in the order of its arrival and answered once; of the moves of a
-hand that wait, and of seeks that wait one behind the other, the last is carried out; what waits is
-bounded in count and in memory, and what is too much is refused.
+hand, and of seeks, that wait with no other request between them, the last is carried out; too many
+requests are refused, in count and in memory, and too many answers are counted by the last.
 """
 
 from __future__ import annotations
@@ -43,6 +43,7 @@ from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.past.memory_size import names_size, request_size
 
 # Requests that wait, at most, and memory that they may take [bytes]: five worlds of 20,000 bodies.
+# Answers are told one by one up to twice that count.
 MOST_WAITING, MOST_BYTES = 100_000, 256 * 10**6
 
 
@@ -128,8 +129,11 @@ class RequestQueue:
         # Memory of the requests that wait [bytes].
         self._size = 0
         self._is_taken = False
-        # The last move of each hand; a later one takes its place.
+        # The last move of each hand, and the last seek; a later one takes its place.
         self._moves: dict[str, Waiting] = {}
+        self._seek: Waiting | None = None
+        # Answers that the last entry counts.
+        self._untold = 0
 
     def __len__(self) -> int:
         return len(self._waiting)
@@ -165,16 +169,16 @@ class RequestQueue:
             self._moves[request.hand].request = request
             return
         subject, size = _subject_of(request), _size_of(request)
-        if len(self) >= MOST_WAITING or self._size + size > MOST_BYTES:
-            refusal = Busy(f'{len(self)} requests wait; this one was one too many')
+        if busy := self._busy(size):
             self.refuse(
-                refusal, topic=topic, subject=subject, joined=joined, field=field, asker=asker
+                busy, topic=topic, subject=subject, joined=joined, field=field, asker=asker
             )
             return
         gesture = self.gesture if joined else self.begin_gesture()
         waiting = Waiting(request, topic, subject, gesture, field, asker, size)
         self._waiting.append(waiting)
         self._size += size
+        self._seek = None
         match request:
             case MoveHand(hand=hand):
                 self._moves[hand] = waiting
@@ -187,11 +191,15 @@ class RequestQueue:
 
         :param topic: that it comes from
         """
-        if self._waiting and isinstance(self._waiting[-1].request, Seek):
-            last = self._waiting[-1]
+        if busy := self._busy():
+            self.refuse(busy, topic=topic, subject='', joined=True)
+            return
+        if self._seek is not None:
             message = f'superseded by a seek to {stamp * 1e-9:.3f} s'
-            last.request = Answer(topic=last.topic, message=message, asker=last.asker)
-        self._waiting.append(Waiting(Seek(stamp), topic, '', self.gesture))
+            self._seek.request = Answer(topic=self._seek.topic, message=message)
+        self._moves.clear()
+        self._seek = Waiting(Seek(stamp), topic, '', self.gesture)
+        self._waiting.append(self._seek)
 
     def submit_call(self, call: Callable[[], Iterable[Answer]], *, topic: str) -> None:
         """
@@ -200,8 +208,10 @@ class RequestQueue:
         :param topic: that it comes from
         :raises Busy: too many wait
         """
-        if len(self) >= MOST_WAITING:
-            raise Busy(f'{len(self)} requests wait; this one was one too many')
+        if busy := self._busy():
+            raise busy
+        self._moves.clear()
+        self._seek = None
         self._waiting.append(Waiting(Call(call), topic, '', self.begin_gesture()))
 
     def refuse(
@@ -220,15 +230,32 @@ class RequestQueue:
         :param subject: name of the body or joint that the message names, or ''
         """
         gesture = self.gesture if joined else self.begin_gesture()
-        self._waiting.append(Waiting(refusal, topic, subject, gesture, field, asker))
+        self._add_answer(Waiting(refusal, topic, subject, gesture, field, asker))
 
     def tell(self, answer: Answer) -> None:
         """Add an answer without a request, so that answers keep their order."""
-        self._waiting.append(Waiting(answer, answer.topic, answer.subject, self.gesture))
+        self._add_answer(Waiting(answer, answer.topic, answer.subject, self.gesture))
+
+    def _busy(self, size: int = 0) -> Busy | None:
+        """Return the refusal of a request of that memory [bytes], where too many wait."""
+        if len(self) < MOST_WAITING and self._size + size <= MOST_BYTES:
+            return None
+        return Busy(f'{len(self)} requests wait; this one was one too many')
+
+    def _add_answer(self, waiting: Waiting) -> None:
+        """Add an answer or a refusal; where too many wait, the last one counts the others."""
+        self._untold = self._untold + 1 if len(self) >= 2 * MOST_WAITING else 0
+        if self._untold > 1:
+            self._waiting.pop()
+        if self._untold:
+            waiting.request = Busy(f'{self._untold} more answers are not told, too many wait')
+        self._waiting.append(waiting)
 
     def take(self, is_there: Callable[[], bool] = lambda: True) -> Iterator[Waiting]:
         """
-        Remove and yield the waiting requests, in order; to a call among them, none wait.
+        Remove and yield the waiting requests, in order.
+
+        A call among them comes before those behind it: where it takes, too, it is yielded none.
 
         :param is_there: whether the next may be applied to the world; else it waits, and all
             behind it
@@ -240,8 +267,11 @@ class RequestQueue:
             while self._waiting and (not self._waiting[0].is_for_world or is_there()):
                 waiting = self._waiting.popleft()
                 self._size -= waiting.size
-                if isinstance(waiting.request, MoveHand):
-                    self._moves.pop(waiting.request.hand, None)
+                match waiting.request:
+                    case MoveHand(hand=hand) if self._moves.get(hand) is waiting:
+                        del self._moves[hand]
+                    case Seek() if self._seek is waiting:
+                        self._seek = None
                 yield waiting
         finally:
             self._is_taken = False

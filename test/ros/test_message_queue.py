@@ -16,6 +16,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
+from types import SimpleNamespace
+from typing import Any
+
+from physsim_ros.model.errors import Busy
 from physsim_ros.ros.requests import message_queue
 from physsim_ros.testing import PhysSim
 import pytest
@@ -105,3 +111,28 @@ def test_messages_that_are_too_many_are_refused_undecoded(
     assert physsim.digest() != before
     # None waits any more.
     assert {event.code for event in client.ask('~/spawn_array', array(3))} == {'ok'}
+
+
+def test_small_messages_and_calls_behind_a_large_one_are_bounded_too(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(message_queue, 'MOST_WAITING', 2**17)
+    tasks: list[Callable[[], None]] = []
+    node: Any = SimpleNamespace(executor=SimpleNamespace(create_task=tasks.append))
+    queue, handled, busy = message_queue.MessageQueue(node), [], 0
+    queue.add_message(lambda _: handled.append(-1), bytes(message_queue.LARGE))
+    for number in range(1000):
+        call = partial(handled.append, number)
+        try:
+            if number % 2:
+                queue.add_call(call)
+            else:
+                queue.add_message(lambda _, call=call: call(), bytes(12))
+        except Busy:
+            busy += 1
+    while tasks:
+        tasks.pop()()
+    assert handled == list(range(-1, len(handled) - 1))
+    # Half a kilobyte each is what they take.
+    assert len(handled) < 2**17 / 500
+    assert len(handled) + busy == 1001

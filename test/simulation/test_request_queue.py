@@ -14,9 +14,12 @@
 
 """The queue is bounded, each request is answered, and of seeks in a row the last is made."""
 
-from physsim_ros.model.requests import Spawn
+from physsim_ros.model.errors import Busy, Malformed
+from physsim_ros.model.requests import MoveHand, Spawn
 from physsim_ros.model.shapes import Disc
+from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation import request_queue
+from physsim_ros.simulation.request_queue import Call, RequestQueue, Seek
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
@@ -103,3 +106,41 @@ def test_what_is_too_much_is_refused_and_the_rest_is_carried_out(
         assert [each.code for each in frame.answers] == [''] * 5 + ['busy'] * 2
         assert [each.subject for each in frame.answers][-2:] == ['a/5', 'a/6']
         assert len(sim.world) == 5
+
+
+def test_what_lies_between_two_seeks_decides_whether_the_first_is_carried_out() -> None:
+    queue = RequestQueue()
+    move, other = MoveHand(hand='h', point=(1.0, 1.0)), MoveHand(hand='h', point=(9.0, 9.0))
+    queue.submit(move, topic='~/drag/feedback')
+    queue.submit_seek(1, topic='~/seek')
+    queue.tell(Answer(topic='~/speed', message='speed 1'))
+    queue.submit_seek(2, topic='~/seek')
+    queue.submit(move, topic='~/drag/feedback')
+    queue.submit(other, topic='~/drag/feedback')
+    queue.submit_call(list, topic='~/clear')
+    queue.submit(move, topic='~/drag/feedback')
+    queue.submit_seek(3, topic='~/seek')
+
+    requests = [each.request for each in queue.take() if not isinstance(each.request, Answer)]
+
+    assert requests == [move, Seek(2), other, Call(list), move, Seek(3)]
+
+
+def test_answers_that_are_too_many_are_counted(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(request_queue, 'MOST_WAITING', 5)
+    queue = RequestQueue()
+    queue.submit(SPAWN, topic='~/spawn')
+    for stamp in range(100):
+        queue.refuse(Malformed('no'), topic='~/spawn', subject='')
+        queue.submit_seek(stamp, topic='~/seek')
+
+    waiting = [each.request for each in queue.take()]
+
+    # Up to twice the bound; seeks beyond it are refused, too.
+    assert len(waiting) == 11
+    assert [each.stamp for each in waiting if isinstance(each, Seek)] == [1]
+    assert isinstance(waiting[-1], Busy)
+    assert str(waiting[-1]).startswith('191 more')
+    # The next are told again.
+    queue.refuse(Malformed('no'), topic='~/spawn', subject='')
+    assert [type(each.request) for each in queue.take()] == [Malformed]

@@ -24,6 +24,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable
+from functools import partial
 
 from physsim_ros.model.errors import Busy
 from rclpy.node import Node
@@ -31,9 +32,11 @@ from rclpy.node import Node
 # Size from which on messages wait, and others behind them [bytes]; smaller ones are decoded at
 # once, in less than 1 ms.
 LARGE = 2**14
-# Memory that they may take [bytes]: four of the largest messages that are decoded, or a burst of
-# 4,000 of the smallest that wait.
+# Memory that they may take [bytes]: four of the largest messages that are decoded, or 130,000
+# small ones behind a large one.
 MOST_WAITING = 2**26
+# Memory of an entry beside its message [bytes]: a million of 12 bytes took 422 MiB.
+_ENTRY = 512
 
 
 class MessageQueue:
@@ -55,18 +58,27 @@ class MessageQueue:
         :param decode: decodes a message and submits it
         :raises Busy: too many wait; it is not decoded
         """
-        if self._waiting and self._size + len(data) > MOST_WAITING:
-            raise Busy(f'{self._size / 2**20:.0f} MiB of messages wait to be decoded')
-        self._add(lambda: decode(data), len(data))
+        self._check_memory(len(data))
+        self._add(partial(decode, data), len(data))
 
     def add_call(self, call: Callable[[], None]) -> None:
-        """Call something behind the messages that wait; at once where none does."""
+        """
+        Call something behind the messages that wait; at once where none does.
+
+        :raises Busy: too many wait; it is not called
+        """
+        self._check_memory(0)
         self._add(call, 0)
 
     def add_call_behind_arrived(self, call: Callable[[], None]) -> None:
         """Call something behind the messages that the middleware has, and those that wait."""
         if self._node.executor is not None:
-            self._node.executor.create_task(self.add_call, call)
+            self._node.executor.create_task(self._add, call, 0)
+
+    def _check_memory(self, size: int) -> None:
+        """Refuse as `Busy` what would not fit behind those that wait."""
+        if self._waiting and self._size + size + _ENTRY > MOST_WAITING:
+            raise Busy(f'{self._size / 2**20:.0f} MiB of messages wait to be decoded')
 
     def _add(self, call: Callable[[], None], size: int) -> None:
         executor = self._node.executor
@@ -75,8 +87,8 @@ class MessageQueue:
             return
         if not self._waiting:
             executor.create_task(self._handle_next)
-        self._waiting.append((call, size))
-        self._size += size
+        self._waiting.append((call, size + _ENTRY))
+        self._size += size + _ENTRY
 
     def _handle_next(self) -> None:
         call, size = self._waiting.popleft()
