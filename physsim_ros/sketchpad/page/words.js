@@ -17,8 +17,7 @@ const SENTENCES = [
   [/^undid (.+?)(, back at .*)?$/, 'Undone: $1'], [/^redid .*/, 'Done again'], [/^(back )?at the beginning, .*/, 'Back at the beginning'],
   [/ at \([^)]*\)$/, ' here'],
 ];
-/** Long words, as of a name: it may have 1,000 characters, of which the ends are shown. */
-const LONG = /(\S{24})\S{16,}(\S{12})/g;
+const LONGEST = 52, HEAD = 24, TAIL = 12; // characters of a name that is shown whole, and of both ends of others
 /** Names that nobody chose: of what a pen or a click has drawn. */
 const DRAWN = /\b(?:(body|joint|axle|pin|spring|rod|rope|motor|slider|gear) )?(drawn\/\d+)/g;
 
@@ -67,7 +66,7 @@ export class Words {
    * @returns {string} with words for those that nobody chose
    */
   phrase(text) {
-    return shorten(text).replace(/\bspawn\b/, 'add').replace(DRAWN, (_, kind, name) => `the ${kind ?? this.of(name)}`);
+    return text.replace(/\S+/g, (word) => shorten(word)).replace(/\bspawn\b/, 'add').replace(DRAWN, (_, kind, name) => `the ${kind ?? this.of(name)}`);
   }
 }
 
@@ -76,9 +75,9 @@ export function isDrawn(name) {
   return name.startsWith('drawn/');
 }
 
-/** @param {string} text */
-export function shorten(text) {
-  return text.replace(LONG, '$1…$2');
+/** @param {string} name which may have 1,000 characters */
+export function shorten(name) {
+  return name.length > LONGEST ? `${name.slice(0, HEAD)}…${name.slice(-TAIL)}` : name;
 }
 
 /** @param {string} text */
