@@ -142,6 +142,7 @@ def test_all_bodies_of_a_namespace_are_deleted_and_no_others(world: World) -> No
 
     assert answer == ('', 'deleted 2 bodies')
     assert names(world) == ('b/0', 'ab/0', 'a/b/0')
+    assert world.apply(DeleteAll(namespace='ab')) == ('', 'deleted 1 body')
     assert world.apply(DeleteAll(namespace='nobody')) == ('', 'deleted 0 bodies')
 
 

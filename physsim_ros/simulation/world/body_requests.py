@@ -194,7 +194,7 @@ def delete_all(space: Space, namespace: str | None) -> Done:
         if namespace is None or split_name(name)[0] == namespace
     ]
     delete_bodies(space, tuple(names))
-    return '', f'deleted {len(names)} bodies'
+    return '', f'deleted {len(names)} {"body" if len(names) == 1 else "bodies"}'
 
 
 def _tuples(rows: Floats) -> Iterator[Pose]:

@@ -145,7 +145,7 @@ def unjoin_all(space: Space, namespace: str | None) -> str:
     ]
     for name in names:
         space.unjoin(name)
-    return f'deleted {len(names)} joints'
+    return f'deleted {len(names)} joint{"" if len(names) == 1 else "s"}'
 
 
 def loosen(space: Space, body: str, point: Point) -> list[str]:
