@@ -16,24 +16,37 @@
 Linear complementarity problems: λ >= 0, A λ + b >= 0, one of the two 0 in each row.
 
 A is symmetric and positive semidefinite, with a positive diagonal; λ are impulses of contacts, A
-is what they change the velocities of all contacts by.
+is what they change the velocities of all contacts by. Plain floats: of eight rows and less, they
+are quicker than arrays, and BLAS rounds otherwise on another processor.
 """
 
 from __future__ import annotations
 
-import numpy as np
-from physsim_ros.model.arrays import Floats
+from collections.abc import Sequence
+import math
 
-# Least eigenvalue of A, its diagonal scaled to 1, that counts: two points of a contact with less
-# are one (Box2D: `k_maxConditionNumber`, 1000).
-_LEAST_EIGENVALUE = 1e-3
-# Share of the greatest rate that is rounding.
-_ROUNDING = 1e-9
+# Part of the diagonal of A that is added to it: where many λ solve the problem, it chooses the
+# most even ones (A. N. Tikhonov, regularisation).
+_REGULARISATION = 1e-10
+# Share of the greatest rate that is rounding, or comes from the regularisation.
+_ROUNDING = 1e-8
+# Greatest λ in units of the effective masses, as a multiple of the greatest rate. A single point
+# has 1. A body that is wedged between two that do not move has no bound but the regularisation:
+# no λ keeps its contacts from approaching.
+_GREATEST = 1e3
 # Exchanges at most: nearly all impacts take one or two, and no more than five were seen.
 _EXCHANGES = 10
 
 
-def solve_lcp(matrix: Floats, rates: Floats) -> Floats | None:
+def product(a: Sequence[float], b: Sequence[float]) -> float:
+    """Return the sum of products, as far as both go."""
+    total = 0.0
+    for x, y in zip(a, b, strict=False):
+        total += x * y
+    return total
+
+
+def solve_lcp(matrix: Sequence[Sequence[float]], rates: Sequence[float]) -> list[float] | None:
     """
     Return λ, the most even one in units of the effective masses where many solve the problem.
 
@@ -41,21 +54,43 @@ def solve_lcp(matrix: Floats, rates: Floats) -> Floats | None:
     for large-scale strictly monotone linear complementarity problems, 1994): all rows that are on
     the wrong side change it at once.
 
-    :param matrix: (n, n) float64: A
-    :param rates: (n,) float64: b
-    :return: (n,) float64; None where the exchanges come to no end
+    :param matrix: n rows of n: A
+    :param rates: n: b
+    :return: n; None where there is no λ, or the exchanges come to no end
     """
-    scale = 1.0 / np.sqrt(matrix.diagonal())
-    matrix, rates = matrix * np.outer(scale, scale), rates * scale
-    rounding = _ROUNDING * float(np.abs(rates).max())
-    active = np.ones(len(rates), np.bool_)
+    rows = range(len(rates))
+    scale = [1.0 / math.sqrt(matrix[i][i]) for i in rows]
+    scaled = [[matrix[i][j] * scale[i] * scale[j] for j in rows] for i in rows]
+    wanted = [-rates[i] * scale[i] for i in rows]
+    greatest = max(map(abs, wanted))
+    active = set(rows)
     for _ in range(_EXCHANGES):
-        found = np.zeros(len(rates))
-        part = matrix[active][:, active]
-        found[active] = np.linalg.lstsq(part, -rates[active], rcond=_LEAST_EIGENVALUE)[0]
-        wrong = np.where(active, found, matrix @ found + rates) < -rounding
-        if not wrong.any():
-            solution: Floats = np.maximum(found, 0.0) * scale
-            return solution
+        found = _solve_rows(scaled, wanted, sorted(active))
+        left = [product(scaled[i], found) - wanted[i] for i in rows]
+        wrong = {i for i in rows if (found[i] if i in active else left[i]) < -_ROUNDING * greatest}
+        if not wrong:
+            if max(found) > _GREATEST * greatest:
+                return None
+            return [max(found[i], 0.0) * scale[i] for i in rows]
         active ^= wrong
     return None
+
+
+def _solve_rows(
+    matrix: Sequence[Sequence[float]], wanted: Sequence[float], rows: Sequence[int]
+) -> list[float]:
+    """Return the solution of some rows of a regularised system, 0 in the others: Cholesky."""
+    lower: list[list[float]] = []
+    reduced: list[float] = []
+    for i in rows:
+        row: list[float] = []
+        for j, above in zip(rows, lower, strict=False):
+            row.append((matrix[i][j] - product(row, above)) / above[-1])
+        row.append(math.sqrt(matrix[i][i] * (1.0 + _REGULARISATION) - product(row, row)))
+        lower.append(row)
+        reduced.append((wanted[i] - product(row, reduced)) / row[-1])
+    found = [0.0] * len(wanted)
+    for place in reversed(range(len(rows))):
+        below = sum(lower[k][place] * found[rows[k]] for k in range(place + 1, len(rows)))
+        found[rows[place]] = (reduced[place] - below) / lower[place][-1]
+    return found

@@ -1,0 +1,143 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""
+Impact points: what impulses in the points of contacts change, from the memory of the engine.
+
+Units of an impulse are [N s], a change by an impulse of 1 is [1/kg].
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any, NamedTuple
+
+from physsim_ros.engine.plane_vectors import dot
+from pymunk._chipmunk_cffi import ffi, lib
+
+# Places in the numbers of 8 bytes of `struct cpBody` (`include/chipmunk/chipmunk_structs.h` of
+# Munk2D as in Pymunk 7.3.1): inverse mass and moment, velocity, force, spin, torque.
+_INVERSE_MASS, _INVERSE_MOMENT, _VELOCITY, _FORCE, _SPIN, _TORQUE = 3, 5, 10, 12, 15, 16
+
+
+def is_moved(body: Any) -> bool:
+    """Return whether forces move a body."""
+    moves: bool = ffi.cast('double *', body)[_INVERSE_MASS] > 0.0
+    return moves
+
+
+class MovedBody:
+    """
+    A body in the middle of a step.
+
+    :param memory: `cpBody`
+    :param moved: whether the impulses that are solved move it
+    :param gravity: of the space [m/s²]
+    :param kept: share of its velocities that it keeps in the step
+    :param dt: of the step [s]
+
+    :ivar inverse_mass: 0 for what the impulses do not move [1/kg]
+    :ivar inverse_moment: 0 for what the impulses do not move [1/(kg m²)]
+    :ivar velocity: at the end of the step without impulses [m/s]
+    :ivar spin: at the end of the step without impulses [rad/s]
+    """
+
+    def __init__(
+        self, memory: Any, *, moved: bool, gravity: complex, kept: float, dt: float
+    ) -> None:
+        self._numbers = numbers = ffi.cast('double *', memory)
+        self._kept = kept
+        self.inverse_mass = self.inverse_moment = 0.0
+        self.velocity = complex(numbers[_VELOCITY], numbers[_VELOCITY + 1])
+        self.spin = numbers[_SPIN]
+        if moved:
+            self.inverse_mass, self.inverse_moment = self._inverse_masses
+            force = complex(numbers[_FORCE], numbers[_FORCE + 1])
+            self.velocity = self.velocity * kept + (gravity + force * self.inverse_mass) * dt
+            self.spin = self.spin * kept + numbers[_TORQUE] * self.inverse_moment * dt
+
+    @property
+    def _inverse_masses(self) -> tuple[float, float]:
+        return self._numbers[_INVERSE_MASS], self._numbers[_INVERSE_MOMENT]
+
+    def apply_impulse(self, linear: complex, angular: float) -> None:
+        """Change the velocities with which the engine begins."""
+        mass, moment = self._inverse_masses
+        change = linear * mass / self._kept
+        self._numbers[_VELOCITY] += change.real
+        self._numbers[_VELOCITY + 1] += change.imag
+        self._numbers[_SPIN] += angular * moment / self._kept
+
+
+class Lever(NamedTuple):
+    """
+    What an impulse of 1 in a point does to a body.
+
+    :ivar body: one of the two that touch there
+    :ivar push: change of its momentum
+    :ivar turn: change of its angular momentum [m]
+    """
+
+    body: MovedBody
+    push: complex
+    turn: float
+
+
+class ImpactPoint(NamedTuple):
+    """
+    A point of a contact.
+
+    :ivar memory: `struct cpContact`
+    :ivar begins: whether the contact begins in this step
+    :ivar levers: on its two bodies
+    """
+
+    memory: Any
+    begins: bool
+    levers: tuple[Lever, Lever]
+
+    @property
+    def parting(self) -> float:
+        """Return the velocity at which the bodies part here, without impulses [m/s]."""
+        velocity = 0.0
+        for body, push, turn in self.levers:
+            velocity += dot(body.velocity, push) + body.spin * turn
+        return velocity
+
+    def change_by(self, other: ImpactPoint) -> float:
+        """Return what an impulse of 1 in another point changes that velocity by [1/kg]."""
+        change = 0.0
+        for body, push, turn in self.levers:
+            for lever in other.levers:
+                if lever.body is body:
+                    change += body.inverse_mass * dot(push, lever.push)
+                    change += body.inverse_moment * turn * lever.turn
+        return change
+
+
+def points_of(contact: Any, bodies: Mapping[Any, MovedBody]) -> Iterator[ImpactPoint]:
+    """Return the points of a contact."""
+    begins: bool = contact.state == lib.CP_ARBITER_STATE_FIRST_COLLISION
+    normal = complex(contact.n.x, contact.n.y)
+    for place in range(contact.count):
+        point = contact.contacts[place]
+        levers = (
+            _lever_of(bodies[contact.body_a], -normal, point.r1),
+            _lever_of(bodies[contact.body_b], normal, point.r2),
+        )
+        yield ImpactPoint(point, begins, levers)
+
+
+def _lever_of(body: MovedBody, push: complex, arm: Any) -> Lever:
+    return Lever(body, push, arm.x * push.imag - arm.y * push.real)
