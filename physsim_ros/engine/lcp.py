@@ -31,9 +31,9 @@ _REGULARISATION = 1e-10
 # Share of the greatest rate that is rounding, or comes from the regularisation.
 _ROUNDING = 1e-8
 # Greatest λ in units of the effective masses, as a multiple of the greatest rate. A single point
-# has 1. A body that is wedged between two that do not move has no bound but the regularisation:
-# no λ keeps its contacts from approaching.
-_GREATEST = 1e3
+# has 1, a body on another of an eighth of its mass 9. Without a bound is what no λ satisfies, as
+# the contacts of a body that is wedged between two that do not move.
+_GREATEST = 10.0
 # Exchanges at most: nearly all impacts take one or two, and no more than five were seen.
 _EXCHANGES = 10
 
@@ -56,7 +56,7 @@ def solve_lcp(matrix: Sequence[Sequence[float]], rates: Sequence[float]) -> list
 
     :param matrix: n rows of n: A
     :param rates: n: b
-    :return: n; None where there is no λ, or the exchanges come to no end
+    :return: n; None where there is no λ up to `_GREATEST`, or the exchanges come to no end
     """
     rows = range(len(rates))
     scale = [1.0 / math.sqrt(matrix[i][i]) for i in rows]

@@ -23,7 +23,7 @@ import pytest
 def test_impulses_push_and_contacts_do_not_approach(seed):
     random = np.random.default_rng(seed)
     rows = random.integers(1, 12)
-    jacobian = random.normal(size=(rows, rows + 2))
+    jacobian = random.normal(size=(rows, rows + 12))
     matrix, rates = jacobian @ jacobian.T, random.normal(size=rows)
     impulses = solve_lcp(matrix.tolist(), rates.tolist())
     assert impulses is not None

@@ -294,11 +294,13 @@ def test_a_fast_body_slides_over_tiles_as_over_one_floor(shape, speed):
     before = sim.world.snapshot().poses[row]
     spawn(sim, 'body/0', shape, tuple(before), velocity=(speed, 0.0))
 
-    last = run(sim, 0.9)
-
-    assert last.twists[row] == pytest.approx((speed, 0.0, 0.0), abs=2e-3)
+    for last in steps(sim, 216):
+        _, y, yaw = np.abs(last.poses[row] - before)
+        # Where it lies on two tiles at once, it may tremble for a step or two.
+        assert y < 1e-3
+        assert yaw < 3e-3
+    assert last.twists[row, 0] == pytest.approx(speed, abs=2e-3)
     assert last.poses[row, 0] - before[0] == pytest.approx(speed * 0.9, rel=1e-5)
-    assert abs(last.poses[row, 1] - before[1]) < 1e-3
 
 
 @pytest.mark.parametrize('shape', [Disc(radius=0.2), Box(width=1.0, height=0.2), ELL], ids=repr)
