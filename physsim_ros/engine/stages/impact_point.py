@@ -42,42 +42,34 @@ class MovedBody:
     A body in the middle of a step.
 
     :param memory: `cpBody`
-    :param moved: whether the impulses that are solved move it
     :param gravity: of the space [m/s²]
     :param kept: share of its velocities that it keeps in the step
     :param dt: of the step [s]
 
-    :ivar inverse_mass: 0 for what the impulses do not move [1/kg]
-    :ivar inverse_moment: 0 for what the impulses do not move [1/(kg m²)]
+    :ivar inverse_mass: 0 for what forces do not move [1/kg]
+    :ivar inverse_moment: 0 for what forces do not turn [1/(kg m²)]
     :ivar velocity: at the end of the step without impulses [m/s]
     :ivar spin: at the end of the step without impulses [rad/s]
     """
 
-    def __init__(
-        self, memory: Any, *, moved: bool, gravity: complex, kept: float, dt: float
-    ) -> None:
+    def __init__(self, memory: Any, *, gravity: complex, kept: float, dt: float) -> None:
         self._numbers = numbers = ffi.cast('double *', memory)
         self._kept = kept
-        self.inverse_mass = self.inverse_moment = 0.0
+        self.inverse_mass = numbers[_INVERSE_MASS]
+        self.inverse_moment = numbers[_INVERSE_MOMENT]
         self.velocity = complex(numbers[_VELOCITY], numbers[_VELOCITY + 1])
         self.spin = numbers[_SPIN]
-        if moved:
-            self.inverse_mass, self.inverse_moment = self._inverse_masses
+        if is_moved(memory):
             force = complex(numbers[_FORCE], numbers[_FORCE + 1])
             self.velocity = self.velocity * kept + (gravity + force * self.inverse_mass) * dt
             self.spin = self.spin * kept + numbers[_TORQUE] * self.inverse_moment * dt
 
-    @property
-    def _inverse_masses(self) -> tuple[float, float]:
-        return self._numbers[_INVERSE_MASS], self._numbers[_INVERSE_MOMENT]
-
     def apply_impulse(self, linear: complex, angular: float) -> None:
         """Change the velocities with which the engine begins."""
-        mass, moment = self._inverse_masses
-        change = linear * mass / self._kept
+        change = linear * self.inverse_mass / self._kept
         self._numbers[_VELOCITY] += change.real
         self._numbers[_VELOCITY + 1] += change.imag
-        self._numbers[_SPIN] += angular * moment / self._kept
+        self._numbers[_SPIN] += angular * self.inverse_moment / self._kept
 
 
 class Lever(NamedTuple):
