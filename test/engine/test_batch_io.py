@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""What is read from a space goes with the space."""
+"""Arrays that are read from a space are freed with the space."""
 
 from __future__ import annotations
 

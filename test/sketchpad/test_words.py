@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""What the page says of what was done, in the words of people."""
+"""The sentences in which the page tells what was done."""
 
 from __future__ import annotations
 

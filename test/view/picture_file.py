@@ -110,7 +110,7 @@ class Recording:
         return sorted(rows, key=lambda row: row.recorded)
 
     def last(self, entity, component):
-        """Return what a component is in the end."""
+        """Return the last value of a component."""
         return self.rows(entity, component)[-1].value
 
     def shapes(self, entity):

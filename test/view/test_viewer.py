@@ -93,7 +93,7 @@ MANY_VIEWERS = """
     print(most := held())
     for _ in range(4):
         open_and_close()
-    # What is being closed is waited for: Rerun's threads end some time after their server.
+    # Viewers that close are waited for: the threads of Rerun end some time after their server.
     until(lambda: all(now <= before for now, before in zip(held(), most)))
     print('no more')
 """

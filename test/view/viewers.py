@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""What the tests of viewers share: frames to show, and what is told and recorded of them."""
+"""Frames for the tests of viewers, and records of what a viewer told and recorded of them."""
 
 from __future__ import annotations
 

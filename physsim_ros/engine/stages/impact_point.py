@@ -74,7 +74,7 @@ class MovedBody:
 
 class Lever(NamedTuple):
     """
-    What an impulse of 1 in a point does to a body.
+    The effect of an impulse of 1 in a point on a body.
 
     :ivar body: one of the two that touch there
     :ivar push: change of its momentum
@@ -108,7 +108,7 @@ class ImpactPoint(NamedTuple):
         return velocity
 
     def change_by(self, other: ImpactPoint) -> float:
-        """Return what an impulse of 1 in another point changes that velocity by [1/kg]."""
+        """Return the change of that velocity by an impulse of 1 in another point [1/kg]."""
         change = 0.0
         for body, push, turn in self.levers:
             for lever in other.levers:

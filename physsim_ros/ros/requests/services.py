@@ -39,11 +39,11 @@ from std_srvs.srv import Trigger
 Action = Callable[[], str]
 # Fills in a response, with a refusal where too many wait, and returns the answers.
 Fill = Callable[[Busy | None], Iterable[Answer]]
-# What needs the world itself waits for the end of a seek, as requests do; `configure` sets
-# parameters that are settings of the world.
+# Services that read or replace the world: their calls wait for the end of a seek, as requests do.
+# `configure` sets parameters that are settings of the world.
 NEEDING_WORLD = frozenset({'clear', 'load_world', 'save_world', 'configure'})
-# What takes the place of a seek, or does not concern it, comes at once, but behind requests that
-# wait for the end of that.
+# Services that end a seek, or do not concern it: their calls come at once, unless requests wait for
+# its end; then they come after these.
 BEHIND_REQUESTS = frozenset({'undo', 'redo', 'reset', 'seek', 'timeline', 'set_parameters'})
 
 

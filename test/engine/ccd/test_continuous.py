@@ -296,10 +296,10 @@ def test_a_fast_body_slides_over_tiles_as_over_one_floor(shape, speed):
 
     for last in steps(sim, 216):
         _, y, yaw = np.abs(last.poses[row] - before)
-        # Where it lies on two tiles at once, it may tremble for a step or two.
+        # The body may turn a little over a seam, for a step or two.
         assert y < 1e-3
-        assert yaw < 3e-3
-    assert last.twists[row, 0] == pytest.approx(speed, abs=2e-3)
+        assert yaw < 1e-3
+    assert last.twists[row, 0] == pytest.approx(speed, abs=1e-3)
     assert last.poses[row, 0] - before[0] == pytest.approx(speed * 0.9, rel=1e-5)
 
 
