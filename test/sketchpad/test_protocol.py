@@ -18,6 +18,7 @@ import json
 import math
 
 import numpy as np
+from physsim_ros.files import text_of
 from physsim_ros.model.grips import Grip
 from physsim_ros.sketchpad.server import PAGE
 from physsim_ros.testing import PhysSim
@@ -145,6 +146,29 @@ def test_worlds_are_listed_saved_opened_shared_and_uploaded(browser: Browser) ->
     response = browser.fetch('/world', method='POST', body=empty, headers={'Origin': browser.base})
     assert json.loads(response.body)['ok']
     assert physsim.names == ()
+
+
+def test_a_world_is_shared_when_a_seek_under_way_has_ended(
+    browser: Browser, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    physsim, page = browser.physsim, browser.open_page()
+    page.send('stroke', points=circle(0.0, 5.0, 0.5))
+    page.until(lambda: physsim.names)
+    physsim.run(1.0)
+    simulation = physsim.node.simulation
+    # As with ticks, which bring the world to the cached frame that is shown.
+    monkeypatch.setattr(physsim.node, '_started', True)
+    simulation.seek(500_000_000)
+    shared, chosen = page.send('share'), page.send('draw_with', density=7.0)
+    sketchpad = physsim.node.outputs.sketchpad
+    page.until(lambda: sketchpad.handle_messages() or page.answers(chosen))
+    assert not simulation.apply_up_to_seek()
+    assert not page.answers(shared)
+    physsim.node.apply_requests()
+    page.until(lambda: page.answers(shared))
+    assert simulation.world.stamp == 500_000_000
+    text = text_of(simulation.save(), simulation.physics_rate)
+    assert page.answers(shared)[0]['values']['yaml'] == text
 
 
 def test_the_past_of_a_body_is_told(browser: Browser) -> None:

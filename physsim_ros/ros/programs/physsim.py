@@ -36,8 +36,9 @@ import threading
 # less than 3 s.
 ENDING = 2.5
 
-# `mallopt(3)` of glibc: the number of its option, and the size from which on a block comes from the
-# system itself and not from the heap [bytes]; that costs a third of a microsecond for each 4 KiB.
+# `mallopt(3)` of glibc: the number of its option, and the size from which on a block comes from
+# the system itself and not from the heap [bytes]; that costs a third of a microsecond for each
+# 4 KiB.
 M_MMAP_THRESHOLD = -3
 LARGE_BLOCK = 2**18
 

@@ -42,8 +42,8 @@ Fill = Callable[[Busy | None], Iterable[Answer]]
 # Services that read or replace the world: their calls wait for the end of a seek, as requests do.
 # `configure` sets parameters that are settings of the world.
 NEEDING_WORLD = frozenset({'clear', 'load_world', 'save_world', 'configure'})
-# Services that end a seek, or do not concern it: their calls come at once, unless requests wait for
-# its end; then they come after these.
+# Services that end a seek, or do not concern it: their calls come at once, unless requests wait
+# for its end; then they come after these.
 BEHIND_REQUESTS = frozenset({'undo', 'redo', 'reset', 'seek', 'timeline', 'set_parameters'})
 
 

@@ -18,9 +18,10 @@ Messages of a page: from untrusted text to checked values.
 Laws: a message is checked whole, on the server's thread, before the world's thread gets it; what
 it asks of the world is one of the world's own requests.
 
-Not here: what is done with a message (`page_session`). Start with `envelope`, then one file a
-kind: each has its values, and a table of the readers that make them of fields. A new message is
-a value, a reader and a row there, and an action of `page_session`.
+Not here: what is done with a message (`page_session`, `page_drawing`). Start with `envelope`,
+then one file a kind: each has its values, and a table of the readers that make them of fields. A
+new message is a value, a reader and a row there, and an action of `page_session` or
+`page_drawing`.
 """
 
 from __future__ import annotations

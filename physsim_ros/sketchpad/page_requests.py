@@ -1,0 +1,99 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The requests of one page, and their answers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import Any
+
+from physsim_ros.model.errors import Busy, PhysSimError, Refusal
+from physsim_ros.model.requests import Request
+from physsim_ros.model.snapshot import Answer
+from physsim_ros.sketchpad.answers import answer_content, request_of
+from physsim_ros.sketchpad.world_control import WorldControl
+
+Send = Callable[[dict[str, Any]], None]
+
+
+class PageRequests:
+    """
+    The requests of one page; each has an answer, which the queue of the world keeps in order.
+
+    An `asker` is the key of the message of the page that asks (`answers.asker_key`).
+
+    :param world: that they go to
+    :param send: sends a message to the page
+    """
+
+    def __init__(self, world: WorldControl, send: Send) -> None:
+        self._world = world
+        self._send = send
+
+    def submit(self, requests: Iterable[Request], topic: str, asker: str) -> None:
+        """Submit requests that are undone together."""
+        queue = self._world.simulation.requests
+        for number, request in enumerate(requests):
+            queue.submit(request, topic=topic, joined=number > 0, asker=asker)
+
+    def refuse(self, refusal: Refusal, topic: str, asker: str) -> None:
+        """Queue the refusal of a message."""
+        self._world.simulation.requests.refuse(refusal, topic=topic, subject='', asker=asker)
+
+    def tell(self, answer: Answer) -> None:
+        """Queue an answer."""
+        self._world.simulation.requests.tell(answer)
+
+    def answer_page(
+        self,
+        asker: str,
+        message: str,
+        *,
+        code: str = '',
+        values: tuple[tuple[str, str], ...] = (),
+    ) -> None:
+        """Answer this page alone, and at once, since no other page is concerned."""
+        answer = Answer(topic='page', message=message, code=code, values=values, asker=asker)
+        self._send(answer_content(answer, request_of(asker)))
+
+    def perform(self, topic: str, asker: str, action: Callable[[], str]) -> None:
+        """
+        Perform an action, and queue its answer.
+
+        :param action: returns a message about it; raises a PhysSimError where it is refused
+        """
+        self.tell(_answer_of(topic, asker, action))
+
+    def perform_in_turn(self, service: str, asker: str, action: Callable[[], str]) -> None:
+        """Perform an action when it is the turn of its service, and queue its answer."""
+        topic = f'~/{service}'
+        self.call_in_turn(service, asker, lambda: [_answer_of(topic, asker, action)])
+
+    def call_in_turn(self, service: str, asker: str, call: Callable[[], Iterable[Answer]]) -> None:
+        """Call something when it is the turn of a service; refuse it where too many wait."""
+        try:
+            self._world.call_in_turn(service, call)
+        except Busy as refusal:
+            self.refuse(refusal, f'~/{service}', asker)
+
+
+def _answer_of(topic: str, asker: str, action: Callable[[], str]) -> Answer:
+    """Perform an action, and return the answer of its message or of its refusal."""
+    try:
+        return Answer(topic=topic, message=action(), asker=asker)
+    except Refusal as refusal:
+        return Answer.refused(refusal, topic=topic, asker=asker)
+    except PhysSimError as error:
+        return Answer(topic=topic, message=str(error), code='refused', asker=asker)
