@@ -39,8 +39,8 @@ _REFUSAL = (
     'Content-Type: text/plain; charset=utf-8\r\n'
     f'Content-Length: {len(_SENTENCE)}\r\n\r\n{_SENTENCE}'
 ).encode()
-# Ports that are tried, from the given one on.
-_PORTS = 20
+# Ports that are tried after the given one.
+_MORE_PORTS = 20
 
 
 class BoundedServer(HTTPServer):
@@ -87,7 +87,7 @@ def listening_sockets(address: str, port: int) -> list[socket.socket]:
 
     :raises PhysSimError: the address is none of this machine, or all ports are taken
     """
-    last = port if port == 0 else min(port + _PORTS - 1, 65535)
+    last = port if port == 0 else min(port + _MORE_PORTS, 65535)
     for tried in range(port, last + 1):
         try:
             return bind_sockets(tried, address)

@@ -26,7 +26,9 @@ import time
 from typing import TYPE_CHECKING
 
 from physsim_ros.model.errors import Refusal
+from physsim_ros.model.snapshot import Answer
 from physsim_ros.sketchpad.access import Role
+from physsim_ros.sketchpad.answers import answer_content
 from physsim_ros.sketchpad.frame_codec import Show
 from physsim_ros.sketchpad.handlers import Guarded
 from physsim_ros.sketchpad.inbox import Closed, Incoming, Opened
@@ -98,7 +100,7 @@ class PageSocket(Guarded, WebSocketHandler):
             id_ = envelope.request
             checked = message_from(envelope)
         except Refusal as refusal:
-            self.answer(id_, code=refusal.code, message=str(refusal), values=refusal.values)
+            self.answer(id_, Answer.refused(refusal, topic=''))
             return
         if isinstance(checked, ShowParts):
             self.show = checked.show
@@ -107,9 +109,11 @@ class PageSocket(Guarded, WebSocketHandler):
             self.frame = 0
             self.server.feed.update_page(self)
         elif self.view_only and not isinstance(checked, OF_VIEWERS):
-            self.answer(id_, code='view_only', message='this page only shows the world')
+            message = 'this page only shows the world'
+            self.answer(id_, Answer(topic='', code='view_only', message=message))
         elif not self.server.inbox_put(Incoming(self.number, id_, checked)):
-            self.answer(id_, code='busy', message='the world is too busy; nothing was done')
+            message = 'the world is too busy; nothing was done'
+            self.answer(id_, Answer(topic='', code='busy', message=message))
 
     def on_ping(self, data: bytes) -> None:  # noqa: ARG002 - tornado's name
         """Count a ping, which tornado has answered, among the messages; no browser sends any."""
@@ -125,20 +129,9 @@ class PageSocket(Guarded, WebSocketHandler):
             self.server.remove_page(self)
             self.server.inbox_put(Incoming(self.number, '', Closed()))
 
-    def answer(
-        self, id_: str, *, code: str, message: str, values: tuple[tuple[str, str], ...] = ()
-    ) -> None:
-        """Answer a message of this page that did not reach the world."""
-        content = {
-            'type': 'answer',
-            'request': id_,
-            'ok': not code,
-            'code': code,
-            'message': message,
-            'subject': '',
-            'values': dict(values),
-        }
-        self.send(compact(content))
+    def answer(self, id_: str, answer: Answer) -> None:
+        """Answer a message of this page that did not reach the world, by no topic."""
+        self.send(compact(answer_content(answer, id_)))
 
     @property
     def is_busy(self) -> bool:

@@ -30,6 +30,11 @@ from tornado.websocket import WebSocketClosedError
 
 from .browser import Browser
 
+# Of an answer, wherever it comes from.
+FIELDS = {
+    'type', 'request', 'ok', 'code', 'message', 'subject', 'topic', 'field', 'values',
+}  # fmt: skip
+
 
 def status_of_socket(browser: Browser, **options: object) -> int:
     with pytest.raises(HTTPClientError) as refused:
@@ -143,7 +148,8 @@ def test_a_page_that_only_shows_changes_nothing(browser: Browser) -> None:
             ('grab', {'point': [0, 0]}),
             ('share', {}),
         ):
-            assert page.ask(kind, **fields)['code'] == 'view_only'
+            answer = page.ask(kind, **fields)
+            assert (answer['code'], set(answer)) == ('view_only', FIELDS)
     upload = browser.fetch(
         '/world',
         method='POST',
@@ -210,6 +216,7 @@ def test_a_wrong_message_is_refused_and_changes_nothing(browser: Browser, text: 
     page.send_raw(text)
     page.until(lambda: [each for each in page.of_type('answer') if not each['request']])
     answer = page.answers('')[0]
+    assert set(answer) == FIELDS
     assert not answer['ok']
     assert answer['code']
     assert len(answer['message']) < 1000
@@ -262,6 +269,7 @@ def test_messages_that_wait_are_bounded_and_the_rest_is_told(browser: Browser) -
     browser.loop.run_until_complete(burst())
     browser.until(lambda: page.answers('x'), settling=False)
     assert page.answers('x')[0]['code'] == 'busy'
+    assert all(set(each) == FIELDS for each in page.answers('x'))
     page.until(lambda: len(page.answers('x')) == 2 * CAPACITY)
     codes = [each['code'] for each in page.answers('x')]
     assert set(codes) == {'busy', 'nothing_there'}

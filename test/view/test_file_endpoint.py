@@ -62,6 +62,22 @@ def test_a_file_that_is_no_regular_one_is_refused_and_blocks_nothing(viewers, tm
     until(lambda: not viewer.is_open)
 
 
+def test_a_recording_is_replaced_and_another_file_is_not(viewers, tmp_path):
+    path, counts = tmp_path / 'it.rrd', []
+    for _ in range(2):
+        viewer = viewers(record_file=path)
+        show(viewer, 10)
+        viewer.close()
+        counts.append(rows(path)['/world/bodies/box/0'])
+    assert counts[0] == counts[1] > 0
+    path.write_text('notes of an evening')
+    viewer = viewers(record_file=path)
+
+    assert 'no recording' in Events(viewer).wait_for('record_failed').message
+    until(lambda: not viewer.is_open)
+    assert path.read_text() == 'notes of an evening'
+
+
 def test_a_share_that_does_not_answer_is_told_and_delays_nothing(viewers, tmp_path, monkeypatch):
     monkeypatch.setattr('physsim_ros.view.sinks.sink_worker.SILENT_AFTER', 0.1)
     go_on = threading.Event()

@@ -34,8 +34,8 @@ _OF_NODE = {
     'frame_id': Spec(default='world', meaning='name of the world frame', read_only=True),
     'world_file': Spec(
         default='',
-        meaning='world loaded at start and by ~/load_world, written by ~/save_world: a path, or '
-        'the name of one in config/worlds',
+        meaning='world loaded at start and by ~/load_world, written by ~/save_world: a path, or a '
+        'name: of a world in world_dir, else of a shipped one',
     ),
     'world_dir': Spec(
         default='',

@@ -123,7 +123,7 @@ def main() -> None:
     usage = _Usage(
         prog='physsim',
         description='Run a physics world as a ROS 2 node.',
-        epilog='For example: physsim --ros-args -p world_file:=demo -p gravity:="[0.0, -1.62]"',
+        epilog='For example: physsim --ros-args -p world_file:=demo -p speed:=0.5',
     )
     try:
         usage.parse_args(remove_ros_args(sys.argv)[1:])

@@ -25,13 +25,16 @@ import sys
 from physsim_ros.view.sinks.rerun_sink import RerunSink
 from physsim_ros.view.sinks.sink import Endpoint, Sink
 
+# What `.rrd` files begin with, before the digit of their version (Rerun 0.41: RRF2).
+_MAGIC = b'RRF'
+
 
 class FileEndpoint(Endpoint):
     """
     A `.rrd` file, for which no frame is dropped.
 
     :param path: of the file
-    :param overwrite: whether a file of that name is replaced; else another name is taken
+    :param overwrite: whether a recording of that name is replaced; else another name is taken
     """
 
     kind = 'record'
@@ -78,12 +81,15 @@ def _create_regular_file(path: Path) -> tuple[int, int]:
     """
     Create a file, or open it, to see that it can be written; return device and inode.
 
-    :raises OSError: it cannot be written, or is no regular file
+    :raises OSError: it cannot be written, is no regular file, or holds something else
     """
     if path.exists() and not path.is_file():
         raise OSError(errno.EINVAL, 'it is no regular file')
-    with path.open('ab') as file:
+    with path.open('a+b') as file:
         found = os.fstat(file.fileno())
+        file.seek(0)
+        if found.st_size and file.read(len(_MAGIC)) != _MAGIC:
+            raise OSError(errno.EEXIST, 'it is no recording, and is not written over')
     return found.st_dev, found.st_ino
 
 

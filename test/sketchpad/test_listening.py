@@ -1,0 +1,39 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The page takes its port, or one of the next 20."""
+
+from __future__ import annotations
+
+import errno
+
+from physsim_ros.model.errors import PhysSimError
+from physsim_ros.sketchpad import listening
+import pytest
+
+
+@pytest.mark.parametrize(('port', 'last'), [(8765, 8785), (65530, 65535), (0, 0)])
+def test_a_port_that_is_taken_is_followed_by_the_next_20(
+    monkeypatch: pytest.MonkeyPatch, port: int, last: int
+) -> None:
+    tried = []
+
+    def taken(number: int, _: str) -> None:
+        tried.append(number)
+        raise OSError(errno.EADDRINUSE, 'taken')
+
+    monkeypatch.setattr(listening, 'bind_sockets', taken)
+    with pytest.raises(PhysSimError, match=f'port {last}'):
+        listening.listening_sockets('127.0.0.1', port)
+    assert tried == list(range(port, last + 1))
