@@ -29,6 +29,7 @@ from typing import Any
 from physsim_ros.engine.body import REST
 from physsim_ros.engine.body_table import LOST
 from physsim_ros.files.entries import is_same, naming, ROUNDING
+from physsim_ros.files.world_schema import OWN_JOINT_KEYS
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.checks import point_list, Within
 from physsim_ros.model.errors import BadProperty
@@ -38,9 +39,6 @@ from physsim_ros.model.scene import Joint, Seat
 from physsim_ros.model.transform import Point, Pose
 from physsim_ros.simulation.world import World
 from physsim_ros.simulation.world.joint_requests import drawn_points
-
-# Keys of a joint that the text of a marker does not have.
-_OWN_KEYS = ('name', 'points', 'seat')
 
 
 def joints_from(
@@ -74,7 +72,7 @@ def joints_from(
                 raise BadProperty('a joint needs a name', field='name')
             if name in joints:
                 raise BadProperty('the name comes twice', field='name')
-            terms = {key: entry[key] for key in entry if key not in _OWN_KEYS}
+            terms = {key: entry[key] for key in entry if key not in OWN_JOINT_KEYS}
             points = point_list(entry.get('points'), 'points')
             joints[name] = None
             if 'seat' in entry:

@@ -32,7 +32,14 @@ from physsim_ros.engine.body_table import LOST
 from physsim_ros.files.entries import count_from, entries_of, naming, ROUNDING
 from physsim_ros.files.impulse_cache import cache_from
 from physsim_ros.files.joint_reader import joints_from
-from physsim_ros.files.world_schema import FORMAT, PARAMETERS, PROPERTIES, SETTINGS
+from physsim_ros.files.world_schema import (
+    BODY_KEYS,
+    FORMAT,
+    PARAMETERS,
+    PROPERTIES,
+    SETTINGS,
+    WORLD_KEYS,
+)
 from physsim_ros.model.body_properties import properties_from
 from physsim_ros.model.checkpoint import BodyState, Motion, WorldState
 from physsim_ros.model.checks import check_key, known_mapping, LONGEST, number, pair, Within
@@ -46,7 +53,6 @@ from physsim_ros.simulation.world import steps_in
 from physsim_ros.simulation.world.body_description import new_body
 from physsim_ros.simulation.world.body_requests import check_command, check_count
 
-_BODY_KEYS = ['name', *SHAPES, 'at', 'color', 'lifetime', *PROPERTIES, 'motion', 'wrench']
 # Keys of a body whose values follow from `motion`.
 _MOTION_KEYS = ('at', 'velocity', 'spin')
 
@@ -71,7 +77,7 @@ def state_from(
             raise UnknownProperty(
                 f'{key} is a parameter of the node, which no world file holds', field=key
             )
-        check_key(key, ['format', 'bodies', 'joints', 'memory', *SETTINGS])
+        check_key(key, WORLD_KEYS)
     if content.get('format') != FORMAT or isinstance(content['format'], bool):
         raise BadProperty(f'format must be {FORMAT}', field='format')
     changes = {key: content[key] for key in SETTINGS if key in content}
@@ -157,7 +163,7 @@ def spawn_from(entry: Mapping[Any, Any]) -> Spawn:
     :raises Refusal: a key is unknown, or a value is out of range
     """
     for key in entry:
-        check_key(key, _BODY_KEYS)
+        check_key(key, BODY_KEYS)
     name = entry.get('name')
     if not isinstance(name, str):
         raise BadProperty('a body needs a name', field='name')

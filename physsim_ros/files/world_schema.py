@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Keys of world files that are fields of classes of the model."""
+"""Keys of world files."""
 
 from __future__ import annotations
 
@@ -20,12 +20,17 @@ from dataclasses import fields
 
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.shapes import SHAPES
 
 FORMAT = 1
 # Limits protect the node, whatever files say.
 LIMITS = ('max_bodies', 'max_shapes', 'max_overlaps', 'max_joints')
 SETTINGS = [each.name for each in fields(WorldSettings) if each.name not in LIMITS]
 PROPERTIES = [each.name for each in fields(Properties)]
+WORLD_KEYS = ['format', 'bodies', 'joints', 'memory', *SETTINGS]
+BODY_KEYS = ['name', *SHAPES, 'at', 'color', 'lifetime', *PROPERTIES, 'motion', 'wrench']
+# Keys of a joint that the text of a marker does not have.
+OWN_JOINT_KEYS = ['name', 'points', 'seat']
 # Parameters of the node that are no settings of a world.
 PARAMETERS = frozenset(
     {

@@ -18,7 +18,12 @@ import ast
 from pathlib import Path
 import re
 
+from physsim_ros.files import world_schema
+from physsim_ros.model import checks
 from physsim_ros.model.errors import Refusal
+from physsim_ros.model.joints import JOINT_KEYS, JointProperties
+from physsim_ros.model.names import LONGEST_NAME
+from physsim_ros.model.shapes import LARGEST, MOST_POINTS
 import pytest
 
 ROOT = Path(__file__).parents[2]
@@ -143,3 +148,38 @@ def test_the_table_of_codes_has_every_refusal():
     answers = _section('\n### Answers\n')
     missing = {code for code in codes(Refusal) if f'`{code}`' not in answers}
     assert missing <= {Refusal.code}
+
+
+@pytest.mark.linter
+def test_the_table_of_world_files_has_every_key():
+    joint = {*world_schema.OWN_JOINT_KEYS, *JOINT_KEYS} - {*JointProperties.__slots__}
+    rows = re.findall(r'^\| (\w+) \| (`.*?) \|', _section('\n## World files\n'), re.MULTILINE)
+
+    for of, keys in {
+        'world': world_schema.WORLD_KEYS,
+        'body': world_schema.BODY_KEYS,
+        'joint': joint,
+    }.items():
+        told = [key for each, said in rows if each == of for key in said.split(', ')]
+        assert sorted(told) == sorted(f'`{key}`' for key in keys)
+
+
+@pytest.mark.linter
+def test_the_limits_of_values_are_those_of_the_code():
+    def exponent(value):
+        return re.sub(r'e(-?)\+?0*', r'e\1', f'{value:.0e}')
+
+    rows = dict(
+        re.findall(r'^\| (.*?) \| (.*) \|$', _section('\n### Limits of values\n'), re.MULTILINE)
+    )
+    for what, numbers in {
+        'points of a shape, centres of a compound': [f'{MOST_POINTS:,}'],
+        'position, yaw': [f'{exponent(checks.FARTHEST)} m', f'{exponent(checks.FARTHEST)} rad'],
+        'mass, density': [f'{exponent(checks.LIGHTEST)} .. {exponent(checks.HEAVIEST)} kg'],
+        'velocity, spin': [f'{exponent(checks.FASTEST)} m/s', f'{exponent(checks.FASTEST)} rad/s'],
+        'force, torque; of a joint also stiffness, damping': [exponent(checks.HEAVIEST)],
+        '`lifetime`': [f'{exponent(checks.LONGEST)} s'],
+        '`lower`, `upper`; `length`, `rest_length`': [exponent(LARGEST)],
+        'a name': [f'{LONGEST_NAME:,} printable'],
+    }.items():
+        assert [number for number in numbers if number not in rows[what]] == []
