@@ -59,7 +59,7 @@ lint: $(STAMP)  ## check style, types and imports
 	$(BIN)/lint-imports
 	$(BIN)/python -m pytest -q test/style
 	@if $(TSC) --version >/dev/null 2>&1; then $(TSC) -p physsim_ros/sketchpad/page; \
-	else echo 'The types of the page are not checked: there is no node, or no registry.'; fi
+	else echo 'Node or TypeScript is not there: the types of the page are not checked.'; fi
 
 bench: $(STAMP)  ## measure times against the bare engine
 	$(BIN)/python -m test.bench $(ARGS)
