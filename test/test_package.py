@@ -252,7 +252,7 @@ def test_pip_installs_no_tests(installed):
 def test_the_manifest_names_every_ros_package_that_is_imported():
     declared = {element.text for element in _manifest().iter('exec_depend')}
     imported = set()
-    for path in ROOT.glob('physsim_ros/**/*.py'):
+    for path in (*ROOT.glob('physsim_ros/**/*.py'), *ROOT.glob('launch/*.py')):
         for node in ast.walk(ast.parse(path.read_bytes())):
             if isinstance(node, ast.Import):
                 imported |= {alias.name.split('.')[0] for alias in node.names}
@@ -261,7 +261,8 @@ def test_the_manifest_names_every_ros_package_that_is_imported():
     of_ros = {
         name
         for name in imported
-        if name in {'rclpy', 'std_srvs'} or name.endswith(('_msgs', '_interfaces'))
+        if name in {'launch', 'launch_ros', 'rclpy', 'std_srvs'}
+        or name.endswith(('_msgs', '_interfaces'))
     }
 
     others = {name for name in declared if name.startswith('python3-')}
