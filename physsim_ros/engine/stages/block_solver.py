@@ -76,6 +76,9 @@ class BlockSolver:
         self, arbiter: pymunk.Arbiter, contact: Contact, sides: tuple[Side, Side]
     ) -> None:
         """Add a contact that begins in this step, if it is an impact."""
+        # Munk2D calls `begin` for two that forces do not move too, and solves no such contact.
+        if not _moved_by(arbiter._arbiter):
+            return
         a, b = sides
         velocities = (b.velocity_at(point.b) - a.velocity_at(point.a) for point in contact.points)
         if any(-dot(velocity, contact.normal) > SLOWEST for velocity in velocities):

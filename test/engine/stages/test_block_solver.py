@@ -46,6 +46,24 @@ def test_two_balls_on_one_body_are_its_feet():
     assert max(abs(each.poses[row, 2]) for each in steps(sim, 720)) < 1e-4
 
 
+@pytest.mark.parametrize('met', ['an anchored body', 'a kinematic body', 'a wall'])
+def test_an_impact_between_two_that_forces_do_not_move_leaves_others_solved(met):
+    sim = simulation(elasticity=0.6)
+    floor(sim)
+    sim.perform(Configure(changes={'bounds': (-9.0, -9.0, 9.0, 9.0)}))
+    row = spawn(sim, 'box/0', Box(width=0.5, height=1.0), (0.0, 1.5, 0.0))
+    if met != 'a wall':
+        anchored, kinematic = met == 'an anchored body', met == 'a kinematic body'
+        post = Box(width=0.5, height=7.0)
+        spawn(sim, 'met/0', post, (9.25, 5.0, 0.0), anchored=anchored, kinematic=kinematic)
+    # It falls for sqrt(2 h / g); in each step about then a robot meets the other.
+    for number in range(24):
+        place = (8.9 - math.sqrt(2.0 / 9.81) + (number - 12) / 240, 2.0 + number / 4, 0.0)
+        robot = Box(width=0.2, height=0.2)
+        spawn(sim, f'robot/{number}', robot, place, kinematic=True, velocity=(1.0, 0.0))
+    assert max(abs(each.poses[row, 2]) for each in steps(sim, 360)) < 1e-4
+
+
 def test_damping_and_a_boundary_change_nothing_in_that():
     sim = simulation(elasticity=0.5)
     sim.perform(Configure(changes={'damping': 0.9, 'bounds': (-9.0, 0.0, 9.0, 9.0)}))
