@@ -65,6 +65,7 @@ def take_checkpoint(space: Space, step: int) -> Checkpoint:
             joints=space.joints.impulses(),
         ),
         grips=space.pipeline.mouse_joints.grips(),
+        unstepped=space.joints.unstepped(),
     )
 
 
@@ -126,6 +127,7 @@ def checkpoint_of(state: WorldState, step: int, dt: float) -> Checkpoint:
             if saved.wrench != REST
         ),
         memory=state.memory or _no_impulses(state),
+        unstepped=frozenset(joint.name for joint in state.joints),
     )
 
 
@@ -171,6 +173,7 @@ def restore_checkpoint(
     for joint in key.scene.joints:
         space.joints.add(joint)
     space.joints.set_impulses(key.memory.joints)
+    space.joints.set_unstepped(key.unstepped)
     for grip in key.grips:
         space.pipeline.mouse_joints.set_grip(grip)
     return space

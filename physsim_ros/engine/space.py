@@ -242,12 +242,13 @@ class Space:
         table = self.table
         self.pipeline.step(StepContext(table, self._settings, self.dt, self._age, watching))
         self._age += 1
-        lost = table.lost()
-        for name in {*lost, *table.columns.expiries.get(number + 1, ())}:
-            self.remove(name)
         for name, force in self.joints.broken():
             self.unjoin(name)
             self.broken.append((name, force))
+        lost = table.lost()
+        # In a fixed order: the engine solves its constraints in an order that removals change.
+        for name in dict.fromkeys((*lost, *table.columns.expiries.get(number + 1, ()))):
+            self.remove(name)
         return lost
 
     # Inside

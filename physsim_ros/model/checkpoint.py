@@ -123,6 +123,7 @@ class Checkpoint:
     :param wrenches: row of the body, wrench [N, N m], and the step at which it ends or None
     :param memory: impulse cache
     :param grips: of hands on bodies
+    :param unstepped: names of the joints whose first step is to come
     """
 
     step: int
@@ -132,3 +133,4 @@ class Checkpoint:
     wrenches: tuple[tuple[int, Pose, int | None], ...]
     memory: ImpulseCache
     grips: tuple[Grip, ...] = ()
+    unstepped: frozenset[str] = frozenset()

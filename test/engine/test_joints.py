@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Joints: the bodies they join, the gaps they close, their forces, springs, and how they break."""
+"""Joints: the bodies they join, the gaps they close, their forces, and springs."""
 
 from __future__ import annotations
 
@@ -29,14 +29,12 @@ from physsim_ros.model.requests import (
     Pin,
     Unjoin,
 )
-from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Disc
 from physsim_ros.model.transform import Point
-from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
 import pytest
 
-from .jointed import joining, joints, KINDS, members, pair, points_of
+from .jointed import joining, KINDS, members, pair, points_of
 from ..building import BOX, DISC, NOWHERE, pose, spawn, twist
 
 # Which bodies
@@ -171,44 +169,6 @@ def test_the_force_of_a_joint_is_the_weight_that_hangs_on_it() -> None:
     world.apply(joining('axle', [(0.0, 0.4)], a='a/0', b='world'))
     world.step(240)
     assert world.snapshot().forces.tolist() == pytest.approx([2.0 * 9.81], rel=1e-3)
-
-
-def test_a_joint_breaks_where_it_is_loaded_too_much_and_that_is_told() -> None:
-    sim = Simulation()
-    spawn(sim.world, 'a/0', BOX, mass=1.0)
-    sim.perform(joining('axle', [(0.0, 0.0)], break_force=5.0))
-    answers = [answer for _ in range(3) for answer in sim.advance_frame().answers]
-    (broken,) = [answer for answer in answers if answer.code == 'joint_broken']
-    assert broken.subject == 'joint/0'
-    assert joints(sim.world) == ()
-
-
-def test_a_joint_that_is_strong_enough_does_not_break() -> None:
-    world = World()
-    spawn(world, 'a/0', BOX, mass=1.0)
-    world.apply(joining('axle', [(0.0, 0.0)], break_force=15.0))
-    world.step(480)
-    assert world.take_broken() == []
-    assert len(joints(world)) == 1
-
-
-@pytest.mark.parametrize('height', [0.3, 5.1])
-def test_what_breaks_lets_go_alike_however_steps_are_counted_out(height: float) -> None:
-    worlds = []
-    for _ in range(2):
-        world = World(settings=WorldSettings(bounds=(-40.0, 0.0, 40.0, 90.0)))
-        spawn(world, 'a/0', BOX, (0.0, 10.0, 0.0), velocity=(4.0, 0.0))
-        spawn(world, 'a/1', BOX, (3.0, height, 0.3))
-        ends = [(0.0, 10.0), (3.0, height)]
-        world.apply(joining('rope', ends, length=4.0, break_force=60.0, a='a/0', b='a/1'))
-        worlds.append(world)
-
-    worlds[0].step(480)
-    for _ in range(480):
-        worlds[1].step(1)
-
-    assert np.array_equal(*(world.snapshot().poses for world in worlds))
-    assert worlds[0].take_broken() == worlds[1].take_broken() != []
 
 
 def energies(world: World, steps: int) -> list[float]:

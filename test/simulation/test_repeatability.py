@@ -16,6 +16,7 @@
 
 from collections.abc import Callable
 from dataclasses import replace
+from itertools import pairwise
 import math
 import os
 from pathlib import Path
@@ -35,12 +36,14 @@ from physsim_ros.model.errors import (
     UnknownFrame,
     WorldFull,
 )
+from physsim_ros.model.joints import JointKind
 from physsim_ros.model.requests import (
     Anchor,
     Command,
     Configure,
     Delete,
     DeleteAll,
+    Join,
     Release,
     Request,
     Restore,
@@ -82,6 +85,16 @@ def busy_world() -> World:
     spawn(world, 'ghost/0', DISC, (7.0, 1.0, 0.0), group=3)
     spawn(world, 'ghost/1', DISC, (7.2, 1.0, 0.0), group=3)
     spawn(world, 'brief/0', DISC, (9.0, 1.0, 0.0), lifetime=0.6)
+    # The engine puts its last joint in the place of one that is removed.
+    for number in range(6):
+        place = (1.5 * number, 25.0, 0.0)
+        spawn(world, f'hung/{number}', BOX, place, lifetime=0.3)
+        world.apply(Join(name=f'pin/{number}', kind=JointKind.PIN, points=(place[:2],)))
+    ends = ['world', *(f'link/{number}' for number in range(6))]
+    for number, (b, a) in enumerate(pairwise(ends)):
+        spawn(world, a, DISC, (number - 10.0, 25.0, 0.0))
+        points = ((number - 10.5, 25.0),)
+        world.apply(Join(name=f'axle/{number}', kind=JointKind.AXLE, points=points, a=a, b=b))
     # In another order than they were spawned.
     world.apply(Command(names=('mix/3', 'mix/1'), wrenches=((3.0, 1.0, 0.5), (-2.0, 0.0, 0.0))))
     return world

@@ -68,8 +68,9 @@ class JointSet:
         self._next_serial = 0
         self._table: JointTable | None = None
         self._springs: Springs | None = None
-        # Whether a joint or a body has come or gone since the last step, and before that.
-        self._changed = self._was_changed = True
+        # Names of the joints whose first step is to come, and of those whose last one it was.
+        self._unstepped: set[str] = set()
+        self._stepped_once: set[str] = set()
 
     def names_on(self, body: str) -> tuple[str, ...]:
         """Return the names of a body's joints, in the order in which they were made."""
@@ -84,21 +85,6 @@ class JointSet:
         names = self._on.get(body, {})
         return len(names) + (joint.name not in names)
 
-    def joints_on(self, bodies: Iterable[str], joint: Joint | None) -> list[Joint]:
-        """
-        Return the joints on some bodies, in the order in which they were made.
-
-        :param bodies: names of these
-        :param joint: one that is to come, or to replace one of its name, and counts with all
-            joints on its bodies; None is none
-        """
-        names = {*bodies, *(() if joint is None else (joint.a, joint.b))} - {WORLD}
-        on = {name for body in names for name in self._on.get(body, ())}
-        joints = [self.by_name[name].joint for name in sorted(on, key=self._serials.__getitem__)]
-        if joint is not None:
-            joints = [each for each in joints if each.name != joint.name] + [joint]
-        return joints
-
     def check_springs(self, bodies: Mapping[str, Body], joint: Joint | None = None) -> None:
         """
         Refuse a change by which springs would be too stiff for the steps.
@@ -107,7 +93,7 @@ class JointSet:
         :param joint: that is to come; None is none
         :raises BadProperty: of the greatest stiffness that can be had
         """
-        joints = self.joints_on(bodies, joint)
+        joints = self._joints_on(bodies, joint)
         ends = {name for each in joints for name in (each.a, each.b)} - {WORLD}
         known = {name: bodies.get(name) or self._bodies[name].body for name in ends}
         spring.check_stiffness(joints, known, self._dt)
@@ -162,7 +148,7 @@ class JointSet:
             table = context.table
             states = np.concatenate((table.state[:, :3], context.twists), axis=1)
             self._joint_table().set_targets(_with_background(states)[self._rows(table.bodies)])
-        self._was_changed, self._changed = self._changed, False
+        self._stepped_once, self._unstepped = self._unstepped, set()
 
     def close_gaps(self, context: StepContext) -> None:
         """Correct the positions of jointed bodies after the step."""
@@ -194,6 +180,14 @@ class JointSet:
         if len(impulses) == len(self._constraints()):
             engine_memory.set_impulses(self._constraints(), impulses)
 
+    def unstepped(self) -> frozenset[str]:
+        """Return the names of the joints whose first step is to come."""
+        return frozenset(self._unstepped & self.by_name.keys())
+
+    def set_unstepped(self, names: Iterable[str]) -> None:
+        """Set the names of the joints whose first step is to come."""
+        self._unstepped = set(names)
+
     def springs(self) -> Springs:
         """Return the springs among the joints."""
         if self._springs is None:
@@ -202,15 +196,31 @@ class JointSet:
 
     def broken(self) -> list[tuple[str, float]]:
         """Return the joints that broke in the last step, and the force of each in it [N]."""
+        if not self.by_name:
+            return []
         # The first step of a joint takes back the half-step lead of a body that was in free
         # flight: that impulse is no load.
-        if self._table is None or self._was_changed:
-            return []
         return [
-            (engine_joint.joint.name, impulse / self._dt)
-            for engine_joint, most in self._table.breakable
-            if (impulse := engine_joint.impulse) > most
+            (name, impulse / self._dt)
+            for engine_joint, most in self._joint_table().breakable
+            if (name := engine_joint.joint.name) not in self._stepped_once
+            and (impulse := engine_joint.impulse) > most
         ]
+
+    def _joints_on(self, bodies: Iterable[str], joint: Joint | None) -> list[Joint]:
+        """
+        Return the joints on some bodies, in the order in which they were made.
+
+        :param bodies: names of these
+        :param joint: one that is to come, or to replace one of its name, and counts with all
+            joints on its bodies; None is none
+        """
+        names = {*bodies, *(() if joint is None else (joint.a, joint.b))} - {WORLD}
+        on = {name for body in names for name in self._on.get(body, ())}
+        joints = [self.by_name[name].joint for name in sorted(on, key=self._serials.__getitem__)]
+        if joint is not None:
+            joints = [each for each in joints if each.name != joint.name] + [joint]
+        return joints
 
     def _constraints(self) -> list[pymunk.Constraint]:
         return [
@@ -223,6 +233,7 @@ class JointSet:
         self._space.add(*engine_joint.constraints)
         self._drop_table()
         self.by_name[joint.name] = engine_joint
+        self._unstepped.add(joint.name)
 
     def _remove_constraints(self, engine_joint: EngineJoint) -> None:
         self._space.remove(*engine_joint.constraints)
@@ -235,7 +246,6 @@ class JointSet:
     def _drop_table(self) -> None:
         """Drop the table of all joints, as one of them comes or goes."""
         self._table = self._springs = None
-        self._changed = True
 
     def _joint_table(self) -> JointTable:
         if self._table is None:
@@ -243,7 +253,7 @@ class JointSet:
             self._table = JointTable(engine_joint, self._space.static_body, self._dt)
         return self._table
 
-    def _rows(self, listed: Sequence[RigidBody | None]) -> Rows:
+    def _rows(self, listed: Sequence[RigidBody]) -> Rows:
         return self._joint_table().rows(listed)
 
 

@@ -1,0 +1,111 @@
+# Copyright 2026 physsim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Joints break under their own load, in the step in which it comes, and that is told."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from physsim_ros.model.settings import WorldSettings
+from physsim_ros.simulation.simulation import Simulation
+from physsim_ros.simulation.world import World
+import pytest
+
+from .jointed import joining, joints
+from ..building import BOX, DISC, DT, spawn
+
+
+def test_a_joint_breaks_where_it_is_loaded_too_much_and_that_is_told() -> None:
+    sim = Simulation()
+    spawn(sim.world, 'a/0', BOX, mass=1.0)
+    sim.perform(joining('axle', [(0.0, 0.0)], break_force=5.0))
+    answers = [answer for _ in range(3) for answer in sim.advance_frame().answers]
+    (broken,) = [answer for answer in answers if answer.code == 'joint_broken']
+    assert broken.subject == 'joint/0'
+    assert joints(sim.world) == ()
+
+
+def test_a_joint_that_is_strong_enough_does_not_break() -> None:
+    world = World()
+    spawn(world, 'a/0', BOX, mass=1.0)
+    world.apply(joining('axle', [(0.0, 0.0)], break_force=15.0))
+    world.step(480)
+    assert world.take_broken() == []
+    assert len(joints(world)) == 1
+
+
+@pytest.mark.parametrize('height', [0.3, 5.1])
+def test_what_breaks_lets_go_alike_however_steps_are_counted_out(height: float) -> None:
+    worlds = []
+    for _ in range(2):
+        world = World(settings=WorldSettings(bounds=(-40.0, 0.0, 40.0, 90.0)))
+        spawn(world, 'a/0', BOX, (0.0, 10.0, 0.0), velocity=(4.0, 0.0))
+        spawn(world, 'a/1', BOX, (3.0, height, 0.3))
+        ends = [(0.0, 10.0), (3.0, height)]
+        world.apply(joining('rope', ends, length=4.0, break_force=60.0, a='a/0', b='a/1'))
+        worlds.append(world)
+
+    worlds[0].step(480)
+    for _ in range(480):
+        worlds[1].step(1)
+
+    assert np.array_equal(*(world.snapshot().poses for world in worlds))
+    assert worlds[0].take_broken() == worlds[1].take_broken() != []
+
+
+def come(world: World, number: int) -> None:
+    world.apply(joining('axle', [(50.0, 0.0)], f'far/{number}', a='far/0', b='world'))
+
+
+def expire(world: World, number: int) -> None:
+    if number == 0:
+        for each in range(1, 4):
+            spawn(world, f'brief/{each}', DISC, (50.0, 2.0 * each, 0.0), lifetime=each * DT)
+            world.apply(joining('pin', [(50.0, 2.0 * each)], f'brief/{each}'))
+
+
+@pytest.mark.parametrize('change', [come, expire, lambda world, _: world.renew()])
+def test_joints_that_come_and_go_and_checkpoints_change_no_break(
+    change: Callable[[World, int], object],
+) -> None:
+    world = World()
+    spawn(world, 'far/0', DISC, (50.0, 0.0, 0.0))
+    spawn(world, 'a/0', BOX, mass=1.0)
+    world.apply(joining('axle', [(0.0, 0.0)], break_force=9.0))
+    told = []
+    for number in range(3):
+        change(world, number)
+        world.step(1)
+        told += [(number, name) for name, _ in world.take_broken()]
+
+    # In its first step a joint does not break.
+    assert told == [(1, 'joint/0')]
+
+
+def test_a_joint_whose_first_step_is_to_come_is_new_in_a_checkpoint_too() -> None:
+    world = World()
+    # In free flight its velocity leads by half a step, which the joint takes back: 14.7 N.
+    spawn(world, 'a/0', BOX, mass=1.0)
+    world.apply(joining('axle', [(0.0, 0.0)], break_force=12.0))
+    key = world.renew()
+    world.step(3)
+    digest = world.digest()
+
+    world.resume(key)
+    world.step(3)
+
+    assert len(joints(world)) == 1
+    assert world.digest() == digest
