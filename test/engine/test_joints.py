@@ -163,6 +163,17 @@ def test_a_joint_gives_no_more_than_its_greatest_force() -> None:
     assert -twist(world, 'a/0')[1] == pytest.approx(9.81 - 4.0, rel=0.02)
 
 
+def test_the_torque_of_a_motor_leaves_the_force_of_its_axle_unreached() -> None:
+    world = World(settings=NOWHERE)
+    spawn(world, 'a/0', DISC, mass=1000.0)
+    said = {'rate': 100.0, 'max_torque': 1000.0, 'max_force': 50.0}
+    world.apply(joining('motor', [(0.0, 0.0)], a='a/0', b='world', **said))
+    world.apply(Command(names=('a/0',), poses=((0.1, 0.0, 0.0),)))
+    world.step(10)
+    assert world.snapshot().forces == pytest.approx([1000.0])
+    assert pose(world, 'a/0')[:2] == pytest.approx((0.0, 0.0), abs=1e-4)
+
+
 def test_the_force_of_a_joint_is_the_weight_that_hangs_on_it() -> None:
     world = World()
     spawn(world, 'a/0', BOX, mass=2.0)

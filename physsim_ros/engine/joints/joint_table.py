@@ -58,7 +58,7 @@ class JointTable:
         ]
         exact = [(number, each) for number, each in placed if kind_of(each.joint).rows]
         self._yielding = [
-            (number, each, most * dt * _ALL)
+            (number, each.limited, most * dt * _ALL)
             for number, each in exact
             if (most := each.joint.properties.max_force) is not None
         ]
@@ -75,13 +75,13 @@ class JointTable:
         self._batches = [*_batches(exact, rows)]
         projected = [(batch, kind.rows) for kind, batch in self._batches if kind.rows]
         self._projection = Projection(projected, inverse, dt)
-        self._listed: Sequence[RigidBody | None] = ()
+        self._listed: Sequence[RigidBody] = ()
         self._places: Rows = np.empty(0, np.intp)
 
-    def rows(self, listed: Sequence[RigidBody | None]) -> Rows:
+    def rows(self, listed: Sequence[RigidBody]) -> Rows:
         """Return the rows of the jointed bodies in the engine's listing, then the background."""
         if self._listed is not listed:
-            places = {each.engine: place for place, each in enumerate(listed) if each is not None}
+            places = {each.engine: place for place, each in enumerate(listed)}
             members = (places[body] for body in self._members)
             self._places, self._listed = np.array([*members, len(listed)], np.intp), listed
         return self._places
@@ -109,7 +109,11 @@ class JointTable:
         """Correct (b, 3) float64 poses of the jointed bodies in place."""
         # As the next step would, so that it begins at the pose that targets were set for.
         poses[self._pushed] += engine_memory.take_pushes(self._numbers) * self._dt
-        yielded = [number for number, joint, most in self._yielding if joint.impulse >= most]
+        yielded = [
+            number
+            for number, limited, most in self._yielding
+            if any(abs(constraint.impulse) >= most for constraint in limited)
+        ]
         self._projection.close(poses, yielded)
 
 

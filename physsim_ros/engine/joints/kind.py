@@ -72,6 +72,11 @@ class EngineJoint:
         return max((abs(each.impulse) for each in self.constraints), default=0.0)
 
     @property
+    def limited(self) -> tuple[pymunk.Constraint, ...]:
+        """Return the constraints that `max_force` limits: a motor has a greatest torque."""
+        return tuple(each for each in self.constraints if not isinstance(each, pymunk.SimpleMotor))
+
+    @property
     def is_compressed(self) -> bool:
         """Return whether a rod or spring pushed its bodies apart in the last step."""
         if self.joint.kind not in {JointKind.ROD, JointKind.SPRING} or not self.constraints:

@@ -67,11 +67,11 @@ def build_joint(
     )
     if a.body.fixed and (b is None or b.body.fixed):
         return EngineJoint(joint, ends, ())
-    constraints = tuple(kind_of(joint).constraints(joint, ends))
-    for constraint in constraints:
-        most = joint.properties.max_force
-        if most is not None and not isinstance(constraint, pymunk.SimpleMotor):
-            constraint.max_force = most
+    built = EngineJoint(joint, ends, tuple(kind_of(joint).constraints(joint, ends)))
+    for constraint in built.constraints:
         # With the background, which is the walls of `bounds` too, a body always collides.
         constraint.collide_bodies = joint.collide or b is None
-    return EngineJoint(joint, ends, constraints)
+    if joint.properties.max_force is not None:
+        for constraint in built.limited:
+            constraint.max_force = joint.properties.max_force
+    return built
