@@ -146,7 +146,12 @@ def list_pairs(touching: Ids, table: BodyTable) -> PairListing:
 
 
 def set_overlap_manifolds(contacts: Contacts, overlaps: NDArray[np.intp], centers: Floats) -> None:
-    """Set point and normal of overlaps with sensors, of which the engine has none."""
+    """
+    Set point and normal of overlaps of two bodies, of which the engine has none.
+
+    :param overlaps: (k,) intp: rows of these contacts
+    :param centers: (n, 2) float64: centres of mass of the bodies [m]
+    """
     a, b = centers[contacts.pairs[overlaps, 0]], centers[contacts.pairs[overlaps, 1]]
     apart = b - a
     length = np.hypot(apart[:, 0], apart[:, 1])[:, None]
@@ -154,3 +159,35 @@ def set_overlap_manifolds(contacts: Contacts, overlaps: NDArray[np.intp], center
     contacts.normals[overlaps] = np.where(
         length > 0, apart / np.maximum(length, 1e-300), (1.0, 0.0)
     )
+
+
+def set_wall_manifolds(
+    contacts: Contacts, overlaps: NDArray[np.intp], centers: Floats, table: BodyTable
+) -> None:
+    """
+    Set point and normal of overlaps with walls, of which the engine has none.
+
+    The point is the centre of mass projected onto the wall that the body is in deepest.
+
+    :param overlaps: (k,) intp: rows of these contacts
+    :param centers: (n, 2) float64: centres of mass of the bodies [m]
+    :param table: of the bodies
+    """
+    bounds = table.scene.settings.bounds
+    if bounds is None:
+        return
+    for overlap in overlaps.tolist():
+        row = contacts.pairs[overlap, 0]
+        boxes = [shape.bb for shape in table.bodies[row].engine.shapes]
+        depths = (
+            bounds[0] - min(box.left for box in boxes),
+            bounds[1] - min(box.bottom for box in boxes),
+            max(box.right for box in boxes) - bounds[2],
+            max(box.top for box in boxes) - bounds[3],
+        )
+        side = int(np.argmax(depths))
+        axis = side % 2
+        contacts.points[overlap] = centers[row]
+        contacts.points[overlap, axis] = bounds[side]
+        contacts.normals[overlap] = 0.0
+        contacts.normals[overlap, axis] = -1.0 if side < 2 else 1.0

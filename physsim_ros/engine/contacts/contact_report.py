@@ -34,6 +34,7 @@ from physsim_ros.engine.contacts.contact_listing import (
     list_pairs,
     PairListing,
     set_overlap_manifolds,
+    set_wall_manifolds,
 )
 from physsim_ros.engine.contacts.manifolds import LastManifolds
 from physsim_ros.engine.contacts.pair_ids import find_pairs, NO_PAIRS, oriented, Renaming
@@ -230,8 +231,8 @@ class ContactReport:
         Return the contacts since the last call, each pair once, and begin the next sums.
 
         :param table: of the bodies; an id that is not in it belongs to the walls of `bounds`
-        :param centers: returns (n, 2) float64: centres of mass, between which overlaps with
-            sensors lie
+        :param centers: returns (n, 2) float64: centres of mass [m], by which overlaps without
+            points are placed
         """
         if self._steps == 0:
             return NO_CONTACTS
@@ -251,9 +252,10 @@ class ContactReport:
         if self._listing is None or not self._listing.is_of(touching, table):
             self._listing = list_pairs(touching, table)
         contacts, pointless = self._listing.merge_contacts(manifolds, sums, len(self._ids))
-        overlaps = np.flatnonzero(pointless & (contacts.pairs[:, 1] >= 0))
-        if len(overlaps):
-            set_overlap_manifolds(contacts, overlaps, centers())
+        if pointless.any():
+            with_wall, places = contacts.pairs[:, 1] < 0, centers()
+            set_overlap_manifolds(contacts, np.flatnonzero(pointless & ~with_wall), places)
+            set_wall_manifolds(contacts, np.flatnonzero(pointless & with_wall), places, table)
         return contacts
 
     def _read_manifolds(self) -> Floats:

@@ -285,6 +285,26 @@ def test_a_sensor_is_told_of_without_an_impulse() -> None:
     assert contacts.points[0] == pytest.approx((0.3, 0.4), abs=1e-9)
 
 
+@pytest.mark.parametrize('said', [{'sensor': True}, {'kinematic': True}])
+@pytest.mark.parametrize('side', range(4))
+def test_what_overlaps_a_wall_without_pushing_is_told_of_there(
+    side: int, said: dict[str, bool]
+) -> None:
+    out = np.array(((-1.0, 0.0), (0.0, -1.0), (1.0, 0.0), (0.0, 1.0))[side])
+    world = watched(replace(NOWHERE, bounds=(3.0, 4.0, 13.0, 14.0)))
+    # Beside the left and the right wall its centre is nearer to the floor, in which it is not.
+    middle = np.array((8.0, 6.0 if out[0] else 9.0)) + 2.0 * out
+    along = Box(width=7.0, height=1.0) if out[0] else Box(width=1.0, height=7.0)
+    spawn(world, 'a/0', along, (*middle, 0.0), **said)
+
+    contacts = frame(world)
+
+    assert contacts.pairs.tolist() == [[0, -1]]
+    assert contacts.impulses.tolist() == [[0.0, 0.0]]
+    assert contacts.normals[0] == pytest.approx(out, abs=1e-9)
+    assert contacts.points[0] == pytest.approx(middle + 3.0 * out, abs=1e-9)
+
+
 def test_a_sensor_in_the_very_middle_of_a_body_has_a_normal_too() -> None:
     world = watched()
     spawn(world, 'gate/0', BOX, sensor=True, anchored=True)
