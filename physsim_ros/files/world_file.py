@@ -36,7 +36,13 @@ from physsim_ros.files.world_schema import FORMAT
 from physsim_ros.files.world_writer import text_of
 from physsim_ros.files.yaml12 import first_value
 from physsim_ros.model.checkpoint import WorldState
-from physsim_ros.model.errors import BadWorldFile, Malformed, Refusal, UnknownProperty
+from physsim_ros.model.errors import (
+    BadWorldFile,
+    Malformed,
+    Refusal,
+    UnknownProperty,
+    WorldFull,
+)
 from physsim_ros.model.garbage_collection import suspended_collection
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.texts import nearest_name
@@ -129,6 +135,7 @@ def load_world(
     :param progress: called with the number of bodies that are read, and of all
     :raises BadWorldFile: it cannot be read, or its content is refused; the message names the body
         or joint and the reason
+    :raises WorldFull: it has too many bodies
     """
     try:
         text = read_file(path, MOST_BYTES)
@@ -142,6 +149,8 @@ def load_world(
         # Only `load_mapping` names the file itself.
         message = str(error) if error.field == path.name else f'{path.name}: {error}'
         raise _refused(path.name, text, error, message) from error
+    except WorldFull:
+        raise
     except Refusal as refusal:
         raise _refused(path.name, text, refusal, f'{path.name}: {refusal}') from refusal
 

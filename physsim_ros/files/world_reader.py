@@ -51,7 +51,8 @@ from physsim_ros.model.shapes import Shape, SHAPES
 from physsim_ros.model.transform import Pose, rotated
 from physsim_ros.simulation.world import steps_in
 from physsim_ros.simulation.world.body_description import new_body
-from physsim_ros.simulation.world.body_requests import check_command, check_count
+from physsim_ros.simulation.world.body_requests import check_command
+from physsim_ros.simulation.world.capacity import check_count
 
 # Keys of a body whose values follow from `motion`.
 _MOTION_KEYS = ('at', 'velocity', 'spin')
@@ -103,6 +104,7 @@ def _body_states(
     progress: Callable[[int, int], object] | None,
 ) -> tuple[tuple[BodyState, ...], set[str]]:
     """Return the states of bodies, and the names of those whose poses are the saved ones."""
+    check_count(len(entries), settings)
     bodies: dict[str, BodyState] = {}
     unmoved: set[str] = set()
     for count, entry in enumerate(entries, 1):
@@ -110,7 +112,6 @@ def _body_states(
             state, is_unmoved = _body_state(entry, settings, physics_rate)
             if state.body.name in bodies:
                 raise BadProperty('the name comes twice', field='name')
-            check_count(len(bodies), settings)
             bodies[state.body.name] = state
             if is_unmoved:
                 unmoved.add(state.body.name)

@@ -57,7 +57,7 @@ class WorldFiles:
         """
         Start the simulation with the file, from any directory.
 
-        :raises BadWorldFile: there is no such file, or it is refused
+        :raises Refusal: there is no such file, or it is refused
         """
         self._simulation.begin(self._read(confined=False)[0])
 
@@ -66,7 +66,7 @@ class WorldFiles:
         Replace the world by the file, and return a message about it.
 
         :param confined: whether only files below `world_dir` and the shipped worlds may be read
-        :raises BadWorldFile: there is no such file, or it is refused
+        :raises Refusal: there is no such file, or it is refused
         """
         try:
             state, path = self._read(confined=confined)

@@ -28,7 +28,7 @@ from physsim_ros.files import (
     SETTINGS,
     shipped_worlds,
 )
-from physsim_ros.model.errors import BadWorldFile, Malformed
+from physsim_ros.model.errors import BadWorldFile, Malformed, WorldFull
 from physsim_ros.ros.parameters import SPECS
 from physsim_ros.simulation.world import World
 import pytest
@@ -156,8 +156,6 @@ REFUSED = {
     'a motion that only the node writes': (
         HEAD + '  - {name: a/0, circle: {radius: 1}, at: [1e300, 0], '
         'motion: [0, 0, 0, 0, 0, 0, true]}', 'pose'),
-    'a body too many': (HEAD + '  - {name: a/0, circle: {radius: 1}}\n'
-                        '  - {name: a/1, circle: {radius: 1}}', ''),
 }  # fmt: skip
 
 
@@ -165,10 +163,17 @@ REFUSED = {
 def test_a_file_that_says_nonsense_is_refused_and_says_where(
     text: str, field: str, folder: Path
 ) -> None:
-    refusal = refusal_of(text, folder, max_bodies=1)
+    refusal = refusal_of(text, folder)
 
     assert refusal.code == 'bad_world_file'
     assert refusal.field == field
+
+
+def test_a_file_with_a_body_too_many_is_a_full_world(folder: Path) -> None:
+    path = write(folder, HEAD + '  - {name: a/0, circle: {radius: 1}}\n' * 2)
+
+    with pytest.raises(WorldFull, match='2 bodies; max_bodies is 1'):
+        load(path, max_bodies=1)
 
 
 NO_YAML = {

@@ -140,6 +140,14 @@ def test_a_state_that_overlaps_too_much_is_refused_whole() -> None:
     assert len(world) == 12
 
 
+def test_a_state_of_too_many_bodies_is_refused() -> None:
+    world = row(3)
+    state = replace(world.save(), settings=replace(FEW, max_bodies=2))
+
+    assert flooded(world, [Restore(state=state)]) == 1
+    world.apply(Restore(state=replace(state, settings=replace(FEW, max_bodies=3))))
+
+
 def test_convex_pieces_are_counted() -> None:
     world = World(settings=WorldSettings(max_shapes=7))
     discs = Compound(element=DISC, centers=((0.0, 0.0), (2.0, 0.0), (4.0, 0.0)))

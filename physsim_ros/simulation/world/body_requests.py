@@ -29,11 +29,10 @@ from physsim_ros.engine.space import Space
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checks import check_pose
-from physsim_ros.model.errors import Anchored, BadProperty, NothingThere, WorldFull
+from physsim_ros.model.errors import Anchored, BadProperty, NothingThere
 from physsim_ros.model.names import split_name
 from physsim_ros.model.requests import ChangeBody, Command, MoveBodies, Spawn
 from physsim_ros.model.scene import Body
-from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.transform import Point, Pose
 from physsim_ros.simulation.world import joint_requests
 from physsim_ros.simulation.world.body_description import (
@@ -61,8 +60,6 @@ def spawn_body(
     """
     name = request.name
     old = space.bodies.by_name.get(name)
-    if old is None:
-        check_count(len(space.bodies.by_name), capacity.settings)
     pose = pose_in_world(space, request.pose, request.frame)
     if old is not None:
         changes = spawn_changes(request, expires)
@@ -72,16 +69,6 @@ def spawn_body(
     capacity.check_body(space, body, pose)
     space.add(body, serial, pose, twist)
     return name, f'spawned {name}'
-
-
-def check_count(count: int, settings: WorldSettings) -> None:
-    """
-    Refuse one more body where the world has its greatest number.
-
-    :raises WorldFull: the world may not hold it
-    """
-    if count >= settings.max_bodies:
-        raise WorldFull(f'the world holds {count} bodies; it may hold {settings.max_bodies}')
 
 
 def change_body(space: Space, request: ChangeBody, capacity: Capacity) -> Done:

@@ -15,8 +15,9 @@
 """
 Capacity: how much a world may hold, checked before the engine has it.
 
-Law: what is spawned, changed, moved, released or loaded is refused as `world_full` if the pieces,
-the pairs of them that overlap at once, or the joints would be more than the settings allow.
+Law: what is spawned, changed, moved, released or loaded is refused as `world_full` if the bodies,
+their pieces, the pairs of these that overlap at once, or the joints would be more than the
+settings allow.
 
 A body that is spawned or moved alone is counted by what its box meets in the engine's own tree,
 which is too many; the sum of these is a bound. Only where the bound exceeds the limit, the
@@ -120,6 +121,8 @@ class Capacity:
         if not self.checking:
             return
         most = self.settings.max_overlaps
+        if new_bodies := sum(old is None for _, _, old in placed):
+            check_count(len(space.bodies.by_name) + new_bodies, self.settings)
         added, shapes = 0, len(space.shapes)
         for body, pose, old in placed:
             pieces = len(body.shape.form.pieces)
@@ -170,6 +173,7 @@ class Capacity:
         """
         if not self.checking:
             return
+        check_count(len(state.bodies), state.settings)
         _check_shapes(
             sum(len(each.body.shape.form.pieces) for each in state.bodies),
             state.settings.max_shapes,
@@ -217,6 +221,19 @@ class Capacity:
         count = sum(map(_inside, bodies)) if first is None else 0
         return count + count_overlaps(
             laid_out(shapes, poses), np.array(some, np.bool_), fixed, most=most
+        )
+
+
+def check_count(count: int, settings: WorldSettings) -> None:
+    """
+    Refuse a number of bodies.
+
+    :param settings: with the greatest number
+    :raises WorldFull: it is too great
+    """
+    if count > settings.max_bodies:
+        raise WorldFull(
+            f'the world would hold {count} bodies; max_bodies is {settings.max_bodies}'
         )
 
 
