@@ -16,8 +16,9 @@
 The queue of requests that wait for the next frame.
 
 Laws: what is submitted is taken in the order of its arrival and answered once; of the moves of a
-hand, and of seeks, that wait with no other request between them, the last is carried out; too many
-requests are refused, in count and in memory, and too many answers are counted by the last.
+hand that wait with no requests but of hands that move or stay between them, and of seeks that wait
+with no request between them, the last is carried out; too many requests are refused, in count and
+in memory, and too many answers are counted by the last.
 """
 
 from __future__ import annotations
@@ -31,9 +32,8 @@ from physsim_ros.model.requests import (
     ChangeBody,
     Command,
     Delete,
-    Grab,
     Join,
-    LetGo,
+    KeepHand,
     MoveHand,
     Request,
     Spawn,
@@ -182,8 +182,10 @@ class RequestQueue:
         match request:
             case MoveHand(hand=hand):
                 self._moves[hand] = waiting
-            case Grab(hand=hand) | LetGo(hand=hand):
-                self._moves.pop(hand, None)
+            case KeepHand():
+                pass
+            case _:
+                self._moves.clear()
 
     def submit_seek(self, stamp: int, *, topic: str) -> None:
         """

@@ -15,7 +15,7 @@
 """The queue is bounded, each request is answered, and of seeks in a row the last is made."""
 
 from physsim_ros.model.errors import Busy, Malformed
-from physsim_ros.model.requests import MoveHand, Spawn
+from physsim_ros.model.requests import Delete, KeepHand, MoveHand, Spawn
 from physsim_ros.model.shapes import Disc
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation import request_queue
@@ -124,6 +124,17 @@ def test_what_lies_between_two_seeks_decides_whether_the_first_is_carried_out() 
     requests = [each.request for each in queue.take() if not isinstance(each.request, Answer)]
 
     assert requests == [move, Seek(2), other, Call(list), move, Seek(3)]
+
+
+def test_a_move_of_a_hand_overtakes_nothing_but_moves() -> None:
+    queue = RequestQueue()
+    first, second = (MoveHand(hand='h', point=(x, 1.0)) for x in (1.0, 2.0))
+    third, other = MoveHand(hand='h', point=(3.0, 1.0)), MoveHand(hand='i', point=(9.0, 9.0))
+    delete, keep = Delete(name='a/0'), KeepHand(hand='h')
+    for request in (first, other, keep, second, delete, third):
+        queue.submit(request, topic='~/drag/feedback')
+
+    assert [each.request for each in queue.take()] == [second, other, keep, delete, third]
 
 
 def test_answers_that_are_too_many_are_counted(monkeypatch: pytest.MonkeyPatch) -> None:
