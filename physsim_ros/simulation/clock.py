@@ -40,7 +40,7 @@ class Clock:
     def __init__(self, *, physics_rate: float, frame_steps: int, speed: float = 1.0) -> None:
         self._physics_rate = physics_rate
         self._frame_steps = frame_steps
-        self._speed = speed
+        self._speed = float(speed)
         # The steady time [ns] and the step from which steps are counted.
         self._anchor: tuple[int, float] | None = None
         # Frames that were due and could not be made in time.
@@ -53,7 +53,7 @@ class Clock:
 
     @speed.setter
     def speed(self, speed: float) -> None:
-        self._speed = speed
+        self._speed = float(speed)
         self._anchor = None
 
     def restart(self) -> None:

@@ -63,7 +63,7 @@ def test_a_frame_is_due_each_period() -> None:
     assert run.clock.late_frames == 0
 
 
-@pytest.mark.parametrize('speed', [1.0, 2.0, 4.0, 16.0, 64.0])
+@pytest.mark.parametrize('speed', [1.0, 2, 4.0, 16.0, 64.0])
 def test_whole_speeds_end_each_frame_on_the_same_multiples(speed: float) -> None:
     run = Run(speed)
     run.at(0.0)
