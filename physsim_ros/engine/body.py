@@ -89,9 +89,13 @@ class RigidBody:
         """Return how far the engine's velocity is ahead of the true one in free flight."""
         return lead_of(self.body, self.wrench, gravity, dt)
 
-    def twist(self, gravity: Point, dt: float) -> Pose:
-        """Return the true velocity of the centre of mass [m/s] and spin [rad/s]."""
-        ahead = self.lead(gravity, dt) if self.free else REST
+    def twist(self, gravity: Point, dt: float, *, free: bool) -> Pose:
+        """
+        Return the true velocity of the centre of mass [m/s] and spin [rad/s].
+
+        :param free: whether it is in free flight
+        """
+        ahead = self.lead(gravity, dt) if free else REST
         vx, vy = self.engine.velocity
         return vx - ahead[0], vy - ahead[1], self.engine.angular_velocity - ahead[2]
 

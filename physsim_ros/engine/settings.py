@@ -67,7 +67,7 @@ def _change_gravity(space: Space, old: Point, new: Point) -> None:
     for rigid in rigids:
         # If no share is left, nothing rests on anything any more.
         if rigid.free or not (share or space.joints.has_joints(rigid.body.name)):
-            rigid.set_twist(rigid.twist(old, space.dt), new, space.dt)
+            rigid.set_twist(rigid.twist(old, space.dt, free=rigid.free), new, space.dt)
     space.engine.gravity = new
 
 

@@ -103,11 +103,9 @@ class Space:
 
     def twist_of(self, rigid: RigidBody) -> Pose:
         """Return the true velocity of a body."""
-        if self._table is not None:
-            rigid.free = bool(self._table.free[self._table.columns.rows[rigid.body.name]])
         if rigid.engine.is_sleeping:
             return REST
-        return rigid.twist(self._settings.gravity, self.dt)
+        return rigid.twist(self._settings.gravity, self.dt, free=self._is_free(rigid))
 
     def configure(self, settings: WorldSettings) -> None:
         """Replace the settings."""
@@ -184,7 +182,7 @@ class Space:
 
     def set_wrench(self, rigid: RigidBody, wrench: Pose, until: int | None) -> None:
         """Let a wrench act from now on, to the step `until`; None is for ever."""
-        twist, free = self.twist_of(rigid), rigid.free
+        twist, free = self.twist_of(rigid), self._is_free(rigid)
         self.pipeline.wrenches.set_wrench(rigid, wrench, until)
         if self._table is not None:
             row = self._table.columns.rows[rigid.body.name]
@@ -252,6 +250,12 @@ class Space:
         return lost
 
     # Inside
+
+    def _is_free(self, rigid: RigidBody) -> bool:
+        """Return whether a body is in free flight."""
+        if self._table is None:
+            return rigid.free
+        return bool(self._table.free[self._table.columns.rows[rigid.body.name]])
 
     def _insert(self, rigid: RigidBody, pose: Pose, twist: Pose) -> None:
         self._drop_table()
