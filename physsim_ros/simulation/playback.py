@@ -205,7 +205,7 @@ class Playback:
         self.frames_due += 1
         return round(step * 1e9 / self._past.physics_rate)
 
-    def play(self, steps: int, is_overdue: Callable[[], bool] = lambda: False) -> None:
+    def play(self, steps: int, is_overdue: Callable[[], bool]) -> None:
         """
         Advance by steps.
 

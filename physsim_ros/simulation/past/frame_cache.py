@@ -130,7 +130,7 @@ class FrameCache:
         return segment.frames[step].copy()
 
     def frame_at(
-        self, step: int, *, watching: bool, is_overdue: Callable[[], bool] = lambda: False
+        self, step: int, *, watching: bool, is_overdue: Callable[[], bool]
     ) -> CachedFrame | None:
         """
         Return the frame of a step.
@@ -160,7 +160,7 @@ class FrameCache:
         *,
         fine: bool,
         watching: bool,
-        is_overdue: Callable[[], bool] = lambda: False,
+        is_overdue: Callable[[], bool],
     ) -> None:
         """
         Replay a share of the steps that a rewind shows next, so that no frame waits for all.

@@ -22,7 +22,6 @@ before, until a request changes its course; a request that is refused changes no
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-import itertools
 
 from physsim_ros.model.errors import OutOfHistory, Refusal
 from physsim_ros.model.requests import Request
@@ -46,7 +45,7 @@ class Timeline(SeekableReplay):
     :param length: steps that are kept
     :param spacing: steps from one checkpoint to the next, at least
     :param log_limit: memory of requests from which on the next checkpoint is due [bytes]
-    :param courses: numbers of its courses; None counts from 1
+    :param courses: numbers of its courses
 
     :ivar courses: those that were left
     """
@@ -58,9 +57,9 @@ class Timeline(SeekableReplay):
         length: int,
         spacing: int,
         log_limit: int,
-        courses: Iterator[int] | None = None,
+        courses: Iterator[int],
     ) -> None:
-        self.courses = Courses(courses or itertools.count(1))
+        self.courses = Courses(courses)
         first = Mark(world.step_count, 0, world.renew(), world.digest())
         super().__init__(
             world, History(first, length=length, spacing=spacing, log_limit=log_limit)
