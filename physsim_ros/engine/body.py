@@ -13,7 +13,7 @@
 # limitations under the License.
 
 """
-One body in the engine: a description, and the Pymunk objects that play it.
+One body in the engine: a description and its Pymunk objects.
 
 Laws: the engine's body has its origin at the centre of mass, so that a state is saved and restored
 without rounding (anchored bodies keep their own origin). The engine moves a body with the velocity
@@ -36,9 +36,9 @@ import pymunk
 from pymunk._chipmunk_cffi import lib
 
 REST = (0.0, 0.0, 0.0)
-# Discs are smaller by this [m]: what is drawn touching would press by rounding alone, and a row of
-# balls would take a blow as one body instead of handing it on. It is above all rounding within
-# some hundred metres, and below whatever counts.
+# Discs are smaller by this [m]: those that are placed side by side would overlap by rounding, and
+# an impact on a row of them would act on all at once. Ten times the rounding of a position within
+# a kilometre of the origin (1.1e-13 m).
 GRAZE = 1e-12
 
 

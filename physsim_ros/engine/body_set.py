@@ -15,8 +15,8 @@
 """
 Body set: the bodies of a space, by name in spawn order.
 
-Pymunk wakes what is touched, pushed or set. Under a static body that is added or moved it does
-not, so that is done here.
+Pymunk does not wake bodies that overlap a static or kinematic body which is added or moved;
+`wake_around` does.
 """
 
 from __future__ import annotations
@@ -106,7 +106,7 @@ class BodySet:
         return count
 
     def touching(self, engine: pymunk.Body) -> list[RigidBody]:
-        """Return the bodies that touched one, or the background, in the last step."""
+        """Return a body and those that touched it in the last step; none is the background."""
         found: list[pymunk.Body] = []
         engine.each_arbiter(lambda arbiter: found.extend(arbiter.bodies))
         names = dict.fromkeys(self._names[each] for each in found if each in self._names)

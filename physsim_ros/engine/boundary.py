@@ -22,7 +22,8 @@ from physsim_ros.engine.warm_start import ShapeIds
 from physsim_ros.model.settings import WorldSettings
 import pymunk
 
-# Thickness [m]: what is squeezed into one still finds its way back in.
+# Thickness [m]: the engine pushes a body out through the nearer face of a wall, so that one which
+# is up to half of this deep comes back in.
 THICKNESS = 10.0
 
 
@@ -38,7 +39,7 @@ class Boundary:
     :param space: that they are in, on its static body
     :param shapes: numbers of its shapes
 
-    :ivar first: number of the first wall
+    :ivar first: number of the first wall; 0 if there are none
     """
 
     def __init__(self, space: pymunk.Space, shapes: ShapeIds) -> None:
@@ -54,6 +55,7 @@ class Boundary:
             # Pymunk 7.3: Body.shapes lists shapes that are not in the space any more, too.
             wall.body = None
         self._walls = []
+        self.first = 0
         if settings.bounds is None:
             return
         left, bottom, right, top = settings.bounds

@@ -54,7 +54,7 @@ def apply_settings(space: Space, old: WorldSettings, new: WorldSettings) -> None
     space.engine.iterations = new.iterations
     walls = (new.bounds, new.friction, new.elasticity)
     if walls != (old.bounds, old.friction, old.elasticity):
-        # Only then: a stack on the walls would stir.
+        # A rebuilt wall has no cached impulses; bodies on it would lose their warm start.
         _rebuild_boundary(space, new)
 
 

@@ -52,7 +52,7 @@ class Space:
     :ivar joints: between them
     :ivar broken: joints that have broken, and the force that each bore then [N]; whoever reads it
         empties it
-    :ivar changes: number of changes by requests
+    :ivar changes: number of changes by everything but steps of the engine
     """
 
     def __init__(self, settings: WorldSettings, dt: float, *, first_shape: int = 0) -> None:

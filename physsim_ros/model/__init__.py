@@ -17,7 +17,8 @@ Values that all folders use, frozen and checked; numpy is the most that is impor
 
 Nothing here moves, reads a clock or knows an engine. Each module is a front of its own, named by
 a noun, and so are the packages `shapes`, `joints` and `requests`; this file exports nothing.
-Values of one thing: `names`, `colors`, `transform`, `arrays`, `checks`, `errors`.
-The world: `shapes`, `body_properties`, `joints`, `settings`, `scene`. Asked of it: `requests`.
-Told of it: `snapshot`, `preview`. Saved of it: `checkpoint`. Start with `scene` and `requests`.
+Shared by all values: `names`, `colors`, `transform`, `arrays`, `checks`, `errors`.
+Descriptions of a world: `shapes`, `body_properties`, `joints`, `settings`, `scene`.
+Changes of it: `requests`. States that are shown: `snapshot`, `preview`. States that are saved:
+`checkpoint`. Start with `scene` and `requests`.
 """

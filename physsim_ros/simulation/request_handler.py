@@ -97,7 +97,7 @@ class RequestHandler:
         else:
             done = self._apply_to_world(request, gesture)
         if timeline.moment != before:
-            # A branch has no hands of the course that it leaves.
+            # On a new course, grips without a hand are removed.
             self.release_grips()
         return done
 

@@ -257,7 +257,8 @@ class RequestQueue:
         """
         Remove and yield the waiting requests, in order.
 
-        A call among them comes before those behind it: where it takes, too, it is yielded none.
+        Not re-entrant: a call among them that takes requests too is yielded none, since those
+        that wait come behind it.
 
         :param is_there: whether the next may be applied to the world; else it waits, and all
             behind it

@@ -131,7 +131,7 @@ def first_impacts(motions: Motions, pairs: Pairs) -> Floats:
 
 
 def _advance(motions: Motions, pairs: Pairs) -> Floats:
-    """Return (p,) the same of a part of the pairs."""
+    """Return (p,) shares of the step of first overlap, infinite for never."""
     (one, other), (skin, depth) = pairs.rows, (pairs.skin, pairs.depth)
     found = np.full(len(one), np.inf)
     shares = np.maximum(motions.since[one], motions.since[other])

@@ -84,7 +84,8 @@ class ContactReport:
         self._parted: list[tuple[Ids, Floats]] = []
         self._last = LastManifolds()
         self._listing: PairListing | None = None
-        # Whether no pair has begun to touch since the ids were read: as many pairs are the same.
+        # Whether no pair has begun to touch since the ids were read: then the pairs are the same
+        # for as long as their number is.
         self.settled = False
 
     def add_first_touch(self, contact: Contact, sides: tuple[Side, Side]) -> None:

@@ -48,7 +48,6 @@ from typing import Any
 
 import numpy as np
 from physsim_ros.engine.batch_io import BatchIO
-from physsim_ros.engine.body import GRAZE
 from physsim_ros.engine.body_table import BodyTable
 from physsim_ros.engine.ccd.time_of_impact import SLOP
 from physsim_ros.engine.stages.pre_solve_hook import add_pre_solve
@@ -63,6 +62,9 @@ from pymunk import batch
 ELASTIC = 0.75
 # Approach velocity from which two bodies are in an impact [m/s]; bodies at rest tremble by less.
 SLOWEST = 0.05
+# Overlap below which contacts are those of polygons that just touch [m]: ten times the rounding of
+# a position within a kilometre of the origin.
+GRAZING = 1e-12
 # Approach velocities of this ratio are equal but for rounding.
 ALIKE = 1.0 - 1e-9
 # Impact velocities by which a contact that is left open may approach. Of a body of any mass the
@@ -109,7 +111,7 @@ class ImpactPropagation:
         # The fastest approach of each body; bodies that forces do not move take no impact.
         impacts = np.zeros(len(elasticity))
         # Polygons that just touch have one point by rounding, and both in the next step.
-        grazing = (approach > SLOWEST) & (depths < GRAZE)
+        grazing = (approach > SLOWEST) & (depths < GRAZING)
         hits = (approach > SLOWEST) & ~grazing
         for side in rows[hits].T:
             np.maximum.at(impacts, side, approach[hits])

@@ -17,10 +17,9 @@ Sleeping by island, as Chipmunk has it: an island at rest costs nothing until so
 
 Problem: a settled pile costs as much as a falling one. Method: Chipmunk's sleeping (contact graph
 and joints make islands; an island whose bodies all had little energy for a while is taken out of
-the solver; Box2D does the same). Pymunk wakes what is touched, pushed, or set; this module wakes
-where Pymunk does not, which is under what stands still in the engine's eyes: a static body that
-is added or moved. A checkpoint wakes all, so that a restored space and the one that went on are
-in the same state.
+the solver; Box2D does the same). Pymunk does not wake bodies that overlap a static or kinematic
+body which is added or moved; `wake_overlapping` does. A checkpoint wakes all, so that a restored
+space and the one that went on are in the same state.
 Cost: none. Without it: 1,000 bodies at rest cost as much as 1,000 that move.
 """
 

@@ -16,8 +16,9 @@
 Support graph: which bodies rest on something, and which have lost all that they rested on.
 
 Problem: where a floor, an anchor or a joint is removed, the engine still warm-starts with the
-impulses that carried the pile on it, and would blow the pile apart; and what falls from that
-moment has no half-step lead yet, so that it would seem to be thrown up by half a step of gravity.
+impulses that carried the pile on it, which would accelerate its bodies upward; and a body that
+falls from that moment on has no half-step lead yet, so that its reported velocity would begin with
+half a step of gravity upward.
 Method: a search in the contact graph, for that moment only. Bodies that contacts or joints tie to
 nothing that stands are in free fall as one, without the impulses of the step before.
 Cost: none in a step before which nothing was removed.

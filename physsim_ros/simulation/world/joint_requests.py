@@ -98,7 +98,7 @@ def join(
     if old is None or old.joint != joint:
         capacity.check_joint(space.joints, joint)
         space.joints.check_springs({}, joint)
-        # Only then: what hangs on it would stir.
+        # A rebuilt joint has no cached impulses; bodies on it would lose their warm start.
         space.join(joint)
     other = 'the background' if b == WORLD else b
     which = f'{request.kind} {request.name}'
