@@ -34,9 +34,8 @@ from tornado.web import create_signed_value, decode_signed_value
 
 # Random bytes of a token: not to be guessed.
 _TOKEN_BYTES = 24
-# For which a page stays logged in after its last visit [days]: a class of one day need not type
-# the address again.
-_SESSION = 1.0
+# Greatest age of a cookie [days]: a class of one day need not type the address again.
+_COOKIE_AGE = 1.0
 # Of every answer. The sources of `connect-src` are those of this server; browsers before 2022 do
 # not count web sockets as such.
 _POLICY = (
@@ -81,13 +80,13 @@ class Access:
                 return role
         return None
 
-    def session(self, role: Role) -> bytes:
+    def signed_cookie(self, role: Role) -> bytes:
         """Return the value of the cookie for a role, signed."""
         return create_signed_value(self._key, self.cookie, role.value)
 
-    def role_of_session(self, value: str) -> Role | None:
+    def role_of_cookie(self, value: str) -> Role | None:
         """Return the role of a cookie's value; None where it is forged, or too old."""
-        role = decode_signed_value(self._key, self.cookie, value, max_age_days=_SESSION)
+        role = decode_signed_value(self._key, self.cookie, value, max_age_days=_COOKIE_AGE)
         return None if role is None else Role(role.decode())
 
     def allows_host(self, host: str) -> bool:

@@ -73,16 +73,16 @@ class Guarded(RequestHandler):
         if not self.server.access.allows_host(self.request.host):
             self.refuse(403, 'this name is not one of this machine')
         access = self.server.access
-        self.role = access.role_of_session(self.get_cookie(access.cookie) or '')
+        self.role = access.role_of_cookie(self.get_cookie(access.cookie) or '')
         if self.needs_cookie and self.role is None:
             self.refuse(403, 'open the address that the node has printed: it holds the token')
 
-    def set_session(self, role: Role) -> None:
+    def set_cookie_for(self, role: Role) -> None:
         """Set the cookie of a role."""
         access = self.server.access
         self.set_cookie(
             access.cookie,
-            access.session(role),
+            access.signed_cookie(role),
             expires_days=None,
             httponly=True,
             samesite='Strict',
@@ -121,7 +121,7 @@ class Login(Guarded):
         role = self.server.access.role_of(token)
         if role is None:
             self.refuse(403, 'this token is wrong, or of a world that has ended')
-        self.set_session(role)
+        self.set_cookie_for(role)
         shows_only = role is Role.VIEW or 'view' in self.request.arguments
         self.redirect('/?view' if shows_only else '/')
 
@@ -133,12 +133,12 @@ class Page(Guarded):
         """Answer with the page."""
         if self.role is not None:
             # Visited again, so that its time begins anew.
-            self.set_session(self.role)
+            self.set_cookie_for(self.role)
         self.set_header('Content-Type', TYPES['.html'])
         self.finish((self.server.page_directory / 'index.html').read_bytes())
 
 
-class Session(Guarded):
+class CookieCheck(Guarded):
     """Whether the cookie of a page is still right: a socket that is refused cannot say why."""
 
     async def get(self) -> None:

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""The drawing of one page: its pen, its tool and its materials."""
+"""The drawing of one page: its strokes, clicks and material."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ from physsim_ros.sketchpad.world_control import WorldControl
 
 class PageDrawing:
     """
-    What one page draws, read with the tools and settings of the world.
+    The strokes, clicks and material of one page, on the world's thread.
 
     :param world: that it draws in
     :param requests: of the page

@@ -35,7 +35,7 @@ from physsim_ros.sketchpad.answers import answer_content, asker_of
 from physsim_ros.sketchpad.frame_codec import Show
 from physsim_ros.sketchpad.frame_feed import FrameFeed
 from physsim_ros.sketchpad.gallery import gallery_content
-from physsim_ros.sketchpad.handlers import Files, Login, Missing, Page, Session
+from physsim_ros.sketchpad.handlers import CookieCheck, Files, Login, Missing, Page
 from physsim_ros.sketchpad.inbox import Inbox, Incoming, SERVER
 from physsim_ros.sketchpad.listening import BoundedServer, listening_sockets, reachable_host
 from physsim_ros.sketchpad.messages import Message
@@ -251,7 +251,7 @@ class Server:
             [
                 ('/', Page, own),
                 ('/login', Login, own),
-                ('/session', Session, own),
+                ('/session', CookieCheck, own),
                 *recording_routes(self, self._recordings),
                 ('/ws', PageSocket, own),
                 ('/page/(.*)', Files, own | {'path': self.page_directory}),

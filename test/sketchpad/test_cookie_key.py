@@ -66,15 +66,15 @@ def test_a_directory_that_cannot_be_written_leaves_a_key_of_this_run(
     assert cookie_key() != cookie_key()
 
 
-def test_a_session_outlives_a_restart_with_its_role_on_its_port() -> None:
+def test_a_cookie_outlives_a_restart_with_its_role_on_its_port() -> None:
     before, after = Access('127.0.0.1', 8765), Access('127.0.0.1', 8765)
     for role in Role:
-        session = before.session(role).decode()
-        assert after.role_of_session(session) is role
-        assert Access('127.0.0.1', 8766).role_of_session(session) is None
+        cookie = before.signed_cookie(role).decode()
+        assert after.role_of_cookie(cookie) is role
+        assert Access('127.0.0.1', 8766).role_of_cookie(cookie) is None
         assert after.role_of(before.tokens[role]) is None
-    content, bar, _ = before.session(Role.VIEW).decode().rpartition('|')
-    *_, signature = before.session(Role.DRAW).decode().rpartition('|')
+    content, bar, _ = before.signed_cookie(Role.VIEW).decode().rpartition('|')
+    *_, signature = before.signed_cookie(Role.DRAW).decode().rpartition('|')
     forged = content + bar + signature
-    assert after.role_of_session(forged) is None
-    assert after.role_of_session('') is None
+    assert after.role_of_cookie(forged) is None
+    assert after.role_of_cookie('') is None

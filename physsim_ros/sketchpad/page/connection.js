@@ -87,7 +87,7 @@ export class Connection {
     for (const listener of this.listeners.get(type) ?? []) listener(message);
   }
 
-  /** A socket that is refused cannot say why: the session is asked for. */
+  /** A socket that is refused cannot say why: whether the cookie is right is asked for. */
   async #retry() {
     this.socket = null;
     this.waiting.clear();
