@@ -30,11 +30,12 @@ from typing import Any, Protocol, TYPE_CHECKING
 from urllib.parse import urlsplit
 
 from physsim_ros.sketchpad.access import headers_for
+from physsim_ros.sketchpad.guarded_socket import GuardedSocket, POLICY_VIOLATION
 from physsim_ros.sketchpad.handlers import Guarded, TYPES
 from physsim_ros.sketchpad.scene_codec import compact
 from tornado.httpclient import AsyncHTTPClient, HTTPClientError
 from tornado.iostream import StreamClosedError
-from tornado.websocket import WebSocketClosedError, WebSocketHandler
+from tornado.websocket import WebSocketClosedError
 
 if TYPE_CHECKING:
     from physsim_ros.sketchpad.server import Server
@@ -47,8 +48,6 @@ _FILE_TIMEOUT = 60.0
 _START_TIMEOUT = 30.0
 # Between two tries to reach it [s].
 _RETRY_PERIOD = 0.1
-# Code of closing, RFC 6455, section 7.4.1.
-_POLICY_VIOLATION = 1008
 
 
 class Recordings(Protocol):
@@ -157,7 +156,7 @@ class ViewerFile(_OfRecording):
             await self.flush()
 
 
-class RecordingSocket(_OfRecording, WebSocketHandler):
+class RecordingSocket(_OfRecording, GuardedSocket):
     """The stream of a recording to one page, and what that has shown of it."""
 
     def initialize(  # type: ignore[override]
@@ -168,16 +167,11 @@ class RecordingSocket(_OfRecording, WebSocketHandler):
         self._sockets = sockets
         self._page: Any = None
 
-    def check_origin(self, origin: str) -> bool:
-        """Accept the pages of this server."""
-        return self.server.access.allows_origin(origin, self.request.host)
-
-    async def prepare(self) -> None:
-        """Refuse a foreign page, or one too many."""
-        await super().prepare()
-        self.require_origin()
-        if len(self._sockets) >= MOST_RECORDINGS:
-            self.refuse(503, 'there are as many recordings open as there may be')
+    @property
+    def too_many(self) -> str:
+        """Return why one more is refused; '' where there is room for it."""
+        room = len(self._sockets) < MOST_RECORDINGS
+        return '' if room else 'there are as many recordings open as there may be'
 
     def open(self) -> None:  # noqa: A003 - tornado's name
         """Begin the recording."""
@@ -185,12 +179,12 @@ class RecordingSocket(_OfRecording, WebSocketHandler):
         self._sockets.add(self)
         self._page = self.recordings.open_page(self._send_soon)
 
-    def on_message(self, message: str | bytes) -> None:
+    def receive(self, message: str | bytes) -> None:
         """Note which frame the page shows: its time [ns], as digits."""
         try:
             self._page.note_shown(int(message[:20]))
         except ValueError:
-            self.close(_POLICY_VIOLATION, 'not a time')
+            self.close(POLICY_VIOLATION, 'not a time')
 
     def on_close(self) -> None:
         """End the recording."""

@@ -224,6 +224,23 @@ def test_a_wrong_message_is_refused_and_changes_nothing(browser: Browser, text: 
     assert page.ask('drop')['ok']
 
 
+def test_a_refusal_of_the_server_has_all_fields_of_an_answer(browser: Browser) -> None:
+    page = browser.open_page('/ws?view')
+    refused = page.ask('seek', time='soon')
+    assert refused == {
+        'type': 'answer',
+        'request': 'm1',
+        'ok': False,
+        'code': 'bad_property',
+        'message': "time must be a number, not 'soon'",
+        'subject': '',
+        'topic': 'page',
+        'field': 'time',
+        'values': {},
+    }
+    assert page.ask('drop').keys() == refused.keys()
+
+
 def test_binary_messages_are_refused(browser: Browser) -> None:
     page = browser.open_page()
     page.send_raw(bytes(range(256)))

@@ -17,6 +17,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import suppress
 from functools import partial
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 import io
@@ -35,7 +36,11 @@ from physsim_ros.sketchpad.recording_handlers import MOST_RECORDINGS
 from physsim_ros.view import Viewer
 import pytest
 from tornado.httpclient import HTTPClientError, HTTPRequest
-from tornado.websocket import websocket_connect, WebSocketClientConnection
+from tornado.websocket import (
+    websocket_connect,
+    WebSocketClientConnection,
+    WebSocketClosedError,
+)
 
 from .browser import Browser
 from .chromium import launched_chromium, MILLISECONDS, SOFTWARE_GL, started_world
@@ -216,6 +221,23 @@ def test_recordings_are_few_and_a_page_that_writes_nonsense_is_closed(browser: B
 
     for socket in sockets:
         socket.close()
+
+
+@pytest.mark.usefixtures('viewer_files')
+def test_a_flood_closes_the_socket_of_a_recording(browser: Browser) -> None:
+    browser.physsim.run(0.1)
+    socket = opened(browser)
+
+    async def flood() -> None:
+        with suppress(WebSocketClosedError):
+            while True:
+                await socket.write_message('0')
+
+    browser.run(flood())
+    while read(browser, socket) is not None:
+        # The batch that was on its way.
+        pass
+    assert (socket.close_code, socket.close_reason) == (1008, 'too many messages')
 
 
 @pytest.fixture(scope='module')
