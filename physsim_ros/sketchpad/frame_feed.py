@@ -21,7 +21,6 @@ after its scene, and none while it is busy.
 
 from __future__ import annotations
 
-from collections.abc import Collection
 from dataclasses import replace
 import time
 from typing import TYPE_CHECKING
@@ -33,6 +32,7 @@ from physsim_ros.sketchpad.scene_codec import compact, SceneCodec
 if TYPE_CHECKING:
     from asyncio import AbstractEventLoop
 
+    from physsim_ros.sketchpad.open_pages import OpenPages
     from physsim_ros.sketchpad.page_socket import PageSocket
 
 # Bytes a second that new scenes may take, for all pages together. Where bodies come and go in each
@@ -52,7 +52,7 @@ class FrameFeed:
     :ivar newest: frame, and ghost beside it; the world's thread sets it
     """
 
-    def __init__(self, pages: Collection[PageSocket], loop: AbstractEventLoop) -> None:
+    def __init__(self, pages: OpenPages, loop: AbstractEventLoop) -> None:
         self._pages = pages
         self._loop = loop
         self.newest: tuple[Frame, Snapshot | None] | None = None
@@ -84,7 +84,7 @@ class FrameFeed:
         self._number += 1
         self._encoded.clear()
         self._encode_ghost(frame, ghost)
-        for page in list(self._pages):
+        for page in self._pages:
             self.update_page(page)
 
     def _encode_ghost(self, frame: Frame, ghost: Snapshot | None) -> None:

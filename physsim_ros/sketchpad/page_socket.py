@@ -65,7 +65,7 @@ class PageSocket(GuardedSocket):
     @property
     def too_many(self) -> str:
         """Return why one more is refused; '' where there is room for it."""
-        return 'there are as many pages open as there may be' if self.server.is_full else ''
+        return 'there are as many pages open as there may be' if self.server.pages.is_full else ''
 
     def open(self) -> None:  # noqa: A003 - tornado's name
         """Welcome the page."""
@@ -88,7 +88,7 @@ class PageSocket(GuardedSocket):
             return
         if isinstance(checked, ShowParts):
             self.show = checked.show
-            self.server.note_parts()
+            self.server.pages.note_parts()
             # Sent once more, with other parts.
             self.frame = 0
             self.server.feed.update_page(self)
@@ -100,7 +100,7 @@ class PageSocket(GuardedSocket):
     def on_close(self) -> None:
         """Forget the page."""
         if self.number:
-            self.server.remove_page(self)
+            self.server.pages.remove(self)
             self.server.inbox_put(Incoming(self.number, '', Closed()))
 
     @property

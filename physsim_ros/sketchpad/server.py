@@ -31,30 +31,26 @@ from typing import Any
 from physsim_ros.files import shipped_pictures
 from physsim_ros.model.snapshot import Answer, Frame, Snapshot
 from physsim_ros.sketchpad.access import Access, Role
-from physsim_ros.sketchpad.answers import answer_content, asker_of
-from physsim_ros.sketchpad.frame_codec import Show
+from physsim_ros.sketchpad.answers import asker_of
 from physsim_ros.sketchpad.frame_feed import FrameFeed
 from physsim_ros.sketchpad.gallery import gallery_content
 from physsim_ros.sketchpad.handlers import CookieCheck, Files, Login, Missing, Page
 from physsim_ros.sketchpad.inbox import Inbox, Incoming, SERVER
 from physsim_ros.sketchpad.listening import BoundedServer, listening_sockets, reachable_host
 from physsim_ros.sketchpad.messages import Message
+from physsim_ros.sketchpad.open_pages import OpenPages
 from physsim_ros.sketchpad.page_socket import PageSocket
 from physsim_ros.sketchpad.recording_handlers import recording_routes, Recordings
 from physsim_ros.sketchpad.scene_codec import compact
 from physsim_ros.sketchpad.world_handlers import Download, UploadWorld
 from tornado.web import Application
 
-# Pages at once.
-MOST_PAGES = 64
 # Of a message of a page, and of an uploaded world [bytes].
 MOST_BYTES = 2**20
 # From one ping to the next, and until a page without an answer is closed [s].
 PING_PERIOD = 10.0
 # For the thread to end [s].
 _CLOSING = 2.0
-# Answers to others that are passed on, of one frame; the rest is counted.
-MOST_QUIET = 20
 
 PAGE = Path(__file__).with_name('page')
 
@@ -73,8 +69,8 @@ class Server:
 
     :ivar access: its tokens
     :ivar port: that it listens on
+    :ivar pages: that are open
     :ivar feed: frames on their way to the pages
-    :ivar wants_contacts: whether a page asks for contacts
     """
 
     def __init__(
@@ -96,9 +92,7 @@ class Server:
         self._sockets = listening_sockets(address, port)
         self.port: int = self._sockets[0].getsockname()[1]
         self.access = Access(address, self.port)
-        self._pages: dict[int, PageSocket] = {}
-        self.wants_contacts = False
-        self._last_number = 0
+        self.pages = OpenPages()
         # Of the questions of the server itself.
         self._asked = 0
         self._replies: dict[str, asyncio.Future[Answer]] = {}
@@ -106,7 +100,7 @@ class Server:
         self._outbox: deque[tuple[int | None, str] | tuple[Answer, ...]] = deque()
         self._scheduled = False
         self._loop = asyncio.new_event_loop()
-        self.feed = FrameFeed(self._pages.values(), self._loop)
+        self.feed = FrameFeed(self.pages, self._loop)
         self._ended = asyncio.Event()
         self._thread = threading.Thread(target=self._run, name='sketchpad', daemon=True)
         self._thread.start()
@@ -136,7 +130,7 @@ class Server:
     @property
     def has_pages(self) -> bool:
         """Whether a page is open, or an upload waits for its answer."""
-        return bool(self._pages or self._replies)
+        return bool(self.pages or self._replies)
 
     def send(self, content: dict[str, Any], *, page: int | None = None) -> None:
         """
@@ -180,28 +174,13 @@ class Server:
 
     # The server's thread
 
-    @property
-    def is_full(self) -> bool:
-        """Whether there are as many pages as there may be."""
-        return len(self._pages) >= MOST_PAGES
-
     def add_page(self, page: PageSocket) -> int:
         """Begin to send frames to a page; return its number."""
-        self._last_number += 1
-        self._pages[self._last_number] = page
+        number = self.pages.add(page)
         page.send(compact(gallery_content(self.world_dir)))
         self.feed.send_frame()
         self.feed.update_page(page)
-        return self._last_number
-
-    def remove_page(self, page: PageSocket) -> None:
-        """Send nothing more to a page."""
-        self._pages.pop(page.number, None)
-        self.note_parts()
-
-    def note_parts(self) -> None:
-        """Note which parts of a frame the pages ask for."""
-        self.wants_contacts = any(Show.CONTACTS in page.show for page in self._pages.values())
+        return number
 
     def inbox_put(self, incoming: Incoming) -> bool:
         """Hand a message to the world's thread; return whether there was room for it."""
@@ -241,7 +220,7 @@ class Server:
         server.add_sockets(self._sockets)
         await self._ended.wait()
         server.stop()
-        for page in list(self._pages.values()):
+        for page in self.pages:
             page.close(1001, 'the world has ended')
         await server.close_all_connections()
 
@@ -276,38 +255,19 @@ class Server:
         while self._outbox:
             item = self._outbox.popleft()
             if isinstance(item[0], Answer):
-                self._send_answers(item)
+                self._resolve_replies(item)
+                self.pages.send_answers(item)
             else:
-                number, text = item
-                pages = self._pages.values() if number is None else [self._pages.get(number)]
-                for page in list(pages):
-                    if page is not None:
-                        page.send(text)
+                page, text = item
+                self.pages.send(text, page=page)
         self.feed.send_frame()
 
     def _send_worlds(self) -> None:
-        text = compact(gallery_content(self.world_dir))
-        for page in list(self._pages.values()):
-            page.send(text)
+        self.pages.send(compact(gallery_content(self.world_dir)))
 
-    def _send_answers(self, answers: tuple[Answer, ...]) -> None:
-        quiet: list[str] = []
-        others = 0
+    def _resolve_replies(self, answers: tuple[Answer, ...]) -> None:
+        """Give the answers to questions of the server itself."""
         for answer in answers:
-            number, id_ = asker_of(answer.asker)
-            page = self._pages.get(number)
-            if page is not None:
-                page.send(compact(answer_content(answer, id_)))
-            elif number == SERVER and id_ in self._replies:
+            page, id_ = asker_of(answer.asker)
+            if page == SERVER and id_ in self._replies:
                 self._replies[id_].set_result(answer)
-            others += 1
-            if others <= MOST_QUIET:
-                quiet.append(compact(answer_content(answer, '')))
-                for each in list(self._pages.values()):
-                    if each is not page:
-                        each.send(quiet[-1])
-        if others > MOST_QUIET:
-            more = Answer(topic='events', message=f'and {others - MOST_QUIET} more answers')
-            text = compact(answer_content(more, ''))
-            for each in list(self._pages.values()):
-                each.send(text)

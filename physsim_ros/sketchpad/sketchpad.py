@@ -89,7 +89,7 @@ class Sketchpad:
     @property
     def wants_contacts(self) -> bool:
         """Whether a page shows contacts."""
-        return self._server.wants_contacts
+        return self._server.pages.wants_contacts
 
     def handle_messages(self) -> None:
         """Handle the messages of pages, as many as there is time for."""

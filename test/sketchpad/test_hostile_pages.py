@@ -22,7 +22,8 @@ import socket
 from physsim_ros.sketchpad import listening
 from physsim_ros.sketchpad.access import Access, Role
 from physsim_ros.sketchpad.inbox import CAPACITY
-from physsim_ros.sketchpad.server import MOST_BYTES, MOST_PAGES
+from physsim_ros.sketchpad.open_pages import MOST_PAGES
+from physsim_ros.sketchpad.server import MOST_BYTES
 import pytest
 from tornado.httpclient import HTTPClientError
 from tornado.httputil import HTTPHeaders

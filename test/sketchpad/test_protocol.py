@@ -20,6 +20,7 @@ import math
 import numpy as np
 from physsim_ros.files import text_of
 from physsim_ros.model.grips import Grip
+from physsim_ros.model.snapshot import Answer
 from physsim_ros.sketchpad.server import PAGE
 from physsim_ros.testing import PhysSim
 import pytest
@@ -60,6 +61,25 @@ def test_each_answer_goes_to_the_page_that_asked_and_is_told_to_the_others(
     other.until(lambda: other.of_type('answer'))
     assert other.answers('')[0]['code'] == 'nothing_there'
     assert not other.answers(id_)
+
+
+def test_of_many_answers_in_a_frame_others_get_the_first_and_the_count_of_the_rest(
+    browser: Browser,
+) -> None:
+    one, other = browser.open_page(), browser.open_page()
+    requests = browser.physsim.node.simulation.requests
+    # As from two pages, and from nobody, in turn.
+    for number in range(30):
+        for asker in ('1:a', '2:b', ''):
+            requests.tell(Answer(topic='page', message=f'{number}', asker=asker))
+    numbers = [f'{number}' for number in range(30)]
+    for page, id_ in ((one, 'a'), (other, 'b')):
+        page.until(lambda page=page: any('more' in each['message'] for each in page.answers('')))
+        assert [each['message'] for each in page.answers(id_)] == numbers
+        # Of the first 20 answers the page has asked for 7; of the other 70, for 23.
+        *others, more = page.answers('')
+        assert more['message'] == 'and 47 more answers'
+        assert len(others) == 13
 
 
 def test_the_hand_of_a_page_throws_a_body(browser: Browser) -> None:
