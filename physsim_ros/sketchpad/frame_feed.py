@@ -103,18 +103,18 @@ class FrameFeed:
             return
         if page.epoch != self._codec.epoch:
             page.epoch = self._codec.epoch
-            page.send(self._scene_text)
+            page.send_part(self._scene_text)
         page.frame = self._number
         if page.show not in self._encoded:
             self._encoded[page.show] = encode_frame(
                 self._frame, epoch=self._codec.epoch, show=page.show
             )
-        page.send(self._encoded[page.show])
+        page.send_part(self._encoded[page.show])
         if self._ghost_frame:
             if page.ghost_epoch != self._ghost_codec.epoch:
                 page.ghost_epoch = self._ghost_codec.epoch
-                page.send(self._ghost_text)
-            page.send(self._ghost_frame)
+                page.send_part(self._ghost_text)
+            page.send_part(self._ghost_frame)
         elif page.ghost_epoch:
             page.ghost_epoch = 0
-            page.send(NO_GHOST)
+            page.send_part(NO_GHOST)

@@ -38,8 +38,9 @@ from tornado.websocket import WebSocketClosedError
 if TYPE_CHECKING:
     from physsim_ros.sketchpad.server import Server
 
-# Bytes that a page leaves unread before it is closed: the scene of 20,000 bodies, and some more.
-MOST_UNSENT = 16 * 2**20
+# Size of the messages that a page leaves unread before it is closed [bytes]: tens of thousands of
+# answers. The newest frame and its scenes, which have the size of the world, do not count.
+MOST_UNREAD = 16 * 2**20
 
 
 class PageSocket(GuardedSocket):
@@ -60,7 +61,8 @@ class PageSocket(GuardedSocket):
         self.show = Show.POSES
         self.epoch = self.ghost_epoch = self.frame = 0
         self.view_only = True
-        self._unsent = 0
+        # Messages on their way to it, and the size of those that count [bytes].
+        self._under_way = self._unread = 0
 
     @property
     def too_many(self) -> str:
@@ -105,27 +107,36 @@ class PageSocket(GuardedSocket):
 
     @property
     def is_busy(self) -> bool:
-        """Whether bytes are on their way to it."""
-        return self._unsent > 0
+        """Whether messages are on their way to it."""
+        return self._under_way > 0
 
-    def send(self, message: str | bytes) -> None:
+    def send(self, message: str) -> None:
         """Send a message; a page that has left too much unread is closed instead."""
         size = len(message)
-        if self._unsent + size > MOST_UNSENT:
+        if self._unread + size > MOST_UNREAD:
             self.close(TOO_BIG, 'too much left unread')
-            return
+        else:
+            self._write(message, counting=size)
+
+    def send_part(self, part: str | bytes) -> None:
+        """Send a frame or a scene, of any size; the feed has none for a page that is busy."""
+        self._write(part, counting=0)
+
+    def _write(self, message: str | bytes, *, counting: int) -> None:
         try:
             sent = self.write_message(message, binary=isinstance(message, bytes))
         except WebSocketClosedError:
             return
-        self._unsent += size
+        self._under_way += 1
+        self._unread += counting
 
         def done(future: Future[None]) -> None:
-            self._unsent -= size
+            self._under_way -= 1
+            self._unread -= counting
             if future.cancelled() or future.exception() is not None:
                 # It is being closed.
                 return
-            if not self._unsent:
+            if not self.is_busy:
                 self.server.feed.update_page(self)
 
         sent.add_done_callback(done)

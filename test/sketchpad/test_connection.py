@@ -44,6 +44,25 @@ def test_the_page_comes_back_when_its_socket_was_cut(chromium: Any, address: str
     sheet.close()
 
 
+def test_a_server_that_closes_each_socket_is_asked_ever_less_often(
+    chromium: Any, address: str
+) -> None:
+    sheet = Sheet(chromium, 'about:blank')
+    sheet.page.add_init_script(
+        """window.pauses = [];
+        const original = setTimeout;
+        window.setTimeout = (call, pause) => {
+            if (String(call).includes('connect')) pauses.push(pause);
+            return original(call, pause);
+        };"""
+    )
+    sheet.page.route_web_socket('**/ws*', lambda socket: socket.close())
+    sheet.page.goto(address)
+    sheet.wait('pauses.length >= 4')
+    assert sheet.page.evaluate('pauses.slice(0, 4)') == [250, 500, 1000, 2000]
+    sheet.context.close()
+
+
 def test_the_page_is_loaded_again_where_another_version_of_the_server_comes_back(
     chromium: Any, address: str
 ) -> None:

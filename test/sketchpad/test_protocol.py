@@ -21,6 +21,7 @@ import numpy as np
 from physsim_ros.files import text_of
 from physsim_ros.model.grips import Grip
 from physsim_ros.model.snapshot import Answer
+from physsim_ros.sketchpad import page_socket
 from physsim_ros.sketchpad.server import PAGE
 from physsim_ros.testing import PhysSim
 import pytest
@@ -80,6 +81,27 @@ def test_of_many_answers_in_a_frame_others_get_the_first_and_the_count_of_the_re
         *others, more = page.answers('')
         assert more['message'] == 'and 47 more answers'
         assert len(others) == 13
+
+
+def test_a_scene_above_the_limit_of_what_is_left_unread_is_shown(
+    browser: Browser, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(page_socket, 'MOST_UNREAD', 20_000)
+    first = browser.open_page()
+    corners = [[math.cos(each / 100), math.sin(each / 100)] for each in range(600)]
+    body = {'name': 'big/0', 'polygon': corners, 'at': [0, 5]}
+    assert first.ask('spawn', body=body)['ok']
+    # Later with the first frame and the timeline behind it, and with a ghost.
+    browser.physsim.run(0.5)
+    assert first.ask('seek', time=0.2)['ok']
+    assert first.ask('change', name='big/0', properties={'velocity': [1, 0]})['ok']
+    browser.physsim.run(0.2)
+    for page in (first, browser.open_page()):
+        page.until(lambda page=page: page.frames and page.ghosts)
+        assert [each['name'] for each in page.of_type('scene')[-1]['bodies']] == ['big/0']
+        assert len(json.dumps(page.of_type('scene')[-1])) > page_socket.MOST_UNREAD
+        assert not page.closed
+        assert page.ask('drop')['ok']
 
 
 def test_the_hand_of_a_page_throws_a_body(browser: Browser) -> None:

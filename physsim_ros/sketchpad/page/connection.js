@@ -31,10 +31,7 @@ export class Connection {
     const address = `${location.protocol.replace('http', 'ws')}//${location.host}/ws`;
     this.socket = new WebSocket(address + location.search);
     this.socket.binaryType = 'arraybuffer';
-    this.socket.onopen = () => {
-      this.pause = SHORTEST_PAUSE;
-      this.#emit('open', null);
-    };
+    this.socket.onopen = () => this.#emit('open', null);
     this.socket.onmessage = ({data}) => this.#receive(data);
     this.socket.onclose = () => this.#retry();
   }
@@ -68,6 +65,8 @@ export class Connection {
   /** @param {string | ArrayBuffer} data */
   #receive(data) {
     if (typeof data !== 'string') {
+      // A server that closes each socket again is asked ever less often.
+      this.pause = SHORTEST_PAUSE;
       this.#emit('frame', decodeFrame(data));
       return;
     }
