@@ -21,14 +21,16 @@ all texts are quoted; a number has a point before its exponent, as readers of YA
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 import json
+import math
 import re
 
 from physsim_ros.files.impulse_cache import cache_entry
 from physsim_ros.files.world_schema import FORMAT, SETTINGS
 from physsim_ros.model.checkpoint import BodyState, WorldState
 from physsim_ros.model.colors import Color, color_from
+from physsim_ros.model.errors import WorldFull
 from physsim_ros.model.scene import Joint
 from physsim_ros.model.transform import Pose
 from physsim_ros.simulation.world.joint_requests import drawn_points
@@ -39,29 +41,41 @@ _TEXT_OR_POWER = re.compile(r'("(?:[^"\\]|\\.)*")|(?<![\d.])(\d+)(?=e)')
 _UNPRINTABLE = re.compile('[\x7f-\x9f\u2028\u2029\ud800-\udfff\ufeff\ufffe\uffff]')
 
 
-def text_of(state: WorldState, physics_rate: float) -> str:
+def text_of(state: WorldState, physics_rate: float, *, longest: float = math.inf) -> str:
     """
     Return the YAML text of a world, one line for each body and joint.
 
     :param state: of the world
     :param physics_rate: of the world [Hz]
+    :param longest: greatest length [characters]; no more than that is written
+    :raises WorldFull: the text is longer
     """
-    lines = [f'format: {FORMAT}\n']
+    lines: list[str] = []
+    length = 0
+    for line in _lines(state, physics_rate):
+        length += len(line)
+        if length > longest:
+            raise WorldFull(f'the world as text is longer than {longest} characters')
+        lines.append(line)
+    return ''.join(lines)
+
+
+def _lines(state: WorldState, physics_rate: float) -> Iterator[str]:
+    yield f'format: {FORMAT}\n'
     for key in SETTINGS:
         value = getattr(state.settings, key)
-        lines.append(f'{key}: {_flow([] if value is None else value)}\n')
-    lines.append('bodies:\n' if state.bodies else 'bodies: []\n')
-    lines += [f'  - {_flow(_entry(body, physics_rate))}\n' for body in state.bodies]
+        yield f'{key}: {_flow([] if value is None else value)}\n'
+    yield 'bodies:\n' if state.bodies else 'bodies: []\n'
+    for body in state.bodies:
+        yield f'  - {_flow(_entry(body, physics_rate))}\n'
     if state.joints:
         poses = {body.body.name: body.pose for body in state.bodies}
-        lines.append('joints:\n')
-        lines += [f'  - {_flow(_joint_entry(joint, poses))}\n' for joint in state.joints]
+        yield 'joints:\n'
+        for joint in state.joints:
+            yield f'  - {_flow(_joint_entry(joint, poses))}\n'
     if state.memory is not None:
-        lines.append(
-            '# What the engine remembers of contacts: not to be edited, but may be deleted.\n'
-        )
-        lines.append(f'memory: {_flow(cache_entry(state.memory))}\n')
-    return ''.join(lines)
+        yield '# What the engine remembers of contacts: not to be edited, but may be deleted.\n'
+        yield f'memory: {_flow(cache_entry(state.memory))}\n'
 
 
 def _flow(value: object) -> str:

@@ -91,9 +91,15 @@ class PageControl:
                 self._set_parameters([Parameter('world_file', value=before)])
             raise
 
-    def world_text(self) -> str:
-        """Return the world as the text of a world file."""
-        return text_of(self.simulation.save(), self.simulation.physics_rate)
+    def world_text(self, *, longest: int) -> str:
+        """
+        Return the world as the text of a world file.
+
+        :param longest: greatest length [characters]
+        :raises WorldFull: it is longer
+        """
+        simulation = self.simulation
+        return text_of(simulation.save(), simulation.physics_rate, longest=longest)
 
     def replace_world(self, content: Mapping[Any, Any]) -> str:
         """

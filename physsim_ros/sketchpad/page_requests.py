@@ -25,7 +25,9 @@ from physsim_ros.model.snapshot import Answer
 from physsim_ros.sketchpad.answers import answer_content, request_of
 from physsim_ros.sketchpad.world_control import WorldControl
 
-Send = Callable[[dict[str, Any]], None]
+# Of a message to a page, to become JSON; a function is called on the server's thread.
+Content = dict[str, Any] | Callable[[], dict[str, Any]]
+Send = Callable[[Content], None]
 
 
 class PageRequests:

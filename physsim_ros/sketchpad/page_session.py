@@ -30,7 +30,7 @@ from physsim_ros.model.requests import KeepHand, LetGo
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.sketchpad import messages
 from physsim_ros.sketchpad.answers import asker_key, request_of
-from physsim_ros.sketchpad.body_past import body_past
+from physsim_ros.sketchpad.body_past import BodyWatch
 from physsim_ros.sketchpad.page_drawing import PageDrawing
 from physsim_ros.sketchpad.page_requests import PageRequests, Send
 from physsim_ros.sketchpad.world_control import WorldControl
@@ -57,9 +57,9 @@ class PageSession:
         self._on_save = on_save
         self._world = world
         self._page = page
-        self._send = send
         self._requests = PageRequests(world, send)
         self._drawing = drawing = PageDrawing(world, self._requests, send)
+        self._body_watch = BodyWatch(world.simulation, send)
         self._hand = f'page {page}'
         # Steady time of the last request of the hand [s]; None while it holds nothing.
         self._hand_used: float | None = None
@@ -91,12 +91,13 @@ class PageSession:
         self._actions[type(message)](message, asker_key(self._page, request_id))
         self._drawing.send_preview()
 
-    def keep_hand(self, now: float) -> None:
+    def update(self, now: float) -> None:
         """
-        Keep what the hand holds still, as long as the page is open.
+        Keep what the hand holds still, as long as the page is open, and send what is due.
 
         :param now: steady time [s]
         """
+        self._body_watch.send_due(now)
         if self._hand_used is not None and now - self._hand_used > HAND_PERIOD:
             self._hand_used = now
             self._requests.submit((KeepHand(hand=self._hand),), '~/drag/feedback', '')
@@ -118,9 +119,7 @@ class PageSession:
         self._requests.submit((request,), '~/drag/feedback', asker)
 
     def _watch(self, message: messages.Watch, asker: str) -> None:
-        past = body_past(self._world.simulation, message.name)
-        request = request_of(asker)
-        self._send({'type': 'body', 'request': request, 'name': message.name, **past})
+        self._body_watch.watch(message.name, request_of(asker), time.monotonic())
 
     # Time
 
@@ -156,10 +155,10 @@ class PageSession:
 
     def _share(self, _: messages.Share, asker: str) -> None:
         def share() -> list[Answer]:
-            text = self._world.world_text()
-            if len(text) > MOST_SHARED:
-                message = f'the world as text is longer than {MOST_SHARED} characters'
-                self._requests.answer_page(asker, message, code=WorldFull.code)
+            try:
+                text = self._world.world_text(longest=MOST_SHARED)
+            except WorldFull as refusal:
+                self._requests.answer_page(asker, str(refusal), code=refusal.code)
             else:
                 self._requests.answer_page(asker, 'the world as text', values=(('yaml', text),))
             return []

@@ -26,7 +26,6 @@ from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 import threading
-from typing import Any
 
 from physsim_ros.files import shipped_pictures
 from physsim_ros.model.snapshot import Answer, Frame, Snapshot
@@ -39,6 +38,7 @@ from physsim_ros.sketchpad.inbox import Inbox, Incoming, SERVER
 from physsim_ros.sketchpad.listening import BoundedServer, listening_sockets, reachable_host
 from physsim_ros.sketchpad.messages import Message
 from physsim_ros.sketchpad.open_pages import OpenPages
+from physsim_ros.sketchpad.page_requests import Content
 from physsim_ros.sketchpad.page_socket import PageSocket
 from physsim_ros.sketchpad.recording_handlers import recording_routes, Recordings
 from physsim_ros.sketchpad.scene_codec import compact
@@ -97,7 +97,7 @@ class Server:
         self._asked = 0
         self._replies: dict[str, asyncio.Future[Answer]] = {}
         # Written by the world's thread.
-        self._outbox: deque[tuple[int | None, str] | tuple[Answer, ...]] = deque()
+        self._outbox: deque[tuple[int | None, Content] | tuple[Answer, ...]] = deque()
         self._scheduled = False
         self._loop = asyncio.new_event_loop()
         self.feed = FrameFeed(self.pages, self._loop)
@@ -132,14 +132,14 @@ class Server:
         """Whether a page is open, or an upload waits for its answer."""
         return bool(self.pages or self._replies)
 
-    def send(self, content: dict[str, Any], *, page: int | None = None) -> None:
+    def send(self, content: Content, *, page: int | None = None) -> None:
         """
         Send a message.
 
-        :param content: becomes JSON
+        :param content: becomes JSON on the server's thread, and must not change until then
         :param page: number of the page; None is all of them
         """
-        self._outbox.append((page, compact(content)))
+        self._outbox.append((page, content))
         self._schedule()
 
     def answer(self, answers: tuple[Answer, ...]) -> None:
@@ -258,8 +258,8 @@ class Server:
                 self._resolve_replies(item)
                 self.pages.send_answers(item)
             else:
-                page, text = item
-                self.pages.send(text, page=page)
+                page, content = item
+                self.pages.send(compact(content() if callable(content) else content), page=page)
         self.feed.send_frame()
 
     def _send_worlds(self) -> None:

@@ -29,6 +29,7 @@ from typing import Any
 from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.sketchpad.access import Role
 from physsim_ros.sketchpad.inbox import Closed, Inbox, Incoming, Opened, SERVER
+from physsim_ros.sketchpad.page_requests import Content
 from physsim_ros.sketchpad.page_session import PageSession
 from physsim_ros.sketchpad.recording_handlers import Recordings
 from physsim_ros.sketchpad.server import Server
@@ -98,7 +99,7 @@ class Sketchpad:
             self._server.send({'type': 'recording', 'rerun': self._told_recording})
         now = time.monotonic()
         for session in self._sessions.values():
-            session.keep_hand(now)
+            session.update(now)
         deadline = now + BUDGET
         while (incoming := self._inbox.take()) is not None:
             self._handle(incoming)
@@ -168,7 +169,7 @@ class Sketchpad:
         return '/rerun/' if self._recordings.page_address else ''
 
     def _session(self, number: int) -> PageSession:
-        def send(content: dict[str, Any]) -> None:
+        def send(content: Content) -> None:
             self._server.send(content, page=number)
 
         return PageSession(self._world, page=number, send=send, on_save=self._server.list_worlds)

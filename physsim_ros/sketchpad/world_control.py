@@ -56,8 +56,13 @@ class WorldControl(Protocol):
         :raises PhysSimError: it is refused
         """
 
-    def world_text(self) -> str:
-        """Return the world as the text of a world file."""
+    def world_text(self, *, longest: int) -> str:
+        """
+        Return the world as the text of a world file.
+
+        :param longest: greatest length [characters]
+        :raises WorldFull: it is longer
+        """
 
     def replace_world(self, content: Mapping[Any, Any]) -> str:
         """

@@ -84,10 +84,14 @@ class FrameCache:
         :param count: of the last ones, at most
         """
         frames: dict[int, CachedFrame] = {}
-        for mark in sorted(self._segments, key=lambda mark: mark.moment):
-            frames |= self._segments[mark].frames
-        steps = sorted(step for step in frames if step <= end)[-count:]
-        return [frames[step].snapshot for step in steps]
+        for mark in sorted(self._segments, key=lambda mark: mark.moment, reverse=True):
+            for step, frame in self._segments[mark].frames.items():
+                if step <= end:
+                    # The step between two segments is in both.
+                    frames.setdefault(step, frame)
+            if len(frames) >= count:
+                break
+        return [frames[step].snapshot for step in sorted(frames)[-count:]]
 
     def add_frame(self, frame: CachedFrame) -> None:
         """Add a frame that has just been shown."""
