@@ -25,7 +25,7 @@ from dataclasses import replace
 import time
 from typing import Any
 
-from physsim_ros.model.errors import WorldFull
+from physsim_ros.model.errors import Busy, WorldFull
 from physsim_ros.model.requests import KeepHand, LetGo
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.sketchpad import messages
@@ -149,9 +149,13 @@ class PageSession:
         self._requests.perform_in_turn(action, asker, perform)
 
     def _upload(self, message: messages.Upload, asker: str) -> None:
-        content = message.content
-        replace_world = self._world.replace_world
-        self._requests.perform_in_turn('load_world', asker, lambda: replace_world(content))
+        def replace_world() -> str:
+            content = message.take()
+            if content is None:
+                raise Busy('an upload has waited too long; nothing was done')
+            return self._world.replace_world(content)
+
+        self._requests.perform_in_turn('load_world', asker, replace_world)
 
     def _share(self, _: messages.Share, asker: str) -> None:
         def share() -> list[Answer]:

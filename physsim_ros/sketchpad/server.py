@@ -28,6 +28,7 @@ from pathlib import Path
 import threading
 
 from physsim_ros.files import shipped_pictures
+from physsim_ros.model.errors import Busy
 from physsim_ros.model.snapshot import Answer, Frame, Snapshot
 from physsim_ros.sketchpad.access import Access, Role
 from physsim_ros.sketchpad.answers import asker_of
@@ -36,7 +37,7 @@ from physsim_ros.sketchpad.gallery import gallery_content
 from physsim_ros.sketchpad.handlers import CookieCheck, Files, Login, Missing, Page
 from physsim_ros.sketchpad.inbox import Inbox, Incoming, SERVER
 from physsim_ros.sketchpad.listening import BoundedServer, listening_sockets, reachable_host
-from physsim_ros.sketchpad.messages import Message
+from physsim_ros.sketchpad.messages import Upload
 from physsim_ros.sketchpad.open_pages import OpenPages
 from physsim_ros.sketchpad.page_requests import Content
 from physsim_ros.sketchpad.page_socket import PageSocket
@@ -93,8 +94,8 @@ class Server:
         self.port: int = self._sockets[0].getsockname()[1]
         self.access = Access(address, self.port)
         self.pages = OpenPages()
-        # Of the questions of the server itself.
-        self._asked = 0
+        # Number of the last upload.
+        self._uploads = 0
         self._replies: dict[str, asyncio.Future[Answer]] = {}
         # Written by the world's thread.
         self._outbox: deque[tuple[int | None, Content] | tuple[Answer, ...]] = deque()
@@ -189,14 +190,21 @@ class Server:
         self._wake()
         return True
 
-    async def ask(self, message: Message) -> Answer:
-        """Have the world's thread handle a message of the server itself; return the answer."""
-        self._asked += 1
-        request_id = str(self._asked)
-        reply: asyncio.Future[Answer] = self._loop.create_future()
-        self._replies[request_id] = reply
+    async def upload(self, upload: Upload, patience: float) -> Answer:
+        """
+        Have the world's thread replace the world by that of a file, and return the answer.
+
+        :param patience: until it has begun [s]
+        :raises Busy: it has not; nothing is done
+        """
+        self._uploads += 1
+        request_id = str(self._uploads)
+        reply = self._replies[request_id] = self._loop.create_future()
         try:
-            self.inbox_put(Incoming(SERVER, request_id, message))
+            if self.inbox_put(Incoming(SERVER, request_id, upload)):
+                await asyncio.wait([reply], timeout=patience)
+            if not reply.done() and upload.take() is not None:
+                raise Busy('the world is too busy; nothing was done')
             return await reply
         finally:
             del self._replies[request_id]
@@ -266,7 +274,7 @@ class Server:
         self.pages.send(compact(gallery_content(self.world_dir)))
 
     def _resolve_replies(self, answers: tuple[Answer, ...]) -> None:
-        """Give the answers to questions of the server itself."""
+        """Give the answers to those who wait for an upload."""
         for answer in answers:
             page, id_ = asker_of(answer.asker)
             if page == SERVER and id_ in self._replies:

@@ -21,7 +21,7 @@ import asyncio
 from typing import Any
 
 from physsim_ros.files import find_world, load_mapping
-from physsim_ros.model.errors import Malformed, Refusal
+from physsim_ros.model.errors import Busy, Malformed, Refusal
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.sketchpad.access import Role
 from physsim_ros.sketchpad.handlers import Guarded
@@ -29,7 +29,7 @@ from physsim_ros.sketchpad.messages import Upload
 
 # Uploads at once.
 MOST_UPLOADS = 4
-# Until the world has taken over a file [s]: one of a megabyte takes some seconds.
+# Until the world begins to take over a file [s].
 TIMEOUT = 60.0
 
 
@@ -77,9 +77,9 @@ class UploadWorld(Guarded):
         except Refusal as refusal:
             return _content(refusal)
         try:
-            answer = await asyncio.wait_for(self.server.ask(Upload(content=content)), TIMEOUT)
-        except TimeoutError:
-            self.refuse(503, 'the world is too busy')
+            answer = await self.server.upload(Upload(content), TIMEOUT)
+        except Busy as refusal:
+            self.refuse(503, str(refusal))
         return {'ok': not answer.code, 'message': answer.message, 'code': answer.code}
 
 

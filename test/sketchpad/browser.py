@@ -159,24 +159,22 @@ class Browser:
         """Let the sockets work for as long as a message takes on its way."""
         await asyncio.sleep(0.001)
 
-    def fetch(self, path: str, *, cookie: str | None = None, **options: Any) -> HTTPResponse:
+    def fetch(self, path: str, **options: Any) -> HTTPResponse:
         """Return the response to a request, whatever its status."""
-        return self.run(self._fetch(path, self.cookie if cookie is None else cookie, options))
+        return self.run(self.begin_fetch(path, **options))
 
-    def _fetch(
-        self, path: str, cookie: str, options: dict[str, Any]
-    ) -> Coroutine[Any, Any, HTTPResponse]:
-        async def fetch() -> HTTPResponse:
-            headers = {'Cookie': cookie} | options.pop('headers', {})
-            return await AsyncHTTPClient().fetch(
-                self.base + path,
-                headers=headers,
-                follow_redirects=False,
-                raise_error=False,
-                **options,
-            )
-
-        return fetch()
+    async def begin_fetch(
+        self, path: str, *, cookie: str | None = None, **options: Any
+    ) -> HTTPResponse:
+        """Return the response to a request, while others do what it needs."""
+        headers = {'Cookie': self.cookie if cookie is None else cookie}
+        return await AsyncHTTPClient().fetch(
+            self.base + path,
+            headers=headers | options.pop('headers', {}),
+            follow_redirects=False,
+            raise_error=False,
+            **options,
+        )
 
     def login_cookie(self, url: str) -> str:
         """Log in, and return the cookie; '' where none is given."""

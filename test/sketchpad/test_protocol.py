@@ -14,20 +14,25 @@
 
 """Frames of a page are those of the world, and its messages become the world's own requests."""
 
+from collections.abc import Mapping
 import json
 import math
+import threading
+from typing import Any
 
 import numpy as np
 from physsim_ros.files import text_of
 from physsim_ros.model.grips import Grip
 from physsim_ros.model.snapshot import Answer
-from physsim_ros.sketchpad import page_socket
+from physsim_ros.ros.page_control import PageControl
+from physsim_ros.sketchpad import page_socket, world_handlers
+from physsim_ros.sketchpad.messages import Upload
 from physsim_ros.sketchpad.server import PAGE
 from physsim_ros.testing import PhysSim
 import pytest
 from rclpy.parameter import Parameter
 
-from .browser import Browser
+from .browser import Browser, PATIENCE
 
 
 def circle(x: float, y: float, radius: float) -> list[list[float]]:
@@ -188,6 +193,48 @@ def test_worlds_are_listed_saved_opened_shared_and_uploaded(browser: Browser) ->
     response = browser.fetch('/world', method='POST', body=empty, headers={'Origin': browser.base})
     assert json.loads(response.body)['ok']
     assert physsim.names == ()
+
+
+def test_an_upload_that_is_answered_busy_changes_nothing_later(
+    browser: Browser, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    physsim, page = browser.physsim, browser.open_page()
+    page.send('stroke', points=circle(0.0, 5.0, 0.5))
+    page.until(lambda: physsim.names)
+    before = physsim.digest()
+    monkeypatch.setattr(world_handlers, 'TIMEOUT', 0.01)
+    options = {'method': 'POST', 'body': 'format: 1\n', 'headers': {'Origin': browser.base}}
+    upload = browser.loop.create_task(browser.begin_fetch('/world', **options))
+    browser.until(upload.done, settling=False)
+    assert upload.result().code == 503
+    page.until(lambda: [each for each in page.answers('') if each['topic'] == '~/load_world'])
+    assert page.answers('')[-1]['code'] == 'busy'
+    assert physsim.digest() == before
+
+
+def test_an_upload_that_has_begun_is_answered_however_long_it_takes(
+    browser: Browser, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(world_handlers, 'TIMEOUT', 0.5)
+    withdrawn = threading.Event()
+    take, replace_world = Upload.take, PageControl.replace_world
+
+    def noted_take(upload: Upload) -> Mapping[Any, Any] | None:
+        content = take(upload)
+        if content is None:
+            withdrawn.set()
+        return content
+
+    def slow_replace_world(control: PageControl, content: Mapping[Any, Any]) -> str:
+        assert withdrawn.wait(PATIENCE)
+        return replace_world(control, content)
+
+    monkeypatch.setattr(Upload, 'take', noted_take)
+    monkeypatch.setattr(PageControl, 'replace_world', slow_replace_world)
+    body = 'format: 1\nbodies:\n  - {name: ball/0, circle: {radius: 1}, at: [0, 1]}\n'
+    response = browser.fetch('/world', method='POST', body=body, headers={'Origin': browser.base})
+    assert json.loads(response.body)['ok']
+    assert browser.physsim.names == ('ball/0',)
 
 
 def test_a_world_is_shared_when_a_seek_under_way_has_ended(

@@ -16,6 +16,7 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -80,15 +81,25 @@ class Share:
     """Ask for the world as the text of a world file."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
 class Upload:
     """
     Replace the world by that of a file.
 
+    The content is taken once: by the world's thread, or by the server's, which waits no longer.
+
     :param content: of the world file
     """
 
-    content: Mapping[Any, Any]
+    def __init__(self, content: Mapping[Any, Any]) -> None:
+        # A deque's `pop` is atomic.
+        self._content = deque((content,))
+
+    def take(self) -> Mapping[Any, Any] | None:
+        """Return the content to whoever is the first to take it, else None."""
+        try:
+            return self._content.pop()
+        except IndexError:
+            return None
 
 
 def _perform(fields: Fields) -> Perform:
