@@ -240,6 +240,8 @@ def test_a_refusal_of_the_server_has_all_fields_of_an_answer(browser: Browser) -
         'values': {},
     }
     assert page.ask('drop').keys() == refused.keys()
+    too_long = page.ask('watch', name='a' * 1001)
+    assert too_long['message'] == 'name has more than 1000 characters'
 
 
 def test_binary_messages_are_refused(browser: Browser) -> None:

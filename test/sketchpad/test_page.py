@@ -24,7 +24,8 @@ from typing import Any
 
 import pytest
 
-from .chromium import circle, Sheet
+from .chromium import circle, Sheet, started_world
+from ..outside import Outside
 
 
 @pytest.fixture
@@ -261,6 +262,24 @@ def test_a_refusal_stands_at_its_place(sheet: Sheet) -> None:
     sheet.press('Redo')
     sheet.page.get_by_role('status').get_by_text('nothing to redo').wait_for()
     assert note.count() == 0
+
+
+def test_a_stroke_that_is_read_and_then_refused_shows_that_at_its_place(
+    chromium: Any, outside: Outside
+) -> None:
+    _, address = started_world(outside, max_bodies=3)
+    sheet = Sheet(chromium, address)
+    sheet.begin()
+    sheet.drag(*circle(-2.0, 6.0, 0.8))
+    note = sheet.page.locator('.note.refusal')
+    note.wait_for()
+    box, (x, y) = note.bounding_box(), sheet.place(-2.0, 6.8)
+    assert abs(box['x'] + box['width'] / 2 - x) < 5
+    assert 0 < y - box['y'] - box['height'] < 40
+    # What was not built has no reading.
+    assert sheet.page.locator('.note').count() == 1
+    assert len(sheet.names()) == 3
+    sheet.close()
 
 
 def test_a_world_is_saved_and_opened_from_the_gallery(sheet: Sheet) -> None:

@@ -18,6 +18,7 @@ from collections.abc import Mapping
 import json
 import math
 import threading
+import time
 from typing import Any
 
 import numpy as np
@@ -25,7 +26,7 @@ from physsim_ros.files import text_of
 from physsim_ros.model.grips import Grip
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.ros.page_control import PageControl
-from physsim_ros.sketchpad import page_socket, world_handlers
+from physsim_ros.sketchpad import body_past, page_session, page_socket, world_handlers
 from physsim_ros.sketchpad.messages import Upload
 from physsim_ros.sketchpad.server import PAGE
 from physsim_ros.testing import PhysSim
@@ -274,6 +275,41 @@ def test_the_past_of_a_body_is_told(browser: Browser) -> None:
     assert np.array(body['vy']) == pytest.approx(-9.81 * times, abs=1e-6)
 
 
+def test_the_past_is_told_once_a_period_of_the_body_that_was_asked_for_last(
+    browser: Browser, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(body_past, 'PERIOD', PATIENCE)
+    physsim, page, other = browser.physsim, browser.open_page(), browser.open_page('/ws?view')
+    physsim.run(0.5)
+    for name in ('a/0', 'b/0', 'c/0', ''):
+        page.send('watch', name=name)
+    page.send('watch', name='d/0')
+    other.send('watch', name='a/0')
+    other.until(lambda: other.of_type('body'))
+    page.ask('drop')
+    assert [each['name'] for each in page.of_type('body')] == ['a/0', '']
+    # The period is over.
+    session = physsim.node.outputs.sketchpad._sessions[1]  # noqa: SLF001
+    session.update(time.monotonic() + PATIENCE)
+    page.until(lambda: len(page.of_type('body')) == 3)
+    assert page.of_type('body')[-1]['name'] == 'd/0'
+    assert page.of_type('body')[-1]['time'] == []
+
+
+def test_a_world_that_is_too_long_to_share_is_refused_before_it_is_written(
+    browser: Browser, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    page = browser.open_page()
+    for x in range(3):
+        page.ask('spawn', body={'circle': {'radius': 0.4}, 'at': [x, 5]})
+    text = page.ask('share')['values']['yaml']
+    monkeypatch.setattr(page_session, 'MOST_SHARED', len(text))
+    assert page.ask('share')['ok']
+    monkeypatch.setattr(page_session, 'MOST_SHARED', len(text) - 1)
+    refused = page.ask('share')
+    assert (refused['code'], refused['values']) == ('world_full', {})
+
+
 def test_a_body_is_spawned_changed_moved_and_deleted_by_name(browser: Browser) -> None:
     physsim, page = browser.physsim, browser.open_page()
     for number in range(3):
@@ -298,6 +334,24 @@ def test_a_body_is_spawned_changed_moved_and_deleted_by_name(browser: Browser) -
     ):
         assert page.ask('change', **wrong)['code'] in ('unknown_property', 'unknown_body')
     assert physsim.digest() == before
+
+
+def test_more_than_a_thousand_bodies_are_moved_and_deleted_at_once(browser: Browser) -> None:
+    physsim, page = browser.physsim, browser.open_page()
+    names = [f'disc/{each}' for each in range(1200)]
+    lines = [
+        f'  - {{name: {name}, circle: {{radius: 0.1}}, at: [{row % 40}, {row // 40}]}}'
+        for row, name in enumerate(names)
+    ]
+    body = '\n'.join(['format: 1', 'bodies:', *lines])
+    response = browser.fetch('/world', method='POST', body=body, headers={'Origin': browser.base})
+    assert json.loads(response.body)['ok']
+    assert page.ask('move_bodies', names=names, by=[0, 50])['ok']
+    assert physsim.pose('disc/1199').y == 79
+    assert page.ask('delete', names=names)['ok']
+    assert physsim.names == ()
+    assert page.ask('service', name='undo')['ok']
+    assert len(physsim.names) == 1200
 
 
 def test_a_change_of_the_past_branches_and_the_old_course_stays_as_a_ghost(

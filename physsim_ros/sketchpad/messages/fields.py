@@ -22,6 +22,7 @@ from typing import Any
 from physsim_ros.model.checks import check_point, number, pair, shown
 from physsim_ros.model.colors import Color, color_from
 from physsim_ros.model.errors import BadProperty, Malformed
+from physsim_ros.model.names import LONGEST_NAME
 from physsim_ros.model.transform import Point, Pose
 
 # Of one message, not checked yet, by name.
@@ -29,31 +30,28 @@ Fields = Mapping[str, Any]
 # By type of message: the names of its fields, and the reader that makes a checked value of them.
 Readers = Mapping[str, tuple[list[str], Callable[[Fields], Any]]]
 
-# Length of a name of a body, a joint or a world [characters], as in `model.names`.
-LONGEST_NAME = 1000
-# Names in one message.
-MOST_NAMES = 1000
-
 
 def text_of(value: object, name: str) -> str:
     """
-    Return a text that is not too long.
+    Return a text that is no longer than a name.
 
     :raises BadProperty: it is none, or longer
     """
-    if not isinstance(value, str) or len(value) > LONGEST_NAME:
+    if not isinstance(value, str):
         raise BadProperty(f'{name} must be a text, not {shown(value)}', field=name)
+    if len(value) > LONGEST_NAME:
+        raise BadProperty(f'{name} has more than {LONGEST_NAME} characters', field=name)
     return value
 
 
 def names_of(value: object, name: str) -> tuple[str, ...]:
     """
-    Return the names of a list.
+    Return the names of a list, as many as a message holds.
 
-    :raises BadProperty: it is no list, or has no name, or too many
+    :raises BadProperty: it is no list, or has no name
     """
-    if not isinstance(value, list) or not 0 < len(value) <= MOST_NAMES:
-        raise BadProperty(f'{name} must be a list of 1 to {MOST_NAMES} names', field=name)
+    if not isinstance(value, list) or not value:
+        raise BadProperty(f'{name} must be a list of at least one name', field=name)
     return tuple(text_of(each, name) for each in value)
 
 

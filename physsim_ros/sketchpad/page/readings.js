@@ -16,12 +16,16 @@ export class Readings {
     /** @type {Map<string, Point[]>} strokes by their request */
     this.strokes = new Map();
     this.dismiss = () => {};
+    this.shown = ''; // request whose reading is shown
     app.view.overlays.push((view) => {
       for (const stroke of this.strokes.values()) view.line(stroke, view.palette.accent, [8, 6]);
     });
     app.connection.on('reading', (reading) => this.#show(reading));
     app.connection.on('answer', ({request, ok, code}) => {
-      if (!ok && code !== 'not_recognised') this.#forget(request);
+      if (ok || code === 'not_recognised') return;
+      this.#forget(request);
+      // Read, but not built.
+      if (request === this.shown) this.dismiss();
     });
     app.connection.on('closed', () => this.strokes.clear());
   }
@@ -40,6 +44,7 @@ export class Readings {
     const stroke = this.strokes.get(request) ?? outline;
     if (!stroke.length) return;
     this.dismiss();
+    this.shown = request;
     const at = /** @type {Point} */ ([
       stroke.reduce((sum, [x]) => sum + x, 0) / stroke.length, Math.max(...stroke.map(([, y]) => y))]);
     if (built) {

@@ -6,6 +6,7 @@
 /** @typedef {{point: ?Point, names: string[]}} Place of a request: a point [m], or bodies */
 
 const OUTLINED = 2500; // ms for which a body has an outline
+const KEPT = 100; // requests whose places are known: a stroke is answered by its reading, then by its requests
 /** Messages that are no deed of the reader. */
 const QUIET = ['show', 'watch', 'move', 'let_go', 'drop'];
 
@@ -13,7 +14,7 @@ export class Refusals {
   /** @param {App} app */
   constructor(app) {
     this.app = app;
-    /** @type {Map<string, Place>} by request, until its answer or the end of its socket */
+    /** @type {Map<string, Place>} by request, the last ones of this socket */
     this.places = new Map();
     /** @type {Map<string, number>} bodies, and when they were refused [ms] */
     this.bodies = new Map();
@@ -25,7 +26,6 @@ export class Refusals {
     });
     connection.on('answer', ({request, ok, code, message, subject, values}) => {
       const place = this.places.get(request) ?? {point: null, names: []};
-      this.places.delete(request);
       if (ok || code === 'not_recognised' || request === '') return;
       const name = values.body ?? subject;
       this.#show(app.words.tell({message}), name ? {...place, names: [name]} : place);
@@ -36,7 +36,9 @@ export class Refusals {
 
   /** @param {any} message */
   #note(message) {
-    if (!QUIET.includes(message.type)) this.places.set(message.id, placeOf(message));
+    if (QUIET.includes(message.type)) return;
+    this.places.set(message.id, placeOf(message));
+    if (this.places.size > KEPT) this.places.delete([...this.places.keys()][0]);
   }
 
   /**
