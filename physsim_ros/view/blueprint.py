@@ -21,7 +21,7 @@ a user's pan and zoom persist.
 
 from __future__ import annotations
 
-from physsim_ros.view import event_log, name_labels, plots, run_state_track, traces, velocities
+from physsim_ros.view import event_log, name_labels, plots, time_tracks, traces, velocities
 from physsim_ros.view.colors import PAPER
 from physsim_ros.view.frame_batch import RECORDED
 import rerun.blueprint as rrb
@@ -59,7 +59,7 @@ def blueprint(*, paced: bool, traced: bool) -> rrb.Blueprint:
         },
     )
     log = rrb.Horizontal(
-        run_state_track.run_state_view(),
+        time_tracks.time_view(),
         event_log.log_view(),
         column_shares=[1, 2],
         name='Time and log',

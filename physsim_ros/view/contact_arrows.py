@@ -39,6 +39,8 @@ LONGEST = 3.0
 _SHORT, _LONG = 0.15, 1.0
 # Standard gravity [m/s²], for the scale in worlds without one.
 _GRAVITY = 9.81
+# Time in which the impulses of the first frame act [ns]: a period of 60 Hz, the default rate.
+_FIRST_PERIOD = 16_666_667
 _NONE: Floats = np.empty((0, 2))
 
 
@@ -120,7 +122,7 @@ class ContactArrows:
             return _NONE, _NONE
         before = batch.frames[index - 1].snapshot.stamp if index else self._stamp
         period = 0 if before is None else abs(frame.snapshot.stamp - before)
-        forces = contact_forces(frame.contacts, batch.scene) / ((period or 16_666_667) * 1e-9)
+        forces = contact_forces(frame.contacts, batch.scene) / ((period or _FIRST_PERIOD) * 1e-9)
         scale = self._scale
         vectors = forces * (scale.length / scale.force)
         lengths = np.hypot(vectors[:, 0], vectors[:, 1])[:, None]

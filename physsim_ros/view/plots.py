@@ -90,7 +90,7 @@ def _counts(frame: Frame) -> tuple[float, ...]:
 PLOTS = {
     'plots/energy': Plot(
         'Energy [J]',
-        (('kinetic', _ORANGE), ('height', _BLUE), ('elastic', _GREEN), ('total', _GREY)),
+        (('kinetic', _ORANGE), ('potential', _BLUE), ('elastic', _GREEN), ('total', _GREY)),
         _energies,
     ),
     'plots/momentum': Plot('Momentum [kg m/s]', (('x', _ORANGE), ('y', _BLUE)), _momenta),

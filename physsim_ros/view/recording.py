@@ -44,8 +44,8 @@ from physsim_ros.view.meshes.mesh_track import MeshTrack
 from physsim_ros.view.name_labels import NameLabels
 from physsim_ros.view.plots import Plots
 from physsim_ros.view.preview_lines import PreviewLines
-from physsim_ros.view.run_state_track import RunStateTrack
 from physsim_ros.view.status import Status
+from physsim_ros.view.time_tracks import TimeTracks
 from physsim_ros.view.traces import Traces
 from physsim_ros.view.velocities import send_velocities
 import rerun as rr
@@ -87,7 +87,7 @@ class FrameRecorder:
         self._traces = Traces(recording)
         self._hands = HandLines(recording)
         self._previews = PreviewLines(recording)
-        self._run_states = RunStateTrack(recording)
+        self._time_tracks = TimeTracks(recording)
         self._plots = Plots(recording)
         self._status = Status(recording)
         self._legend = Legend(recording)
@@ -156,7 +156,7 @@ class FrameRecorder:
         self._previews.send(batch, unit=unit, height=_PREVIEW * unit, repeat=REPEAT)
         self._plots.send(batch)
         send_events(self._recording, batch)
-        self._run_states.send(batch)
+        self._time_tracks.send(batch)
         self._status.send(batch)
 
     def _change_scene(self, batch: FrameBatch) -> BodyGeometry:

@@ -32,7 +32,7 @@ from physsim_ros.view.joints.joint_glyphs import is_rigid
 from physsim_ros.view.joints.joint_lines import JointLines
 from physsim_ros.view.joints.joint_symbols import symbol_sizes, symbols_of
 from physsim_ros.view.meshes.body_mesh import JOINT_INK, JOINT_LINE
-from physsim_ros.view.meshes.mesh import Form, MeshBuilder
+from physsim_ros.view.meshes.mesh import MeshBuilder, Strips
 from physsim_ros.view.meshes.mesh_group import MeshGroup
 import rerun as rr
 
@@ -71,13 +71,13 @@ class JointGeometry:
         self._places = joints, np.array([each.point for each in symbols], np.intp)
         self._sides = scene.joint_rows[joints, sides]
         self.groups = [
-            self._group(row, scene.joints[each.joint].name, each.form)
+            self._group(row, scene.joints[each.joint].name, each.strips)
             for row, each in enumerate(symbols)
         ]
 
-    def _group(self, row: int, joint: str, form: Form) -> MeshGroup:
+    def _group(self, row: int, joint: str, strips: Strips) -> MeshGroup:
         builder = MeshBuilder()
-        for strip in form:
+        for strip in strips:
             builder.add_line(strip, self._radius, JOINT_INK)
         return MeshGroup(
             path=(*ROOT.split('/'), *joint.rsplit('/', 1), str(row)),

@@ -30,7 +30,7 @@ from physsim_ros.model.scene import Scene
 from physsim_ros.model.transform import Point
 from physsim_ros.view.joints.joint_glyphs import is_rigid, joint_strips, Strip, symbol_size
 from physsim_ros.view.joints.joint_lines import JointLines
-from physsim_ros.view.meshes.mesh import Form
+from physsim_ros.view.meshes.mesh import Strips
 
 # Decimals that corners are rounded to, so that equal symbols are equal: a micrometre.
 _DIGITS = 6
@@ -45,16 +45,16 @@ class LooseSymbol(NamedTuple):
     :ivar joint: row of the joint
     :ivar point: 0 or 1, its first or second point
     :ivar side: 0 or 1: the body with which it turns, a or b
-    :ivar form: about the point
+    :ivar strips: about the point
     """
 
     joint: int
     point: int
     side: int
-    form: Form
+    strips: Strips
 
 
-def symbols_of(scene: Scene, sizes: list[float]) -> tuple[dict[int, Form], list[LooseSymbol]]:
+def symbols_of(scene: Scene, sizes: list[float]) -> tuple[dict[int, Strips], list[LooseSymbol]]:
     """
     Return the symbols of a scene: of each body by its row, and all others.
 

@@ -33,7 +33,7 @@ from physsim_ros.model.settings import Bounds
 from physsim_ros.model.shapes import Box, Disc
 from physsim_ros.model.transform import turned
 from physsim_ros.view.meshes.body_mesh import body_mesh, opacity
-from physsim_ros.view.meshes.mesh import Form
+from physsim_ros.view.meshes.mesh import Strips
 from physsim_ros.view.meshes.mesh_group import MeshGroup, Path
 
 ROOT = 'world/bodies'
@@ -42,7 +42,7 @@ ROOT = 'world/bodies'
 DEPTH = 0.02
 # Ratio of two sizes up to which boxes or discs share a scaled mesh: their outlines differ in width
 # by as much.
-_LADDER = 1.5
+_SIZE_RATIO = 1.5
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -62,7 +62,7 @@ class _Members:
 
     first: Body
     before: BodyGroup | None
-    symbols: Form
+    symbols: Strips
     rows: list[int] = field(default_factory=list)
     names: list[str] = field(default_factory=list)
     scales: list[tuple[float, float, float]] = field(default_factory=list)
@@ -85,7 +85,7 @@ class BodyGeometry:
         scene: Scene,
         unit: float,
         before: BodyGeometry | None = None,
-        symbols: Mapping[int, Form] = MappingProxyType({}),
+        symbols: Mapping[int, Strips] = MappingProxyType({}),
     ) -> None:
         self.scene = scene
         self.unit = unit
@@ -137,9 +137,9 @@ def _appearance(body: Body) -> Hashable:
     shape: Hashable = body.shape
     match body.shape:
         case Disc(radius=radius):
-            shape = _rung(radius)
+            shape = _size_class(radius)
         case Box(width=width, height=height):
-            shape = _rung(width), _rung(height)
+            shape = _size_class(width), _size_class(height)
     return shape, *_look(body)
 
 
@@ -148,8 +148,9 @@ def _look(body: Body) -> tuple[Hashable, ...]:
     return body.color, body.anchored, body.kinematic, body.sensor
 
 
-def _rung(size: float) -> int:
-    return round(math.log(size, _LADDER))
+def _size_class(size: float) -> int:
+    """Return the class of a size [m]; the next class is greater by `_SIZE_RATIO`."""
+    return round(math.log(size, _SIZE_RATIO))
 
 
 def _scale(body: Body, first: Body) -> tuple[float, float, float]:

@@ -30,7 +30,7 @@ from physsim_ros.model.colors import Color
 from physsim_ros.model.scene import Body
 from physsim_ros.model.shapes import Capsule, Circle, Convex, Disc, Piece, Polygon, Triangles
 from physsim_ros.model.transform import Point
-from physsim_ros.view.meshes.mesh import Form, inset, Mesh, MeshBuilder
+from physsim_ros.view.meshes.mesh import inset, Mesh, MeshBuilder, Strips
 
 # Width of outlines [units], and as a share of the inner half width of a body at most.
 _OUTLINE, _OUTLINE_SHARE = 0.03, 0.25
@@ -54,7 +54,7 @@ def opacity(body: Body) -> float:
     return body.color[3] * (_TRANSLUCENT if body.sensor else 1.0)
 
 
-def body_mesh(body: Body, unit: float, symbols: Form = ()) -> Mesh:
+def body_mesh(body: Body, unit: float, symbols: Strips = ()) -> Mesh:
     """
     Return the mesh of a body, in the body's frame.
 

@@ -41,7 +41,7 @@ _END_SIDES = 12
 _MITRE = 4.0
 
 # Strips in the frame of a body, each through its corners [m].
-Form = tuple[tuple[Point, ...], ...]
+Strips = tuple[tuple[Point, ...], ...]
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -31,7 +31,7 @@ _MAGIC = b'RRF'
 
 class FileEndpoint(Endpoint):
     """
-    A `.rrd` file, for which no frame is dropped.
+    A `.rrd` file, whose queue is bounded by memory alone.
 
     :param path: of the file
     :param overwrite: whether a recording of that name is replaced; else another name is taken

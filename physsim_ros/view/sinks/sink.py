@@ -93,7 +93,7 @@ class Endpoint(ABC):
         """
         End the program, if there is one, and start none any more.
 
-        Called more than once, and from another thread while `open_sink` or `check_program` runs.
+        Called more than once, and from another thread while `open_sink` or `check` runs.
         """
 
     def opened_answer(self) -> Answer:

@@ -66,9 +66,9 @@ _CHANGES = {
 }
 
 
-class RunStateTrack:
+class TimeTracks:
     """
-    Sends run states, courses and changes.
+    Sends run states, past and present, courses and changes.
 
     :param recording: stream to log to
     """
@@ -85,7 +85,7 @@ class RunStateTrack:
         """Send the changes in the frames of a batch."""
         for index, frame in enumerate(batch.frames):
             times = batch.times_at([index])[:1]
-            self._send(RUN, run_state(frame.speed), times)
+            self._send(RUN, speed_word(frame.speed), times)
             self._send(PAST, 'past' if frame.past else 'present', times)
             color = _COURSE_COLORS[(frame.course - 1) % len(_COURSE_COLORS)]
             self._style(COURSE, {str(frame.course): color})
@@ -127,7 +127,7 @@ class RunStateTrack:
             self._recording.send_columns(path, times, column)
 
 
-def run_state(speed: float) -> str:
+def speed_word(speed: float) -> str:
     """Return the word for a speed; Rerun has one colour for each."""
     if speed == 0.0:
         return 'pause'
@@ -137,6 +137,6 @@ def run_state(speed: float) -> str:
     return 'back' if pace == 1.0 else 'fast back' if pace > 1.0 else 'slowly back'
 
 
-def run_state_view() -> rrb.StateTimelineView:
+def time_view() -> rrb.StateTimelineView:
     """Return the view of the tracks, for the blueprint."""
     return rrb.StateTimelineView(origin='time', name='Time')

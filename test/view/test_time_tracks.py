@@ -27,7 +27,7 @@ from physsim_ros.model.shapes import Disc
 from physsim_ros.model.snapshot import Answer, Frame, Snapshot
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.view.frame_batch import RecordedClock
-from physsim_ros.view.run_state_track import RunStateTrack
+from physsim_ros.view.time_tracks import TimeTracks
 import pytest
 
 rr = pytest.importorskip('rerun')
@@ -47,7 +47,7 @@ def drawn(path: Path, *batches: list[Frame]) -> dict[str, list[tuple[int, str]]]
     """Draw frames, and return what stands in the recording: number and state by entity."""
     recording = rr.RecordingStream('test', recording_id='band')
     recording.save(path)
-    track = RunStateTrack(recording)
+    track = TimeTracks(recording)
     clock = RecordedClock()
     for frames in batches:
         for batch in clock.batches(frames):
@@ -85,7 +85,7 @@ def styles(path: Path) -> dict[str, int]:
     """Draw nothing, and return the colours of states that stand in the recording."""
     recording = rr.RecordingStream('test', recording_id='band')
     recording.save(path)
-    RunStateTrack(recording)
+    TimeTracks(recording)
     recording.flush()
     recording.disconnect()
     (batch,) = (
