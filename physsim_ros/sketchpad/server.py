@@ -199,7 +199,8 @@ class Server:
         """
         self._uploads += 1
         request_id = str(self._uploads)
-        reply = self._replies[request_id] = self._loop.create_future()
+        reply: asyncio.Future[Answer] = self._loop.create_future()
+        self._replies[request_id] = reply
         try:
             if self.inbox_put(Incoming(SERVER, request_id, upload)):
                 await asyncio.wait([reply], timeout=patience)
