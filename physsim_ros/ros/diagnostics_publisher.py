@@ -66,8 +66,7 @@ class DiagnosticsPublisher:
             return
         self._due = now_ns + _PERIOD
         outputs = self._outputs
-        for answer in outputs.viewer.poll():
-            outputs.report_answer(answer)
+        outputs.report_answers(outputs.viewer.poll())
         if outputs.frame is None or self._publisher.get_subscription_count() == 0:
             return
         simulation, events = self._simulation, outputs.topics.events

@@ -15,7 +15,7 @@
 """
 The outputs of the node: the topics, the viewer and the sketchpad, each with frames and answers.
 
-Law: an answer that a frame carries is published with it, every other one by `report_answer`.
+Law: an answer that a frame carries is published with it, every other one by `report_answers`.
 """
 
 from __future__ import annotations
@@ -107,12 +107,13 @@ class FrameOutputs:
         """Publish the preview of the session if it has changed."""
         self.topics.publish_preview(self._session.preview)
 
-    def report_answer(self, answer: Answer) -> None:
-        """Publish and log an answer that no frame carries."""
-        self.topics.publish_answer(answer)
-        if self.sketchpad is not None:
-            self.sketchpad.report(answer)
-        self._log_answer(answer)
+    def report_answers(self, answers: tuple[Answer, ...]) -> None:
+        """Publish and log answers that no frame carries."""
+        if answers and self.sketchpad is not None:
+            self.sketchpad.report(answers)
+        for answer in answers:
+            self.topics.publish_answer(answer)
+            self._log_answer(answer)
 
     def update_clock(self) -> None:
         """Publish simulation time on `clock`, or not, as parameter `publish_clock` says."""

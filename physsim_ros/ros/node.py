@@ -301,8 +301,7 @@ class PhysSimNode(NodeWithoutQosEvents):
     def _report_answers(self) -> tuple[Answer, ...]:
         """Publish and log the answers that no frame carries, and return them."""
         answers = self.simulation.take_answers()
-        for answer in answers:
-            self.outputs.report_answer(answer)
+        self.outputs.report_answers(answers)
         return answers
 
     # Pages

@@ -117,9 +117,9 @@ class Sketchpad:
         if status is not None:
             self._server.send(timeline_content(status))
 
-    def report(self, answer: Answer) -> None:
-        """Send an answer outside of a frame."""
-        self._server.answer((answer,))
+    def report(self, answers: tuple[Answer, ...]) -> None:
+        """Send answers that no frame carries."""
+        self._server.answer(answers)
 
     def close(self) -> None:
         """Close all pages, and end the server's thread."""

@@ -79,6 +79,7 @@ def test_of_many_answers_in_a_frame_others_get_the_first_and_the_count_of_the_re
     for number in range(30):
         for asker in ('1:a', '2:b', ''):
             requests.tell(Answer(topic='page', message=f'{number}', asker=asker))
+    browser.physsim.node.apply_requests()
     numbers = [f'{number}' for number in range(30)]
     for page, id_ in ((one, 'a'), (other, 'b')):
         page.until(lambda page=page: any('more' in each['message'] for each in page.answers('')))
