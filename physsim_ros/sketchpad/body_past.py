@@ -20,8 +20,11 @@ Law: the world's thread only looks up the snapshots; the server's thread makes t
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
+from itertools import groupby
+from operator import attrgetter
+import time
 from typing import Any
 
 import numpy as np
@@ -29,57 +32,66 @@ from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.transform import turned
 from physsim_ros.simulation.simulation import Simulation
-from physsim_ros.sketchpad.page_requests import Send
+from physsim_ros.sketchpad.page_requests import Content
 
 # Frames that a page gets of the past: a minute at 60 Hz.
 MOST_FRAMES = 3600
-# From one past that a page gets to the next [s]: each takes XX ms of the server's thread.
-PERIOD = 1.0
+# From one past to the next, for all pages together [s]: each takes some 35 ms of the server's
+# thread.
+PERIOD = 0.2
 
 
-class BodyWatch:
+class BodyPasts:
     """
-    The body whose past a page asks for: that of the last request is sent, once a period at most.
+    The pasts of bodies that pages ask for, sent one after the other.
+
+    Of several that a page asks for meanwhile, it gets the last.
 
     :param simulation: with the past
-    :param send: sends a message to the page
+    :param send: sends a message to the page of a number
     """
 
-    def __init__(self, simulation: Simulation, send: Send) -> None:
+    def __init__(self, simulation: Simulation, send: Callable[[Content, int], None]) -> None:
         self._simulation = simulation
         self._send = send
-        # Body and identifier of the request that is not fulfilled yet.
-        self._asked: tuple[str, str] | None = None
-        # Steady time from which on the next past is sent [s].
+        # Body and identifier of the message that asks, by page, in the order of their turns.
+        self._asked: dict[int, tuple[str, str]] = {}
+        # Steady time from which on the next one is sent [s].
         self._due = 0.0
 
-    def watch(self, name: str, request_id: str, now: float) -> None:
+    def ask(self, page: int, name: str, request_id: str) -> None:
         """
-        Send the past of a body, as soon as that is due.
+        Send a page the past of a body when it is its turn.
 
         :param name: of the body; '' is none, whose columns are empty
         :param request_id: of the message that asks
-        :param now: steady time [s]
         """
-        self._asked = (name, request_id) if name else None
         if name:
-            self.send_due(now)
+            # A page that asks again keeps its turn.
+            self._asked[page] = (name, request_id)
+            self.send_due(time.monotonic())
         else:
-            self._send(partial(_body_content, '', request_id, ()))
+            self.forget(page)
+            self._send(partial(_body_content, name, request_id, ()), page)
+
+    def forget(self, page: int) -> None:
+        """Send a page nothing of what it has asked for."""
+        self._asked.pop(page, None)
 
     def send_due(self, now: float) -> None:
         """
-        Send the past that was asked for last, where that has not been done and is due.
+        Send the next past, where one is asked for and due.
 
         :param now: steady time [s]
         """
-        if self._asked is None or now < self._due:
+        if not self._asked or now < self._due:
             return
-        (name, request_id), self._asked = self._asked, None
         self._due = now + PERIOD
+        page = next(iter(self._asked))
+        name, request_id = self._asked.pop(page)
         simulation = self._simulation
         snapshots = simulation.past.frame_cache.snapshots(simulation.step, MOST_FRAMES)
-        self._send(partial(_body_content, name, request_id, snapshots))
+        self._send(partial(_body_content, name, request_id, snapshots), page)
 
 
 def _body_content(name: str, request_id: str, snapshots: Sequence[Snapshot]) -> dict[str, Any]:
@@ -93,23 +105,21 @@ def body_past(snapshots: Sequence[Snapshot], name: str) -> dict[str, list[float]
     :param snapshots: in the order of time
     :param name: of the body; of one that was not there the columns are empty
     """
-    rows: list[tuple[float, ...]] = []
-    scene: Scene | None = None
-    row, centroid = -1, (0.0, 0.0)
-    for snapshot in snapshots:
-        if snapshot.scene is not scene:
-            scene = snapshot.scene
-            row = _row_of(name, scene, row)
-            if row >= 0:
-                centroid = scene.bodies[row].shape.form.centroid
+    times: list[float] = []
+    columns = [np.empty((0, 5))]
+    row = -1
+    for scene, group in groupby(snapshots, attrgetter('scene')):
+        row = _row_of(name, scene, row)
         if row >= 0:
-            pose, twist = snapshot.poses[row].tolist(), snapshot.twists[row].tolist()
-            rows.append((snapshot.stamp * 1e-9, *pose, *twist, *centroid))
-    columns = np.array(rows).reshape(-1, 9)
-    centers = columns[:, 1:3] + turned(columns[:, 7:], columns[:, 3])
-    x, y = centers.T.tolist()
-    vx, vy, spin = columns[:, 4:7].T.tolist()
-    return {'time': columns[:, 0].tolist(), 'x': x, 'y': y, 'vx': vx, 'vy': vy, 'w': spin}
+            shown = list(group)
+            times += [each.stamp * 1e-9 for each in shown]
+            poses = np.array([each.poses[row] for each in shown])
+            twists = np.array([each.twists[row] for each in shown])
+            centroid = np.array(scene.bodies[row].shape.form.centroid)
+            centers = poses[:, :2] + turned(centroid, poses[:, 2])
+            columns.append(np.concatenate((centers, twists), axis=1))
+    x, y, vx, vy, spin = np.concatenate(columns).T.tolist()
+    return {'time': times, 'x': x, 'y': y, 'vx': vx, 'vy': vy, 'w': spin}
 
 
 def _row_of(name: str, scene: Scene, before: int) -> int:

@@ -30,7 +30,7 @@ from physsim_ros.model.requests import KeepHand, LetGo
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.sketchpad import messages
 from physsim_ros.sketchpad.answers import asker_key, request_of
-from physsim_ros.sketchpad.body_past import BodyWatch
+from physsim_ros.sketchpad.body_past import BodyPasts
 from physsim_ros.sketchpad.page_drawing import PageDrawing
 from physsim_ros.sketchpad.page_requests import PageRequests, Send
 from physsim_ros.sketchpad.world_control import WorldControl
@@ -48,18 +48,25 @@ class PageSession:
     :param world: that it draws in
     :param page: number of the page
     :param send: sends a message to the page
+    :param pasts: of bodies, for all pages
     :param on_save: called when a world was saved
     """
 
     def __init__(
-        self, world: WorldControl, *, page: int, send: Send, on_save: Callable[[], None]
+        self,
+        world: WorldControl,
+        *,
+        page: int,
+        send: Send,
+        pasts: BodyPasts,
+        on_save: Callable[[], None],
     ) -> None:
         self._on_save = on_save
         self._world = world
         self._page = page
         self._requests = PageRequests(world, send)
         self._drawing = drawing = PageDrawing(world, self._requests, send)
-        self._body_watch = BodyWatch(world.simulation, send)
+        self._pasts = pasts
         self._hand = f'page {page}'
         # Steady time of the last request of the hand [s]; None while it holds nothing.
         self._hand_used: float | None = None
@@ -91,19 +98,19 @@ class PageSession:
         self._actions[type(message)](message, asker_key(self._page, request_id))
         self._drawing.send_preview()
 
-    def update(self, now: float) -> None:
+    def keep_hand(self, now: float) -> None:
         """
-        Keep what the hand holds still, as long as the page is open, and send what is due.
+        Keep what the hand holds still, as long as the page is open.
 
         :param now: steady time [s]
         """
-        self._body_watch.send_due(now)
         if self._hand_used is not None and now - self._hand_used > HAND_PERIOD:
             self._hand_used = now
             self._requests.submit((KeepHand(hand=self._hand),), '~/drag/feedback', '')
 
     def close(self) -> None:
-        """Let go of what the hand of the page holds."""
+        """Let go of what the hand of the page holds, and forget what it has asked for."""
+        self._pasts.forget(self._page)
         if self._hand_used is not None:
             self._requests.submit((LetGo(hand=self._hand),), '~/drag/feedback', '')
 
@@ -119,7 +126,7 @@ class PageSession:
         self._requests.submit((request,), '~/drag/feedback', asker)
 
     def _watch(self, message: messages.Watch, asker: str) -> None:
-        self._body_watch.watch(message.name, request_of(asker), time.monotonic())
+        self._pasts.ask(self._page, message.name, request_of(asker))
 
     # Time
 

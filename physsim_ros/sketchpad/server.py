@@ -133,7 +133,7 @@ class Server:
         """Whether a page is open, or an upload waits for its answer."""
         return bool(self.pages or self._replies)
 
-    def send(self, content: Content, *, page: int | None = None) -> None:
+    def send(self, content: Content, page: int | None = None) -> None:
         """
         Send a message.
 

@@ -28,6 +28,7 @@ from typing import Any
 
 from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.sketchpad.access import Role
+from physsim_ros.sketchpad.body_past import BodyPasts
 from physsim_ros.sketchpad.inbox import Closed, Inbox, Incoming, Opened, SERVER
 from physsim_ros.sketchpad.page_requests import Content
 from physsim_ros.sketchpad.page_session import PageSession
@@ -79,6 +80,7 @@ class Sketchpad:
             inbox=self._inbox,
             wake=wake,
         )
+        self._pasts = BodyPasts(world.simulation, self._server.send)
         self._sessions: dict[int, PageSession] = {}
         self._server_session = self._session(SERVER)
         self._told_recording = self._recording_path()
@@ -99,7 +101,8 @@ class Sketchpad:
             self._server.send({'type': 'recording', 'rerun': self._told_recording})
         now = time.monotonic()
         for session in self._sessions.values():
-            session.update(now)
+            session.keep_hand(now)
+        self._pasts.send_due(now)
         deadline = now + BUDGET
         while (incoming := self._inbox.take()) is not None:
             self._handle(incoming)
@@ -172,4 +175,10 @@ class Sketchpad:
         def send(content: Content) -> None:
             self._server.send(content, page=number)
 
-        return PageSession(self._world, page=number, send=send, on_save=self._server.list_worlds)
+        return PageSession(
+            self._world,
+            page=number,
+            send=send,
+            pasts=self._pasts,
+            on_save=self._server.list_worlds,
+        )

@@ -14,7 +14,9 @@
 
 """A saved world loads again to the bit; a world that is written by hand loads, too."""
 
+import itertools
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 from hypothesis import given, settings
@@ -22,8 +24,10 @@ from hypothesis import strategies as st
 import numpy as np
 from physsim_ros.files import (
     save_world,
+    text_of,
 )
 from physsim_ros.model.colors import color_of
+from physsim_ros.model.errors import WorldFull
 from physsim_ros.model.requests import Anchor, Command, Configure, Release
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Disc
@@ -102,6 +106,17 @@ def test_every_name_round_trips(name: str, folder: Path) -> None:
     spawn(world, name, DISC)
 
     assert_round_trip(world, folder)
+
+
+def test_no_more_of_a_world_is_written_than_its_text_may_be_long() -> None:
+    world = World()
+    spawn(world, 'a/0', DISC)
+    state = world.save()
+    text = text_of(state, world.physics_rate)
+    assert text_of(state, world.physics_rate, longest=len(text)) == text
+    endless = SimpleNamespace(settings=state.settings, bodies=itertools.cycle(state.bodies))
+    with pytest.raises(WorldFull, match=f'longer than {len(text)} characters'):
+        text_of(endless, world.physics_rate, longest=len(text))
 
 
 def test_a_wrench_round_trips_for_as_long_as_it_has_left(folder: Path) -> None:

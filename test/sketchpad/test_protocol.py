@@ -33,7 +33,7 @@ from physsim_ros.testing import PhysSim
 import pytest
 from rclpy.parameter import Parameter
 
-from .browser import Browser, PATIENCE
+from .browser import Browser, Page, PATIENCE
 
 
 def circle(x: float, y: float, radius: float) -> list[list[float]]:
@@ -276,28 +276,31 @@ def test_the_past_of_a_body_is_told(browser: Browser) -> None:
     assert np.array(body['vy']) == pytest.approx(-9.81 * times, abs=1e-6)
 
 
-def test_the_past_is_told_once_a_period_of_the_body_that_was_asked_for_last(
+def test_pasts_are_told_one_after_the_other_of_each_page_the_last_that_it_asked_for(
     browser: Browser, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(body_past, 'PERIOD', PATIENCE)
-    physsim, page, other = browser.physsim, browser.open_page(), browser.open_page('/ws?view')
-    physsim.run(0.5)
-    for name in ('a/0', 'b/0', 'c/0', ''):
+    monkeypatch.setattr(body_past, 'PERIOD', 2.0 * PATIENCE)
+    page, other = browser.open_page(), browser.open_page('/ws?view')
+    sketchpad = browser.physsim.node.outputs.sketchpad
+
+    def names(page: Page) -> list[str]:
+        return [each['name'] for each in page.of_type('body')]
+
+    for name in ('a/0', 'b/0', '', 'c/0', 'd/0'):
         page.send('watch', name=name)
-    page.send('watch', name='d/0')
+    page.until(lambda: names(page) == ['a/0', ''])
     other.send('watch', name='a/0')
-    other.until(lambda: other.of_type('body'))
+    other.send('watch', name='e/0')
+    assert other.ask('seek', time=0.0)['code'] == 'view_only'
     page.ask('drop')
-    assert [each['name'] for each in page.of_type('body')] == ['a/0', '']
-    # The period is over.
-    session = physsim.node.outputs.sketchpad._sessions[1]  # noqa: SLF001
-    session.update(time.monotonic() + PATIENCE)
-    page.until(lambda: len(page.of_type('body')) == 3)
-    assert page.of_type('body')[-1]['name'] == 'd/0'
-    assert page.of_type('body')[-1]['time'] == []
+    assert (names(page), names(other)) == (['a/0', ''], [])
+    for turn in range(3):
+        sketchpad._pasts.send_due(time.monotonic() + 3.0 * PATIENCE * (turn + 1))  # noqa: SLF001
+    page.until(lambda: len(names(page)) == 3 and names(other))
+    assert (names(page), names(other)) == (['a/0', '', 'd/0'], ['e/0'])
 
 
-def test_a_world_that_is_too_long_to_share_is_refused_before_it_is_written(
+def test_a_world_that_is_too_long_to_share_is_refused(
     browser: Browser, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     page = browser.open_page()
