@@ -225,21 +225,11 @@ def test_a_wrong_message_is_refused_and_changes_nothing(browser: Browser, text: 
     assert page.ask('drop')['ok']
 
 
-def test_a_refusal_of_the_server_has_all_fields_of_an_answer(browser: Browser) -> None:
-    page = browser.open_page('/ws?view')
+def test_a_refusal_names_the_field_and_why(browser: Browser) -> None:
+    page = browser.open_page()
     refused = page.ask('seek', time='soon')
-    assert refused == {
-        'type': 'answer',
-        'request': 'm1',
-        'ok': False,
-        'code': 'bad_property',
-        'message': "time must be a number, not 'soon'",
-        'subject': '',
-        'topic': 'page',
-        'field': 'time',
-        'values': {},
-    }
-    assert page.ask('drop').keys() == refused.keys()
+    assert (refused['field'], refused['topic']) == ('time', '')
+    assert refused['message'] == "time must be a number, not 'soon'"
     too_long = page.ask('watch', name='a' * 1001)
     assert too_long['message'] == 'name has more than 1000 characters'
 
