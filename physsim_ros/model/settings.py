@@ -31,6 +31,9 @@ STRONGEST = 1e4
 # Greatest number of joints on one body, beside `max_joints` of the world: a new joint takes a
 # microsecond for each other one on its bodies.
 MOST_JOINTS_ON_BODY = 1000
+# Greatest number of hands that drag at once, each 12 µs a step: as many as there may be pages,
+# each of which has one.
+MOST_HANDS = 64
 # Greatest number of samples of a stroke: a minute of a pen at 160 Hz.
 MOST_SAMPLES = 10_000
 

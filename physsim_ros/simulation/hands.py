@@ -16,13 +16,15 @@
 The hands of people: which of them drag a body, in which gesture, and how long they are silent.
 
 Laws: from the grab until the hand lets go is one gesture; requests that come after its grip is
-gone, or after another moment is shown, change nothing.
+gone, or after another moment is shown, change nothing; at most `MOST_HANDS` drag.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
+from physsim_ros.model.grips import Grip
 from physsim_ros.model.requests import (
     Grab,
     GrabToPlace,
@@ -91,6 +93,11 @@ class Hands:
                 hand.silent_since = now_ns
             elif now_ns - hand.silent_since > LONGEST_SILENCE:
                 del self._dragging[name]
+
+    def drop_without_grip(self, grips: Iterable[Grip]) -> None:
+        """Drop the hands whose bodies are gone: they have none of the grips."""
+        with_grip = {grip.hand for grip in grips}
+        self._dragging = {name: hand for name, hand in self._dragging.items() if name in with_grip}
 
     def clear(self) -> None:
         """Drop all hands: another moment is shown than the one at which they grabbed."""

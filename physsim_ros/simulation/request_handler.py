@@ -174,6 +174,8 @@ class RequestHandler:
         gesture = self.hands.gesture_of(request, gesture)
         done = self._apply_to_world(request, gesture)
         self.hands.note_request(request, gesture)
+        if isinstance(request, Grab):
+            self.hands.drop_without_grip(self._past.timeline.world.grips)
         return done
 
     def _apply_to_world(self, request: Request, gesture: int) -> tuple[str, str]:

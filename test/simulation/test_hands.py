@@ -19,7 +19,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from physsim_ros.model.errors import Malformed, Refusal
+from physsim_ros.model.errors import Malformed, Refusal, WorldFull
+from physsim_ros.model.grips import Grip
 from physsim_ros.model.requests import (
     Anchor,
     Delete,
@@ -30,10 +31,11 @@ from physsim_ros.model.requests import (
     Restore,
     Spawn,
 )
-from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.settings import MOST_HANDS, WorldSettings
 from physsim_ros.model.shapes import Box, Disc
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.model.transform import Point
+from physsim_ros.simulation.hands import Hands
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
 import pytest
@@ -131,11 +133,12 @@ def test_two_hands_hold_one_body_and_share_its_weight() -> None:
     assert snapshot.twists[0] == pytest.approx([0.0, 0.0, 0.0], abs=1e-3)
 
 
-def test_a_hundred_hands_on_one_body_do_not_shake_it() -> None:
-    world = World()
+@pytest.mark.parametrize('iterations', [1, 10])
+def test_as_many_hands_on_one_body_as_there_may_be_do_not_shake_it(iterations: int) -> None:
+    world = World(settings=WorldSettings(iterations=iterations))
     spawn(world, 'a/0', ROD)
-    for number in range(100):
-        world.apply(Grab(hand=str(number), point=((number - 50) / 60, 0.0)))
+    for number in range(MOST_HANDS):
+        world.apply(Grab(hand=str(number), point=(number / 40 - 0.8, 0.0)))
     world.apply(MoveHand(hand='0', point=(-0.8, 0.5)))
     world.step(240)
 
@@ -168,6 +171,35 @@ def test_a_hand_that_finds_no_movable_body_is_refused_and_keeps_what_it_holds(
 
     assert refused.value.code == 'nothing_there'
     assert world.digest() == before
+
+
+def test_a_hand_beyond_as_many_as_there_may_be_is_refused_until_another_lets_go() -> None:
+    world = World(settings=NOWHERE)
+    spawn(world, 'a/0', DISC)
+    for number in range(MOST_HANDS):
+        world.apply(Grab(hand=str(number), point=(0.0, 0.0)))
+    before = world.digest()
+
+    with pytest.raises(WorldFull):
+        world.apply(Grab(hand='one more', point=(0.0, 0.0)))
+
+    assert world.digest() == before
+    # One that grabs again takes the place that it has.
+    world.apply(Grab(hand='0', point=(0.1, 0.0)))
+    world.apply(LetGo(hand='0'))
+    world.apply(Grab(hand='one more', point=(0.0, 0.0)))
+    assert len(world.grips) == MOST_HANDS
+
+
+def test_hands_whose_bodies_are_gone_are_dropped_when_another_grabs() -> None:
+    hands = Hands()
+    for hand in ('h', 'k'):
+        hands.note_request(Grab(hand=hand, point=(0.0, 0.0)), 1)
+
+    hands.drop_without_grip([Grip('k', 'a/0', (0.0, 0.0), (0.0, 0.0))])
+
+    assert 'h' not in hands
+    assert 'k' in hands
 
 
 @pytest.mark.parametrize('hand', ['', 'x' * 1001, 'a\nb'])

@@ -17,7 +17,7 @@ Capacity: how much a world may hold, checked before the engine has it.
 
 Law: what is spawned, changed, moved, released or loaded is refused as `world_full` if the bodies,
 their pieces, the pairs of these that overlap at once, or the joints would be more than the
-settings allow.
+settings allow; so is a grip beyond `MOST_HANDS`.
 
 A body that is spawned or moved alone is counted by what its box meets in the engine's own tree,
 which is too many; the sum of these is a bound. Only where the bound exceeds the limit, the
@@ -47,7 +47,7 @@ from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import WorldFull
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.scene import Body, Joint
-from physsim_ros.model.settings import MOST_JOINTS_ON_BODY, WorldSettings
+from physsim_ros.model.settings import MOST_HANDS, MOST_JOINTS_ON_BODY, WorldSettings
 from physsim_ros.model.shapes import Shape
 from physsim_ros.model.transform import Pose
 
@@ -164,6 +164,16 @@ class Capacity:
             _check_joints(len(joints.by_name) + 1, self.settings.max_joints)
         for body in (joint.a, joint.b):
             _check_on_body(joints.count_on(body, joint), body)
+
+    def check_hand(self, space: Space, hand: str) -> None:
+        """
+        Refuse the grip of a hand for which there is no place, unless it replaces one of that hand.
+
+        :raises WorldFull: there is none
+        """
+        grips = space.pipeline.mouse_joints
+        if self.checking and grips.grip_of(hand) is None and len(grips.grips()) >= MOST_HANDS:
+            raise WorldFull(f'{MOST_HANDS} hands drag a body; there may be no more')
 
     def check_state(self, state: WorldState) -> None:
         """

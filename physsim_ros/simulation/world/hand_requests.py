@@ -49,7 +49,7 @@ def apply_hand_request(space: Space, request: HandRequest, capacity: Capacity) -
     match request:
         case Grab(point=point, frame=frame):
             (point,) = points_in_world(space, (point,), frame)
-            return grab_body(space, request, point)
+            return grab_body(space, request, point, capacity)
         case MoveHand(point=point, yaw=yaw, frame=frame):
             x, y, turned = pose_in_world(space, (*point, yaw or 0.0), frame)
             moved = replace(request, point=(x, y), yaw=None if yaw is None else turned)
@@ -60,13 +60,14 @@ def apply_hand_request(space: Space, request: HandRequest, capacity: Capacity) -
             return let_go(space, hand)
 
 
-def grab_body(space: Space, request: Grab, point: Point) -> tuple[str, str]:
+def grab_body(space: Space, request: Grab, point: Point, capacity: Capacity) -> tuple[str, str]:
     """
     Add the grip of a hand on the topmost body under a point.
 
     :param point: in the world [m]
     :return: name of the body, and a sentence that says what was done
     :raises NothingThere: there is no body that can be grabbed
+    :raises WorldFull: too many hands drag a body
     """
     under = space.bodies.at(point)
     movable = [name for name in under if not space.bodies.by_name[name].body.fixed]
@@ -76,6 +77,7 @@ def grab_body(space: Space, request: Grab, point: Point) -> tuple[str, str]:
         why = 'the body there cannot be moved' if under else 'there is no body'
         message = f'{why} at ({x:g}, {y:g})'
         raise NothingThere(message, field='mouse_point', body=under[0] if under else '')
+    capacity.check_hand(space, request.hand)
     name = names[0]
     x, y, yaw = space.bodies.by_name[name].pose
     anchor = rotated((point[0] - x, point[1] - y), -yaw)
