@@ -28,6 +28,7 @@ from nav_msgs.msg import Path
 import numpy as np
 from physsim_ros.model.errors import Malformed
 from physsim_ros.model.settings import MOST_SAMPLES
+from physsim_ros.ros.requests.cdr_reader import Truncated
 from physsim_ros.ros.requests.stroke_reader import stroke_from
 import pytest
 from rclpy.serialization import serialize_message
@@ -54,9 +55,7 @@ def path(
 @pytest.mark.parametrize('count', [0, 1, 2, 7])
 def test_every_sample_is_read_whatever_its_frame_is_called(frame: str, count: int) -> None:
     points = [(1.5 * number, -number / 3) for number in range(count)]
-    samples, found, _ = stroke_from(
-        path(*points, frame=frame, frames=[frame] * count), frame_id='map'
-    )
+    found, samples, _ = stroke_from(path(*points, frame=frame, frames=[frame] * count))
     assert samples.shape == (count, 3)
     assert list(map(tuple, samples[:, :2].tolist())) == points
     assert found == frame
@@ -64,75 +63,72 @@ def test_every_sample_is_read_whatever_its_frame_is_called(frame: str, count: in
 
 @pytest.mark.parametrize('frames', [['', '', ''], ['map', '', 'map']])
 @pytest.mark.parametrize('frame', ['', 'map'])
-def test_the_frame_of_the_world_may_be_said_or_left_out(frame: str, frames: list[str]) -> None:
-    _, found, _ = stroke_from(
-        path((0, 0), (1, 1), (2, 2), frame=frame, frames=frames), frame_id='map'
-    )
-    assert found == ''
+def test_a_frame_may_be_said_or_left_out(frame: str, frames: list[str]) -> None:
+    found, *_ = stroke_from(path((0, 0), (1, 1), (2, 2), frame=frame, frames=frames))
+    assert found == ('map' if frame or any(frames) else '')
 
 
 def test_poses_of_different_frames_are_no_stroke() -> None:
     message = path((0, 0), (1, 1), frame='a/0', frames=['a/0', 'b/0'])
     with pytest.raises(Malformed, match='one frame') as refused:
-        stroke_from(message, frame_id='world')
+        stroke_from(message)
     assert refused.value.field == 'header.frame_id'
 
 
 @pytest.mark.parametrize('begin', [0, 10**18 + 999_999_999])
 def test_times_count_from_the_first_sample(begin: int) -> None:
     points = ((0, 0, 0), (1, 0, 0.25), (2, 0, 0.125), (3, 0, 1.75))
-    samples, *_ = stroke_from(path(*points, begin=begin), frame_id='world')
+    _, samples, _ = stroke_from(path(*points, begin=begin))
     assert samples[:, 2].tolist() == [0.0, 0.25, 0.125, 1.75]
 
 
 def test_what_is_not_finite_is_left_for_the_reader_to_refuse() -> None:
-    samples, *_ = stroke_from(path((math.nan, math.inf)), frame_id='world')
+    _, samples, _ = stroke_from(path((math.nan, math.inf)))
     assert np.isnan(samples[0, 0])
     assert np.isinf(samples[0, 1])
 
 
 def test_as_many_samples_as_a_stroke_may_have_are_read_and_one_more_is_refused() -> None:
     points = [(0.001 * number, 0.0) for number in range(MOST_SAMPLES + 1)]
-    samples, *_ = stroke_from(path(*points[:-1]), frame_id='world')
+    _, samples, _ = stroke_from(path(*points[:-1]))
     assert len(samples) == MOST_SAMPLES
     with pytest.raises(Malformed, match=str(MOST_SAMPLES + 1)) as refused:
-        stroke_from(path(*points), frame_id='world')
+        stroke_from(path(*points))
     assert refused.value.field == 'poses'
 
 
 def test_a_path_that_is_too_long_is_not_looked_into() -> None:
-    # Only its beginning is there: what lies behind it cannot have been read.
-    message = path(*[(0.0, 0.0)] * (MOST_SAMPLES + 1))[:40]
+    # Its samples are not there: they cannot have been read.
+    message = path(*[(0.0, 0.0)] * (MOST_SAMPLES + 1))[:24] + bytes(MOST_SAMPLES + 1)
     with pytest.raises(Malformed, match='at most'):
-        stroke_from(message, frame_id='world')
+        stroke_from(message)
 
 
 @pytest.mark.parametrize('names', [{'frame': 'f' * 4001}, {'frames': ['f' * 4001]}])
 def test_a_frame_of_a_long_name_is_refused(names: dict[str, Any]) -> None:
     with pytest.raises(Malformed, match='1000') as refused:
-        stroke_from(path((1, 2), **names), frame_id='world')
+        stroke_from(path((1, 2), **names))
     assert refused.value.field == 'header.frame_id'
 
 
 def test_a_frame_that_is_no_text_is_another_frame_and_no_accident() -> None:
     message = path((1, 2), frame='worlds', frames=['']).replace(b'worlds', b'\xffworld')
-    _, frame, _ = stroke_from(message, frame_id='world')
+    frame, *_ = stroke_from(message)
     assert frame == '\N{REPLACEMENT CHARACTER}world'
 
 
 def test_big_endian_paths_are_read_too() -> None:
     said = struct.pack('>iII1s3xI', 0, 0, 1, b'', 1)
     sample = struct.pack('>iII1s7x7d', 3, 0, 1, b'', 1.5, -2.5, 0.0, 0.0, 0.0, 0.0, 1.0)
-    samples, *_ = stroke_from(b'\0\0\0\0' + said + sample, frame_id='world')
+    _, samples, _ = stroke_from(b'\0\0\0\0' + said + sample)
     assert samples.tolist() == [[1.5, -2.5, 0.0]]
 
 
 def test_a_path_that_breaks_off_anywhere_is_refused() -> None:
     message = path((0, 0), (1, 1), (2, 0), frame='world', frames=['a', 'a', 'a'])
     for length in range(len(message)):
-        with pytest.raises(Malformed) as refused:
-            stroke_from(message[:length], frame_id='world')
-        assert refused.value.field == 'poses'
+        with pytest.raises(Truncated):
+            stroke_from(message[:length])
 
 
 @given(st.binary(max_size=300), st.integers(0, 255))
@@ -140,7 +136,7 @@ def test_no_bytes_are_more_than_refused(noise: bytes, place: int) -> None:
     message, end = path((0, 0), (1, 1), (2, 0)), place + len(noise)
     message = message[:place] + noise + message[end:]
     try:
-        samples, *_ = stroke_from(message, frame_id='world')
-    except Malformed:
+        _, samples, _ = stroke_from(message)
+    except (Malformed, Truncated):
         return
     assert samples.shape[1] == 3

@@ -16,9 +16,12 @@
 
 from __future__ import annotations
 
+import struct
 from typing import Any
 
-from physsim_ros.ros.requests import subscriptions
+from nav_msgs.msg import Path
+from physsim_ros.model.settings import MOST_SAMPLES
+from physsim_ros.ros.requests import cdr_reader, subscriptions
 from physsim_ros.testing import PhysSim
 import pytest
 from rcl_interfaces.msg import Parameter as ParameterMessage
@@ -129,11 +132,16 @@ def test_an_empty_array_is_answered(physsim: PhysSim, client: Client) -> None:
     assert physsim.spawn(MarkerArray()) == ''
 
 
-TOPICS = {Marker: '~/spawn', MarkerArray: '~/spawn_array', MultiDOFJointState: '~/command'}
+TOPICS = {
+    Marker: '~/spawn',
+    MarkerArray: '~/spawn_array',
+    MultiDOFJointState: '~/command',
+    Path: '~/stroke',
+}
 NOISE = [b'\0\1\0\0', b'\0\1\0\0' + b'\xff' * 16, b'\0\1\0\0' + bytes(range(256))]
 
 
-@pytest.mark.parametrize('kind', [Marker, MarkerArray, MultiDOFJointState])
+@pytest.mark.parametrize('kind', TOPICS)
 @pytest.mark.parametrize('noise', NOISE)
 def test_a_message_that_cannot_be_decoded_is_answered_and_counted(
     physsim: PhysSim, client: Client, kind: Any, noise: bytes
@@ -153,7 +161,11 @@ def test_a_message_that_cannot_be_decoded_is_answered_and_counted(
 
 @pytest.mark.parametrize(
     ('kind', 'most'),
-    [(Marker, subscriptions.MOST_BYTES_OF_ONE), (MarkerArray, subscriptions.MOST_BYTES)],
+    [
+        (Marker, subscriptions.MOST_BYTES_OF_ONE),
+        (MarkerArray, subscriptions.MOST_BYTES),
+        (Path, subscriptions.MOST_BYTES),
+    ],
 )
 def test_a_message_that_is_too_large_is_refused_before_it_is_decoded(
     physsim: PhysSim, client: Client, monkeypatch: pytest.MonkeyPatch, kind: Any, most: int
@@ -169,6 +181,33 @@ def test_a_message_that_is_too_large_is_refused_before_it_is_decoded(
     (event,) = told(client)
     assert (event.level, event.name, event.code) == (2, topic, 'malformed')
     assert decoded == []
+    assert physsim.digest() == before
+
+
+# The beginning of a message, up to the number of elements of its first sequence.
+BEGINNINGS = {
+    MarkerArray: (b'', 'markers', cdr_reader.MOST_OF_MANY),
+    MultiDOFJointState: (bytes(12), 'joint_names', cdr_reader.MOST_OF_MANY),
+    Path: (bytes(12), 'poses', MOST_SAMPLES),
+}
+
+
+@pytest.mark.parametrize('kind', BEGINNINGS)
+def test_a_message_of_too_many_elements_is_refused_before_they_are_decoded(
+    physsim: PhysSim, client: Client, kind: Any
+) -> None:
+    topic, (beginning, field, most) = TOPICS[kind], BEGINNINGS[kind]
+    client.ask(topic, kind())
+    told(client)
+    before = physsim.digest()
+    # Elements have more than a byte: to decode them all, it would have to be longer.
+    message = b'\0\1\0\0' + beginning + struct.pack('<I', most + 1) + bytes(most + 1)
+    client._publishers[topic].publish(message)  # noqa: SLF001 - it is sent as it is
+    physsim.settle()
+    (event,) = told(client)
+    assert (event.level, event.name, event.code, event.field) == (2, topic, 'malformed', field)
+    assert f'at most {most} ' in event.message
+    assert physsim.node.requests.undecodable == 0
     assert physsim.digest() == before
 
 

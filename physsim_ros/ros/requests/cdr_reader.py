@@ -15,7 +15,8 @@
 """
 Values of a serialised message (CDR) one after the other, without a message object for each part.
 
-Law: what lies beyond the end of the message is `Truncated`, never read. rclpy makes objects of
+Laws: what lies beyond the end of the message is `Truncated`, never read; the elements of a
+sequence are counted before the first is read. rclpy makes objects of
 100,000 poses, or of a command of 10,000 bodies, in tenths of seconds and more, during which the
 node does nothing else.
 """
@@ -27,7 +28,11 @@ from typing import Literal
 
 import numpy as np
 from physsim_ros.model.arrays import Floats
+from physsim_ros.model.errors import Malformed
 
+# Bodies that one message may be about: as many as a world has at most by default (`max_bodies`).
+# rclpy takes 60 µs for each marker of an array, during which the node does nothing else.
+MOST_OF_MANY = 20_000
 # Size of the header of CDR, from whose end on values are aligned to their size [bytes].
 _HEADER = 4
 # Size of a double [bytes].
@@ -62,14 +67,25 @@ class CdrReader:
         seconds, nanoseconds = self._stamp.unpack_from(self._data, begin)
         return int(seconds * 1_000_000_000 + nanoseconds)
 
-    def number(self) -> int:
-        """Return the number of elements of a sequence, a uint32."""
-        begin = self._begin(4, self._number.size)
-        return int(self._number.unpack_from(self._data, begin)[0])
+    def count(self, sequence: str, most: int = MOST_OF_MANY) -> int:
+        """
+        Return the number of elements of a sequence.
+
+        :param sequence: its name in the message
+        :param most: elements that it may have
+        :raises Truncated: there are more than bytes
+        :raises Malformed: there are more than it may have
+        """
+        count = self._read_number()
+        if count > len(self._data) - self._at:
+            raise Truncated
+        if count > most:
+            raise Malformed(f'{sequence} has at most {most} elements, not {count}', field=sequence)
+        return count
 
     def text(self) -> str:
         """Return a string; what is not UTF-8 is replaced, as rclpy does."""
-        length = self.number()
+        length = self._read_number()
         begin = self._begin(1, length)
         # Without the NUL at its end.
         last = max(begin, begin + length - 1)
@@ -83,6 +99,11 @@ class CdrReader:
         begin = self._begin(_DOUBLE, rows * columns * _DOUBLE)
         found = np.frombuffer(self._data, self._double, rows * columns, begin)
         return found.reshape(rows, columns).astype(np.float64, copy=False)
+
+    def _read_number(self) -> int:
+        """Return a uint32."""
+        begin = self._begin(4, self._number.size)
+        return int(self._number.unpack_from(self._data, begin)[0])
 
     def _begin(self, alignment: int, size: int) -> int:
         """

@@ -49,13 +49,14 @@ def command_from(message: bytes) -> CommandMessage:
     Return the fields of a serialised sensor_msgs/MultiDOFJointState.
 
     :raises Truncated: it breaks off
+    :raises Malformed: it has more elements than a command may have
     """
     reader = CdrReader(message)
     reader.stamp()
     return CommandMessage(
         frame_id=reader.text(),
-        joint_names=tuple(reader.text() for _ in range(reader.number())),
-        transforms=reader.doubles(reader.number(), 7),
-        twist=reader.doubles(reader.number(), 6),
-        wrench=reader.doubles(reader.number(), 6),
+        joint_names=tuple(reader.text() for _ in range(reader.count('joint_names'))),
+        transforms=reader.doubles(reader.count('transforms'), 7),
+        twist=reader.doubles(reader.count('twist'), 6),
+        wrench=reader.doubles(reader.count('wrench'), 6),
     )

@@ -56,7 +56,7 @@ from visualization_msgs.msg import InteractiveMarkerFeedback, Marker
 
 # The namespaces of markers with an empty one.
 NAMESPACE, JOINT_NAMESPACE = 'body', 'joint'
-# Whose hand it is whose client_id is empty.
+# Name of the hand of feedback without `client_id`.
 ANONYMOUS_HAND = 'hand'
 # The greatest roll and pitch of a planar rotation [rad]: rounding errors of float32 tools.
 MOST_TILT = 1e-3
@@ -109,7 +109,7 @@ def body_request(marker: Marker, *, frame_id: str) -> Spawn | Delete | DeleteAll
         name=name_of(marker),
         shape=shape_from(marker),
         pose=(position.x, position.y, _yaw(rotation, 'pose.orientation')),
-        frame=_frame(marker.header.frame_id, frame_id),
+        frame=named_frame(marker.header.frame_id, frame_id),
         color=_color(marker),
         lifetime=marker.lifetime.sec + marker.lifetime.nanosec * 1e-9,
         properties=properties_from(_mapping(marker.text)),
@@ -134,7 +134,7 @@ def joint_request(marker: Marker, *, frame_id: str) -> Join | Unjoin | UnjoinAll
         _mapping(marker.text),
         name=joint_name_of(marker),
         points=points_from(marker.points),
-        frame=_frame(marker.header.frame_id, frame_id),
+        frame=named_frame(marker.header.frame_id, frame_id),
     )
 
 
@@ -165,7 +165,7 @@ def hand_request(
     hand = feedback.client_id or ANONYMOUS_HAND
     valid = feedback.mouse_point_valid
     position = feedback.mouse_point if valid else feedback.pose.position
-    point, frame = (position.x, position.y), _frame(feedback.header.frame_id, frame_id)
+    point, frame = (position.x, position.y), named_frame(feedback.header.frame_id, frame_id)
     match feedback.event_type:
         case InteractiveMarkerFeedback.MOUSE_DOWN:
             return Grab(hand=hand, point=point, frame=frame)
@@ -186,23 +186,26 @@ def command_request(message: CommandMessage, *, frame_id: str) -> Command:
     :raises NotPlanar: a rotation is not about z
     """
     poses = message.transforms[:, :3].copy()
-    rotations = message.transforms[:, 3:].tolist()
-    poses[:, 2] = [_yaw(rotation, 'transforms') for rotation in rotations]
+    if len(poses) == len(message.joint_names):
+        # Another number of poses is refused by `Command`.
+        rotations = message.transforms[:, 3:].tolist()
+        poses[:, 2] = [_yaw(rotation, 'transforms') for rotation in rotations]
     return Command(
         names=message.joint_names,
         poses=poses,
         twists=message.twist[:, _PLANAR],
         wrenches=message.wrench[:, _PLANAR],
-        frame=_frame(message.frame_id, frame_id),
+        frame=named_frame(message.frame_id, frame_id),
     )
 
 
 def point_in_frame(message: PointStamped, *, frame_id: str) -> tuple[tuple[float, float], str]:
     """Return a point [m] and its frame, '' for the world; neither is validated."""
-    return (message.point.x, message.point.y), _frame(message.header.frame_id, frame_id)
+    return (message.point.x, message.point.y), named_frame(message.header.frame_id, frame_id)
 
 
-def _frame(frame: str, world_frame: str) -> str:
+def named_frame(frame: str, world_frame: str) -> str:
+    """Return a frame, '' for the world, which is the empty one, too."""
     return '' if frame in ('', world_frame) else frame
 
 

@@ -29,7 +29,8 @@ from nav_msgs.msg import Path
 from physsim_ros.drawing import DrawingSession, Reading, submit_reading
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.snapshot import Answer, Snapshot
-from physsim_ros.ros.requests import conversions, stroke_reader
+from physsim_ros.ros.requests import conversions
+from physsim_ros.ros.requests.stroke_reader import StrokeMessage
 from physsim_ros.ros.requests.subscriptions import RequestSubscriptions
 from physsim_ros.simulation.simulation import Simulation
 
@@ -62,7 +63,7 @@ class DrawingTopics:
         self._current_snapshot = current_snapshot
         self._publish_preview = publish_preview
         subscriptions.add(PointStamped, 'clicked_point', self._click)
-        subscriptions.add_raw(Path, '~/stroke', self._stroke)
+        subscriptions.add(Path, '~/stroke', self._stroke)
 
     def read_instead(self) -> str:
         """
@@ -87,11 +88,11 @@ class DrawingTopics:
             for number, request in enumerate(result.requests):
                 queue.submit(request, topic=topic, joined=number > 0, field=field)
 
-    def _stroke(self, message: bytes) -> None:
+    def _stroke(self, message: StrokeMessage) -> None:
         with self._drawing_on_snapshot('~/stroke', 'poses') as snapshot:
-            samples, frame, stamp = stroke_reader.stroke_from(message, frame_id=self._frame_id)
-            began = time.monotonic() if stamp is None else stamp
-            reading = self._session.stroke(samples, frame, snapshot, began=began)
+            frame = conversions.named_frame(message.frame_id, self._frame_id)
+            began = time.monotonic() if message.began is None else message.began
+            reading = self._session.stroke(message.samples, frame, snapshot, began=began)
             self._submit_reading(reading, '~/stroke')
 
     def _submit_reading(self, reading: Reading, topic: str) -> None:

@@ -32,7 +32,7 @@ from rclpy.node import Node
 # Size from which on messages wait, and others behind them [bytes]; smaller ones are decoded at
 # once, in less than 1 ms.
 LARGE = 2**14
-# Memory that they may take [bytes]: four of the largest messages that are decoded, or 130,000
+# Memory that they may take [bytes]: a dozen of the largest messages that are decoded, or 130,000
 # small ones behind a large one.
 MOST_WAITING = 2**26
 # Memory of an entry beside its message [bytes]: a million of 12 bytes took 422 MiB.

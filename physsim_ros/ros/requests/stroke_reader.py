@@ -21,49 +21,53 @@ the node could not publish; the number alone is read in a microsecond.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import Malformed
 from physsim_ros.model.names import LONGEST_NAME
 from physsim_ros.model.settings import MOST_SAMPLES
-from physsim_ros.ros.requests.cdr_reader import CdrReader, Truncated
+from physsim_ros.ros.requests.cdr_reader import CdrReader
 
 # Numbers of a geometry_msgs/Pose: position and quaternion.
 _POSE = 7
 
 
-def stroke_from(message: bytes, *, frame_id: str) -> tuple[Floats, str, float | None]:
+class StrokeMessage(NamedTuple):
     """
-    Return the samples of a stroke, and their frame.
+    The fields of a stroke.
 
-    :param message: a serialised nav_msgs/Path
-    :param frame_id: name of the world's frame
-    :return: (n, 3) float64: x, y [m] and time from the first sample [s]; name of the frame, '' for
-        the world; the stamp of the first sample [s], None where all have the same
-    :raises Malformed: there are too many samples, they are in different frames, the name of one is
-        too long, or the message is truncated
+    :ivar frame_id: of its header, or of its poses
+    :ivar samples: (n, 3) float64: x, y [m] and time from the first sample [s]
+    :ivar began: stamp of the first sample [s]; None where all have the same
     """
-    try:
-        return _read(message, frame_id)
-    except Truncated as error:
-        raise Malformed('the message of the stroke breaks off', field='poses') from error
+
+    frame_id: str
+    samples: Floats
+    began: float | None
 
 
-def _read(message: bytes, frame_id: str) -> tuple[Floats, str, float | None]:
+def stroke_from(message: bytes) -> StrokeMessage:
+    """
+    Return the fields of a serialised nav_msgs/Path.
+
+    :raises Truncated: it breaks off
+    :raises Malformed: there are too many samples, they are in different frames, or the name of one
+        is too long
+    """
     reader = CdrReader(message)
     _, frame = _header(reader)
-    count = reader.number()
-    if count > MOST_SAMPLES:
-        raise Malformed(f'a stroke has at most {MOST_SAMPLES} samples, not {count}', field='poses')
+    count = reader.count('poses', MOST_SAMPLES)
     frames = {frame}
     samples = np.empty((count, 3))
-    began: int | None = None
+    first: int | None = None
     for sample in range(count):
         stamp, frame = _header(reader)
-        began = stamp if began is None else began
+        first = stamp if first is None else first
         frames.add(frame)
         samples[sample, :2] = reader.doubles(1, _POSE)[0, :2]
-        samples[sample, 2] = (stamp - began) * 1e-9
+        samples[sample, 2] = (stamp - first) * 1e-9
     # A pose without a frame is in that of the path, and a path without one in that of its poses.
     named = sorted(frames - {''})
     if len(named) > 1:
@@ -71,8 +75,8 @@ def _read(message: bytes, frame_id: str) -> tuple[Floats, str, float | None]:
             f'a stroke is drawn in one frame, not in {named[0]!r} and {named[1]!r}',
             field='header.frame_id',
         )
-    first = began * 1e-9 if began is not None and samples[:, 2].any() else None
-    return samples, '' if named in ([], [frame_id]) else named[0], first
+    began = first * 1e-9 if first is not None and samples[:, 2].any() else None
+    return StrokeMessage(named[0] if named else '', samples, began)
 
 
 def _header(reader: CdrReader) -> tuple[int, str]:

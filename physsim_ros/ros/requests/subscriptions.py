@@ -25,28 +25,46 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from nav_msgs.msg import Path
 from physsim_ros.model.errors import Busy, Malformed, Refusal
 from physsim_ros.ros.qos_safe_node import LOSSLESS
-from physsim_ros.ros.requests.cdr_reader import Truncated
+from physsim_ros.ros.requests.cdr_reader import CdrReader, Truncated
 from physsim_ros.ros.requests.command_reader import command_from
 from physsim_ros.ros.requests.message_queue import MessageQueue
+from physsim_ros.ros.requests.stroke_reader import stroke_from
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from rclpy.serialization import deserialize_message
 from sensor_msgs.msg import MultiDOFJointState
 from visualization_msgs.msg import MarkerArray
 
-# Size of a message [bytes]: 20,000 markers of 800 bytes. rclpy makes ten times as much of it and
-# takes 60 µs for each marker, during which the node does nothing else.
-MOST_BYTES = 16 * 2**20
+# Size of a message [bytes]: 20,000 markers without points have 4.3 MiB. rclpy makes ten times as
+# much of it, and takes 6 s for 16 MiB of colours or 3 s for points, whatever markers they are of.
+MOST_BYTES = 5 * 2**20
 # Size of a message about one thing [bytes]: a marker of 10,000 points, which is told that it has
 # too many. Larger ones take longer to decode than to send, and the middleware keeps up to 5,000
 # that wait (KEEP_ALL of Fast DDS): 900 markers of 100,000 points took 2.7 GB.
 MOST_BYTES_OF_ONE = 2**18
-# Messages about many things.
-_OF_MANY = (MarkerArray, MultiDOFJointState)
-# Decoders that are quicker than that of rclpy.
-_DECODERS = {MultiDOFJointState: command_from}
+
+
+def markers_from(message: bytes) -> MarkerArray:
+    """
+    Return the markers of a serialised visualization_msgs/MarkerArray.
+
+    :raises Truncated: it has no header
+    :raises Malformed: there are too many
+    :raises RMWError: it cannot be decoded
+    """
+    CdrReader(message).count('markers')
+    return deserialize_message(message, MarkerArray)
+
+
+# Decoders of messages about many things, which count these first; all others are those of rclpy.
+_DECODERS: dict[type, Callable[[bytes], Any]] = {
+    MarkerArray: markers_from,
+    MultiDOFJointState: command_from,
+    Path: stroke_from,
+}
 
 
 class RequestSubscriptions:
@@ -67,35 +85,36 @@ class RequestSubscriptions:
 
     def add(self, kind: type, topic: str, callback: Callable[[Any], None]) -> None:
         """Subscribe to messages of a type."""
-        most = MOST_BYTES if kind in _OF_MANY else MOST_BYTES_OF_ONE
-        decoder = _DECODERS.get(kind)
 
-        def decode(data: bytes) -> None:
-            if len(data) > most:
-                refusal = Malformed(f'such a message has at most {most / 2**10:g} KiB')
-                self._refuse(refusal, topic)
-                return
+        def handle(data: bytes) -> None:
             try:
-                message = deserialize_message(data, kind) if decoder is None else decoder(data)
-            except (Truncated, rclpy_implementation.RMWError):
-                self.refuse_undecodable(kind, topic)
+                message = self._decoded(data, kind)
+            except Refusal as refusal:
+                self._refuse(refusal, topic)
             else:
                 callback(message)
 
-        self.add_raw(kind, topic, decode)
-
-    def add_raw(self, kind: type, topic: str, callback: Callable[[bytes], None]) -> None:
-        """Subscribe to messages of a type, which the callback decodes itself."""
-
         def receive(data: bytes) -> None:
             try:
-                self.queue.add_message(callback, data)
+                self.queue.add_message(handle, data)
             except Busy as refusal:
                 self._refuse(refusal, topic)
 
         self._node.create_subscription(kind, topic, receive, LOSSLESS, raw=True)
 
-    def refuse_undecodable(self, kind: type, topic: str) -> None:
-        """Count and refuse a message that cannot be decoded."""
-        self.undecodable += 1
-        self._refuse(Malformed(f'the message cannot be decoded as a {kind.__name__}'), topic)
+    def _decoded(self, data: bytes, kind: type) -> Any:
+        """
+        Return a message, and count one that cannot be decoded.
+
+        :raises Malformed: it is too large, too long, or cannot be decoded
+        """
+        decoder = _DECODERS.get(kind)
+        most = MOST_BYTES_OF_ONE if decoder is None else MOST_BYTES
+        if len(data) > most:
+            raise Malformed(f'such a message has at most {most / 2**10:g} KiB')
+        try:
+            return deserialize_message(data, kind) if decoder is None else decoder(data)
+        except (Truncated, rclpy_implementation.RMWError) as error:
+            self.undecodable += 1
+            message = f'the message cannot be decoded as a {kind.__name__}'
+            raise Malformed(message) from error
