@@ -36,7 +36,7 @@ from physsim_ros.drawing.clicks.click import (
 )
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.model.errors import Anchored, NothingThere
+from physsim_ros.model.errors import Anchored, BadOutline, NothingThere
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.requests import (
@@ -50,6 +50,7 @@ from physsim_ros.model.requests import (
     Release,
     Request,
 )
+from physsim_ros.model.shapes import MOST_POINTS
 from physsim_ros.model.transform import Point
 
 
@@ -134,6 +135,9 @@ def polygon(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSetting
     if len(points) > 1 and math.dist(points[0], points[-1]) <= settings.snap:
         corners = without_repeats(points[:-1], settings)
         return _finished(body_requests.polygon(scene.next_body(), corners, settings))
+    if len(points) > MOST_POINTS:
+        # Each click costs as much as there are; so many could not be closed.
+        raise BadOutline(f'a polygon has at most {MOST_POINTS} corners', field='point')
     count = len(without_repeats(points, settings))
     done = 'a corner is set' if count == 1 else f'{count} corners are set'
     return _next_click(done, 'the next corner, or the first one again to close it')

@@ -49,7 +49,7 @@ from physsim_ros.model.requests import (
     Spawn,
 )
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Box, Chain, Disc, Polygon
+from physsim_ros.model.shapes import Box, Chain, Disc, MOST_POINTS, Polygon
 from physsim_ros.model.transform import Point
 from physsim_ros.simulation.world import World
 import pytest
@@ -180,6 +180,24 @@ def test_a_corner_that_is_clicked_twice_is_one() -> None:
         Tool.POLYGON, (0.0, 0.0), (2.0, 0.0), (2.0, 0.001), (2.0, 2.0), (2.0, 2.0), (0.0, 0.0)
     )
     assert len(spawn.shape.outline) == 3
+
+
+def test_a_polygon_has_as_many_corners_as_an_outline_may_have_and_one_more_drops_it() -> None:
+    angles = [math.tau * corner / MOST_POINTS for corner in range(MOST_POINTS)]
+    around = [(50.0 * math.cos(angle), 50.0 * math.sin(angle)) for angle in angles]
+    snapshot = World().snapshot()
+    hand = pen(Tool.POLYGON)
+    for point in around:
+        hand.click(point, '', snapshot)
+
+    with pytest.raises(BadOutline):
+        hand.click((0.0, 0.0), '', snapshot)
+
+    assert hand.preview == NO_PREVIEW
+    for point in around:
+        hand.click(point, '', snapshot)
+    (spawn,) = hand.click(around[0], '', snapshot).requests
+    assert len(spawn.shape.outline) == MOST_POINTS
 
 
 def test_a_wall_is_an_anchored_segment_with_its_frame_along_it() -> None:
