@@ -76,11 +76,14 @@ def files_by_name(directory: Path, *suffixes: str) -> dict[str, Path]:
 
 
 def title_of(path: Path) -> str:
-    """Return the first sentence of the comment that a file begins with, or its plain name."""
-    with path.open('rb') as file:
-        start = file.read(_TITLE_WITHIN).decode(errors='ignore')
+    """Return the first sentence of the comment that a file begins with, else its plain name."""
+    try:
+        with path.open('rb') as file:
+            start = file.read(_TITLE_WITHIN).decode(errors='ignore')
+    except OSError:
+        return path.stem
     found = _COMMENT.search(start)
     if found is None:
         return path.stem
     sentence = found['xml'] or found['yaml']
-    return ' '.join(word for word in sentence.split() if word != '#')
+    return ' '.join(word for word in sentence.split() if word != '#') or path.stem

@@ -20,7 +20,7 @@ from physsim_ros.files import shipped_worlds, user_worlds, worlds_in
 from physsim_ros.ros.parameters import Spec, SPECS
 from physsim_ros.ros.programs.help_tables import files_table, table
 
-# Width of the column of names, and the least width of the column of meanings [characters].
+# Last paragraph of the help.
 _ELSEWHERE = """\
 config/physsim.yaml sets all of them (--params-file). A running world describes
 its parameters (`ros2 param describe /physsim NAME`), and its topics and
