@@ -20,7 +20,9 @@ recognised in `drawing`. Start with `world_file`, then `world_reader` and `world
 """
 
 from physsim_ros.files.drawing_file import BadDrawing, drawings, find_drawing, load_drawing, Pace
+from physsim_ros.files.regular_file import write_file
 from physsim_ros.files.resources import shipped, shipped_pictures, title_of
+from physsim_ros.files.user_directories import user_directory
 from physsim_ros.files.world_file import (
     find_world,
     hides_shipped,
@@ -55,6 +57,8 @@ __all__ = [
     'state_from',
     'text_of',
     'title_of',
+    'user_directory',
     'user_worlds',
     'worlds_in',
+    'write_file',
 ]

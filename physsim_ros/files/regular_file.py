@@ -52,23 +52,27 @@ def read_file(path: Path, most: int) -> str:
     return b''.join(parts).decode()
 
 
-def write_file(path: Path, text: str) -> None:
+def write_file(path: Path, data: bytes, *, mode: int | None = None) -> None:
     """
-    Write a file whole or not at all; one that is there keeps its mode.
+    Write a file whole or not at all.
 
     :param path: of the file, without symbolic links
-    :param text: that it has then, in UTF-8
+    :param data: that it has then
+    :param mode: that it has then; None is that of the file that is there
     :raises OSError: it cannot be written, and is as it was
     """
     # Short, since the name of a file has 255 bytes at most.
     temporary = path.parent / f'.{secrets.token_hex(8)}.tmp'
-    mode = stat.S_IMODE(path.stat().st_mode) if path.exists() else None
-    descriptor = os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, 0o666)
+    if mode is None and path.exists():
+        mode = stat.S_IMODE(path.stat().st_mode)
+    # Readable by no other user before it has its mode; the umask applies to a new one only.
+    created = 0o666 if mode is None else 0o600
+    descriptor = os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, created)
     try:
-        with os.fdopen(descriptor, 'w', encoding='utf-8', newline='\n') as file:
+        with os.fdopen(descriptor, 'wb') as file:
             if mode is not None:
                 os.fchmod(file.fileno(), mode)
-            file.write(text)
+            file.write(data)
             file.flush()
             os.fsync(file.fileno())
         temporary.replace(path)

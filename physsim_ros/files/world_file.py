@@ -23,7 +23,6 @@ file.
 from __future__ import annotations
 
 from collections.abc import Callable
-import os
 from pathlib import Path
 import re
 import textwrap
@@ -31,6 +30,7 @@ import textwrap
 from physsim_ros.files.entry_lines import load_entries
 from physsim_ros.files.regular_file import read_file, write_file
 from physsim_ros.files.resources import files_by_name, is_plain, shipped
+from physsim_ros.files.user_directories import user_directory
 from physsim_ros.files.world_reader import state_from
 from physsim_ros.files.world_schema import FORMAT
 from physsim_ros.files.world_writer import text_of
@@ -59,10 +59,7 @@ _HEAD = 2**20
 
 def user_worlds() -> Path:
     """Return the directory of the user's worlds, after the XDG Base Directory Specification."""
-    base = os.environ.get('XDG_DATA_HOME', '')
-    # A relative path there is invalid, and to be ignored.
-    home = Path(base) if Path(base).is_absolute() else Path.home() / '.local' / 'share'
-    return home / 'physsim_ros' / 'worlds'
+    return user_directory('XDG_DATA_HOME', '.local', 'share') / 'worlds'
 
 
 def shipped_worlds() -> Path:
@@ -94,9 +91,9 @@ def find_world(name: str, *, world_dir: Path, confined: bool) -> Path:
             other = path.exists() and not (found or path.is_dir())
         except OSError as error:
             # The name is too long, or a directory of the path may not be searched.
-            raise _unreadable(name[:99], error) from error
+            raise _unreadable(name, error) from error
         if other:
-            raise BadWorldFile(f'{name[:99]} is no regular file', field='world_file')
+            raise BadWorldFile(f'{name} is no regular file', field='world_file')
         if found:
             if confined:
                 _check_place(path.resolve(), name, (world_dir, shipped_worlds()))
@@ -107,7 +104,7 @@ def find_world(name: str, *, world_dir: Path, confined: bool) -> Path:
     directories = ('world_dir', 'config/worlds') if confined else {path.parent for path in paths}
     looked = ' and '.join(sorted(str(each) for each in directories))
     raise BadWorldFile(
-        f'there is no world {name[:99]!r} in {looked}'
+        f'there is no world {name!r} in {looked}'
         f'{nearest_name(Path(name).stem, known)}; there are {there}',
         field='world_file',
     )
@@ -204,13 +201,13 @@ def save_world(state: WorldState, name: str, *, world_dir: Path, physics_rate: f
             )
         text = text_of(state, physics_rate)
         world_dir.mkdir(parents=True, exist_ok=True)
-        write_file(path, text)
+        write_file(path, text.encode())
     except OSError as error:
         reason = error.strerror or error
-        raise BadWorldFile(f'cannot write {name[:99]}: {reason}', field='world_file') from error
+        raise BadWorldFile(f'cannot write {name}: {reason}', field='world_file') from error
     except (RuntimeError, ValueError) as error:
         # A loop of symbolic links, or a NUL character.
-        raise BadWorldFile(f'{name[:99]!r} is no path: {error}', field='world_file') from error
+        raise BadWorldFile(f'{name!r} is no path: {error}', field='world_file') from error
     return path
 
 
@@ -238,9 +235,9 @@ def _check_place(path: Path, name: str, directories: tuple[Path, ...]) -> None:
     below = [path.relative_to(root) for root in roots if path.is_relative_to(root)]
     # A directory is not below itself.
     if not any(each.parts for each in below):
-        raise BadWorldFile(f'{name[:99]} lies outside world_dir', field='world_file')
+        raise BadWorldFile(f'{name} lies outside world_dir', field='world_file')
     if all(any(part.startswith('.') for part in each.parts) for each in below):
-        raise BadWorldFile(f'{name[:99]} is hidden', field='world_file')
+        raise BadWorldFile(f'{name} is hidden', field='world_file')
     if not name.isprintable():
         raise BadWorldFile('the name of a world file is not printable', field='world_file')
     if path.suffix != _SUFFIX:

@@ -26,6 +26,8 @@ from pathlib import Path
 import secrets
 import stat
 
+from physsim_ros.files import user_directory, write_file
+
 # Of the key [bytes], as long as the digest of SHA-256, by which tornado signs.
 _LENGTH = 32
 _NAME = 'cookie_key'
@@ -33,21 +35,13 @@ _NAME = 'cookie_key'
 
 def cookie_key() -> bytes:
     """Return the user's key, made where there is none; a passing one where it cannot be kept."""
-    directory = _state_directory()
+    directory = user_directory('XDG_STATE_HOME', '.local', 'state')
     try:
         directory.mkdir(mode=0o700, parents=True, exist_ok=True)
         return _read(directory / _NAME) or _make(directory / _NAME)
     except OSError:
         # Without the file, pages log in again after a restart.
         return secrets.token_bytes(_LENGTH)
-
-
-def _state_directory() -> Path:
-    """Return the package's directory after the XDG Base Directory Specification."""
-    base = os.environ.get('XDG_STATE_HOME', '')
-    # A relative path there is invalid, and to be ignored.
-    home = Path(base) if Path(base).is_absolute() else Path.home() / '.local' / 'state'
-    return home / 'physsim_ros'
 
 
 def _read(path: Path) -> bytes:
@@ -74,9 +68,5 @@ def _make(path: Path) -> bytes:
     :raises OSError: it cannot be written
     """
     key = secrets.token_bytes(_LENGTH)
-    temporary = path.with_name(f'.{secrets.token_hex(8)}.tmp')
-    descriptor = os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, 0o600)
-    with os.fdopen(descriptor, 'wb') as file:
-        file.write(key)
-    temporary.replace(path)
+    write_file(path, key, mode=0o600)
     return key

@@ -14,6 +14,8 @@
 
 """The key of cookies lasts over restarts, and is nobody else's."""
 
+import errno
+import os
 from pathlib import Path
 import stat
 
@@ -64,6 +66,17 @@ def test_a_directory_that_cannot_be_written_leaves_a_key_of_this_run(
     blocked.touch()
     monkeypatch.setenv('XDG_STATE_HOME', str(blocked))
     assert cookie_key() != cookie_key()
+
+
+def test_a_key_that_cannot_be_written_leaves_no_file(
+    path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(_: int) -> None:
+        raise OSError(errno.ENOSPC, 'the disk is full')
+
+    monkeypatch.setattr(os, 'fsync', fail)
+    assert cookie_key() != cookie_key()
+    assert list(path.parent.iterdir()) == []
 
 
 def test_a_cookie_outlives_a_restart_with_its_role_on_its_port() -> None:
