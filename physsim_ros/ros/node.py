@@ -39,10 +39,11 @@ from physsim_ros.ros.requests.drawing_topics import DrawingTopics
 from physsim_ros.ros.requests.parameter_services import ParameterServices
 from physsim_ros.ros.requests.reply_pacer import ReplyPacer
 from physsim_ros.ros.requests.request_topics import RequestTopics
-from physsim_ros.ros.requests.services import create_services, ServiceCalls, Turns
+from physsim_ros.ros.requests.services import create_services, Service, ServiceCalls
 from physsim_ros.ros.requests.subscriptions import RequestSubscriptions
 from physsim_ros.ros.time_control import TimeControl
 from physsim_ros.ros.world_files import WorldFiles
+from physsim_ros.simulation.deferred_calls import DeferredCalls, Wait
 from physsim_ros.simulation.simulation import Simulation
 from rclpy.context import Context
 from rclpy.parameter import Parameter
@@ -149,7 +150,7 @@ class PhysSimNode(NodeWithoutQosEvents):
             self,
             self.simulation,
             self._values,
-            is_there=self._is_there,
+            apply_up_to_seek=self._apply_up_to_seek,
             advance_frame=self.advance_frame,
             on_seek=self.outputs.statistics.reset_pace,
         )
@@ -157,27 +158,27 @@ class PhysSimNode(NodeWithoutQosEvents):
 
     def _create_services(self) -> None:
         simulation = self.simulation
-        actions = {
-            **self._time_control.services,
-            'undo': simulation.undo,
-            'redo': simulation.redo,
-            'reset': simulation.reset,
-            'clear': lambda: simulation.perform(DeleteAll()),
-            'instead': self._drawing_topics.read_instead,
-            'load_world': lambda: self.world_files.load(confined=True),
-            'save_world': self.world_files.save,
+        services = {
+            **{name: Service(action) for name, action in self._time_control.actions.items()},
+            'undo': Service(simulation.undo, Wait.BEHIND_REQUESTS),
+            'redo': Service(simulation.redo, Wait.BEHIND_REQUESTS),
+            'reset': Service(simulation.reset, Wait.BEHIND_REQUESTS),
+            'instead': Service(self._drawing_topics.read_instead),
+            'clear': Service(lambda: simulation.perform(DeleteAll()), Wait.FOR_SEEK),
+            'load_world': Service(lambda: self.world_files.load(confined=True), Wait.FOR_SEEK),
+            'save_world': Service(self.world_files.save, Wait.FOR_SEEK),
         }
-        turns = Turns(simulation.requests, self._is_there)
+        deferred_calls = DeferredCalls(simulation.requests, self._apply_up_to_seek)
         self._reply_pacer = ReplyPacer(self)
-        calls = ServiceCalls(self.requests.queue, turns, self._reply_pacer)
-        create_services(self, actions, calls, on_success=self._note_change)
+        calls = ServiceCalls(self.requests.queue, deferred_calls, self._reply_pacer)
+        create_services(self, services, calls, on_success=self._note_change)
         self._parameter_services = ParameterServices(self, calls)
         self._page_control = PageControl(
             simulation=simulation,
             values=self._values,
             time_control=self._time_control,
-            actions=actions,
-            turns=turns,
+            services=services,
+            submit_call=deferred_calls.submit,
             set_parameters=self.set_parameters,
             current_snapshot=self._current_snapshot,
         )
@@ -277,13 +278,17 @@ class PhysSimNode(NodeWithoutQosEvents):
         """Record contacts while there is a subscriber, a viewer or a page that shows them."""
         self.simulation.watch_contacts(self.outputs.wants_contacts)
 
-    def _is_there(self) -> bool:
-        """Return whether what waits has been applied; without ticks the world goes at once."""
+    def _apply_up_to_seek(self) -> bool:
+        """
+        Apply the requests before a seek; return whether no seek is under way.
+
+        Before `start` nothing is applied, and True is returned.
+        """
         return not self._started or self.simulation.apply_up_to_seek()
 
     def _current_snapshot(self) -> Snapshot:
         """Return the snapshot that is shown, with the waiting requests but during a seek."""
-        if self._is_there():
+        if self._apply_up_to_seek():
             self.apply_requests()
         return self.simulation.world.snapshot() if self.frame is None else self.frame.snapshot
 

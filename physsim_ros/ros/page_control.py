@@ -20,16 +20,17 @@ Law: a page can do nothing that a service, a topic or a parameter cannot.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 from physsim_ros.drawing import DrawingSettings
 from physsim_ros.files import state_from, text_of
 from physsim_ros.model.errors import BadWorldFile, PhysSimError
-from physsim_ros.model.snapshot import Snapshot
+from physsim_ros.model.snapshot import Answer, Snapshot
 from physsim_ros.ros import parameters
-from physsim_ros.ros.requests.services import Action, Turns
+from physsim_ros.ros.requests.services import Service
 from physsim_ros.ros.time_control import TimeControl
+from physsim_ros.simulation.deferred_calls import Wait
 from physsim_ros.simulation.simulation import Simulation
 from rclpy.parameter import Parameter
 
@@ -43,8 +44,8 @@ class PageControl:
     :param simulation: of the node
     :param values: of the parameters, by name, always up to date
     :param time_control: of the node
-    :param actions: of the services, by name
-    :param turns: of the services
+    :param services: by name
+    :param submit_call: calls something when it may come, and tells its answers
     :param set_parameters: sets parameters of the node
     :param current_snapshot: applies the waiting requests, and returns the snapshot that is shown
     """
@@ -55,8 +56,8 @@ class PageControl:
         simulation: Simulation,
         values: Mapping[str, Any],
         time_control: TimeControl,
-        actions: Mapping[str, Action],
-        turns: Turns,
+        services: Mapping[str, Service],
+        submit_call: Callable[[Callable[[], Iterable[Answer]], Wait], None],
         set_parameters: SetParameters,
         current_snapshot: Callable[[], Snapshot],
     ) -> None:
@@ -64,14 +65,18 @@ class PageControl:
         self.current_snapshot = current_snapshot
         self._values = values
         self._time_control = time_control
-        self._actions = actions
-        self.call_in_turn = turns.call
+        self._services = services
+        self.submit_call = submit_call
         self._set_parameters = set_parameters
 
     @property
     def drawing_settings(self) -> DrawingSettings:
         """Return the settings of drawing."""
         return parameters.drawing_settings(self._values)
+
+    def wait_of(self, action: str) -> Wait:
+        """Return the time at which the action of a service may come."""
+        return self._services[action].wait
 
     def perform(self, action: str, world: str) -> str:
         """
@@ -85,7 +90,7 @@ class PageControl:
                 raise BadWorldFile(f'~/{action} takes no world', field='world')
             self._set_parameters([Parameter('world_file', value=world)])
         try:
-            return self._actions[action]()
+            return self._services[action].perform()
         except PhysSimError:
             if world:
                 self._set_parameters([Parameter('world_file', value=before)])

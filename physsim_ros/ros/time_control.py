@@ -39,7 +39,7 @@ class TimeControl:
     :param node: whose parameter `speed` is the speed
     :param simulation: of the node
     :param values: of the parameters of the node, by name, always up to date
-    :param is_there: applies what waits, and tells whether no seek is under way
+    :param apply_up_to_seek: applies the requests before a seek; returns whether none is under way
     :param advance_frame: advances the world by one frame, and publishes it
     :param on_seek: called before time jumps
     """
@@ -50,19 +50,19 @@ class TimeControl:
         simulation: Simulation,
         values: Mapping[str, Any],
         *,
-        is_there: Callable[[], bool],
+        apply_up_to_seek: Callable[[], bool],
         advance_frame: Callable[[], None],
         on_seek: Callable[[], None],
     ) -> None:
         self._node = node
         self._simulation = simulation
         self._values = values
-        self._is_there = is_there
+        self._apply_up_to_seek = apply_up_to_seek
         self._advance_frame = advance_frame
         self._on_seek = on_seek
 
     @property
-    def services(self) -> Mapping[str, Callable[[], str]]:
+    def actions(self) -> Mapping[str, Callable[[], str]]:
         """Return the actions of the services for time, by name."""
         return {
             'play': lambda: self._run_at(1.0),
@@ -131,7 +131,7 @@ class TimeControl:
         """
         if self._simulation.speed != 0:
             raise Running('time is running; pause first')
-        if not self._is_there():
+        if not self._apply_up_to_seek():
             return f'at {self._simulation.queue_frame() * 1e-9:.6f} s'
         self._advance_frame()
         return f'at {self._simulation.world.stamp * 1e-9:.6f} s'

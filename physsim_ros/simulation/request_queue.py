@@ -203,18 +203,18 @@ class RequestQueue:
         self._seek = Waiting(Seek(stamp), topic, '', self.gesture)
         self._waiting.append(self._seek)
 
-    def submit_call(self, call: Callable[[], Iterable[Answer]], *, topic: str) -> None:
+    def submit_call(self, call: Callable[[], Iterable[Answer]]) -> None:
         """
         Add a call, which waits for the end of a seek as a request does.
 
-        :param topic: that it comes from
         :raises Busy: too many wait
         """
         if busy := self._busy():
             raise busy
         self._moves.clear()
         self._seek = None
-        self._waiting.append(Waiting(Call(call), topic, '', self.begin_gesture()))
+        # Its answers have their own topics.
+        self._waiting.append(Waiting(Call(call), '', '', self.begin_gesture()))
 
     def refuse(
         self,

@@ -243,7 +243,7 @@ class Simulation:
     # Time
 
     def apply_up_to_seek(self) -> bool:
-        """Apply what waits, but what is behind a seek; return whether the world is there."""
+        """Apply the requests before a seek; return whether no seek is under way."""
         self._handler.apply_up_to_seek()
         return self._playback.is_there
 

@@ -22,6 +22,7 @@ from typing import Any
 from physsim_ros.model.errors import Busy, PhysSimError, Refusal
 from physsim_ros.model.requests import Request
 from physsim_ros.model.snapshot import Answer
+from physsim_ros.simulation.deferred_calls import Wait
 from physsim_ros.sketchpad.answers import answer_content, request_of
 from physsim_ros.sketchpad.world_control import WorldControl
 
@@ -78,17 +79,18 @@ class PageRequests:
         """
         self.tell(_answer_of(topic, asker, action))
 
-    def perform_in_turn(self, service: str, asker: str, action: Callable[[], str]) -> None:
-        """Perform an action when it is the turn of its service, and queue its answer."""
-        topic = f'~/{service}'
-        self.call_in_turn(service, asker, lambda: [_answer_of(topic, asker, action)])
+    def submit_action(self, topic: str, asker: str, action: Callable[[], str], wait: Wait) -> None:
+        """Perform an action when it may come, and queue its answer."""
+        self.submit_call(topic, asker, lambda: [_answer_of(topic, asker, action)], wait)
 
-    def call_in_turn(self, service: str, asker: str, call: Callable[[], Iterable[Answer]]) -> None:
-        """Call something when it is the turn of a service; refuse it where too many wait."""
+    def submit_call(
+        self, topic: str, asker: str, call: Callable[[], Iterable[Answer]], wait: Wait
+    ) -> None:
+        """Call something when it may come; refuse it where too many wait."""
         try:
-            self._world.call_in_turn(service, call)
+            self._world.submit_call(call, wait)
         except Busy as refusal:
-            self.refuse(refusal, f'~/{service}', asker)
+            self.refuse(refusal, topic, asker)
 
 
 def _answer_of(topic: str, asker: str, action: Callable[[], str]) -> Answer:

@@ -28,6 +28,7 @@ from typing import Any
 from physsim_ros.model.errors import Busy, WorldFull
 from physsim_ros.model.requests import KeepHand, LetGo
 from physsim_ros.model.snapshot import Answer
+from physsim_ros.simulation.deferred_calls import Wait
 from physsim_ros.sketchpad import messages
 from physsim_ros.sketchpad.answers import asker_key, request_of
 from physsim_ros.sketchpad.body_past import BodyPasts
@@ -135,12 +136,15 @@ class PageSession:
 
     def _seek(self, message: messages.Seek, asker: str) -> None:
         stamp = message.stamp
-        self._requests.perform_in_turn('seek', asker, lambda: self._world.seek(stamp))
+        seek = self._world.seek
+        wait = Wait.BEHIND_REQUESTS
+        self._requests.submit_action('~/seek', asker, lambda: seek(stamp), wait)
 
     def _return_to_course(self, message: messages.ReturnToCourse, asker: str) -> None:
         course = message.course
         return_to_course = self._world.simulation.return_to_course
-        self._requests.perform_in_turn('timeline', asker, lambda: return_to_course(course))
+        wait = Wait.BEHIND_REQUESTS
+        self._requests.submit_action('~/timeline', asker, lambda: return_to_course(course), wait)
 
     # Worlds
 
@@ -153,7 +157,7 @@ class PageSession:
                 self._on_save()
             return done
 
-        self._requests.perform_in_turn(action, asker, perform)
+        self._requests.submit_action(f'~/{action}', asker, perform, self._world.wait_of(action))
 
     def _upload(self, message: messages.Upload, asker: str) -> None:
         def replace_world() -> str:
@@ -162,7 +166,7 @@ class PageSession:
                 raise Busy('an upload has waited too long; nothing was done')
             return self._world.replace_world(content)
 
-        self._requests.perform_in_turn('load_world', asker, replace_world)
+        self._requests.submit_action('~/load_world', asker, replace_world, Wait.FOR_SEEK)
 
     def _share(self, _: messages.Share, asker: str) -> None:
         def share() -> list[Answer]:
@@ -174,4 +178,4 @@ class PageSession:
                 self._requests.answer_page(asker, 'the world as text', values=(('yaml', text),))
             return []
 
-        self._requests.call_in_turn('save_world', asker, share)
+        self._requests.submit_call('~/save_world', asker, share, Wait.FOR_SEEK)

@@ -22,6 +22,7 @@ from typing import Any, Protocol
 
 from physsim_ros.drawing import DrawingSettings
 from physsim_ros.model.snapshot import Answer, Snapshot
+from physsim_ros.simulation.deferred_calls import Wait
 from physsim_ros.simulation.simulation import Simulation
 
 
@@ -39,11 +40,14 @@ class WorldControl(Protocol):
     def current_snapshot(self) -> Snapshot:
         """Apply the waiting requests, and return the snapshot that is shown."""
 
-    def call_in_turn(self, service: str, call: Callable[[], Iterable[Answer]]) -> None:
-        """
-        Call something and tell its answers, at once or when a seek is done that it must wait for.
+    def wait_of(self, action: str) -> Wait:
+        """Return the time at which the action of a service may come."""
 
-        :param service: whose turn it takes
+    def submit_call(self, call: Callable[[], Iterable[Answer]], wait: Wait) -> None:
+        """
+        Call something when it may come, and tell its answers.
+
+        :param wait: time at which it may come
         :raises Busy: too many requests wait
         """
 

@@ -117,7 +117,7 @@ def test_a_call_waits_for_the_end_of_a_seek_in_its_turn_among_requests(
         return [Answer(topic='~/clear', message=simulation.perform(DeleteAll()))]
 
     requests.submit(spawning('early/0', DISC, (5.0, 1.0, 0.0)), topic='~/spawn')
-    requests.submit_call(clear, topic='~/clear')
+    requests.submit_call(clear)
     requests.submit(spawning('late/0', DISC, (7.0, 1.0, 0.0)), topic='~/spawn')
     ticks, frame = ticks_to_a_frame(simulation, 0)
     assert ticks > 50

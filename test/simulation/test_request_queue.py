@@ -117,7 +117,7 @@ def test_what_lies_between_two_seeks_decides_whether_the_first_is_carried_out() 
     queue.submit_seek(2, topic='~/seek')
     queue.submit(move, topic='~/drag/feedback')
     queue.submit(other, topic='~/drag/feedback')
-    queue.submit_call(list, topic='~/clear')
+    queue.submit_call(list)
     queue.submit(move, topic='~/drag/feedback')
     queue.submit_seek(3, topic='~/seek')
 

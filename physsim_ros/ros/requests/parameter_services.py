@@ -26,6 +26,7 @@ from physsim_ros.model.texts import abbreviated, message_text, nearest_name
 from physsim_ros.ros.parameters import is_world_setting, SPECS
 from physsim_ros.ros.parameters.spec import Type
 from physsim_ros.ros.requests.services import Fill, ServiceCalls
+from physsim_ros.simulation.deferred_calls import Wait
 from rcl_interfaces.msg import Parameter as ParameterMessage
 from rcl_interfaces.msg import SetParametersResult
 from rcl_interfaces.srv import SetParameters, SetParametersAtomically
@@ -88,8 +89,8 @@ class ParameterServices(ParameterService):
     def _add_call(self, messages: Sequence[ParameterMessage], response: Any, fill: Fill) -> Future:
         _replace_unknown_types(messages)
         changes_world = any(is_world_setting(each.name) for each in messages)
-        turn = 'configure' if changes_world else 'set_parameters'
-        return self._calls.add(turn, response, fill)
+        wait = Wait.FOR_SEEK if changes_world else Wait.BEHIND_REQUESTS
+        return self._calls.add(response, fill, wait)
 
     def _answers(
         self, messages: Iterable[ParameterMessage], results: Iterable[SetParametersResult]

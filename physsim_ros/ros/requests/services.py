@@ -23,15 +23,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from functools import partial
-from typing import Any
+from typing import Any, NamedTuple
 
 from physsim_ros.model.errors import Busy, Refusal
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.ros.requests.message_queue import MessageQueue
 from physsim_ros.ros.requests.reply_pacer import ReplyPacer, SERVICE_QOS
-from physsim_ros.simulation.request_queue import RequestQueue
+from physsim_ros.simulation.deferred_calls import DeferredCalls, Wait
 from rclpy.node import Node
-from rclpy.service import Service
+import rclpy.service
 from rclpy.task import Future
 from std_srvs.srv import Trigger
 
@@ -39,67 +39,40 @@ from std_srvs.srv import Trigger
 Action = Callable[[], str]
 # Fills in a response, with a refusal where too many wait, and returns the answers.
 Fill = Callable[[Busy | None], Iterable[Answer]]
-# Services that read or replace the world: their calls wait for the end of a seek, as requests do.
-# `configure` sets parameters that are settings of the world.
-NEEDING_WORLD = frozenset({'clear', 'load_world', 'save_world', 'configure'})
-# Services that end a seek, or do not concern it: their calls come at once, unless requests wait
-# for its end; then they come after these.
-BEHIND_REQUESTS = frozenset({'undo', 'redo', 'reset', 'seek', 'timeline', 'set_parameters'})
 
 
-class Turns:
+class Service(NamedTuple):
     """
-    The turns of services: at once, or among the requests that wait for the end of a seek.
+    A service.
 
-    :param requests: the queue of requests and answers
-    :param is_there: applies what waits, and tells whether no seek is under way
+    :ivar perform: carries it out
+    :ivar wait: time at which its calls may come
     """
 
-    def __init__(self, requests: RequestQueue, is_there: Callable[[], bool]) -> None:
-        self._requests = requests
-        self._is_there = is_there
-
-    def call(self, service: str, call: Callable[[], Iterable[Answer]]) -> None:
-        """
-        Call something, and tell its answers.
-
-        :param service: whose turn it takes
-        :raises Busy: too many requests wait
-        """
-        waits = service in NEEDING_WORLD or (
-            service in BEHIND_REQUESTS and self._requests.has_requests
-        )
-        if waits and not self._is_there():
-            self._requests.submit_call(call, topic=f'~/{service}')
-        else:
-            self.tell(call())
-
-    def tell(self, answers: Iterable[Answer]) -> None:
-        """Tell answers at once."""
-        for answer in answers:
-            self._requests.tell(answer)
+    perform: Action
+    wait: Wait = Wait.NONE
 
 
 class ServiceCalls:
     """
-    Calls of services: in the order of messages, in their turns, with replies at a pace.
+    Calls of services: in the order of messages and requests, with replies at a pace.
 
     :param queue: of messages, behind which a service comes that was called after them
-    :param turns: of the services
+    :param calls: among the requests
     :param pacer: of their replies
     """
 
-    def __init__(self, queue: MessageQueue, turns: Turns, pacer: ReplyPacer) -> None:
+    def __init__(self, queue: MessageQueue, calls: DeferredCalls, pacer: ReplyPacer) -> None:
         self._queue = queue
-        self._turns = turns
+        self._calls = calls
         self._pacer = pacer
         self.delay_replies = pacer.add
 
-    def add(self, service: str, response: Any, fill: Fill) -> Future:
+    def add(self, response: Any, fill: Fill, wait: Wait) -> Future:
         """
-        Have a response filled in when it is its turn, and return its future.
+        Have a response filled in when its call may come, and return its future.
 
-        :param service: whose turn it takes
+        :param wait: time at which the call may come
         """
         reply = Future()
 
@@ -112,25 +85,25 @@ class ServiceCalls:
             try:
                 call()
             except Busy as refusal:
-                self._turns.tell(finish(refusal))
+                self._calls.tell(finish(refusal))
 
-        take_turn = partial(unless_busy, partial(self._turns.call, service, finish))
-        unless_busy(partial(self._queue.add_call, take_turn))
+        submit = partial(unless_busy, partial(self._calls.submit, finish, wait))
+        unless_busy(partial(self._queue.add_call, submit))
         return reply
 
 
 def create_services(
     node: Node,
-    actions: Mapping[str, Action],
+    services: Mapping[str, Service],
     calls: ServiceCalls,
     *,
     on_success: Callable[[], None],
 ) -> None:
     """
-    Create a service for each action, which replies and tells the same sentence as an event.
+    Create services, which reply and tell the same sentence as an event.
 
     :param node: that offers them
-    :param actions: by the names of the services
+    :param services: by their names
     :param calls: of the services
     :param on_success: called after each service that was not refused
     """
@@ -140,7 +113,7 @@ def create_services(
         try:
             if busy is not None:
                 raise busy
-            response.message = actions[name]()
+            response.message = services[name].perform()
         except Refusal as refusal:
             response.message = f'{refusal.code}: {refusal}'
             return [Answer.refused(refusal, topic=topic)]
@@ -148,11 +121,11 @@ def create_services(
         on_success()
         return [Answer(topic=topic, message=response.message)]
 
-    def create_service(name: str) -> Service:
+    def create_service(name: str) -> rclpy.service.Service:
         def callback(_: Trigger.Request, response: Trigger.Response) -> Future:
-            return calls.add(name, response, partial(fill, name, response))
+            return calls.add(response, partial(fill, name, response), services[name].wait)
 
         return node.create_service(Trigger, f'~/{name}', callback, qos_profile=SERVICE_QOS)
 
-    for name in actions:
+    for name in services:
         calls.delay_replies(create_service(name))
