@@ -31,7 +31,6 @@ from physsim_ros.drawing.clicks.gesture import Gesture
 from physsim_ros.drawing.clicks.tools import ClickResult, Tool
 from physsim_ros.drawing.scene_query import DRAWN, SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.strokes.context import Outcome
 from physsim_ros.drawing.strokes.figure import (
     Figure,
     likeliest_group,
@@ -47,6 +46,7 @@ from physsim_ros.drawing.strokes.interpretation import (
     Reading,
     reading_of,
 )
+from physsim_ros.drawing.strokes.meanings import Outcome
 from physsim_ros.drawing.waiting_joints import requests_with_waiting_joints
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NotRecognised, UnknownBody

@@ -22,7 +22,7 @@ from __future__ import annotations
 
 from diagnostic_msgs.msg import DiagnosticArray
 from physsim_ros.ros.frame_outputs import FrameOutputs
-from physsim_ros.ros.publishers.diagnostics import Backlog
+from physsim_ros.ros.publishers.frame_statistics import Backlog
 from physsim_ros.ros.requests.subscriptions import RequestSubscriptions
 from physsim_ros.simulation.simulation import Simulation
 from rclpy.node import Node

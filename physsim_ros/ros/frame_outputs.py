@@ -32,7 +32,7 @@ from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.model.timeline import TimelineStatus
 from physsim_ros.ros import parameters
 from physsim_ros.ros.page_control import PageControl
-from physsim_ros.ros.publishers.diagnostics import FrameStatistics
+from physsim_ros.ros.publishers.frame_statistics import FrameStatistics
 from physsim_ros.ros.publishers.publishers import Publishers
 from physsim_ros.sketchpad import Role, Sketchpad
 from physsim_ros.view import FrameContext, Viewer, ViewerMode

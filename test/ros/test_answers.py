@@ -24,8 +24,8 @@ from physsim_ros.ros.publishers.event_publisher import (
     ACK_TIMEOUT,
     EVENTS_DEPTH,
     MOST_WAITING,
-    PACE,
-    PACED,
+    STOPPED_ANSWERS,
+    STOPPED_PERIOD,
 )
 from physsim_ros.ros.publishers.publishers import Publishers
 from physsim_ros.testing import PhysSim
@@ -101,13 +101,13 @@ def test_a_listener_that_has_stopped_holds_nobody_up(bench: Bench) -> None:
     assert not bench.streams.events.stopped
     bench.now += 0.2
     bench.streams.flush_answers()
-    assert len(bench.slow.sent) == EVENTS_DEPTH + PACED
+    assert len(bench.slow.sent) == EVENTS_DEPTH + STOPPED_ANSWERS
     assert bench.streams.events.stopped
     # Some ten thousand answers a second, which a listener that reads can ask for again.
     for _ in range(2):
-        bench.now += PACE + 0.001
+        bench.now += STOPPED_PERIOD + 0.001
         bench.streams.flush_answers()
-    assert len(bench.slow.sent) == EVENTS_DEPTH + 3 * PACED
+    assert len(bench.slow.sent) == EVENTS_DEPTH + 3 * STOPPED_ANSWERS
 
 
 def test_a_listener_has_stopped_until_it_takes_all(bench: Bench) -> None:
@@ -132,7 +132,7 @@ def test_a_listener_that_too_many_answers_wait_for_has_stopped(bench: Bench) -> 
     bench.report(1)
     bench.streams.flush_answers()
     assert bench.streams.events.stopped
-    assert len(bench.slow.sent) == EVENTS_DEPTH + PACED
+    assert len(bench.slow.sent) == EVENTS_DEPTH + STOPPED_ANSWERS
 
 
 def test_an_answer_goes_out_before_the_frame_that_shows_it(bench: Bench, physsim: PhysSim) -> None:

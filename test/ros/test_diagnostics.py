@@ -23,7 +23,7 @@ import numpy as np
 from physsim_ros.model.requests import Spawn
 from physsim_ros.model.shapes import Disc
 from physsim_ros.model.snapshot import Snapshot
-from physsim_ros.ros.publishers.diagnostics import Backlog, FrameStatistics
+from physsim_ros.ros.publishers.frame_statistics import Backlog, FrameStatistics
 from physsim_ros.simulation.world import World
 import pytest
 

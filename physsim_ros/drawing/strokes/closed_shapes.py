@@ -28,7 +28,11 @@ import math
 
 import numpy as np
 from physsim_ros.drawing.strokes import corner_detection, fitting, request_builder
-from physsim_ros.drawing.strokes.context import (
+from physsim_ros.drawing.strokes.features import Features
+from physsim_ros.drawing.strokes.fitting import rectangle, traced
+from physsim_ros.drawing.strokes.glyphs import axle, weld
+from physsim_ros.drawing.strokes.hypothesis import falls, Hypothesis, LEAST, rises
+from physsim_ros.drawing.strokes.meanings import (
     Context,
     DISC,
     Interpretation,
@@ -36,10 +40,6 @@ from physsim_ros.drawing.strokes.context import (
     POLYGON,
     RECTANGLE,
 )
-from physsim_ros.drawing.strokes.features import Features
-from physsim_ros.drawing.strokes.fitting import rectangle, traced
-from physsim_ros.drawing.strokes.glyphs import axle, weld
-from physsim_ros.drawing.strokes.hypothesis import falls, Hypothesis, LEAST, rises
 from physsim_ros.drawing.strokes.outer_boundary import outer_boundary
 from physsim_ros.drawing.strokes.polyline import angles, point_of, smoothed, turns, widened
 from physsim_ros.model.arrays import Floats

@@ -30,7 +30,8 @@ from dataclasses import dataclass
 import numpy as np
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.strokes.context import (
+from physsim_ros.drawing.strokes.interpretation import Guess, guess_meanings, is_likely
+from physsim_ros.drawing.strokes.meanings import (
     CLOSED,
     DELETION,
     DISC,
@@ -38,7 +39,6 @@ from physsim_ros.drawing.strokes.context import (
     POLYGON,
     RECTANGLE,
 )
-from physsim_ros.drawing.strokes.interpretation import Guess, guess_meanings, is_likely
 from physsim_ros.drawing.strokes.stroke_order import joined_strokes
 from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.names import WORLD

@@ -32,7 +32,9 @@ from dataclasses import dataclass
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes import calibration, closed_shapes, open_lines
-from physsim_ros.drawing.strokes.context import (
+from physsim_ros.drawing.strokes.glyphs import SIGNS
+from physsim_ros.drawing.strokes.hypothesis import Hypothesis, LEAST
+from physsim_ros.drawing.strokes.meanings import (
     CLOSED,
     Context,
     DELETION,
@@ -43,8 +45,6 @@ from physsim_ros.drawing.strokes.context import (
     POLYGON,
     RECTANGLE,
 )
-from physsim_ros.drawing.strokes.glyphs import SIGNS
-from physsim_ros.drawing.strokes.hypothesis import Hypothesis, LEAST
 from physsim_ros.drawing.strokes.recogniser import recognise_form
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.arrays import Floats

@@ -26,12 +26,12 @@ import math
 
 import numpy as np
 from physsim_ros.drawing.strokes import request_builder
-from physsim_ros.drawing.strokes.context import BETWEEN, Context, Interpretation
 from physsim_ros.drawing.strokes.corner_detection import bends_of
 from physsim_ros.drawing.strokes.features import Features
 from physsim_ros.drawing.strokes.fitting import simplified
 from physsim_ros.drawing.strokes.glyphs import hatching
 from physsim_ros.drawing.strokes.hypothesis import falls, Hypothesis, LEAST, rises
+from physsim_ros.drawing.strokes.meanings import BETWEEN, Context, Interpretation
 from physsim_ros.drawing.strokes.polyline import path_length, point_of
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.joints import JointKind

@@ -26,8 +26,8 @@ import numpy as np
 from physsim_ros.drawing import body_requests, snapping
 from physsim_ros.drawing.snapping import End
 from physsim_ros.drawing.strokes import regularisation
-from physsim_ros.drawing.strokes.context import Context, Outcome
 from physsim_ros.drawing.strokes.fitting import simplified
+from physsim_ros.drawing.strokes.meanings import Context, Outcome
 from physsim_ros.drawing.strokes.polyline import point_of
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NothingThere

@@ -30,9 +30,9 @@ EVENTS_DEPTH = 1000
 # The longest wait for an acknowledgement [s]: 20 heartbeats of `fastdds_profiles.xml`, which ask
 # for one. With other profiles, each answer that displaces one before asks.
 ACK_TIMEOUT = 1.0
-# While a subscriber has stopped, half a history each period [s]: to a subscriber that reads, ten
-# times the answers that the node gives, and five periods of the heartbeat to repeat what was lost.
-PACE, PACED = 0.05, EVENTS_DEPTH // 2
+# While a subscriber has stopped, so many answers are published each period [s]: ten times as many
+# as the node gives; a subscriber that reads has five heartbeats to ask for those that were lost.
+STOPPED_PERIOD, STOPPED_ANSWERS = 0.05, EVENTS_DEPTH // 2
 # Answers that wait for acknowledgements [1], of some 300 bytes each: 15 MB.
 MOST_WAITING = 50_000
 
@@ -58,7 +58,7 @@ class EventPublisher:
         self._unacknowledged = 0
         self._since = 0.0
         # While a subscriber has stopped: answers of this period, and the steady time of its end.
-        self._paced = 0
+        self._period_count = 0
         self._period_end = 0.0
 
     @property
@@ -103,6 +103,6 @@ class EventPublisher:
         if not self.stopped:
             return False
         if now > self._period_end:
-            self._paced, self._period_end = 0, now + PACE
-        self._paced += 1
-        return self._paced <= PACED
+            self._period_count, self._period_end = 0, now + STOPPED_PERIOD
+        self._period_count += 1
+        return self._period_count <= STOPPED_ANSWERS

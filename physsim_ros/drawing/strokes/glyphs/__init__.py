@@ -25,10 +25,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Protocol
 
-from physsim_ros.drawing.strokes.context import Context, Interpretation
 from physsim_ros.drawing.strokes.features import Features
 from physsim_ros.drawing.strokes.glyphs import arrow, cross, round_arrow, scribble, zigzag
 from physsim_ros.drawing.strokes.hypothesis import Hypothesis
+from physsim_ros.drawing.strokes.meanings import Context, Interpretation
 
 
 class Sign(Protocol):

@@ -23,10 +23,10 @@ import math
 
 import numpy as np
 from physsim_ros.drawing.strokes import regularisation
-from physsim_ros.drawing.strokes.context import Context, Interpretation, MISPLACED, Outcome
 from physsim_ros.drawing.strokes.corner_detection import ARM
 from physsim_ros.drawing.strokes.features import Features
 from physsim_ros.drawing.strokes.hypothesis import falls, Hypothesis, LEAST, rises
+from physsim_ros.drawing.strokes.meanings import Context, Interpretation, MISPLACED, Outcome
 from physsim_ros.drawing.strokes.polyline import point_of, smoothed, turns
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NotRecognised

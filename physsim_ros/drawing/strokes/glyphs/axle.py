@@ -22,8 +22,8 @@ import math
 import numpy as np
 from physsim_ros.drawing import snapping
 from physsim_ros.drawing.strokes import request_builder
-from physsim_ros.drawing.strokes.context import Context, Interpretation, Outcome
 from physsim_ros.drawing.strokes.hypothesis import falls
+from physsim_ros.drawing.strokes.meanings import Context, Interpretation, Outcome
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.transform import Point
 

@@ -20,10 +20,10 @@ from collections.abc import Iterator
 from functools import partial
 import math
 
-from physsim_ros.drawing.strokes.context import Context, Interpretation, MISPLACED, Outcome
 from physsim_ros.drawing.strokes.features import Features
 from physsim_ros.drawing.strokes.fitting import line
 from physsim_ros.drawing.strokes.hypothesis import falls, Hypothesis, rises
+from physsim_ros.drawing.strokes.meanings import Context, Interpretation, MISPLACED, Outcome
 from physsim_ros.drawing.strokes.polyline import point_of
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NothingThere

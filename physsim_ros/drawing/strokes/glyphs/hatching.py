@@ -18,7 +18,7 @@ from __future__ import annotations
 
 from functools import partial
 
-from physsim_ros.drawing.strokes.context import Context, Interpretation, Outcome
+from physsim_ros.drawing.strokes.meanings import Context, Interpretation, Outcome
 from physsim_ros.drawing.strokes.polyline import point_of
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.requests import Spawn

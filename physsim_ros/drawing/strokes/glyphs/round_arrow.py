@@ -22,9 +22,9 @@ import math
 
 import numpy as np
 from physsim_ros.drawing.scene_query import SceneQuery
-from physsim_ros.drawing.strokes.context import Context, Interpretation, MISPLACED, Outcome
 from physsim_ros.drawing.strokes.features import Features
 from physsim_ros.drawing.strokes.hypothesis import falls, Hypothesis, rises
+from physsim_ros.drawing.strokes.meanings import Context, Interpretation, MISPLACED, Outcome
 from physsim_ros.drawing.strokes.polyline import angles, point_of, smoothed
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NothingThere

@@ -20,15 +20,15 @@ from collections.abc import Iterator
 from functools import partial
 
 from physsim_ros.drawing.strokes import overlap, request_builder
-from physsim_ros.drawing.strokes.context import (
+from physsim_ros.drawing.strokes.features import Features
+from physsim_ros.drawing.strokes.hypothesis import falls, Hypothesis, rises
+from physsim_ros.drawing.strokes.meanings import (
     Context,
     DELETION,
     Interpretation,
     MISPLACED,
     Outcome,
 )
-from physsim_ros.drawing.strokes.features import Features
-from physsim_ros.drawing.strokes.hypothesis import falls, Hypothesis, rises
 from physsim_ros.model.errors import NothingThere
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD

@@ -21,8 +21,8 @@ import math
 
 from physsim_ros.drawing import snapping
 from physsim_ros.drawing.strokes import request_builder
-from physsim_ros.drawing.strokes.context import Context, Interpretation, Outcome
 from physsim_ros.drawing.strokes.hypothesis import falls
+from physsim_ros.drawing.strokes.meanings import Context, Interpretation, Outcome
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.transform import Point

@@ -20,11 +20,11 @@ from collections.abc import Iterator
 from functools import partial
 
 from physsim_ros.drawing.strokes import overlap, request_builder
-from physsim_ros.drawing.strokes.context import Context, Interpretation
 from physsim_ros.drawing.strokes.corner_detection import bends_of
 from physsim_ros.drawing.strokes.features import Features
 from physsim_ros.drawing.strokes.glyphs import hatching
 from physsim_ros.drawing.strokes.hypothesis import falls, Hypothesis, rises
+from physsim_ros.drawing.strokes.meanings import Context, Interpretation
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
 
