@@ -15,8 +15,9 @@
 """
 The parameters of a running node.
 
-Laws: a parameter that is set has its effect before the next frame; after a frame, parameters and
-settings of the world are equal, whichever of them was changed.
+Laws: a parameter that is set has its effect before the next frame, and one that cannot have it is
+refused; after a frame, parameters and settings of the world are equal, whichever of them was
+changed.
 """
 
 from __future__ import annotations
@@ -45,6 +46,8 @@ class LiveParameters:
     :param simulation: whose settings, speed and history they are
     :param session: whose settings and tool they are
     :param effects: called when a parameter has been set, by its name
+    :param prepare: called with the value that a parameter is to have, by its name, if no other
+        check refuses it; raises a Refusal where the value cannot have its effect
     :param on_change: called when any parameter has been set
     """
 
@@ -56,6 +59,7 @@ class LiveParameters:
         session: DrawingSession,
         *,
         effects: Mapping[str, Callable[[], None]],
+        prepare: Mapping[str, Callable[[Any], None]],
         on_change: Callable[[], None],
     ) -> None:
         self._node = node
@@ -63,6 +67,7 @@ class LiveParameters:
         self._simulation = simulation
         self._session = session
         self._effects = effects
+        self._prepare = prepare
         self._on_change = on_change
         # The settings of the world that the parameters have; None where they may differ.
         self._mirrored: WorldSettings | None = simulation.settings
@@ -84,6 +89,9 @@ class LiveParameters:
             replace(self._simulation.settings, **parameters.world_changes(changed))
             values = {parameter.name: parameter.value for parameter in changed}
             parameters.drawing_settings(self._values | values)
+            for name, prepare in self._prepare.items():
+                if name in values:
+                    prepare(values[name])
         except Refusal as refusal:
             return SetParametersResult(successful=False, reason=f'{refusal.code}: {refusal}')
         return SetParametersResult(successful=True)

@@ -34,6 +34,7 @@ from physsim_ros.ros.diagnostics_publisher import DiagnosticsPublisher
 from physsim_ros.ros.frame_outputs import FrameOutputs
 from physsim_ros.ros.live_parameters import LiveParameters
 from physsim_ros.ros.page_control import PageControl
+from physsim_ros.ros.pages import Pages
 from physsim_ros.ros.qos_safe_node import NodeWithoutQosEvents
 from physsim_ros.ros.requests.drawing_topics import DrawingTopics
 from physsim_ros.ros.requests.parameter_services import ParameterServices
@@ -118,9 +119,10 @@ class PhysSimNode(NodeWithoutQosEvents):
             self._session,
             effects={
                 'publish_clock': self.outputs.update_clock,
-                'sketchpad': self._serve_sketchpad,
+                'sketchpad': self._update_pages,
                 'viewer': self._open_viewer,
             },
+            prepare={'sketchpad': self._open_pages_for},
             on_change=self.outputs.publish_preview,
         )
         if self._values['world_file']:
@@ -129,7 +131,8 @@ class PhysSimNode(NodeWithoutQosEvents):
         self.outputs.topics.publish_timeline(self.simulation.status, moving=False)
         self._create_subscriptions()
         self._create_services()
-        self._serve_sketchpad()
+        self._open_pages_for(self._values['sketchpad'])
+        self._update_pages()
 
     def _create_subscriptions(self) -> None:
         frame_id = self._values['frame_id']
@@ -173,7 +176,7 @@ class PhysSimNode(NodeWithoutQosEvents):
         calls = ServiceCalls(self.requests.queue, deferred_calls, self._reply_pacer)
         create_services(self, services, calls, on_success=self._note_change)
         self._parameter_services = ParameterServices(self, calls)
-        self._page_control = PageControl(
+        control = PageControl(
             simulation=simulation,
             values=self._values,
             time_control=self._time_control,
@@ -182,11 +185,18 @@ class PhysSimNode(NodeWithoutQosEvents):
             set_parameters=self.set_parameters,
             current_snapshot=self._current_snapshot,
         )
+        self._pages = Pages(
+            self,
+            self.outputs,
+            control,
+            world_dir=self.world_files.directory,
+            apply_requests=self.apply_requests,
+        )
 
     def start(self) -> None:
         """Start the viewer and the diagnostics; `tick` advances time from now on."""
         self._started = self._reply_pacer.paced = True
-        self.outputs.print_addresses()
+        self._pages.start()
         if self._values['record_file']:
             self.outputs.viewer.record(Path(self._values['record_file']))
         self._open_viewer()
@@ -196,6 +206,12 @@ class PhysSimNode(NodeWithoutQosEvents):
         """Open the viewer of parameter `viewer`, once the node has started."""
         if self._started:
             self.outputs.open_viewer()
+
+    def _open_pages_for(self, value: str) -> None:
+        self._pages.open_for(value)
+
+    def _update_pages(self) -> None:
+        self._pages.update(self._values['sketchpad'])
 
     def destroy_node(self) -> None:
         """Close the viewer and the sketchpad, and destroy the node."""
@@ -229,7 +245,7 @@ class PhysSimNode(NodeWithoutQosEvents):
         self._reply_pacer.flush()
         if self._started:
             self._diagnostics.publish_due(now_ns, message_delay=self.message_delay)
-        self._handle_pages()
+        self._pages.handle_messages()
         self._update_contact_recording()
         frames = self.simulation.advance(
             now_ns, is_overdue=lambda: time.perf_counter_ns() - began > MOST_TICK_NS
@@ -254,7 +270,7 @@ class PhysSimNode(NodeWithoutQosEvents):
 
     def advance_frame(self) -> None:
         """Advance the world by one publish period, at any time, and publish the frame."""
-        self._handle_pages()
+        self._pages.handle_messages()
         self._update_contact_recording()
         self.publish_frame(self.simulation.advance_frame())
 
@@ -308,37 +324,3 @@ class PhysSimNode(NodeWithoutQosEvents):
         answers = self.simulation.take_answers()
         self.outputs.report_answers(answers)
         return answers
-
-    # Pages
-
-    def _serve_sketchpad(self) -> None:
-        """Open or close the sketchpad, as the parameter says."""
-        wanted = self._values['sketchpad'] == 'serve'
-        if wanted == (self.outputs.sketchpad is not None):
-            return
-        if not wanted:
-            self.outputs.close_sketchpad()
-            return
-        self.outputs.open_sketchpad(
-            self._page_control, world_dir=self.world_files.directory, wake=self._wake
-        )
-        if self.frame is None:
-            # A page shows the world before its time has begun.
-            self.apply_requests()
-        if self._started:
-            self.outputs.print_addresses()
-
-    def _handle_pages(self) -> None:
-        if self.outputs.sketchpad is not None:
-            self.outputs.sketchpad.handle_messages()
-
-    def _wake(self) -> None:
-        """Queue the handling of messages of pages; called on the thread of the sketchpad."""
-        executor = self.executor
-        # With timers, the next tick handles them.
-        if not self._started and executor is not None:
-            executor.create_task(self._serve_pages)
-
-    def _serve_pages(self) -> None:
-        self._handle_pages()
-        self.apply_requests()

@@ -18,11 +18,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 import math
+from pathlib import Path
+import socket
 from typing import Any
 
 from physsim_ros.model.errors import BadProperty, Malformed, PhysSimError
 from physsim_ros.ros import parameters
 from physsim_ros.ros.node import PhysSimNode
+from physsim_ros.sketchpad import listening
 from physsim_ros.testing import own_context, PhysSim
 import pytest
 from rcl_interfaces.msg import Parameter as ParameterMessage
@@ -33,7 +36,7 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rosgraph_msgs.msg import Clock
 
-from ..client import Client
+from ..client import Client, Event
 from ..messages import box, disc
 
 # The contract's table, as far as it is built: default, and whether it is fixed once running.
@@ -298,6 +301,43 @@ def test_many_are_taken_together_or_not_at_all(physsim: PhysSim, client: Client)
     assert response.results[1].reason
     assert physsim.node.simulation.world.settings.density == 2.0
     assert physsim.node.simulation.world.settings.friction == 0.5
+
+
+# Effects that fail
+
+
+def serve(client: Client) -> tuple[SetParametersResult, Event]:
+    """Set parameter `sketchpad` to `serve` over ROS; return the result, and its event."""
+    value = ParameterValue(type=ParameterType.PARAMETER_STRING, string_value='serve')
+    request = SetParameters.Request(parameters=[ParameterMessage(name='sketchpad', value=value)])
+    (result,) = client.request(SetParameters, '~/set_parameters', request).results
+    client.physsim.node.apply_requests()
+    client.physsim.settle()
+    return result, client.events[-1]
+
+
+def test_a_page_that_cannot_be_served_is_refused_and_the_node_goes_on(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setenv('XDG_STATE_HOME', str(tmp_path))
+    monkeypatch.setattr(listening, '_MORE_PORTS', 0)
+    with socket.create_server(('127.0.0.1', 0)) as taken:
+        values = {'world_dir': str(tmp_path), 'sketchpad_port': taken.getsockname()[1]}
+        with own_context(monkeypatch) as context, PhysSim(context, **values) as physsim:
+            client = Client(physsim)
+            result, event = serve(client)
+
+            assert not result.successful
+            assert (event.level, event.code, event.field) == (2, 'bad_property', 'sketchpad')
+            assert result.reason == f'bad_property: {event.message}'
+            assert value_of(physsim, 'sketchpad') == 'none'
+            assert physsim.spawn(disc('a/0')) == 'a/0'
+
+            taken.close()
+            result, event = serve(client)
+            assert result.successful
+            assert event.code == 'ok'
+            assert value_of(physsim, 'sketchpad') == 'serve'
 
 
 # Conversions
