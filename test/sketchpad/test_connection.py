@@ -56,7 +56,12 @@ def test_a_server_that_closes_each_socket_is_asked_ever_less_often(
             return original(call, pause);
         };"""
     )
-    sheet.page.route_web_socket('**/ws*', lambda socket: socket.close())
+
+    def close(socket: Any) -> None:
+        # Opened, but without a frame.
+        socket.connect_to_server().on_message(lambda _: socket.close())
+
+    sheet.page.route_web_socket('**/ws*', close)
     sheet.page.goto(address)
     sheet.wait('pauses.length >= 4')
     assert sheet.page.evaluate('pauses.slice(0, 4)') == [250, 500, 1000, 2000]
