@@ -29,8 +29,8 @@ from typing import NamedTuple
 import numpy as np
 from physsim_ros.engine.batch_io import BatchIO, Ids
 from physsim_ros.engine.body import REST, RigidBody
-from physsim_ros.engine.ccd.safe_moves import corner_count, safe_depths, turning_radius
-from physsim_ros.engine.islands import flood, Rows
+from physsim_ros.engine.ccd.body_extents import corner_count, safe_depths, turning_radius
+from physsim_ros.engine.graph_search import reachable, Rows
 from physsim_ros.model.arrays import Flags, Floats, Ints
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.scene import Scene
@@ -269,6 +269,6 @@ def _sprung(dynamic: Flags, joined: Rows, springs: Flags) -> Flags:
     def islands_with(joints: Flags) -> Flags:
         marked = np.zeros(len(dynamic), np.bool_)
         marked[joined[joints]] = True
-        return flood(marked & dynamic, joined[within])
+        return reachable(marked & dynamic, joined[within])
 
     return (islands_with(~within) & islands_with(springs))[:-1]

@@ -46,13 +46,13 @@ def take_checkpoint(space: Space, step: int) -> Checkpoint:
 
     :param step: steps that the world has made
     """
-    table, settled, rigids = space.table, space.settled, list(space.bodies.by_name.values())
-    unsupported = [rigids[row] for row in np.flatnonzero(settled.unsupported)]
+    table, start, rigids = space.table, space.start_state, list(space.bodies.by_name.values())
+    unsupported = [rigids[row] for row in np.flatnonzero(start.unsupported)]
     return Checkpoint(
         step=step,
         scene=table.scene,
-        state=settled.state.copy(),
-        free=settled.free.copy(),
+        state=start.state.copy(),
+        free=start.free.copy(),
         wrenches=tuple(
             (table.columns.rows[rigid.body.name], rigid.wrench, rigid.wrench_until)
             for rigid in space.pipeline.wrenches.acting()

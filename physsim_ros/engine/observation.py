@@ -20,37 +20,37 @@ from collections.abc import Iterator, Sequence
 
 from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.body_table import BodyTable
-from physsim_ros.engine.stages.half_step import Settled
+from physsim_ros.engine.stages.half_step import StartState
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.transform import turned
 
 
-def observe_bodies(table: BodyTable, settled: Settled) -> tuple[Floats, Floats]:
+def observe_bodies(table: BodyTable, start: StartState) -> tuple[Floats, Floats]:
     """
     Return poses of the bodies' origins and true twists of their centres of mass.
 
-    :param settled: the state that the next step begins with
+    :param start: the state that the next step begins with
     :return: (n, 3) float64 each: x, y [m], yaw [rad]; velocity [m/s], spin [rad/s]
     """
-    poses, twists = settled.state[:, :3].copy(), settled.state[:, 3:].copy()
+    poses, twists = start.state[:, :3].copy(), start.state[:, 3:].copy()
     offsets = table.columns.offsets
     if offsets.any():
         poses[:, :2] -= turned(offsets, poses[:, 2])
-    twists[settled.free] -= table.leads[settled.free]
+    twists[start.free] -= table.leads[start.free]
     return poses, twists
 
 
 def digest_parts(
-    table: BodyTable, settled: Settled, pushed: Sequence[RigidBody]
+    table: BodyTable, start: StartState, pushed: Sequence[RigidBody]
 ) -> Iterator[bytes]:
     """
     Yield scene, poses, velocities and wrenches as bytes, in a fixed order.
 
-    :param settled: the state that the next step begins with
+    :param start: the state that the next step begins with
     :param pushed: bodies on which a wrench acts, in spawn order
     """
     yield table.scene.key
-    yield settled.state.tobytes()
-    yield settled.free.tobytes()
+    yield start.state.tobytes()
+    yield start.free.tobytes()
     for rigid in pushed:
         yield f'{rigid.body.name} {rigid.wrench!r} {rigid.wrench_until}'.encode()

@@ -35,7 +35,7 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 from physsim_ros.engine.ccd.broad_phase import pairs_in_parts
-from physsim_ros.engine.ccd.time_of_impact import SLOP
+from physsim_ros.engine.tolerances import COLLISION_SLOP
 from physsim_ros.model.arrays import Flags, Floats, Ints
 from physsim_ros.model.shapes import Capsule, Circle, Convex, Form, Piece, Shape
 from physsim_ros.model.transform import next_vertices, Pose, rotated, turned
@@ -115,7 +115,7 @@ def _core(piece: Piece) -> tuple[tuple[float, float], tuple[float, float], float
             middle = (low + high) / 2
             # All corners of a rectangle are corners of its box.
             gaps = np.abs(np.abs(along - middle) - (high - low) / 2).max()
-            if len(corners) == 4 and gaps < SLOP * float((high - low).min()):
+            if len(corners) == 4 and gaps < COLLISION_SLOP * float((high - low).min()):
                 share, center = _OF_BAR, corners.mean(axis=0)
             else:
                 share, center = _OF_CONVEX, corners.mean(axis=0)
@@ -126,7 +126,7 @@ def _core(piece: Piece) -> tuple[tuple[float, float], tuple[float, float], float
 
 def _reduced(half: float, share: float) -> float:
     """Return half the extent of a core, of a piece of half an extent [m]."""
-    return max(half * share - SLOP, half * _LEAST)
+    return max(half * share - COLLISION_SLOP, half * _LEAST)
 
 
 class Layout(NamedTuple):

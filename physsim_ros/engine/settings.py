@@ -24,8 +24,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from physsim_ros.engine.ccd.time_of_impact import SLOP
 from physsim_ros.engine.stages.sleeping import enable_sleeping, wake_bodies
+from physsim_ros.engine.tolerances import COLLISION_SLOP
 from physsim_ros.engine.warm_start import scale_impulses
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.transform import Point
@@ -39,7 +39,7 @@ def make_engine() -> pymunk.Space:
     """Return an empty space of Pymunk."""
     engine = pymunk.Space()
     # Pymunk's own 0.1 is 10 cm in a metre world.
-    engine.collision_slop = SLOP
+    engine.collision_slop = COLLISION_SLOP
     # Contacts of the last step only are listed, and those that parted are forgotten at once.
     engine.collision_persistence = 1
     enable_sleeping(engine)

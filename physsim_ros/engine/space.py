@@ -30,7 +30,7 @@ from physsim_ros.engine.boundary import Boundary
 from physsim_ros.engine.joints.joint_set import JointSet
 from physsim_ros.engine.pipeline import Pipeline
 from physsim_ros.engine.settings import apply_settings, make_engine
-from physsim_ros.engine.stages.half_step import Settled
+from physsim_ros.engine.stages.half_step import StartState
 from physsim_ros.engine.step_context import StepContext
 from physsim_ros.engine.warm_start import ShapeIds
 from physsim_ros.model.grips import Grip
@@ -97,9 +97,9 @@ class Space:
         return self._table
 
     @property
-    def settled(self) -> Settled:
+    def start_state(self) -> StartState:
         """Return the state that the next step begins with."""
-        return self.pipeline.half_step.settle(self.table)
+        return self.pipeline.half_step.start_state(self.table)
 
     def twist_of(self, rigid: RigidBody) -> Pose:
         """Return the true velocity of a body."""

@@ -29,7 +29,7 @@ import itertools
 from typing import Literal
 
 import numpy as np
-from physsim_ros.engine.islands import ranges
+from physsim_ros.engine.graph_search import ranges
 from physsim_ros.model.arrays import Flags, Floats, Ints
 
 # Smallest cell, as a power of two [m]: 1 µm, so that cells 1e12 m away have a 64-bit number.

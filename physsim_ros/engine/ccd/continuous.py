@@ -33,7 +33,7 @@ from physsim_ros.engine.body_table import BodyTable
 from physsim_ros.engine.ccd.broad_phase import boxes_overlap
 from physsim_ros.engine.ccd.hulls import Hulls
 from physsim_ros.engine.ccd.impact_islands import ImpactIslands
-from physsim_ros.engine.ccd.standing import Standing, standing_shapes
+from physsim_ros.engine.ccd.static_shapes import static_shapes, StaticShapes
 from physsim_ros.engine.plane_vectors import coordinates, dot
 from physsim_ros.engine.step_context import StepContext
 from physsim_ros.engine.work_correction import is_jointed, take_back_work
@@ -56,7 +56,7 @@ class ContinuousCollision:
         self._space = space
         self._hulls = hulls
         self._table: BodyTable | None = None
-        self._standing: Standing | None = None
+        self._static: StaticShapes | None = None
 
     def invalidate(self) -> None:
         """Read shapes anew: a body that never moves by itself has been moved."""
@@ -70,13 +70,13 @@ class ContinuousCollision:
         fast = columns.solid & (lengths > columns.safe_depths.min(initial=np.inf))
         if not fast.any():
             return
-        if self._table is not table or self._standing is None:
-            standing = standing_shapes(self._space, table, self._hulls)
-            self._table, self._standing = table, standing
+        if self._table is not table or self._static is None:
+            static = static_shapes(self._space, table, self._hulls)
+            self._table, self._static = table, static
         rows = np.flatnonzero(fast)
-        if len(rows) <= FEW and not _boxes_meet(table, self._standing, moves, rows):
+        if len(rows) <= FEW and not _boxes_meet(table, self._static, moves, rows):
             return
-        step = ImpactIslands(table, self._standing, moves, self._hulls)
+        step = ImpactIslands(table, self._static, moves, self._hulls)
         for row, shift in step.shifts(fast):
             engine = table.bodies[row].engine
             back = complex(*shift[:2].tolist())
@@ -91,7 +91,7 @@ class ContinuousCollision:
             table.forget_state()
 
 
-def _boxes_meet(table: BodyTable, standing: Standing, moves: Floats, rows: Ints) -> bool:
+def _boxes_meet(table: BodyTable, static: StaticShapes, moves: Floats, rows: Ints) -> bool:
     """
     Return whether the swept box of a body overlaps that of another, or a static shape.
 
@@ -106,6 +106,6 @@ def _boxes_meet(table: BodyTable, standing: Standing, moves: Floats, rows: Ints)
     solid = boxes[table.columns.solid]
     return any(
         np.count_nonzero(boxes_overlap(boxes[row], solid)) > 1
-        or boxes_overlap(boxes[row], standing.boxes).any()
+        or boxes_overlap(boxes[row], static.boxes).any()
         for row in rows.tolist()
     )

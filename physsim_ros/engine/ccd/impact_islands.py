@@ -30,10 +30,11 @@ import numpy as np
 from physsim_ros.engine.body_table import BodyTable
 from physsim_ros.engine.ccd.broad_phase import boxes_overlap
 from physsim_ros.engine.ccd.hulls import Hull, Hulls
-from physsim_ros.engine.ccd.standing import Standing
+from physsim_ros.engine.ccd.static_shapes import StaticShapes
 from physsim_ros.engine.ccd.swept_boxes import SweptBoxes
-from physsim_ros.engine.ccd.time_of_impact import first_impacts, Motions, Pairs, SLOP
-from physsim_ros.engine.islands import ranges
+from physsim_ros.engine.ccd.time_of_impact import first_impacts, Motions, Pairs
+from physsim_ros.engine.graph_search import ranges
+from physsim_ros.engine.tolerances import COLLISION_SLOP
 from physsim_ros.model.arrays import Flags, Floats, Ints
 
 # Impacts one after the other in a step that a body takes part in, at most: so many may touch in a
@@ -61,21 +62,21 @@ class ImpactIslands:
     def __init__(
         self,
         table: BodyTable,
-        standing: Standing,
+        static: StaticShapes,
         moves: Floats,
         hulls: Hulls,
     ) -> None:
         self._engines = [rigid.engine for rigid in table.bodies]
         self._columns = columns = table.columns
         poses = table.state[:, :3]
-        self._standing = standing
+        self._static = static
         self._hulls = hulls
-        count, more = len(poses), len(standing.hulls)
+        count, more = len(poses), len(static.hulls)
         self._count = count
         self._collides = np.append(columns.solid, np.ones(more, np.bool_))
         self._turning = np.append(columns.turning_radii, np.zeros(more))
         self._movable = np.append(columns.dynamic[:-1], np.zeros(more, np.bool_))
-        self._places = np.concatenate((np.arange(count), standing.places))
+        self._places = np.concatenate((np.arange(count), static.places))
         # The background, in place -1, is in no group.
         self._depths = np.append(columns.safe_depths, np.inf)[self._places]
         self._groups = np.append(columns.groups, 0)[self._places]
@@ -86,8 +87,8 @@ class ImpactIslands:
         rates[self._turning == 0.0, 2] = 0.0
         self._motions = Motions(np.zeros(count + more), poses, poses[:, :2].copy(), rates)
         self._ends = poses + rates
-        corners = np.concatenate((columns.corners, standing.corners))
-        self._swept = SweptBoxes(self._motions, columns.reach, standing.boxes, corners)
+        corners = np.concatenate((columns.corners, static.corners))
+        self._swept = SweptBoxes(self._motions, columns.reach, static.boxes, corners)
         self._islands = np.arange(count + more)
         self._members: dict[int, list[int]] = {}
         self._leaders: dict[int, int] = {}
@@ -132,7 +133,7 @@ class ImpactIslands:
         flat = list(itertools.chain.from_iterable(hulls))
         radii = np.array([each.radius for each in flat])
         radii = radii[shapes[0]] + radii[shapes[1]]
-        skin = np.minimum(SLOP, depth[pairs])
+        skin = np.minimum(COLLISION_SLOP, depth[pairs])
         skin = np.where(radii > 0.0, np.minimum(skin, radii / 2), skin)
         shares = first_impacts(
             self._motions, Pairs((one[pairs], other[pairs]), flat, shapes, skin, depth[pairs])
@@ -156,7 +157,7 @@ class ImpactIslands:
 
     def _hulls_of(self, row: int) -> list[Hull]:
         if row >= self._count:
-            return [self._standing.hulls[row - self._count]]
+            return [self._static.hulls[row - self._count]]
         return self._hulls.of_body(self._engines[row])
 
     def _collide(self, one: Ints, other: Ints) -> Flags:

@@ -32,8 +32,6 @@ from physsim_ros.engine.ccd.hulls import Hull
 from physsim_ros.model.arrays import Flags, Floats, Ints
 from physsim_ros.model.transform import turned
 
-# Overlap that the engine leaves standing [m]; its own 0.1 is 10 cm in a metre world.
-SLOP = 0.005
 # A pair that approaches by less than this share of the lesser inner radius in a step needs no time
 # of impact: each keeps its centre well on the side it came from.
 SAFE_SHARE = 0.25
@@ -42,7 +40,7 @@ SAFE_SHARE = 0.25
 _ADVANCES = 24
 # Corners of a polygon whose time of impact costs as much as that of a round shape, most of which
 # does not depend on the corners (measured: a disc 36 us, a square 56 us).
-ROUND = 4
+ROUND_COST = 4
 # Products of the corners of two shapes that are compared at once: some 30 MB.
 _PART = 200_000
 # Shapes have met when they overlap to within this share of the skin.

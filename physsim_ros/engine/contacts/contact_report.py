@@ -86,11 +86,11 @@ class ContactReport:
         self._listing: PairListing | None = None
         # Whether no pair has begun to touch since the ids were read: then the pairs are the same
         # for as long as their number is.
-        self.settled = False
+        self._same_pairs = False
 
     def add_first_touch(self, contact: Contact, sides: tuple[Side, Side]) -> None:
         """Store the manifold of two shapes that begin to touch: they may part within the frame."""
-        self.settled = False
+        self._same_pairs = False
         a, b = (side.body.id for side in sides)
         self._last.add_first_touch(a, b, contact)
 
@@ -105,7 +105,7 @@ class ContactReport:
         slots = table, table.slot_changes
         sleep_changed = slots != self._slots
         sleeping = len(self._sleeping.ids)
-        if self.settled and not sleep_changed:
+        if self._same_pairs and not sleep_changed:
             firsts, impulses = self._io.read_contacts(_FIRSTS_AND_IMPULSES)
             if len(firsts) == len(self._ids) - sleeping:
                 # The engine turns a pair round as its bodies move, in a contact that goes on too.
@@ -124,7 +124,7 @@ class ContactReport:
         if not np.array_equal(ids, self._ids):
             self._begin_listing(ids)
         self._add_impulses(impulses)
-        self.settled = True
+        self._same_pairs = True
 
     def _find_sleeping(self, table: BodyTable, listed: Ids) -> SleepingPairs:
         """Return the pairs of the step before that sleep now."""
@@ -183,7 +183,7 @@ class ContactReport:
 
         :param body: its id in the engine
         """
-        self.settled = False
+        self._same_pairs = False
         stays = (self._ids != body).all(axis=1)
         self._first_ids = self._first_ids[stays[: len(self._first_ids)]]
         if self._copied_manifolds is not None:
@@ -201,7 +201,7 @@ class ContactReport:
         self._ids, self._sums = NO_PAIRS, np.empty((0, 2))
         self._impulses = self._sums
         self.clear()
-        self.settled = False
+        self._same_pairs = False
 
     def clear(self) -> None:
         """Drop the sums since the last call of `take_contacts`."""

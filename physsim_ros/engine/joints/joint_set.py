@@ -33,7 +33,7 @@ import math
 
 import numpy as np
 from physsim_ros.engine.body import RigidBody
-from physsim_ros.engine.islands import Rows
+from physsim_ros.engine.graph_search import Rows
 from physsim_ros.engine.joints import engine_memory, spring
 from physsim_ros.engine.joints.joint_table import JointTable
 from physsim_ros.engine.joints.kind import EngineJoint

@@ -21,7 +21,7 @@ import itertools
 
 import numpy as np
 from physsim_ros.engine.body import RigidBody
-from physsim_ros.engine.islands import Rows
+from physsim_ros.engine.graph_search import Rows
 from physsim_ros.engine.joints import engine_memory
 from physsim_ros.engine.joints.kind import Batch, EngineJoint, Kind, Motion
 from physsim_ros.engine.joints.kinds import kind_of, KINDS

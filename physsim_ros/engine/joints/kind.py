@@ -25,7 +25,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-from physsim_ros.engine.islands import Rows
+from physsim_ros.engine.graph_search import Rows
 from physsim_ros.engine.joints import engine_memory
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.joints import JointKind

@@ -41,7 +41,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 import numpy as np
-from physsim_ros.engine.islands import Rows
+from physsim_ros.engine.graph_search import Rows
 from physsim_ros.engine.joints.kind import Batch
 from physsim_ros.model.arrays import Flags, Floats
 from scipy.linalg.lapack import dpbsv
@@ -51,7 +51,7 @@ from scipy.sparse.csgraph import connected_components, reverse_cuthill_mckee
 RowsOf = Callable[[Batch, Floats, Floats], tuple[Floats, Floats]]
 
 # Violated bounds are closed but for this [m, rad]: Chipmunk stops a limit while it is violated.
-SLOP = 1e-4
+LIMIT_SLOP = 1e-4
 # The fastest that a gap is closed at [m/s, rad/s]: a body that is put elsewhere comes back like a
 # thrown one, and joints that contradict each other move their bodies no further than that.
 FASTEST_CORRECTION = 20.0
@@ -215,7 +215,7 @@ class Projection:
         gaps, first, other = [], [], []
         for batch, rows in self._batches:
             value, jacobian = rows(batch, poses[batch.a], poses[batch.b])
-            slop = SLOP * (batch.lower < batch.upper)
+            slop = LIMIT_SLOP * (batch.lower < batch.upper)
             gap = np.maximum(value - (batch.upper + slop), 0.0)
             gap += np.minimum(value - (batch.lower - slop), 0.0)
             gaps.append(gap.ravel())

@@ -31,10 +31,10 @@ from __future__ import annotations
 from collections import Counter
 import math
 
-from physsim_ros.engine.ccd.time_of_impact import SLOP
 from physsim_ros.engine.contacts.contact import Contact
 from physsim_ros.engine.contacts.side import Side
 from physsim_ros.engine.plane_vectors import coordinates, dot
+from physsim_ros.engine.tolerances import COLLISION_SLOP
 from physsim_ros.engine.work_correction import is_jointed, take_back_work
 import pymunk
 
@@ -54,7 +54,7 @@ def project_contact(
     :param placed: pieces of each body that were placed anew in this step
     """
     point = min(contact.points, key=lambda point: point.distance)
-    if -point.distance <= SLOP:
+    if -point.distance <= COLLISION_SLOP:
         return
     if any(placed[side.body] >= MOST_PIECES for side in sides):
         return
@@ -63,7 +63,7 @@ def project_contact(
         dot(a.velocity_at(point.a), contact.normal) * dt,
         -dot(b.velocity_at(point.b), contact.normal) * dt,
     )
-    excess = min(-point.distance - SLOP, sum(ahead))
+    excess = min(-point.distance - COLLISION_SLOP, sum(ahead))
     if excess <= 0.0:
         return
     inverse = [1.0 / side.body.mass if _may_move(side.body) else 0.0 for side in sides]

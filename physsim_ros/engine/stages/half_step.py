@@ -42,7 +42,7 @@ import pymunk
 ROUNDING = 1e-12
 
 
-class Settled(NamedTuple):
+class StartState(NamedTuple):
     """
     The state that the next step begins with.
 
@@ -75,7 +75,7 @@ class HalfStep:
         """Note bodies whose support may have been removed, or moved away."""
         self._released.update(rigid.body.name for rigid in rigids)
 
-    def settle(self, table: BodyTable) -> Settled:
+    def start_state(self, table: BodyTable) -> StartState:
         """Return the state that the next step begins with, after all requests until now."""
         columns, free = table.columns, table.free
         flies = free & ~columns.sprung
@@ -93,7 +93,7 @@ class HalfStep:
             begin, end = flies & ~free, free & ~flies
             state[begin, 3:] += table.leads[begin]
             state[end, 3:] -= table.leads[end]
-        return Settled(state, flies, unsupported)
+        return StartState(state, flies, unsupported)
 
     def begin_step(self, table: BodyTable) -> Flags:
         """
@@ -101,17 +101,17 @@ class HalfStep:
 
         :return: (n,) bool: bodies whose support was removed
         """
-        settled = self.settle(table)
+        start = self.start_state(table)
         self._released.clear()
-        changed = np.flatnonzero(settled.free != table.free).tolist()
+        changed = np.flatnonzero(start.free != table.free).tolist()
         for row in changed:
             engine = table.bodies[row].engine
-            vx, vy, engine.angular_velocity = settled.state[row, 3:].tolist()
+            vx, vy, engine.angular_velocity = start.state[row, 3:].tolist()
             engine.velocity = vx, vy
         if changed:
-            table.free = settled.free
+            table.free = start.free
             table.forget_state()
-        return settled.unsupported
+        return start.unsupported
 
     @staticmethod
     def find_free(context: StepContext) -> None:

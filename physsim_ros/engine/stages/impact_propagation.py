@@ -49,8 +49,8 @@ from typing import Any
 import numpy as np
 from physsim_ros.engine.batch_io import BatchIO
 from physsim_ros.engine.body_table import BodyTable
-from physsim_ros.engine.ccd.time_of_impact import SLOP
 from physsim_ros.engine.stages.pre_solve_hook import add_pre_solve
+from physsim_ros.engine.tolerances import COLLISION_SLOP
 from physsim_ros.model.arrays import Floats, greatest, Ints
 import pymunk
 from pymunk import batch
@@ -119,7 +119,7 @@ class ImpactPropagation:
         nearby = np.where(grazing, 2.0 * approach, impacts[rows].max(axis=1))
         weaker = approach < ALIKE * nearby
         # One that is deeper than a step of the impact takes it is solved with the others.
-        weaker &= depths < SLOP + nearby * self._space.current_time_step
+        weaker &= depths < COLLISION_SLOP + nearby * self._space.current_time_step
         self._open(table, rows[weaker], nearby[weaker])
 
     def _contacts(self, table: BodyTable) -> tuple[Ints, Floats, Floats] | None:

@@ -30,15 +30,15 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from physsim_ros.engine.ccd.hulls import Hulls
-from physsim_ros.engine.ccd.time_of_impact import SLOP
 from physsim_ros.engine.contacts.contact import Contact, ContactPoint
 from physsim_ros.engine.contacts.side import Side
 from physsim_ros.engine.plane_vectors import dot, rotation, vectors
+from physsim_ros.engine.tolerances import COLLISION_SLOP
 from pymunk import Circle
 
 # Distance from a corner within which overlaps of the slop along two faces lie [m]: the diagonal
 # of their rhombus, for faces that enclose 30 degrees or more.
-_NEAR = 4.0 * SLOP
+_NEAR = 4.0 * COLLISION_SLOP
 # Approach by speed up to which a body slides over a face [1]: the sine of 10 degrees.
 _GRAZING = 0.17
 
@@ -76,7 +76,7 @@ class InternalEdges:
                 approach = -dot(velocity, normal) * sign
                 deepest = min(dot(normal, each) for each in other.corners)
                 depth = dot(normal, corner) - deepest + one.radius + other.radius
-                if approach < slowest and 0.0 <= depth <= SLOP:
+                if approach < slowest and 0.0 <= depth <= COLLISION_SLOP:
                     slowest, chosen = approach, (normal * sign, depth)
                     if len(other.corners) == 1:
                         # A disc is touched below its centre.

@@ -32,7 +32,7 @@ import numpy as np
 from physsim_ros.engine.batch_io import BatchIO
 from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.body_table import BodyTable, SceneColumns
-from physsim_ros.engine.islands import flood
+from physsim_ros.engine.graph_search import reachable
 from physsim_ros.engine.stages.sleeping import IDLE_SPEED
 from physsim_ros.engine.step_context import StepContext
 from physsim_ros.model.arrays import Flags, Floats
@@ -107,7 +107,7 @@ class RestingDamping:
         pairs = table.rows_of(ints[face, :2])
         friction = table.columns.friction[pairs].prod(axis=1)
         sticks = (across < INSIDE * friction * along) & slow[pairs].all(axis=1)
-        return flood(table.columns.anchored, pairs[sticks])
+        return reachable(table.columns.anchored, pairs[sticks])
 
 
 def point_speeds(columns: SceneColumns, twists: Floats) -> Floats:

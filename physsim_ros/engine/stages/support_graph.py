@@ -31,7 +31,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from physsim_ros.engine.batch_io import BatchIO
 from physsim_ros.engine.body_table import BodyTable
-from physsim_ros.engine.islands import flood, Rows
+from physsim_ros.engine.graph_search import reachable, Rows
 from physsim_ros.model.arrays import Flags, Ints
 import pymunk
 from pymunk import batch
@@ -56,8 +56,8 @@ def find_unsupported(
     loose[list(released)] = True
     engines = [table.bodies[row].engine for row in released]
     pairs = np.concatenate((_contacts(space, io, table, loose, engines), table.columns.joined))
-    supported = flood(~table.columns.dynamic, pairs)
-    return flood(loose & ~supported, pairs)[:-1]
+    supported = reachable(~table.columns.dynamic, pairs)
+    return reachable(loose & ~supported, pairs)[:-1]
 
 
 def _contacts(

@@ -115,8 +115,8 @@ class World:
 
     def snapshot(self) -> Snapshot:
         """Return the snapshot of this step."""
-        table, settled = self._space.table, self._space.settled
-        poses, twists = observe_bodies(table, settled)
+        table, start = self._space.table, self._space.start_state
+        poses, twists = observe_bodies(table, start)
         return Snapshot(
             step=self.step_count,
             stamp=self.stamp,
@@ -143,7 +143,7 @@ class World:
         digest = hashlib.blake2b(digest_size=16)
         digest.update(f'{self.step_count} {self.physics_rate!r}'.encode())
         acting = self._space.pipeline.wrenches.acting()
-        for part in digest_parts(self._space.table, self._space.settled, acting):
+        for part in digest_parts(self._space.table, self._space.start_state, acting):
             digest.update(part)
         for grip in self.grips:
             digest.update(repr(grip).encode())

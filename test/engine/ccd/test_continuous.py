@@ -19,7 +19,8 @@ import math
 import numpy as np
 from physsim_ros.engine import body as rigid_body
 from physsim_ros.engine.ccd import continuous, impact_islands
-from physsim_ros.engine.ccd.time_of_impact import Motions, Pairs, SLOP
+from physsim_ros.engine.ccd.time_of_impact import Motions, Pairs
+from physsim_ros.engine.tolerances import COLLISION_SLOP
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.requests import Configure, Spawn
 from physsim_ros.model.settings import WorldSettings
@@ -208,7 +209,7 @@ def test_many_fast_bodies_stay_in_closed_walls():
         far = np.abs(sim.advance_frame().snapshot.centers).max(axis=1)
         assert far[~specks].max() < 3.0
         # A speck is as small as the overlap that is left standing; a box presses it in.
-        assert far[specks].max() < 3.0 + SLOP
+        assert far[specks].max() < 3.0 + COLLISION_SLOP
 
 
 @each_shape

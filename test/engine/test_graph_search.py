@@ -12,12 +12,12 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Islands: connected nodes, found by flooding pairs."""
+"""Search of graphs: what pairs of nodes connect."""
 
 from __future__ import annotations
 
 import numpy as np
-from physsim_ros.engine.islands import flood, ranges
+from physsim_ros.engine.graph_search import ranges, reachable
 
 
 def test_ranges_follow_one_another() -> None:
@@ -30,8 +30,8 @@ def test_there_are_no_ranges_of_nothing() -> None:
     assert ranges(nothing, nothing).tolist() == []
 
 
-def test_a_mark_floods_its_island_and_no_other() -> None:
+def test_what_pairs_connect_with_a_mark_is_reachable_and_nothing_else() -> None:
     marked = np.array([True, False, False, False, False, False])
     pairs = np.array([(3, 1), (1, 0), (4, 5), (5, 4)])
-    assert flood(marked, pairs).tolist() == [True, True, False, True, False, False]
+    assert reachable(marked, pairs).tolist() == [True, True, False, True, False, False]
     assert marked.sum() == 1

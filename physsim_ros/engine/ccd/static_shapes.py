@@ -21,12 +21,12 @@ from typing import NamedTuple
 import numpy as np
 from physsim_ros.engine.body_table import BodyTable
 from physsim_ros.engine.ccd.hulls import Hull, Hulls
-from physsim_ros.engine.ccd.time_of_impact import ROUND
+from physsim_ros.engine.ccd.time_of_impact import ROUND_COST
 from physsim_ros.model.arrays import Floats, Ints
 import pymunk
 
 
-class Standing(NamedTuple):
+class StaticShapes(NamedTuple):
     """
     Shapes that never move.
 
@@ -42,7 +42,7 @@ class Standing(NamedTuple):
     corners: Floats
 
 
-def standing_shapes(space: pymunk.Space, table: BodyTable, hulls: Hulls) -> Standing:
+def static_shapes(space: pymunk.Space, table: BodyTable, hulls: Hulls) -> StaticShapes:
     """Return all shapes that never move, but sensors."""
     bodies = [(space.static_body, -1)]
     for row, rigid in enumerate(table.bodies):
@@ -50,9 +50,9 @@ def standing_shapes(space: pymunk.Space, table: BodyTable, hulls: Hulls) -> Stan
             bodies.append((rigid.engine, row))
     shapes = [(shape, body, place) for body, place in bodies for shape in body.shapes]
     placed = [hulls.of_shape(shape).placed_on(body) for shape, body, _ in shapes]
-    return Standing(
+    return StaticShapes(
         hulls=placed,
         boxes=np.array([tuple(shape.bb) for shape, *_ in shapes], np.float64).reshape(-1, 4),
         places=np.array([place for *_, place in shapes], np.int64),
-        corners=np.array([max(len(each.corners), ROUND) for each in placed], np.float64),
+        corners=np.array([max(len(each.corners), ROUND_COST) for each in placed], np.float64),
     )

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Islands: bodies that contacts or joints connect, as arrays of rows and pairs of rows."""
+"""Search of the graphs of contacts and joints, given as arrays of rows and pairs of rows."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def ranges(first: Rows, count: Rows) -> Rows:
     return rows
 
 
-def flood(marked: Flags, pairs: Rows) -> Flags:
+def reachable(marked: Flags, pairs: Rows) -> Flags:
     """
     Return (n,) bool: marked nodes, and all that are connected with one by pairs.
 

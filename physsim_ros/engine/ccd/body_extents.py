@@ -12,14 +12,15 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Safe moves: how far a body may move or be entered in a step before the engine sees it."""
+"""Extents of bodies for continuous collision: safe depths, turning radii, corners."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
 import numpy as np
-from physsim_ros.engine.ccd.time_of_impact import ROUND, SAFE_SHARE, SLOP
+from physsim_ros.engine.ccd.time_of_impact import ROUND_COST, SAFE_SHARE
+from physsim_ros.engine.tolerances import COLLISION_SLOP
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.scene import Body
 from physsim_ros.model.shapes import Chain, Convex
@@ -34,7 +35,7 @@ def safe_depths(bodies: Sequence[Body]) -> Floats:
     inner = np.array([body.shape.form.inner * SAFE_SHARE for body in bodies])
     anchored = np.array([body.anchored for body in bodies], dtype=np.bool_)
     thin = np.array([isinstance(body.shape, Chain) for body in bodies], dtype=np.bool_)
-    return np.where(anchored, np.where(thin, np.inf, np.maximum(inner, SLOP)), inner)
+    return np.where(anchored, np.where(thin, np.inf, np.maximum(inner, COLLISION_SLOP)), inner)
 
 
 def turning_radius(body: Body) -> float:
@@ -44,10 +45,10 @@ def turning_radius(body: Body) -> float:
 
 
 def corner_count(body: Body) -> float:
-    """Return the corners of a body's pieces; a round one costs as much as one of `ROUND`."""
+    """Return the corners of a body's pieces; a round one costs as much as `ROUND_COST`."""
     return float(
         sum(
-            len(piece.vertices) if isinstance(piece, Convex) else ROUND
+            len(piece.vertices) if isinstance(piece, Convex) else ROUND_COST
             for piece in body.shape.form.pieces
         )
     )
