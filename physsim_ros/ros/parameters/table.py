@@ -142,7 +142,7 @@ _MEANINGS = {
     'wall_thickness': 'of walls that are drawn [m]',
     'drag_force': 'greatest force of a hand, in weights of the body',
     'command_timeout': 'of a wrench [s of simulation time]; 0 means no limit',
-    'max_bodies': 'a spawn past it is refused',
+    'max_bodies': 'a request past it is refused',
     'max_shapes': 'convex pieces of all bodies; a request past it is refused',
     'max_overlaps': 'pairs of pieces that would overlap at once; a request past it is refused',
     'max_joints': 'a joint past it is refused',

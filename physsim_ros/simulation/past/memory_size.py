@@ -99,7 +99,8 @@ def checkpoint_size(key: Checkpoint, before: Checkpoint | None = None) -> int:
     """
     memory = key.memory
     arrays = (key.state, key.free, memory.ids, memory.pairs, memory.hashes, memory.impulses)
-    size = _CHECKPOINT + _nbytes((*arrays, memory.joints)) + _WRENCH * len(key.wrenches)
+    size = _CHECKPOINT + _nbytes((*arrays, memory.joints))
+    size += _WRENCH * len(key.wrenches) + _NAME * len(key.unstepped)
     if before is None or before.scene is not key.scene:
         # The digest of a checkpoint makes the scene's key.
         size += scene_size(key.scene) + len(key.scene.key)
