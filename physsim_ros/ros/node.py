@@ -191,12 +191,13 @@ class PhysSimNode(NodeWithoutQosEvents):
             control,
             world_dir=self.world_files.directory,
             apply_requests=self.apply_requests,
+            is_started=lambda: self._started,
         )
 
     def start(self) -> None:
         """Start the viewer and the diagnostics; `tick` advances time from now on."""
         self._started = self._reply_pacer.paced = True
-        self._pages.start()
+        self.outputs.print_addresses()
         if self._values['record_file']:
             self.outputs.viewer.record(Path(self._values['record_file']))
         self._open_viewer()

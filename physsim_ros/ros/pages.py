@@ -38,6 +38,7 @@ class Pages:
     :param control: of the node, for its pages
     :param world_dir: directory of the user's worlds
     :param apply_requests: applies the waiting requests, and publishes what they changed
+    :param is_started: returns whether the node has started: its ticks handle the messages then
     """
 
     def __init__(
@@ -48,19 +49,14 @@ class Pages:
         *,
         world_dir: Path,
         apply_requests: Callable[[], object],
+        is_started: Callable[[], bool],
     ) -> None:
         self._node = node
         self._outputs = outputs
         self._control = control
         self._world_dir = world_dir
         self._apply_requests = apply_requests
-        # Whether the node has started: each of its ticks handles the messages.
-        self._started = False
-
-    def start(self) -> None:
-        """Print the addresses; messages are handled by the ticks of the node from now on."""
-        self._started = True
-        self._outputs.print_addresses()
+        self._is_started = is_started
 
     def open_for(self, value: str) -> None:
         """
@@ -74,7 +70,7 @@ class Pages:
             self._outputs.open_sketchpad(self._control, world_dir=self._world_dir, wake=self._wake)
         except PhysSimError as error:
             raise BadProperty(str(error), field='sketchpad') from error
-        if self._started:
+        if self._is_started():
             self._outputs.print_addresses()
 
     def update(self, value: str) -> None:
@@ -94,7 +90,7 @@ class Pages:
         """Queue the handling of messages; called on the thread of the sketchpad."""
         executor = self._node.executor
         # A started node handles them at its next tick.
-        if not self._started and executor is not None:
+        if not self._is_started() and executor is not None:
             executor.create_task(self._handle_now)
 
     def _handle_now(self) -> None:
