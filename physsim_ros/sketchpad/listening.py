@@ -93,8 +93,9 @@ def listening_sockets(address: str, port: int) -> list[socket.socket]:
             return bind_sockets(tried, address)
         except PermissionError as error:
             reason = str(error)
-        except OSError as error:
-            if tried == last or error.errno != errno.EADDRINUSE:
+        except (OSError, UnicodeError) as error:
+            # A name that is none, as `a..b`, has no errno.
+            if tried == last or getattr(error, 'errno', None) != errno.EADDRINUSE:
                 raise PhysSimError(
                     f'the sketchpad cannot listen on {address!r}, port {tried}: {error}'
                 ) from error

@@ -101,6 +101,21 @@ def _fast_bar() -> float:
     return 40.0 - hit.sum()
 
 
+def _squares_that_part() -> float:
+    """Let squares part that face each other exactly; return the greatest speed of those behind."""
+    random = np.random.default_rng(3)
+    sim = simulation(gravity=NOWHERE)
+    square = Box(width=1.0, height=1.0)
+    for number in range(400):
+        x, y, heading = 5.0 * (number % 20), 5.0 * (number // 20), random.uniform(0.0, math.tau)
+        cos, sin, far = math.cos(heading), math.sin(heading), random.uniform(1.01, 1.21)
+        spawn(sim, f'one/{number}', square, (x, y, heading))
+        pose = x + far * cos, y + far * sin, heading
+        spawn(sim, f'other/{number}', square, pose, velocity=(0.3 * cos, 0.3 * sin))
+    *_, last = steps(sim, 60)
+    return float(np.abs(last.twists[::2]).max())
+
+
 def _bounce() -> float:
     """Drop discs from 1 m to 2 m; return the greatest overlap with the floor."""
     sim = simulation()
@@ -284,7 +299,7 @@ def _at_rest() -> float:
         twin = pymunk.Body(1.0, 0.2**2 / 6)
         twin.position = place
         bare.add(twin, pymunk.Poly.create_box(twin, (0.2, 0.2)))
-    sim.world.step(180)
+    sim.world.step(480)
     for _ in range(180):
         bare.step(DT)
     spawn(sim, 'ball/0', Disc(radius=0.1), (-10.0, 100.0, 0.0))
@@ -305,6 +320,7 @@ SCENES = (
     Scene('free flight (1)', 'm', 1e-9, _free_flight),
     Scene('thin wall (25)', 'm', 0.01, _thin_wall),
     Scene('fast bar (35)', 'discs', 0.0, _fast_bar),
+    Scene('squares that part (3)', 'm/s', 1e-9, _squares_that_part),
     Scene('bounce (7)', 'm', 0.01, _bounce),
     Scene('disc on a corner (6)', 'v', 1e-6, _corner),
     Scene('seams of tiles', 'v', 0.01, _seams),

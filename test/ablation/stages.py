@@ -33,6 +33,7 @@ from physsim_ros.engine.joints import joint_table
 from physsim_ros.engine.joints.joint_set import JointSet
 from physsim_ros.engine.stages import half_step
 from physsim_ros.engine.stages.block_solver import BlockSolver
+from physsim_ros.engine.stages.false_contacts import FalseContacts
 from physsim_ros.engine.stages.half_step import HalfStep
 from physsim_ros.engine.stages.impact_propagation import ImpactPropagation
 from physsim_ros.engine.stages.internal_edges import InternalEdges
@@ -113,6 +114,11 @@ STAGES = (
         'tight boxes',
         (((pipeline, 'tighten_boxes'), _nothing),),
         ((pipeline, 'tighten_boxes'),),
+    ),
+    Stage(
+        'false contacts',
+        (((FalseContacts, 'reject'), lambda *_: False),),
+        ((FalseContacts, 'reject'),),
     ),
     Stage(
         'contact normal at impact',

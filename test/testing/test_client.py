@@ -73,6 +73,13 @@ def test_a_large_array_is_answered_whole(physsim: PhysSim) -> None:
     assert len(physsim.names) == 2000
 
 
+def test_an_array_that_is_refused_whole_is_refused_at_once(physsim: PhysSim) -> None:
+    with pytest.raises(Refused, match='markers') as caught:
+        physsim.spawn(MarkerArray(markers=[box('a/1')] * 20_001))
+    assert caught.value.code == 'malformed'
+    assert physsim.names == ()
+
+
 class Chatterbox(Node):
     """Asks for something with every frame that it sees."""
 
