@@ -283,7 +283,7 @@ class PhysSimNode(NodeWithoutQosEvents):
     def apply_requests(self) -> tuple[Answer, ...]:
         """Apply the waiting requests without advancing time, publish and return the answers."""
         self._update_contact_recording()
-        frame = self.simulation.settle()
+        frame = self.simulation.apply_requests()
         if frame is not None:
             self.publish_frame(frame)
             return frame.answers

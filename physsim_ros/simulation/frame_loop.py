@@ -78,7 +78,7 @@ class FrameLoop:
         self._playback.clock.restart()
         return self._play_frame(self._playback.steps_to_period)
 
-    def settle(self) -> Frame | None:
+    def apply_requests(self) -> Frame | None:
         """Apply the requests that wait, without a step; return a frame if there were any."""
         self._handler.apply_waiting()
         return self._observe_frame(moved=False) if self._playback.changed else None

@@ -272,9 +272,9 @@ class Simulation:
         """
         return self._frames.advance(now_ns, is_overdue)
 
-    def settle(self) -> Frame | None:
+    def apply_requests(self) -> Frame | None:
         """Apply the requests that wait, without a step; return a frame if there were any."""
-        return self._frames.settle()
+        return self._frames.apply_requests()
 
     def take_answers(self) -> tuple[Answer, ...]:
         """Return the answers that wait, where no frame shows anything new."""

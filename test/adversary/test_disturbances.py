@@ -57,7 +57,7 @@ class Disturbances(RuleBasedStateMachine):
         answers = []
         for simulation in (self.straight, self.disturbed):
             simulation.requests.submit(request, topic='')
-            frame = simulation.settle()
+            frame = simulation.apply_requests()
             assert frame is not None
             answers.append([each for each in frame.answers if not each.topic])
         assert answers[0] == answers[1]
@@ -98,7 +98,7 @@ class Disturbances(RuleBasedStateMachine):
         here = self.disturbed.step
         for share in shares:
             self.disturbed.seek(self.stamp_at(share))
-            self.disturbed.settle()
+            self.disturbed.apply_requests()
         self.return_to(here)
 
     @rule(speed=st.sampled_from([-8.0, -1.0, -0.3]), frames=st.integers(1, 30))
@@ -124,7 +124,7 @@ class Disturbances(RuleBasedStateMachine):
     @rule(request=st.sampled_from(REFUSED))
     def refuse(self, request: Request) -> None:
         self.disturbed.requests.submit(request, topic='')
-        frame = self.disturbed.settle()
+        frame = self.disturbed.apply_requests()
         assert frame is not None
         assert frame.answers[-1].code
 

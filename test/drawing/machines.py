@@ -42,7 +42,7 @@ class Machine:
             reading = session.stroke(stroke, '', frame.snapshot, began=began)
             self.read.append(reading.meaning)
             submit_reading(self.simulation, session, reading, topic='~/stroke')
-            frame = self.simulation.settle() or frame
+            frame = self.simulation.apply_requests() or frame
             assert all(answer.code == '' for answer in frame.answers), frame.answers
         self.start = frame.snapshot.poses
         self.velocities = np.empty((0, len(self.start), 3))

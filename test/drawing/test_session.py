@@ -83,7 +83,7 @@ class Desk:
         self._settle()
 
     def _settle(self) -> None:
-        frame = self.simulation.settle()
+        frame = self.simulation.apply_requests()
         if frame is not None:
             assert all(answer.code == '' for answer in frame.answers), frame.answers
             self.frame = frame

@@ -224,7 +224,7 @@ class Player:
     def __init__(self, scene):
         self.sim, self._later = scene()
         self._now = 0
-        self.first = {0: self.sim.settle().snapshot}
+        self.first = {0: self.sim.apply_requests().snapshot}
         self.digests = {}
 
     def show(self, speed, count):
@@ -262,7 +262,7 @@ class Player:
     def seek(self, step):
         """Go to a step, and return what is shown there."""
         self.sim.seek(round(step * 1e9 / 240))
-        shown = self.sim.settle().snapshot
+        shown = self.sim.apply_requests().snapshot
         assert shown.step == step
         return shown
 

@@ -247,7 +247,7 @@ class Fuzzed:
             self.simulation.requests.refuse(refusal, topic=topic, subject=subject)
         else:
             self.simulation.requests.submit(request, topic=topic)
-        frame = self.simulation.settle()
+        frame = self.simulation.apply_requests()
         assert frame is not None
         (answer,) = frame.answers
         assert answer.topic == topic

@@ -58,8 +58,8 @@ class Driven:
     def ask(self, request: Request, *, joined: bool = False) -> None:
         self.simulation.requests.submit(request, topic='~/test', joined=joined)
 
-    def settle(self) -> Frame:
-        frame = self.simulation.settle()
+    def apply_requests(self) -> Frame:
+        frame = self.simulation.apply_requests()
         assert frame is not None
         return frame
 

@@ -41,7 +41,7 @@ def world_after(*timed: tuple[int, Request], frames: int) -> Simulation:
 def amend(simulation: Simulation, gestures: list[int], requests: list[Request]) -> Frame:
     """Replace the requests of gestures, and return the frame that shows it."""
     simulation.requests.submit(Amend(tuple(gestures), tuple(requests)), topic='t', joined=True)
-    frame = simulation.settle()
+    frame = simulation.apply_requests()
     assert frame is not None
     return frame
 

@@ -88,7 +88,7 @@ def test_several_are_deleted_with_one_gesture() -> None:
     for number in range(4):
         sim.perform(spawning_at(number))
     sim.requests.submit(DeleteBodies(names=('a/0', 'a/2')), topic='')
-    frame = sim.settle()
+    frame = sim.apply_requests()
     assert frame is not None
     assert frame.snapshot.scene.names == ('a/1', 'a/3')
     sim.undo()

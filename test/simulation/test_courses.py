@@ -138,7 +138,7 @@ def test_a_branch_at_one_step_is_a_course_too() -> None:
     run(sim, 0.5)
     sim.seek(SECOND // 2)
     act(sim, 2.0)
-    frame = sim.settle()
+    frame = sim.apply_requests()
     assert frame is not None
     assert [each.topic for each in frame.answers] == ['branch']
     assert numbers(sim) == [1]

@@ -83,5 +83,5 @@ def test_requests_of_one_gesture_are_counted() -> None:
         sim.requests.submit(
             spawning(f'a/{number}', BOX, (2.0 * number, 0, 0)), topic='', joined=number > 0
         )
-    sim.settle()
+    sim.apply_requests()
     assert sim.status.undo == 'undo spawn a/0 and 2 more'

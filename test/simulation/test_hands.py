@@ -195,13 +195,13 @@ def test_hands_whose_bodies_are_gone_are_dropped_when_another_grabs() -> None:
     for hand in ('h', 'k'):
         sim.perform(spawning('a/0', DISC))
         sim.requests.submit(Grab(hand=hand, point=(0.0, 0.0)), topic=TOPIC)
-        sim.settle()
+        sim.apply_requests()
         before = sim.world.grips
         sim.perform(Delete(name='a/0'))
         assert [grip.hand for grip in before] == [hand]
     sim.perform(spawning('a/0', DISC))
     sim.requests.submit(Grab(hand='l', point=(0.0, 0.0)), topic=TOPIC)
-    sim.settle()
+    sim.apply_requests()
 
     hands = sim._handler.hands  # noqa: SLF001 - only its memory shows it
     assert [hand for hand in ('h', 'k', 'l') if hand in hands] == ['l']

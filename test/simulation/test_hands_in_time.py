@@ -185,7 +185,7 @@ def test_a_hand_that_grabbed_at_another_time_changes_nothing() -> None:
 
     sim.requests.submit(MoveHand(hand='h', point=(7.0, 0.0)), topic=TOPIC)
     sim.requests.submit(LetGo(hand='h'), topic=TOPIC)
-    frame = sim.settle()
+    frame = sim.apply_requests()
 
     assert frame is not None
     assert [answer.message for answer in frame.answers] == ['h holds no body']

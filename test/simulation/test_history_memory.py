@@ -71,7 +71,7 @@ def test_a_flood_of_commands_takes_no_more_than_the_budget(paused: bool) -> None
         for part in range(4):
             command(sim, number + part)
         if paused:
-            frame = sim.settle()
+            frame = sim.apply_requests()
             assert frame is not None
             events += [each for each in frame.answers if each.code == 'history']
         else:
@@ -170,13 +170,13 @@ def test_what_is_shown_of_the_past_stays_though_the_budget_shrinks() -> None:
         sim.advance_frame()
     sim.seek(SECOND)
     sim.limit_memory(LEAST_MEMORY)
-    assert sim.settle() is not None
+    assert sim.apply_requests() is not None
     assert sim.status.now == 1.0
     assert sim.status.oldest <= 1.0
     assert sim.world.digest() == early
 
     sim.seek(round(sim.status.newest * SECOND))
-    assert sim.settle() is not None
+    assert sim.apply_requests() is not None
     assert sim.status.oldest > 1.0
 
 
@@ -185,7 +185,7 @@ def test_a_gesture_is_undone_as_a_whole_or_not_at_all() -> None:
     # One gesture, of which the log has the last part only.
     for number in range(600):
         command(sim, number, joined=number > 0)
-    sim.settle()
+    sim.apply_requests()
     assert sim.past.timeline.history.checkpoints[0].serial > 0
     before = sim.world.digest()
 
@@ -196,7 +196,7 @@ def test_a_gesture_is_undone_as_a_whole_or_not_at_all() -> None:
     assert sim.status.undo == ''
     # A later gesture is whole.
     command(sim, 7)
-    sim.settle()
+    sim.apply_requests()
     sim.undo()
     assert sim.world.digest() == before
 

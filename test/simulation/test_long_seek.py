@@ -228,14 +228,14 @@ def test_a_cached_frame_that_is_sought_has_its_contacts_and_all_requests_of_its_
     simulation.requests.submit(spawning('disc/1', DISC, (3.0, 1.0, 0.0)), topic='')
     middle, end = shown[29], shown[-1]
     simulation.seek(middle.snapshot.stamp)
-    again = simulation.settle()
+    again = simulation.apply_requests()
     assert again is not None
     assert again.snapshot.step == middle.snapshot.step
     assert middle.contacts is not None
     assert again.contacts is not None
     assert again.contacts.impulses.tolist() == middle.contacts.impulses.tolist() != []
     simulation.seek(end.snapshot.stamp)
-    again = simulation.settle()
+    again = simulation.apply_requests()
     assert again is not None
     assert again.snapshot.scene.names == ('disc/0', 'disc/1')
 
@@ -246,7 +246,7 @@ def test_a_rewind_beyond_its_frames_is_made_bit_by_bit(
     simulation, digests = past
     simulation.past.frame_cache.drop_from(0)
     simulation.speed = -1.0
-    simulation.settle()
+    simulation.apply_requests()
     ticks_to_a_frame(simulation, 0)
     first = simulation.step
     simulation.speed = 0.0
@@ -261,9 +261,9 @@ def test_requests_that_are_replayed_at_one_step_are_replayed_bit_by_bit() -> Non
             spawning(f'disc/{number}', DISC, (0.0, number + 1.0, 0.0)), topic=''
         )
         if number == 38:
-            simulation.settle()
+            simulation.apply_requests()
             digest = simulation.world.digest()
-    simulation.settle()
+    simulation.apply_requests()
     simulation.undo()
     ticks, _ = ticks_to_a_frame(simulation, 0)
     assert ticks > 30

@@ -54,7 +54,7 @@ def test_contacts_of_the_past_are_those_shown_where_a_request_woke_bodies():
     # The row is asleep, and the request wakes it.
     run(150)
     simulation.requests.submit(Command(names=('box/2',), twists=((0.0, 0.5, 0.0),)), topic='')
-    simulation.settle()
+    simulation.apply_requests()
     run(60)
     # Nothing that was shown is kept: the past is simulated again.
     simulation.past.frame_cache.drop_from(0)

@@ -45,9 +45,9 @@ def test_a_refused_request_in_the_past_drops_nothing(driven: Driven) -> None:
     head = driven.simulation.step
     driven.run(-1.0, 1.0)
     driven.ask(Delete(name='nobody/0'))
-    assert driven.settle().answers[0].code == 'unknown_body'
+    assert driven.apply_requests().answers[0].code == 'unknown_body'
     driven.simulation.seek(round(head / 240 * SECOND))
-    driven.assert_same(driven.settle())
+    driven.assert_same(driven.apply_requests())
 
 
 @pytest.mark.parametrize('stamp', [-1, 10 * SECOND, 10**18])
@@ -83,7 +83,7 @@ def test_a_frame_without_a_step_tells_no_contacts_and_drops_none(
     step = driven.simulation.step
 
     idle(driven)
-    frame = driven.settle()
+    frame = driven.apply_requests()
     driven.run(1.0, 0.5)
     again = [each for each in driven.run(-1.0, 1.0) if each.snapshot.step == step]
 
@@ -102,7 +102,7 @@ def test_a_seek_from_within_a_frame_shows_all_its_contacts(steps: tuple[int, int
     impulses = []
     for step in (steps[1], *steps):
         driven.simulation.seek(round(step * SECOND / 240))
-        contacts = driven.settle().contacts
+        contacts = driven.apply_requests().contacts
         assert contacts is not None
         impulses.append(contacts.impulses.tolist())
     first, _, again = impulses
@@ -126,7 +126,7 @@ def test_a_moment_that_is_kept_no_more_is_left_for_the_oldest() -> None:
     driven.record(20.0)
     driven.simulation.seek(2 * SECOND)
     driven.simulation.history = 1.0
-    frame = driven.settle()
+    frame = driven.apply_requests()
     assert (
         frame.snapshot.step == driven.simulation.past.timeline.history.oldest == 19 * 240 - FRAME
     )
@@ -149,7 +149,7 @@ def test_what_was_left_is_returned_to_as_far_as_it_is_kept(history: float) -> No
     driven.simulation.undo()
     oldest = driven.simulation.past.timeline.history.oldest
     assert driven.simulation.step == oldest == 15 * 240 - FRAME - round(history * 240)
-    driven.assert_same(driven.settle())
+    driven.assert_same(driven.apply_requests())
 
 
 def test_contacts_come_again_that_nobody_asked_for_the_first_time() -> None:
@@ -186,7 +186,7 @@ def test_the_thousandth_command_to_a_paused_world_costs_no_more_than_the_first(
     for _ in range(1000):
         driven.ask(Command(names=('a/0',), wrenches=((1.0, 0.0, 0.0),)))
         looks.append(0)
-        driven.settle()
+        driven.apply_requests()
     assert max(looks) < 10
     driven.simulation.seek(0)
     assert driven.simulation.past.timeline.serial == 1001
@@ -244,7 +244,7 @@ def test_forces_of_joints_come_again(back: float) -> None:
     assert driven.shown[checkpoint].snapshot.forces.all()
     driven.simulation.past.frame_cache.drop_from(0)
     driven.simulation.seek(checkpoint * SECOND // 240)
-    driven.assert_same(driven.settle())
+    driven.assert_same(driven.apply_requests())
     for frame in driven.run(1.0, 1.0) + driven.run(back, 1.5):
         driven.assert_same(frame)
 
@@ -376,7 +376,7 @@ def test_what_changes_nothing_drops_nothing(driven: Driven) -> None:
     driven.run(-1.0, 0.5)
     for request in (same, UnjoinAll(), DeleteAll(namespace='nobody'), Configure(changes={})):
         driven.ask(request)
-        frame = driven.settle()
+        frame = driven.apply_requests()
         assert [answer.code for answer in frame.answers] == ['']
         assert told([frame], 'branch') == []
 

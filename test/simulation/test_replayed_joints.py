@@ -65,7 +65,7 @@ def test_a_joint_taken_out_in_the_past_begins_a_branch() -> None:
     driven.record(2.0)
     driven.simulation.seek(SECOND)
     driven.ask(UnjoinAll())
-    frames = [driven.settle(), *driven.run(1.0, 2.0)]
+    frames = [driven.apply_requests(), *driven.run(1.0, 2.0)]
     assert len(told(frames, 'branch')) == 1
     assert told(frames, 'divergence') == []
     assert driven.simulation.world.snapshot().scene.joints == ()
@@ -89,7 +89,7 @@ def test_a_joint_that_broke_is_told_of_once() -> None:
     driven.simulation.seek(0)
     frames = driven.run(1.0, 1.5)
     driven.simulation.seek(SECOND)
-    frames.append(driven.settle())
+    frames.append(driven.apply_requests())
     assert told(frames, 'joint_broken') == []
 
 
@@ -98,7 +98,7 @@ def test_a_joint_whose_bodies_were_anchored_later_loads_again(tmp_path: Path) ->
     driven.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
     driven.ask(Pin(point=(0.0, 5.0)))
     driven.ask(Anchor(point=(0.0, 5.0)))
-    driven.settle()
+    driven.apply_requests()
     state = driven.simulation.save()
     path = save_world(state, 'it', world_dir=tmp_path, physics_rate=240.0)
     assert load_world(path, settings=FLOOR, physics_rate=240.0).joints == state.joints

@@ -48,7 +48,7 @@ def test_of_seeks_in_a_row_the_last_is_carried_out_and_each_is_answered(
     for number in range(1000):
         sim.requests.submit_seek(round((0.2 + number / 1000) * SECOND), topic='~/seek')
 
-    frame = sim.settle()
+    frame = sim.apply_requests()
 
     assert frame is not None
     assert [each.topic for each in frame.answers] == ['~/seek'] * 1000
@@ -67,7 +67,7 @@ def test_a_request_between_two_seeks_is_made_where_the_first_one_goes() -> None:
     sim.requests.submit_seek(9 * SECOND, topic='~/seek')
     sim.requests.submit_seek(SECOND // 2, topic='~/seek')
 
-    frame = sim.settle()
+    frame = sim.apply_requests()
 
     assert frame is not None
     topics = [each.topic for each in frame.answers if each.topic != 'branch']
@@ -81,10 +81,10 @@ def test_a_request_between_two_seeks_is_made_where_the_first_one_goes() -> None:
 
 def test_a_seek_to_where_nothing_is_kept_is_refused() -> None:
     sim = Simulation(speed=0.0)
-    sim.settle()
+    sim.apply_requests()
     sim.requests.submit_seek(9 * SECOND, topic='~/seek')
 
-    assert sim.settle() is None
+    assert sim.apply_requests() is None
     (answer,) = sim.take_answers()
     assert (answer.topic, answer.code) == ('~/seek', 'out_of_history')
 
@@ -100,7 +100,7 @@ def test_what_is_too_much_is_refused_and_the_rest_is_carried_out(
         for number in range(7):
             spawn(sim, number)
 
-        frame = sim.settle()
+        frame = sim.apply_requests()
 
         assert frame is not None
         assert [each.code for each in frame.answers] == [''] * 5 + ['busy'] * 2

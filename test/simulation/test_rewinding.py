@@ -98,7 +98,7 @@ def test_what_a_seek_left_out_is_made_again_in_time(made: list[int], on: float) 
     driven.record(12.0)
     driven.simulation.past.frame_cache.drop_from(0)
     driven.simulation.seek(round(4.5 * SECOND))
-    driven.settle()
+    driven.apply_requests()
     driven.run(1.0, on)
     driven.run(-1.0, 0.05)
     # Three seconds are made again in the time from the seek on.
@@ -118,7 +118,7 @@ def test_where_frames_were_far_apart_no_others_are_made(made: list[int]) -> None
 def test_what_is_half_made_again_ends_no_earlier_than_time_has_come_since(driven: Driven) -> None:
     driven.simulation.past.frame_cache.drop_from(0)
     driven.simulation.seek(round(4.8 * SECOND))
-    driven.settle()
+    driven.apply_requests()
     driven.run(1.0, 0.2)
     # Frames before the seek begin to be replayed, up to now.
     driven.run(-1.0, 0.05)
@@ -163,7 +163,7 @@ def test_a_request_in_the_past_drops_what_lay_ahead(driven: Driven) -> None:
     driven.run(-1.0, 1.0)
     step = driven.simulation.step
     driven.ask(spawning('other/0', BOX, (5.0, 5.0, 0.0)))
-    frame = driven.settle()
+    frame = driven.apply_requests()
     assert [answer.topic for answer in frame.answers] == ['~/test', 'branch']
     assert frame.snapshot.step == step
     with pytest.raises(OutOfHistory, match='not in the history'):

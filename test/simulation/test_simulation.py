@@ -241,15 +241,15 @@ def test_advance_frame_ends_on_a_multiple() -> None:
 def test_settle_carries_out_what_was_asked_and_goes_nowhere() -> None:
     sim = simulation()
     sim.advance(0)
-    assert sim.settle() is None
+    assert sim.apply_requests() is None
     sim.requests.submit(spawning('a/0'), topic='~/spawn')
 
-    frame = sim.settle()
+    frame = sim.apply_requests()
 
     assert frame is not None
     assert (frame.moved, frame.snapshot.step) == (False, 0)
     assert [answer.subject for answer in frame.answers] == ['a/0']
-    assert sim.settle() is None
+    assert sim.apply_requests() is None
 
 
 def test_perform_is_at_once_after_those_that_wait() -> None:

@@ -179,7 +179,7 @@ class TimeMachine(RuleBasedStateMachine):
         )
         for spawn in several:
             self.simulation.requests.submit(spawn, topic='')
-        self.look(self.simulation.settle())
+        self.look(self.simulation.apply_requests())
 
     def new(self) -> Simulation:
         # Checkpoints come every 3 s; here time is short.
@@ -192,7 +192,7 @@ class TimeMachine(RuleBasedStateMachine):
         step, digest = self.simulation.step, self.simulation.world.digest()
         made = self.simulation.past.timeline.serial
         self.simulation.requests.submit(request, topic='')
-        frame = self.simulation.settle()
+        frame = self.simulation.apply_requests()
         assert frame is not None
         # A request that has changed anything is in the log, to be replayed.
         changed = self.simulation.world.digest() != digest
@@ -214,7 +214,7 @@ class TimeMachine(RuleBasedStateMachine):
         self.run(-1.0, 3)
         step = self.simulation.step
         self.simulation.requests.submit(request, topic='')
-        frame = self.simulation.settle()
+        frame = self.simulation.apply_requests()
         assert frame is not None
         self.after_request(frame, step, accepted=not frame.answers[0].code)
 
@@ -258,7 +258,7 @@ class TimeMachine(RuleBasedStateMachine):
         step = round(history.oldest + share * (history.head - history.oldest))
         self.simulation.seek(round(step * 1e9 / 240))
         assert self.simulation.step == step
-        self.look(self.simulation.settle())
+        self.look(self.simulation.apply_requests())
 
     @rule()
     def undo_and_redo(self) -> None:
@@ -306,14 +306,14 @@ class TimeMachine(RuleBasedStateMachine):
             assert self.simulation.status.course == number
             assert self.simulation.step <= round(ends * 240)
             self.seen = dict(self.seen_on[number])
-            self.look(self.simulation.settle())
+            self.look(self.simulation.apply_requests())
 
     @rule(frames=st.integers(1, 40))
     def save_and_go_on_elsewhere(self, frames: int) -> None:
         simulation = self.simulation
         history = simulation.past.timeline.history
         simulation.seek(round(history.head * 1e9 / 240))
-        self.look(simulation.settle())
+        self.look(simulation.apply_requests())
         # Hands are not saved.
         self.look(simulation.advance_frame())
         others = self.new(), self.new()

@@ -35,7 +35,7 @@ def test_undo_goes_back_to_the_moment_before(driven: Driven) -> None:
     assert driven.simulation.step == pytest.approx(3 * 240, abs=FRAME)
     assert 'late/0' in message
     assert driven.names == tuple(f'a/{number}' for number in range(5))
-    shown = driven.settle().snapshot
+    shown = driven.apply_requests().snapshot
     np.testing.assert_array_equal(shown.poses, driven.shown[shown.step].snapshot.poses[:5])
 
 
@@ -51,10 +51,10 @@ def test_redo_shows_the_contacts_of_one_frame(driven: Driven) -> None:
     driven.simulation.watch_contacts(True)
     before = driven.run(1.0, 1.0)[-1].contacts
     driven.ask(spawning('more/0', BOX, (8.0, 18.0, 0.0)))
-    driven.settle()
+    driven.apply_requests()
     driven.simulation.undo()
     driven.simulation.redo()
-    again = driven.settle().contacts
+    again = driven.apply_requests().contacts
     assert before is not None
     assert again is not None
     assert again.pairs.tolist() == before.pairs.tolist()
@@ -79,7 +79,7 @@ def test_several_undos_are_redone_one_by_one(driven: Driven) -> None:
 def test_what_belongs_together_is_undone_together(driven: Driven) -> None:
     driven.ask(spawning('b/0', BOX, (5.0, 5.0, 0.0)))
     driven.ask(spawning('b/1', BOX, (5.0, 8.0, 0.0)), joined=True)
-    driven.settle()
+    driven.apply_requests()
     assert 'and 1 more' in driven.simulation.undo()
     assert not {'b/0', 'b/1'} & set(driven.names)
 
@@ -87,7 +87,7 @@ def test_what_belongs_together_is_undone_together(driven: Driven) -> None:
 def test_a_new_request_leaves_nothing_to_redo(driven: Driven) -> None:
     driven.simulation.undo()
     driven.ask(DeleteAll())
-    driven.settle()
+    driven.apply_requests()
     with pytest.raises(OutOfHistory):
         driven.simulation.redo()
 
@@ -95,7 +95,7 @@ def test_a_new_request_leaves_nothing_to_redo(driven: Driven) -> None:
 def test_a_refused_request_leaves_what_there_is_to_redo(driven: Driven) -> None:
     driven.simulation.undo()
     driven.ask(Delete(name='nobody/0'))
-    driven.settle()
+    driven.apply_requests()
     driven.simulation.redo()
     assert 'late/0' in driven.names
 
@@ -191,7 +191,7 @@ def test_undo_passes_over_nothing_that_is_kept_no_more(*, more: bool) -> None:
 def test_what_was_loaded_at_the_beginning_cannot_be_undone() -> None:
     first = Driven()
     first.ask(spawning('a/0'))
-    first.settle()
+    first.apply_requests()
     second = Driven()
     second.simulation.begin(first.simulation.save())
     with pytest.raises(OutOfHistory):

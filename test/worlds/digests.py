@@ -45,7 +45,7 @@ def scene(name):
     for stroke in load_drawing(find_drawing(name)):
         for request in pen.stroke(stroke, '', frame.snapshot).requests:
             sim.requests.submit(request, topic='~/stroke')
-        frame = sim.settle() or frame
+        frame = sim.apply_requests() or frame
     return sim
 
 
