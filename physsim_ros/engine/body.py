@@ -99,14 +99,18 @@ class RigidBody:
         vx, vy = self.engine.velocity
         return vx - ahead[0], vy - ahead[1], self.engine.angular_velocity - ahead[2]
 
-    def set_twist(self, twist: Pose, gravity: Point, dt: float) -> None:
-        """Let the body fly freely at that velocity [m/s] and spin [rad/s]."""
+    def set_twist(self, twist: Pose, gravity: Point, dt: float, *, free: bool = True) -> None:
+        """
+        Set velocity [m/s] and spin [rad/s].
+
+        :param free: whether the body is in free flight then
+        """
         if self.body.anchored:
             return
-        ahead = self.lead(gravity, dt)
+        ahead = self.lead(gravity, dt) if free else REST
         self.engine.velocity = twist[0] + ahead[0], twist[1] + ahead[1]
         self.engine.angular_velocity = twist[2] + ahead[2]
-        self.free = True
+        self.free = free
 
     def _reindex(self) -> None:
         """Let queries and contacts find the body where it is now."""

@@ -173,11 +173,12 @@ class Space:
         self._note_motion()
 
     def set_twist(self, rigid: RigidBody, twist: Pose) -> None:
-        """Let a body fly freely at a velocity."""
-        rigid.set_twist(twist, self._settings.gravity, self.dt)
+        """Set the velocity of a body: it flies freely then, unless joints bear it."""
+        free = self._is_free(rigid) or not self.joints.has_joints(rigid.body.name)
+        rigid.set_twist(twist, self._settings.gravity, self.dt, free=free)
         self.pipeline.resting_damping.exempt_body(rigid)
         if self._table is not None and not rigid.body.anchored:
-            self._table.free[self._table.columns.rows[rigid.body.name]] = True
+            self._table.free[self._table.columns.rows[rigid.body.name]] = free
         self._note_motion()
 
     def set_wrench(self, rigid: RigidBody, wrench: Pose, until: int | None) -> None:

@@ -25,7 +25,7 @@ from physsim_ros.simulation.world import World
 import pytest
 
 from .jointed import joining, joints
-from ..building import BOX, DISC, DT, spawn
+from ..building import BOX, command, DISC, DT, G, spawn
 
 
 def test_a_joint_breaks_where_it_is_loaded_too_much_and_that_is_told() -> None:
@@ -45,6 +45,17 @@ def test_a_joint_that_is_strong_enough_does_not_break() -> None:
     world.step(480)
     assert world.take_broken() == []
     assert len(joints(world)) == 1
+
+
+def test_a_commanded_velocity_does_not_load_a_joint_by_itself() -> None:
+    world = World()
+    spawn(world, 'a/0', DISC, mass=1.0)
+    world.apply(joining('axle', [(0.0, 0.0)], break_force=1.01 * G))
+    world.step(240)
+    command(world, 'a/0', twist=(0.0, 0.0, 1.0))
+    world.step(1)
+    assert world.snapshot().forces == pytest.approx([G], rel=1e-6)
+    assert world.take_broken() == []
 
 
 @pytest.mark.parametrize('height', [0.3, 5.1])
