@@ -29,7 +29,8 @@ from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.hands import Hands, placing
 from physsim_ros.simulation.past.past import Past
 from physsim_ros.simulation.playback import Playback
-from physsim_ros.simulation.request_queue import Amend, Call, RequestQueue, Seek, Waiting
+from physsim_ros.simulation.queue_entries import Amend, Call, Seek, Waiting
+from physsim_ros.simulation.request_queue import RequestQueue
 
 
 class RequestHandler:

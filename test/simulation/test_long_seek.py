@@ -20,7 +20,7 @@ from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.requests import DeleteAll
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer, Frame
-from physsim_ros.simulation.request_queue import Amend
+from physsim_ros.simulation.queue_entries import Amend
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 

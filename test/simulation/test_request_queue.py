@@ -19,7 +19,8 @@ from physsim_ros.model.requests import Delete, KeepHand, MoveHand, Spawn
 from physsim_ros.model.shapes import Disc
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation import request_queue
-from physsim_ros.simulation.request_queue import Call, RequestQueue, Seek
+from physsim_ros.simulation.queue_entries import Call, Seek, size_of
+from physsim_ros.simulation.request_queue import RequestQueue
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
@@ -94,7 +95,7 @@ def test_what_is_too_much_is_refused_and_the_rest_is_carried_out(
     bound: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     sim = Simulation(speed=0.0)
-    size = request_queue.request_size(SPAWN)
+    size = size_of(SPAWN)
     monkeypatch.setattr(request_queue, bound, 5 if bound == 'MOST_WAITING' else 5 * size)
     for _ in range(2):
         for number in range(7):
