@@ -65,6 +65,8 @@ def physsim(
         yield world
         if run.failed:
             world.record_past(run.path)
+        # The items of a session live as long as that.
+        del request.node.stash[_RUN]
 
 
 @pytest.hookimpl(wrapper=True)

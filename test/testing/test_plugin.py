@@ -194,6 +194,28 @@ def test_a_failed_test_tells_where_things_are_and_keeps_its_recording(
     assert steps == list(range(steps[0], 4 * 90 + 1, 4))
 
 
+FREED = """
+import gc
+import weakref
+
+worlds = []
+
+
+def test_a_world_is_used(physsim):
+    worlds.append(weakref.ref(physsim.node))
+
+
+def test_the_world_of_the_test_before_is_freed():
+    gc.collect()
+    assert worlds[0]() is None
+"""
+
+
+def test_a_world_is_freed_after_its_test(pytester: pytest.Pytester) -> None:
+    pytester.makepyfile(FREED)
+    pytester.runpytest_subprocess().assert_outcomes(passed=2)
+
+
 def test_a_recording_of_the_past_holds_what_happened(physsim: PhysSim, tmp_path: Path) -> None:
     physsim.load('demo')
     physsim.run(0.5)
