@@ -54,6 +54,10 @@ class Recordings(Protocol):
     """The viewer, as this server needs it; pages are what `open_page` returns."""
 
     @property
+    def is_opening(self) -> bool:
+        """Whether the viewer is being opened, so that it may have a web page soon."""
+
+    @property
     def page_address(self) -> str:
         """Return the address of the viewer's own web page on loopback; '' where there is none."""
 
@@ -89,8 +93,12 @@ class _OfRecording(Guarded):
         self.recordings = recordings
 
     async def prepare(self) -> None:
-        """Refuse a request where the viewer is none for browsers."""
+        """Refuse a request where the viewer is none for browsers, once it is open."""
         await super().prepare()
+        until = time.monotonic() + _START_TIMEOUT
+        # On a thread of the viewer, which knows no event loop.
+        while self.recordings.is_opening and time.monotonic() < until:  # noqa: ASYNC110
+            await asyncio.sleep(_RETRY_PERIOD)
         if not self.recordings.page_address:
             self.refuse(404, 'there is no recording in a browser: set viewer to web')
 

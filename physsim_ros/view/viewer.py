@@ -91,6 +91,12 @@ class Viewer:
         return any(worker.is_open for worker in self._workers)
 
     @property
+    def is_opening(self) -> bool:
+        """Whether a viewer is being opened, or will be soon."""
+        window = self._window
+        return self._wanted is not None or (window is not None and window.is_opening)
+
+    @property
     def page_address(self) -> str:
         """Return the address of the viewer's web page, on this machine; '' where there is none."""
         return '' if self._window is None else self._window.page_address

@@ -125,6 +125,18 @@ def test_pages_are_told_when_there_is_a_recording_and_before_there_is_none(
     assert page.of_type('recording')[0]['rerun'] == '/rerun/'
 
 
+def test_a_recording_that_is_opened_while_the_viewer_starts_comes_when_it_has(
+    browser: Browser, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    starting = [True, True, True]
+    monkeypatch.setattr(
+        Viewer, 'is_opening', property(lambda _: bool(starting and starting.pop()))
+    )
+    address = property(lambda _: '' if starting else 'http://127.0.0.1:9090/')
+    monkeypatch.setattr(Viewer, 'page_address', address)
+    assert browser.fetch('/rerun/').code == 200
+
+
 @pytest.mark.usefixtures('viewer_files')
 def test_the_files_of_the_viewer_come_through_this_server_and_none_else(browser: Browser) -> None:
     page = browser.open_page()

@@ -85,6 +85,11 @@ class SinkWorker:
         return f'{self._endpoint.kind}: {self._status}' if failed else ''
 
     @property
+    def is_opening(self) -> bool:
+        """Whether the endpoint is being opened for the first time."""
+        return self._status == 'starting' and self.is_open
+
+    @property
     def is_open(self) -> bool:
         """Whether the worker runs."""
         return self._thread.is_alive()
