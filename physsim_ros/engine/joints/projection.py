@@ -179,7 +179,7 @@ class Projection:
         matrix[0, matrix[0] == 0.0] = 1.0
         _, push, failed = dpbsv(matrix, gaps[self._order], lower=1)
         if failed:
-            # Not of finite numbers: the regularisation is far above the rounding of the factors.
+            # Only numbers that are not finite fail: the regularisation is far above rounding.
             return
         push = push[self._place]
         changes = moved * np.concatenate((push, push))[:, None]

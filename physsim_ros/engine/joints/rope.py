@@ -24,7 +24,6 @@ from physsim_ros.model.scene import Joint
 import pymunk
 from pymunk._chipmunk_cffi import lib
 
-# By so much a taut rope is too long for Chipmunk, which has a `SlideJoint` act only then [m].
 # Least excess of a taut rope over the greatest length that Chipmunk solves for, as a share of 1 m
 # and its length: without an excess by rounding (1e-16) Chipmunk would skip the constraint.
 _TAUT = 1e-12
