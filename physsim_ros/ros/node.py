@@ -198,9 +198,10 @@ class PhysSimNode(NodeWithoutQosEvents):
         """Start the viewer and the diagnostics; `tick` advances time from now on."""
         self._started = self._reply_pacer.paced = True
         self.outputs.print_addresses()
+        # A viewer that is opened begins a recording anew that has failed.
+        self._open_viewer()
         if self._values['record_file']:
             self.outputs.viewer.record(Path(self._values['record_file']))
-        self._open_viewer()
         self.get_logger().info(f'ready: {len(self.simulation.world)} bodies')
 
     def _open_viewer(self) -> None:

@@ -40,9 +40,9 @@ def viewers():
     def make(*, mode=ViewerMode.NONE, url='', record_file=''):
         viewer = Viewer()
         made.append(viewer)
+        viewer.open_viewer(mode, url)
         if record_file:
             viewer.record(Path(record_file))
-        viewer.open_viewer(mode, url)
         return viewer
 
     yield make
