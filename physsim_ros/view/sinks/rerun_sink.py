@@ -17,6 +17,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from physsim_ros.model.snapshot import Frame
@@ -77,6 +78,10 @@ class RerunSink:
         from rerun_bindings import flush_and_cleanup_orphaned_recordings
 
         self._recording.disconnect()
+        # Rerun (0.41) disconnects on a thread of the recording, which needs the interpreter's lock
+        # to free what was logged; the cleanup below would wait for it and keep that lock.
+        with suppress(RuntimeError):
+            self._recording.flush()
         # Rerun (0.41) ends the two threads of a recording only here (rerun-io/rerun#2116).
         del self._recorder, self._recording
         flush_and_cleanup_orphaned_recordings()
