@@ -62,7 +62,8 @@ setup(
         'pymunk>=7.3,<8',
         'PyYAML',
         'rerun-sdk>=0.41,<0.42',
-        # Banded Cholesky and graph orders, for joints.
+        # Sparse factors without BLAS, for joints; its matrices are those of scipy.
+        'qdldl>=0.1.9,<0.2',
         'scipy>=1.13',
         # Reads SVG; pure Python, and needs nothing itself.
         'svgelements>=1.9,<2',

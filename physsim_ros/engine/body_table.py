@@ -20,6 +20,7 @@ from physsim_ros.engine.batch_io import BatchIO, Ids
 from physsim_ros.engine.body import REST, RigidBody
 from physsim_ros.engine.ccd.body_extents import corner_count, safe_depths, turning_radius
 from physsim_ros.engine.graph_search import reachable, Rows
+from physsim_ros.engine.memory import indices_of
 from physsim_ros.model.arrays import Flags, Floats, Ints
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.scene import Scene
@@ -94,6 +95,7 @@ class BodyTable:
     :ivar leads: (n, 3) float64: the half-step lead of each body in free flight, wrench included
     :ivar free: (n,) bool: in free flight, so that the engine's velocity leads by that
     :ivar asleep: (n,) bool: in the engine's sleep, as of the last reading
+    :ivar memory: (n + 1,) int64: index of each body in the engine's memory
     :ivar slot_changes: counts how often slots were found changed, by sleeping and waking
     """
 
@@ -117,6 +119,8 @@ class BodyTable:
         self._io = io
         ids = [rigid.engine.id for rigid in bodies]
         self.ids: Ids = np.array([*ids, background.id], np.uint64)
+        self.memory = indices_of((*(rigid.engine for rigid in bodies), background))
+        self._by_memory = np.argsort(self.memory)
         self._ascending = np.argsort(self.ids)
         self._sorted_ids = self.ids[self._ascending]
         self._rows = {rigid.engine: row for row, rigid in enumerate(bodies)}
@@ -130,6 +134,11 @@ class BodyTable:
         rows: Rows = self._ascending[near]
         return np.where(self._sorted_ids[near] == ids, rows, len(self.bodies))
 
+    def rows_in_memory(self, indices: Ints) -> Rows:
+        """Return the rows of bodies by their indices in the engine's memory."""
+        rows: Rows = self._by_memory[np.searchsorted(self.memory, indices, sorter=self._by_memory)]
+        return rows
+
     def row_of(self, engine: pymunk.Body) -> int | None:
         """Return the row of one of the engine's bodies; None is the background."""
         return self._rows.get(engine)
@@ -140,6 +149,11 @@ class BodyTable:
         if self._state is None:
             self._state = self.read_states()[:-1]
         return self._state
+
+    @property
+    def state_with_background(self) -> Floats:
+        """Return (n + 1, 6) float64: the same, and zeros for the background."""
+        return np.concatenate((self.state, np.zeros((1, 6))))
 
     def read_states(self) -> Floats:
         """

@@ -37,3 +37,27 @@ def reachable(marked: Flags, pairs: Rows) -> Flags:
             return reached
         reached[one[near]] = reached[other[near]] = True
         one, other = one[~near], other[~near]
+
+
+def components(count: int, pairs: Rows) -> Rows:
+    """
+    Return (n,) intp: the least node that each node is connected with by pairs.
+
+    Pointer jumping (Y. Shiloach and U. Vishkin, 1982), in rounds by the logarithm of the longest
+    path.
+
+    :param count: of nodes
+    :param pairs: (k, 2) intp: nodes that are connected
+    """
+    least = np.arange(count)
+    one, other = pairs.T
+    while True:
+        lesser = np.minimum(least[one], least[other])
+        found = least.copy()
+        for side in (one, other):
+            np.minimum.at(found, side, lesser)
+            np.minimum.at(found, least[side], lesser)
+        found = found[found]
+        if np.array_equal(found, least):
+            return found
+        least = found

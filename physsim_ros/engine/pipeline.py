@@ -10,11 +10,12 @@ The pipeline: one step of the engine, stage by stage in this order.
 4. Resting damping: the solver's error is removed from what friction locks in place.
 5. Continuous collision: fast bodies are advanced to where they first touch something.
 6. Tight boxes: the engine's broad phase is told where fast bodies of a crowd will be.
-7. Joints: the target velocity of constraints is set to the centripetal term.
+7. Joints: constraints are put where the step needs them.
 8. Pymunk's step: positions, narrow phase, solver, sleeping. In the middle of it: false contacts
    are rejected, contact normal at impact, internal edges and contact projection as two shapes
    begin to touch, and impact propagation and the block solver before the solver runs.
-9. Joints: gaps are closed in positions.
+9. Joints: rows of joints and of contacts on jointed bodies are solved together, in velocities
+   and positions.
 10. Half-step velocity: free flight is found, and does not fall asleep.
 11. Contact report: impulses are added up.
 """
@@ -105,14 +106,14 @@ class Pipeline:
         self.resting_damping.damp_resting(context)
         self.continuous_collision.clamp_moves(context)
         tighten_boxes(context)
-        self._joints.set_targets(context)
+        self._joints.begin_step(context)
         self._context, self.impact_propagation.table = context, table
         self._placed.clear()
         self._false_contacts.begin_step()
         self._engine.step(context.dt)
         self._context = self.impact_propagation.table = None
         table.forget_state()
-        self._joints.close_gaps(context)
+        self._joints.end_step(context)
         self.half_step.find_free(context)
         keep_flying_awake(context)
         keep_swinging_awake(context)

@@ -105,7 +105,8 @@ class Snapshot:
     @cached_property
     def potential_energy(self) -> float:
         """Potential energy of all movable bodies in the field of gravity, 0 at the origin [J]."""
-        return float(-(self.scene.inertia[:, 0] @ (self.centers @ self.scene.settings.gravity)))
+        weights = self.scene.inertia[:, :1] * self.scene.settings.gravity
+        return float(-(weights * self.centers).sum())
 
     @cached_property
     def elastic_energy(self) -> float:
@@ -135,7 +136,7 @@ class Snapshot:
     @cached_property
     def momentum(self) -> tuple[float, float]:
         """Linear momentum of all movable bodies [kg m/s]."""
-        x, y = (self.scene.inertia[:, 0] @ self.twists[:, :2]).tolist()
+        x, y = (self.scene.inertia[:, :1] * self.twists[:, :2]).sum(axis=0).tolist()
         return x, y
 
 

@@ -4,10 +4,12 @@
 """
 Digests of every shipped world and drawing, which tell whether a change moves anything by a bit.
 
-``python -m test.worlds.digests`` writes them anew, into ``digests.yaml``.
+``python -m test.worlds.digests`` writes them anew, into ``digests.yaml``; with ``--print`` those of
+the first time are printed instead.
 """
 
 from pathlib import Path
+import sys
 
 from physsim_ros.drawing import DrawingSession, DrawingSettings
 from physsim_ros.files import find_drawing, load_drawing, shipped, shipped_worlds
@@ -45,9 +47,17 @@ def digest_at(sim, time):
     return sim.world.digest()
 
 
-if __name__ == '__main__':
+def digests(times=TIMES):
+    """Return the digests of all scenes at some times [s], by name of the scene."""
     found = {}
-    for each in SCENES:
-        played = scene(each)
-        found[each] = [digest_at(played, time) for time in TIMES]
-    DIGESTS.write_text(yaml.safe_dump(found), encoding='utf-8')
+    for name in SCENES:
+        played = scene(name)
+        found[name] = [digest_at(played, time) for time in times]
+    return found
+
+
+if __name__ == '__main__':
+    if '--print' in sys.argv:
+        sys.stdout.write(yaml.safe_dump(digests(TIMES[:1])))
+    else:
+        DIGESTS.write_text(yaml.safe_dump(digests()), encoding='utf-8')

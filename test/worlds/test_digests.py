@@ -3,15 +3,31 @@
 
 """Every shipped world and drawing moves as it did, to the bit; a rewind brings it back."""
 
+import os
+from pathlib import Path
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 import yaml
 
 from .digests import digest_at, DIGESTS, scene, SCENES, TIMES
 
-# How NumPy and its BLAS round sums depends on the vectors of the processor: with those of 512 bits
-# the digests were taken. (NumPy 2.4 gave them another name.)
-VECTORS = {'AVX512_SKX', 'X86_V4'}
+
+def dispatched():
+    """Return the vector features that NumPy finds here, and can do without."""
+    return np.show_config(mode='dicts')['SIMD Extensions']['found']
+
+
+ROOT = Path(__file__).parents[2]
+# Processors by the kernels that OpenBLAS has for them, and by what NumPy may use of their vectors.
+PROCESSORS = {
+    'AMD, and Intel without AVX-512': {'OPENBLAS_CORETYPE': 'Haswell'},
+    'Intel with AVX-512': {'OPENBLAS_CORETYPE': 'SkylakeX'},
+    'before AVX': {'OPENBLAS_CORETYPE': 'Nehalem'},
+    'NumPy without vectors': {'NPY_DISABLE_CPU_FEATURES': ' '.join(dispatched())},
+}
 EXPECTED = yaml.safe_load(DIGESTS.read_text(encoding='utf-8'))
 
 
@@ -28,6 +44,17 @@ def test_it_moves_as_it_did_and_a_rewind_repeats_it(name):
     again = [digest_at(sim, time) for time in TIMES]
 
     assert again == first
-    if VECTORS.isdisjoint(np.show_config(mode='dicts')['SIMD Extensions']['found']):
-        pytest.skip('the digests are of processors with AVX-512')
     assert first == EXPECTED[name]
+
+
+@pytest.mark.parametrize('processor', PROCESSORS)
+def test_it_moves_alike_on_every_processor_with_fma(processor):
+    played = subprocess.run(
+        [sys.executable, '-m', 'test.worlds.digests', '--print'],
+        cwd=ROOT,
+        env=os.environ | PROCESSORS[processor],
+        check=True,
+        capture_output=True,
+    )
+
+    assert yaml.safe_load(played.stdout) == {name: each[:1] for name, each in EXPECTED.items()}

@@ -13,12 +13,10 @@ from __future__ import annotations
 import math
 
 from physsim_ros.engine.joints import rows
-from physsim_ros.engine.joints.kind import Batch, Ends, EQUAL, Kind, Motion
+from physsim_ros.engine.joints.kind import Batch, Ends, EQUAL, Kind
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.scene import Joint
-from physsim_ros.model.transform import turned
 import pymunk
-from pymunk._chipmunk_cffi import lib
 
 # With 1 Chipmunk takes a limit whose bias is 0 for one that is not reached: this leaves a share of
 # 4e-7 of an angle to be corrected in a step of 1/240 s.
@@ -28,7 +26,8 @@ _NEARLY_NONE = 1.0 - 1e-4
 def pivot(ends: Ends) -> pymunk.PivotJoint:
     """Return the constraint of two anchors that coincide."""
     constraint = pymunk.PivotJoint(ends.a, ends.b, ends.at_a, ends.at_b)
-    constraint.error_bias = 0.0
+    # Without a bias: a share of 0 of the gap is closed in a step.
+    constraint.error_bias = 1.0
     return constraint
 
 
@@ -52,18 +51,4 @@ def _rows(batch: Batch, a: Floats, b: Floats) -> tuple[Floats, Floats]:
     return rows.both(point, rows.angle(batch, a, b)) if batch.lower.shape[1] > 2 else point
 
 
-def set_targets(batch: Batch, motion: Motion) -> None:
-    """
-    Have each `PivotJoint` solve for v_b - v_a = dt / 2 (w_b^2 r_b - w_a^2 r_a) at the anchors.
-
-    Chipmunk solves for -gap / dt with `error_bias` 0, so anchor B is moved to where the gap is
-    - dt times that, whatever the gap between the anchors themselves.
-    """
-    arm_a, arm_b, apart = rows.arms(batch, motion.a[:, :3], motion.b[:, :3])
-    target = motion.pull[:, 1:] * arm_b - motion.pull[:, :1] * arm_a
-    anchors = turned(arm_b + apart - target * motion.dt, -motion.b[:, 2])
-    for pointer, x, y in zip(batch.constraints, *anchors.T.tolist(), strict=True):
-        lib.cpPivotJointSetAnchorB(pointer, (x, y))
-
-
-KIND = Kind(_constraints, _bounds, _rows, set_targets)
+KIND = Kind(_constraints, _bounds, _rows)

@@ -4,10 +4,8 @@
 """
 The joints of a space: added, removed, prepared for a step and corrected after it.
 
-Pymunk solves its constraints together with contacts. Its bias, a velocity that closes gaps, is
-replaced: by the centripetal term alone (J v = - dt / 2 dJ/dt v), without which a pendulum loses
-(w dt)^2 / 2 of its energy a step; gaps are closed in positions (`projection`). No gap becomes a
-velocity, so joints that contradict each other or contacts add no energy.
+Pymunk solves its constraints together with contacts, without their bias, a velocity that closes
+gaps. `joint_solver` then solves them again, with the contacts of jointed bodies.
 
 Laws: a joint is removed with either of its bodies; a body whose engine objects are made anew keeps
 its joints; a joint that exceeds its break force is removed after that step; impulses are those of
@@ -16,17 +14,18 @@ the engine; a `max_force` that is not reached changes nothing.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 import itertools
 import math
 
 import numpy as np
 from physsim_ros.engine.body import RigidBody
-from physsim_ros.engine.graph_search import Rows
-from physsim_ros.engine.joints import engine_memory, spring
+from physsim_ros.engine.joints import spring
+from physsim_ros.engine.joints.joint_solver import JointSolver
 from physsim_ros.engine.joints.joint_table import JointTable
 from physsim_ros.engine.joints.kind import EngineJoint
 from physsim_ros.engine.joints.kinds import build_joint
+from physsim_ros.engine.memory import impulse_places, NUMBERS
 from physsim_ros.engine.step_context import StepContext
 from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.names import WORLD
@@ -56,6 +55,7 @@ class JointSet:
         self._serials: dict[str, int] = {}
         self._next_serial = 0
         self._table: JointTable | None = None
+        self._solver = JointSolver(dt)
         self._springs: Springs | None = None
         # Names of the joints whose first step is to come, and of those whose last one it was.
         self._unstepped: set[str] = set()
@@ -131,22 +131,20 @@ class JointSet:
         for name in self.names_on(body):
             self._add_constraints(self.by_name[name].joint)
 
-    def set_targets(self, context: StepContext) -> None:
-        """Set the velocities that constraints are solved for in the coming step."""
+    def begin_step(self, context: StepContext) -> None:
+        """Prepare constraints for the poses of the coming step."""
         if self.by_name:
-            table = context.table
-            states = np.concatenate((table.state[:, :3], context.twists), axis=1)
-            self._joint_table().set_targets(_with_background(states)[self._rows(table.bodies)])
+            table, joints = context.table, self._joint_table()
+            # The engine moves bodies first.
+            poses = table.state_with_background[:, :3]
+            poses[:-1] += context.twists * self._dt
+            joints.prepare(poses[joints.rows(table.bodies)])
         self._stepped_once, self._unstepped = self._unstepped, set()
 
-    def close_gaps(self, context: StepContext) -> None:
-        """Correct the positions of jointed bodies after the step."""
-        if not self.by_name:
-            return
-        table, rows = context.table, self._rows(context.table.bodies)
-        poses = _with_background(table.state[:, :3])[rows]
-        self._joint_table().correct(poses)
-        table.write_poses(rows[:-1], poses[:-1])
+    def end_step(self, context: StepContext) -> None:
+        """Solve joints, after the step of the engine."""
+        if self.by_name:
+            self._solver.solve(self._joint_table(), context.table)
 
     def forces(self) -> Floats:
         """Return (j,) float64: the force of each joint in the last step [N]."""
@@ -162,12 +160,18 @@ class JointSet:
 
     def impulses(self) -> Floats:
         """Return (c, 2) float64: impulses from which the next step starts, of all constraints."""
-        return engine_memory.impulses(self._constraints())
+        impulses = np.zeros((len(constraints := self._constraints()), 2))
+        for row, constraint in enumerate(constraints):
+            places = impulse_places(constraint)
+            impulses[row, : len(places)] = NUMBERS[places]
+        return impulses
 
     def set_impulses(self, impulses: Floats) -> None:
         """Set (c, 2) float64: impulses from which the next step starts; none of another number."""
-        if len(impulses) == len(self._constraints()):
-            engine_memory.set_impulses(self._constraints(), impulses)
+        if len(impulses) == len(constraints := self._constraints()):
+            for constraint, impulse in zip(constraints, impulses, strict=True):
+                places = impulse_places(constraint)
+                NUMBERS[places] = impulse[: len(places)]
 
     def unstepped(self) -> frozenset[str]:
         """Return the names of the joints whose first step is to come."""
@@ -241,11 +245,3 @@ class JointSet:
             engine_joint = list(self.by_name.values())
             self._table = JointTable(engine_joint, self._space.static_body, self._dt)
         return self._table
-
-    def _rows(self, listed: Sequence[RigidBody]) -> Rows:
-        return self._joint_table().rows(listed)
-
-
-def _with_background(rows: Floats) -> Floats:
-    """Return a row for each body and a row of zeros for the background."""
-    return np.concatenate((rows, np.zeros((1, rows.shape[1]))))

@@ -1,40 +1,51 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""The joints of a space as arrays: target velocities before a step, positions after it."""
+"""The joints of a space by column, until one comes or goes: constraint rows and their impulses."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-import itertools
+from typing import NamedTuple
 
 import numpy as np
 from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.graph_search import Rows
-from physsim_ros.engine.joints import engine_memory
-from physsim_ros.engine.joints.kind import Batch, EngineJoint, Kind, Motion
+from physsim_ros.engine.joints.kind import Batch, EngineJoint, Kind
 from physsim_ros.engine.joints.kinds import kind_of, KINDS
-from physsim_ros.engine.joints.projection import Projection
-from physsim_ros.model.arrays import Floats
+from physsim_ros.engine.memory import impulse_places, NUMBERS
+from physsim_ros.model.arrays import Flags, Floats
 import pymunk
 
 # ruff: noqa: SLF001
 
 # Share of its greatest force that a joint gives where it gives all of it, by rounding.
 _ALL = 1.0 - 1e-9
-# A faster turn in a step has no centripetal term [rad]: 60 rad/s at 240 Hz.
-_FAST_TURN = 0.25
+
+
+class JointRows(NamedTuple):
+    """
+    The constraint rows of all joints at some poses.
+
+    :ivar excess: (r,) float64: distance of x from its bounds, < 0 below the lower one [m, rad]
+    :ivar jacobian: (r, 2, 3) float64: J, of the first and the second body
+    """
+
+    excess: Floats
+    jacobian: Floats
 
 
 class JointTable:
     """
-    All joints of a set as arrays, until one comes or goes.
+    All joints of a set as arrays.
 
     :param joints: of the set
     :param background: of the space
     :param dt: of a step [s]
 
     :ivar breakable: joints that can break, and the greatest impulse of each [N s]
+    :ivar ends: (r, 2) intp: the two bodies of each row, as places among the jointed bodies
+    :ivar equal: (r,) bool: rows of equalities; the others are limits
     """
 
     def __init__(self, joints: Sequence[EngineJoint], background: pymunk.Body, dt: float) -> None:
@@ -53,57 +64,113 @@ class JointTable:
         ]
         ends = (body for _, each in exact for body in (each.ends.a, each.ends.b))
         self._members = [each for each in dict.fromkeys(ends) if each is not background]
-        dynamic = [each.body_type == pymunk.Body.DYNAMIC for each in self._members]
-        self._pushed = np.flatnonzero(dynamic)
-        self._numbers = engine_memory.numbers_of(itertools.compress(self._members, dynamic))
-        inverse = np.zeros((len(self._members) + 1, 3))
-        for row in self._pushed.tolist():
-            body = self._members[row]
-            inverse[row] = 1.0 / body.mass, 1.0 / body.mass, 1.0 / body.moment
         rows = {body: row for row, body in enumerate((*self._members, background))}
         self._batches = [*_batches(exact, rows)]
-        projected = [(batch, kind.rows) for kind, batch in self._batches if kind.rows]
-        self._projection = Projection(projected, inverse, dt)
+        batches = [batch for _, batch in self._batches]
+        counts = [batch.lower.shape[1] for batch in batches]
+        self._owners = _repeated((batch.numbers for batch in batches), counts)
+        self.ends = np.stack(
+            (
+                _repeated((batch.a for batch in batches), counts),
+                _repeated((batch.b for batch in batches), counts),
+            ),
+            axis=1,
+        )
+        bounds = [
+            np.stack((batch.lower, batch.upper), axis=-1).reshape(-1, 2) for batch in batches
+        ]
+        self._lower, self._upper = np.concatenate([np.empty((0, 2)), *bounds]).T
+        self.equal = self._lower == self._upper
+        places = [_row_impulses(joints[number]) for number in self._numbers_of(batches)]
+        flat = [each for joint in places for each in joint]
+        self._places = np.array([place for place, _, _ in flat], np.int64)
+        self._signs = np.array([[below, above] for _, below, above in flat]).reshape(-1, 2)
         self._listed: Sequence[RigidBody] = ()
-        self._places: Rows = np.empty(0, np.intp)
+        self._rows: Rows = np.empty(0, np.intp)
 
     def rows(self, listed: Sequence[RigidBody]) -> Rows:
-        """Return the rows of the jointed bodies in the engine's listing, then the background."""
+        """Return the rows of the jointed bodies in the body table, then that of the background."""
         if self._listed is not listed:
             places = {each.engine: place for place, each in enumerate(listed)}
             members = (places[body] for body in self._members)
-            self._places, self._listed = np.array([*members, len(listed)], np.intp), listed
-        return self._places
+            self._rows, self._listed = np.array([*members, len(listed)], np.intp), listed
+        return self._rows
 
-    def set_targets(self, states: Floats) -> None:
-        """
-        Set the velocities that constraints are solved for in the coming step.
-
-        :param states: (b, 6) float64: x, y [m], yaw [rad] and their rates, of the jointed bodies
-        """
-        dt = self._dt
-        # The engine moves bodies first.
-        moved = states.copy()
-        moved[:, :3] += states[:, 3:] * dt
-        # The term is of first order in w dt: beyond it would be noise that feeds itself.
-        moved[:, 5] = np.where(np.abs(states[:, 5] * dt) > _FAST_TURN, 0.0, states[:, 5])
-        pull = (1.0 - np.cos(moved[:, 5] * dt)) / dt
+    def prepare(self, poses: Floats) -> None:
+        """Prepare constraints for a step in which the jointed bodies come to (b, 3) poses."""
         for kind, batch in self._batches:
-            if kind.set_targets is not None:
-                a, b = batch.a, batch.b
-                both = np.stack((pull[a], pull[b]), axis=1)
-                kind.set_targets(batch, Motion(moved[a], moved[b], both, dt))
+            if kind.prepare is not None:
+                kind.prepare(batch, poses[batch.a], poses[batch.b])
 
-    def correct(self, poses: Floats) -> None:
-        """Correct (b, 3) float64 poses of the jointed bodies in place."""
-        # As the next step would, so that it begins at the pose that targets were set for.
-        poses[self._pushed] += engine_memory.take_pushes(self._numbers) * self._dt
+    def read(self, poses: Floats) -> JointRows:
+        """Return the rows at (b, 3) float64: poses of the jointed bodies and the background."""
+        values, jacobians = [np.empty(0)], [np.empty((0, 2, 3))]
+        for kind, batch in self._batches:
+            if kind.rows is not None:
+                value, jacobian = kind.rows(batch, poses[batch.a], poses[batch.b])
+                values.append(value.ravel())
+                jacobians.append(jacobian.reshape(-1, 2, 3))
+        x = np.concatenate(values)
+        excess = np.maximum(x - self._upper, 0.0) + np.minimum(x - self._lower, 0.0)
+        return JointRows(excess, np.concatenate(jacobians))
+
+    def holding(self) -> Flags:
+        """Return (r,) bool: rows of joints that did not reach their greatest force in the step."""
         yielded = [
             number
             for number, limited, most in self._yielding
             if any(abs(constraint.impulse) >= most for constraint in limited)
         ]
-        self._projection.close(poses, yielded)
+        return ~np.isin(self._owners, yielded)
+
+    def impulses(self, rows: JointRows) -> Floats:
+        """Return (r,) float64: λ of the last step [N s, N m s]."""
+        impulses: Floats = NUMBERS[self._places] * self._sign(rows)
+        return impulses
+
+    def write_impulses(self, rows: JointRows, impulses: Floats, which: Flags) -> None:
+        """Set λ of some rows, (r,) float64 and (r,) bool [N s, N m s]."""
+        NUMBERS[self._places[which]] = (impulses / self._sign(rows))[which]
+
+    def _sign(self, rows: JointRows) -> Floats:
+        """Return (r,) float64: λ by the impulse that the engine stores."""
+        return np.where(rows.excess < 0.0, self._signs[:, 0], self._signs[:, 1])
+
+    @staticmethod
+    def _numbers_of(batches: Iterable[Batch]) -> list[int]:
+        return [number for batch in batches for number in batch.numbers.tolist()]
+
+
+def _repeated(columns: Iterable[Rows], counts: Iterable[int]) -> Rows:
+    """Return the values of some columns, each as often as its batch has rows a joint."""
+    parts = [np.repeat(column, count) for column, count in zip(columns, counts, strict=True)]
+    return np.concatenate([np.empty(0, np.intp), *parts])
+
+
+def _row_impulses(joint: EngineJoint) -> list[tuple[int, float, float]]:
+    """
+    Return where the engine stores the impulses of the rows of a joint.
+
+    :return: of each row the index in its memory, and λ by that impulse where x is below its
+        bounds, and where it is not
+    """
+    found = []
+    for constraint in joint.constraints:
+        below = above = 1.0
+        if isinstance(constraint, pymunk.SimpleMotor):
+            # The engine alone solves it.
+            continue
+        if isinstance(constraint, pymunk.PivotJoint):
+            # It pushes the second body.
+            below = above = -1.0
+        elif isinstance(constraint, pymunk.GearJoint):
+            # It turns the first body by a share of the impulse.
+            below = above = 1.0 / constraint.ratio
+        elif isinstance(constraint, pymunk.SlideJoint):
+            # It only holds back, from its least length on too.
+            below = -1.0
+        found += [(place, below, above) for place in impulse_places(constraint)]
+    return found
 
 
 def _batches(

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from physsim_ros.engine.graph_search import Rows
-from physsim_ros.engine.joints import engine_memory
+from physsim_ros.engine.memory import impulse_places, NUMBERS
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.scene import Joint
@@ -71,7 +71,7 @@ class EngineJoint:
         if self.joint.kind not in {JointKind.ROD, JointKind.SPRING} or not self.constraints:
             return False
         # Pymunk gives the impulse of a rod without its sign.
-        return bool(engine_memory.impulses(self.constraints[:1])[0, 0] > 0.0)
+        return bool(NUMBERS[impulse_places(self.constraints[0])[0]] > 0.0)
 
 
 class Batch(NamedTuple):
@@ -102,39 +102,23 @@ class Batch(NamedTuple):
     constraints: list[Any]
 
 
-class Motion(NamedTuple):
-    """
-    Bodies of a batch: poses at which the engine will solve, and velocities before it does.
-
-    :ivar a: (k, 6) float64: x, y [m], yaw [rad] and their rates, of the first bodies
-    :ivar b: (k, 6) float64: the same of the second bodies
-    :ivar pull: (k, 2) float64: (1 - cos(w dt)) / dt of the first and the second body [1/s], which
-        is dt / 2 w^2 while w dt is small: times an arm, half of a step of centripetal acceleration
-    :ivar dt: of a step [s]
-    """
-
-    a: Floats
-    b: Floats
-    pull: Floats
-    dt: float
-
-
 class Kind(NamedTuple):
     """
     The functions of one kind of joint.
 
-    :ivar constraints: makes the Pymunk constraints, the one that `set_targets` writes to first
+    :ivar constraints: makes the Pymunk constraints; their impulses, but those of motors and
+        springs, are those of the rows in the same order
     :ivar bounds: returns (lower, upper) of each constraint row of a joint [m, rad]
     :ivar rows: returns the (k, r) values x and the (k, r, 6) Jacobian J at the (k, 3) poses of the
-        first and the second bodies; None where positions are not corrected
-    :ivar set_targets: sets the velocity J v that the first constraint of each is solved for to the
-        centripetal term - dt / 2 (dJ/dt v); None where there is no such term
+        first and the second bodies; None where the engine alone solves the joint
+    :ivar prepare: changes constraints before a step, at the poses that it will have; None where
+        they do not depend on poses
     """
 
     constraints: Callable[[Joint, Ends], list[pymunk.Constraint]]
     bounds: Callable[[Joint], Sequence[tuple[float, float]]] = lambda _: ()
     rows: Callable[[Batch, Floats, Floats], tuple[Floats, Floats]] | None = None
-    set_targets: Callable[[Batch, Motion], None] | None = None
+    prepare: Callable[[Batch, Floats, Floats], None] | None = None
 
 
 EQUAL = (0.0, 0.0)

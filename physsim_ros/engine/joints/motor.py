@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 from physsim_ros.engine.joints import rows
-from physsim_ros.engine.joints.axle import pivot, set_targets
+from physsim_ros.engine.joints.axle import pivot
 from physsim_ros.engine.joints.kind import Ends, EQUAL, Kind
 from physsim_ros.model.scene import Joint
 import pymunk
@@ -18,4 +18,4 @@ def _constraints(joint: Joint, ends: Ends) -> list[pymunk.Constraint]:
     return [pivot(ends), motor]
 
 
-KIND = Kind(_constraints, lambda _: [EQUAL, EQUAL], rows.point, set_targets)
+KIND = Kind(_constraints, lambda _: [EQUAL, EQUAL], rows.point)

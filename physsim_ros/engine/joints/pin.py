@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 from physsim_ros.engine.joints import rows
-from physsim_ros.engine.joints.axle import pivot, set_targets
+from physsim_ros.engine.joints.axle import pivot
 from physsim_ros.engine.joints.gear import gear
 from physsim_ros.engine.joints.kind import Batch, Ends, EQUAL, Kind
 from physsim_ros.model.arrays import Floats
@@ -26,4 +26,4 @@ def _rows(batch: Batch, a: Floats, b: Floats) -> tuple[Floats, Floats]:
     return rows.both(rows.point(batch, a, b), rows.angle(batch, a, b))
 
 
-KIND = Kind(_constraints, _bounds, _rows, set_targets)
+KIND = Kind(_constraints, _bounds, _rows)

@@ -11,6 +11,8 @@ Source: Catto, "Modeling and Solving Constraints", GDC 2009.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from physsim_ros.engine.joints.kind import Batch
 from physsim_ros.model.arrays import Floats
@@ -50,23 +52,29 @@ def distance(batch: Batch, a: Floats, b: Floats) -> tuple[Floats, Floats]:
     arm_a, arm_b, apart = arms(batch, a, b)
     length = np.hypot(apart[:, 0], apart[:, 1])
     # Anchors on each other have no direction; any one parts them.
-    along = np.where(length[:, None] > 0.0, apart / np.maximum(length, 1e-300)[:, None], (1.0, 0))
-    return length[:, None], _along(along, arm_a, arm_b)
+    direction = apart / np.maximum(length, 1e-300)[:, None]
+    direction = np.where(length[:, None] > 0.0, direction, (1.0, 0.0))
+    return length[:, None], along(direction, arm_a, arm_b)
 
 
-def track(batch: Batch, a: Floats, b: Floats) -> tuple[Floats, Floats]:
-    """
-    Return the rows of an anchor on a line that turns with the second body.
+def on_line(batch: Batch, a: Floats, b: Floats) -> tuple[Floats, Floats]:
+    """Return the row of the distance of an anchor from a line that turns with the second body."""
+    return _place_on_line(batch, a, b, across)
 
-    x = (n . d, u . d) with d = p_a - p_b, u the unit vector of the line and n across it.
-    """
+
+def along_line(batch: Batch, a: Floats, b: Floats) -> tuple[Floats, Floats]:
+    """Return the row of the way of an anchor along a line that turns with the second body."""
+    return _place_on_line(batch, a, b, lambda axis: axis)
+
+
+def _place_on_line(
+    batch: Batch, a: Floats, b: Floats, direction_of: Callable[[Floats], Floats]
+) -> tuple[Floats, Floats]:
+    """Return x = direction . (p_a - p_b), the direction turning with the second body."""
     arm_a, arm_b, apart = arms(batch, a, b)
-    u = turned(batch.axis, b[:, 2])
-    n = across(u)
+    direction = direction_of(turned(batch.axis, b[:, 2]))
     # The line reaches from the second body to where the first anchor is.
-    reach = arm_b + apart
-    value = np.stack((dot(n, apart), dot(u, apart)), axis=1)
-    return value, np.concatenate((_along(n, arm_a, reach), _along(u, arm_a, reach)), axis=1)
+    return dot(direction, apart)[:, None], along(direction, arm_a, arm_b + apart)
 
 
 def both(first: tuple[Floats, Floats], second: tuple[Floats, Floats]) -> tuple[Floats, Floats]:
@@ -85,13 +93,7 @@ def dot(a: Floats, b: Floats) -> Floats:
     return product
 
 
-def velocity(states: Floats, arm: Floats) -> Floats:
-    """Return (k, 2) float64: velocities of the points at arms from the centres of mass [m/s]."""
-    moved: Floats = states[:, 3:5] + states[:, 5:] * across(arm)
-    return moved
-
-
-def _along(direction: Floats, arm_a: Floats, arm_b: Floats) -> Floats:
+def along(direction: Floats, arm_a: Floats, arm_b: Floats) -> Floats:
     """Return the (k, 1, 6) Jacobian of direction . (p_a - p_b)."""
     jacobian = np.empty((len(direction), 1, 6))
     jacobian[:, 0, :2], jacobian[:, 0, 3:5] = direction, -direction

@@ -16,10 +16,9 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
 from physsim_ros.engine.joints import rows
 from physsim_ros.engine.joints.gear import gear
-from physsim_ros.engine.joints.kind import Batch, Ends, EQUAL, Kind, Motion
+from physsim_ros.engine.joints.kind import Batch, Ends, EQUAL, Kind
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.scene import Joint
 from physsim_ros.model.shapes import SMALLEST
@@ -45,7 +44,8 @@ def stop(joint: Joint, at_b: Point) -> Point:
 
 def _constraints(joint: Joint, ends: Ends) -> list[pymunk.Constraint]:
     pin = pymunk.PinJoint(ends.b, ends.a, ends.at_b, ends.at_a)
-    pin.error_bias = 0.0
+    # Without a bias: a share of 0 of the gap is closed in a step.
+    pin.error_bias = 1.0
     lower, upper = _limits(joint)
     if math.isinf(lower) and math.isinf(upper):
         return [pin, gear(joint, ends)]
@@ -55,7 +55,6 @@ def _constraints(joint: Joint, ends: Ends) -> list[pymunk.Constraint]:
     least = 0.0 if math.isinf(lower) else back + lower
     origin = x - ux * back, y - uy * back
     limit = pymunk.SlideJoint(ends.b, ends.a, origin, ends.at_a, least, back + upper)
-    # Without a bias: a share of 0 of the gap is closed in a step.
     limit.error_bias = 1.0
     return [pin, gear(joint, ends), limit]
 
@@ -66,36 +65,22 @@ def _limits(joint: Joint) -> tuple[float, float]:
 
 
 def _bounds(joint: Joint) -> list[tuple[float, float]]:
-    phase = joint.seat.phase
-    return [EQUAL, _limits(joint), (phase, phase)]
+    phase, limits = joint.seat.phase, _limits(joint)
+    return [EQUAL, (phase, phase), *([] if limits == (-math.inf, math.inf) else [limits])]
 
 
 def _rows(batch: Batch, a: Floats, b: Floats) -> tuple[Floats, Floats]:
-    return rows.both(rows.track(batch, a, b), rows.angle(batch, a, b))
+    found = rows.both(rows.on_line(batch, a, b), rows.angle(batch, a, b))
+    return rows.both(found, rows.along_line(batch, a, b)) if batch.lower.shape[1] > 2 else found
 
 
-def _set_targets(batch: Batch, motion: Motion) -> None:
-    """
-    Have each `PinJoint` solve for its centripetal term.
-
-    Of x = n . d, n the unit vector across the line, which turns with b, dJ/dt v is
-    n . (w_b^2 r_b - w_a^2 r_a - w_b^2 d) - 2 w_b u . (v_a - v_b), the last one Coriolis's term.
-    Chipmunk solves for (distance - length) / dt along the pin with `error_bias` 0.
-    """
-    dt = motion.dt
-    arm_a, arm_b, apart = rows.arms(batch, motion.a[:, :3], motion.b[:, :3])
-    u = turned(batch.axis, motion.b[:, 2])
-    n = rows.across(u)
-    pulled = motion.pull[:, :1] * arm_a - motion.pull[:, 1:] * (arm_b - apart)
-    change = rows.velocity(motion.a, arm_a) - rows.velocity(motion.b, arm_b)
-    rate = rows.dot(n, pulled) + motion.b[:, 5] * dt * rows.dot(u, change)
-    anchors = turned(arm_b + apart - n * _ARM, -motion.b[:, 2])
-    lengths = np.maximum(_ARM + rate * dt, 0.0)
-    for pointer, (x, y), length in zip(
-        batch.constraints, anchors.tolist(), lengths.tolist(), strict=True
-    ):
-        lib.cpPinJointSetAnchorA(pointer, (x, y))
-        lib.cpPinJointSetDist(pointer, length)
+def _prepare(batch: Batch, a: Floats, b: Floats) -> None:
+    """Put the other end of each `PinJoint` across the line from the anchor."""
+    _, arm_b, apart = rows.arms(batch, a, b)
+    across = rows.across(turned(batch.axis, b[:, 2]))
+    anchors = turned(arm_b + apart - across * _ARM, -b[:, 2])
+    for pointer, anchor in zip(batch.constraints, anchors.tolist(), strict=True):
+        lib.cpPinJointSetAnchorA(pointer, anchor)
 
 
-KIND = Kind(_constraints, _bounds, _rows, _set_targets)
+KIND = Kind(_constraints, _bounds, _rows, _prepare)

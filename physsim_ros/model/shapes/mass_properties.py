@@ -88,8 +88,8 @@ def half_width(piece: Piece) -> float:
             edges = next_vertices(corners) - corners
             normals = np.column_stack((edges[:, 1], -edges[:, 0]))
             normals /= np.hypot(edges[:, 0], edges[:, 1])[:, None]
-            widths = np.ptp(corners @ normals.T, axis=0)
-            return float(widths.min()) / 2
+            across = corners[:, :1] * normals[:, 0] + corners[:, 1:] * normals[:, 1]
+            return float(np.ptp(across, axis=0).min()) / 2
 
 
 def _mass_properties(piece: Piece) -> tuple[float, Point, float]:
@@ -119,7 +119,7 @@ def _mass_properties(piece: Piece) -> tuple[float, Point, float]:
             squares = (vertices**2 + vertices * following + following**2).sum(axis=1)
             about_vertex = float((squares * doubled).sum()) / (12 * area)
             x, y = (center + origin).tolist()
-            return area, (x, y), about_vertex - float(center @ center)
+            return area, (x, y), about_vertex - float((center * center).sum())
 
 
 def _greatest_distance(piece: Piece, point: Point) -> float:

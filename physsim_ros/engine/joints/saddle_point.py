@@ -1,0 +1,207 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+Constraint rows of many bodies, solved directly and together.
+
+Impulses λ change velocities v by M^-1 J^T λ. Those with which the rows J v reach their targets,
+
+    [ M   J^T ] [ dv ]   [ 0 ]
+    [ J   -E  ] [ -λ ] = [ target - J v ],
+
+form a sparse, symmetric, quasi-definite system, which has LDL^T factors in every order (R. J.
+Vanderbei, "Symmetric Quasidefinite Matrices", SIAM Journal on Optimization 1995). QDLDL, the
+factorisation of the solver OSQP, finds an order of little fill (approximate minimum degree) and
+factors. It is plain C without BLAS: every processor adds in the same order. E is a small part of
+the diagonal of J M^-1 J^T, since rows may say the same twice, as the joints of a parallelogram do.
+
+Rows whose λ has bounds make it a mixed linear complementarity problem: a row reaches its target,
+or λ is at a bound and J v is on the other side of the target. Block principal pivoting (J. J.
+Júdice and F. M. Pires, "A block principal pivoting algorithm for large-scale strictly monotone
+linear complementarity problems", Computers & Operations Research 1994): all rows on the wrong side
+change it at once; after `ROUNDS` / 2 only the last of them, which comes to an end (K. G. Murty,
+1974).
+
+Islands share no body, so that no entry of the matrix connects them.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from physsim_ros.engine.graph_search import Rows
+from physsim_ros.model.arrays import Flags, Floats, greatest, Ints
+import qdldl
+from scipy.sparse import csc_array
+
+# Factorisations of a problem with bounds, at most.
+ROUNDS = 30
+# Rounding of J v: a row is on the wrong side of its target beyond that [m/s], or [m] of positions.
+ROUNDING = 1e-7
+# Rounding of λ, as a share of the greatest.
+SHARE_OF_ROUNDING = 1e-9
+
+
+class Problem(NamedTuple):
+    """
+    Rows with their targets and bounds.
+
+    :ivar jacobian: (r, 2, 3) float64: J, of the first and the second body of each row
+    :ivar wanted: (r,) float64: target - J v [m/s, rad/s]
+    :ivar lower: (r,) float64: least λ [N s, N m s]
+    :ivar upper: (r,) float64: greatest λ [N s, N m s]
+    """
+
+    jacobian: Floats
+    wanted: Floats
+    lower: Floats
+    upper: Floats
+
+
+class Solution(NamedTuple):
+    """
+    Impulses of rows.
+
+    :ivar impulses: (r,) float64: λ [N s, N m s]
+    :ivar changes: (b, 3) float64: of velocities [m/s, rad/s]
+    :ivar sides: (r,) int64: -1 and 1 where λ is at the lower and at the upper bound, else 0
+    :ivar wrong: (r,) bool: rows that are still on the wrong side
+    """
+
+    impulses: Floats
+    changes: Floats
+    sides: Ints
+    wrong: Flags
+
+
+class SaddlePoint:
+    """
+    The system of a set of rows, whose Jacobian may change.
+
+    :param ends: (r, 2) intp: the two bodies of each row
+    :param inverse: (b, 3) float64: inverse masses, masses and moments of the bodies [1/kg, 1/kg,
+        1/(kg m²)]; 0 for those that forces do not move
+    """
+
+    def __init__(self, ends: Rows, inverse: Floats) -> None:
+        self.ends, self.inverse = ends, inverse
+        dynamic = inverse.any(axis=1)
+        self._moved = np.flatnonzero(np.isin(np.arange(len(inverse)), ends) & dynamic)
+        place = np.full(len(inverse), -1, np.intp)
+        place[self._moved] = np.arange(len(self._moved))
+        self._unknowns, count = 3 * len(self._moved), len(ends)
+        # The columns of the upper triangle: an entry each of M, then of each row J and E, its
+        # bodies in ascending order.
+        places = place[ends]
+        self._descending = places[:, 0] > places[:, 1]
+        columns = np.sort(places, axis=1)
+        entries = np.repeat(columns, 3, axis=1) * 3 + np.tile(np.arange(3), 2)
+        present = np.column_stack((np.repeat(columns >= 0, 3, axis=1), np.ones(count, np.bool_)))
+        own = np.arange(self._unknowns, self._unknowns + count)
+        indices = np.column_stack((entries, own))[present]
+        ends_of_rows = self._unknowns + np.cumsum(present.sum(axis=1))
+        self._present = present
+        self._masses = np.zeros_like(inverse)
+        self._masses[self._moved] = 1.0 / inverse[self._moved]
+        values = np.concatenate((self._masses[self._moved].ravel(), np.ones(len(indices))))
+        self._of_rows = values[self._unknowns :]
+        size = self._unknowns + count
+        first = np.arange(self._unknowns + 1)
+        self._matrix = csc_array(
+            (values, np.concatenate((first[:-1], indices)), np.concatenate((first, ends_of_rows))),
+            shape=(size, size),
+        )
+        self._factors: qdldl.Solver | None = None
+
+    def rates(self, jacobian: Floats, velocities: Floats) -> Floats:
+        """Return (r,) float64: J v, of (b, 3) velocities."""
+        parts = (jacobian * velocities[self.ends]).reshape(-1, 6)
+        rates: Floats = np.add.reduce(parts, axis=1)
+        return rates
+
+    def momenta(self, jacobian: Floats, impulses: Floats) -> Floats:
+        """Return (b, 3) float64: J^T λ [N s, N m s]."""
+        pushes = (jacobian * impulses[:, None, None]).reshape(-1, 3)
+        momenta = np.empty_like(self.inverse)
+        for axis in range(3):
+            momenta[:, axis] = np.bincount(self.ends.ravel(), pushes[:, axis], len(momenta))
+        return momenta
+
+    def products(self, one: Floats, other: Floats) -> Floats:
+        """Return (b,) float64: the part of each body in u M v of two changes of velocities [J]."""
+        sums: Floats = np.add.reduce(one * other * self._masses, axis=1)
+        return sums
+
+    def factor(self, jacobian: Floats, active: Flags, regularisation: Floats) -> None:
+        """
+        Factor the system of the rows that are active.
+
+        :param regularisation: (r,) float64: E, as a share of the diagonal of J M^-1 J^T
+        """
+        used = np.where(active[:, None, None], jacobian, 0.0)
+        parts = (used * used * self.inverse[self.ends]).reshape(-1, 6)
+        diagonal: Floats = np.add.reduce(parts, axis=1)
+        used[self._descending] = used[self._descending, ::-1]
+        last = np.where(active & (diagonal > 0.0), -regularisation * diagonal, -1.0)
+        self._of_rows[:] = np.column_stack((used.reshape(-1, 6), last))[self._present]
+        if self._factors is None:
+            self._factors = qdldl.Solver(self._matrix, upper=True)
+        else:
+            self._factors.update(self._matrix, upper=True)
+
+    def solve_active(self, wanted: Floats, momenta: Floats | None = None) -> tuple[Floats, Floats]:
+        """
+        Return λ of the rows that are active, and what changes.
+
+        :param wanted: (r,) float64: 0 for rows that are not active
+        :param momenta: (b, 3) float64: J^T λ of the rows that are not [N s, N m s]
+        :return: (r,) float64 and (b, 3) float64: changes of velocities
+        """
+        right = np.zeros(self._unknowns + len(wanted))
+        right[self._unknowns :] = wanted
+        if momenta is not None:
+            right[: self._unknowns] = momenta[self._moved].ravel()
+        # For `solve` to be called is for `factor` to have been.
+        found = self._factors.solve(right)  # type: ignore[union-attr]
+        changes = np.zeros_like(self.inverse)
+        changes[self._moved] = found[: self._unknowns].reshape(-1, 3)
+        return -found[self._unknowns :], changes
+
+    def solve(
+        self, problem: Problem, sides: Ints, regularisation: Floats, rounds: int = ROUNDS
+    ) -> Solution:
+        """
+        Solve rows with bounds.
+
+        :param sides: (r,) int64: the first guess of those of the solution
+        :param regularisation: (r,) float64: E, as a share of the diagonal of J M^-1 J^T
+        :param rounds: factorisations at most
+        """
+        jacobian, wanted, lower, upper = problem
+        sides = sides.copy()
+        for following in reversed(range(rounds)):
+            active = sides == 0
+            fixed = np.where(sides < 0, lower, upper)
+            fixed[active] = 0.0
+            self.factor(jacobian, active, regularisation)
+            momenta = self.momenta(jacobian, fixed) if fixed.any() else None
+            found, changes = self.solve_active(np.where(active, wanted, 0.0), momenta)
+            impulses = np.where(active, found, fixed)
+            rounding = SHARE_OF_ROUNDING * greatest(impulses)
+            below, above = impulses < lower - rounding, impulses > upper + rounding
+            beyond = self.rates(jacobian, changes) - wanted
+            inward = np.where(sides < 0, beyond < -ROUNDING, (sides > 0) & (beyond > ROUNDING))
+            inward &= lower < upper
+            wrong = below | above | inward
+            if not following or not wrong.any():
+                break
+            changed = wrong
+            if following < rounds // 2:
+                changed = np.zeros_like(wrong)
+                changed[np.flatnonzero(wrong)[-1]] = True
+            sides[changed] = np.where(below, -1, np.where(above, 1, 0))[changed]
+        # Iterative refinement: what E has left of the targets, once more.
+        left = np.where(active, wanted - self.rates(jacobian, changes), 0.0)
+        more, further = self.solve_active(left)
+        return Solution(impulses + np.where(active, more, 0.0), changes + further, sides, wrong)
