@@ -4,8 +4,8 @@
 """
 Digests of every shipped world and drawing, which tell whether a change moves anything by a bit.
 
-``python -m test.worlds.digests`` writes them anew, into ``digests.yaml``; with ``--print`` those of
-the first time are printed instead.
+``python -m test.worlds.digests`` writes them anew, into ``digests.yaml``; with ``--print``
+those of the first time are printed instead.
 """
 
 from pathlib import Path

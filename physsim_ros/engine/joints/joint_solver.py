@@ -156,7 +156,7 @@ class _Step:
         self._tangents = slice(count + points, count + 2 * points)
         self._holding = joints.holding()
         self._equal = joints.equal & self._holding
-        dynamic = bodies.inverse.any(axis=1)
+        dynamic = bodies.inverse[:, 0] > 0.0
         both = dynamic[self._ends[:, 0]] & dynamic[self._ends[:, 1]]
         # The island of each body, and of each row.
         self._island = components(len(bodies.rows), self._ends[both])
@@ -262,7 +262,7 @@ class _Step:
         halfway = self._joints.read(self.bodies.poses + velocities * (dt / 2.0)).jacobian
         turned = np.zeros_like(jacobian)
         turned[self._of_joints] = halfway - jacobian[self._of_joints]
-        counts = self._per_row(self._equal, 0.0, 0.0) * (solution.sides == 0)
+        counts = self._per_row(self._equal.astype(np.float64), 0.0, 0.0) * (solution.sides == 0)
         impulses, changes = system.solve_active(-system.rates(turned, velocities) * counts)
         # No velocity turns by more than half a step of the fastest spin in its island.
         spins = np.zeros(count)
@@ -276,9 +276,10 @@ class _Step:
     def _share(self, lost: Floats, gained: Floats) -> Floats:
         """Return (b,) float64: of each island the share of a gain that what was lost pays."""
         count = len(self._island)
-        paid: Floats = np.bincount(self._island, lost, count)
+        paid = np.bincount(self._island, lost, count)
         owed = np.maximum(np.bincount(self._island, gained, count), 1e-300)
-        return np.clip(paid / owed, 0.0, 1.0)
+        share: Floats = np.clip(paid / owed, 0.0, 1.0)
+        return share
 
     # Positions
 
@@ -318,7 +319,7 @@ class _Step:
             distance = apart + system.rates(normals, bodies.poses - start)[self._normals]
             errors = np.concatenate((np.abs(gaps), -np.minimum(distance, 0.0)))
             of_row = self._of_row[: len(errors)]
-            sums = np.bincount(of_row, errors, count)
+            sums: Floats = np.bincount(of_row, errors, count)
             better = sums < least
             least = np.minimum(sums, least)
             best[better[self._island]] = bodies.poses[better[self._island]]
