@@ -25,7 +25,7 @@ from physsim_ros.engine.contacts.contact_listing import (
     set_overlap_manifolds,
     set_wall_manifolds,
 )
-from physsim_ros.engine.contacts.manifolds import LastManifolds
+from physsim_ros.engine.contacts.manifolds import LastManifolds, NO_MANIFOLDS
 from physsim_ros.engine.contacts.pair_ids import find_pairs, NO_PAIRS, oriented, Renaming
 from physsim_ros.engine.contacts.side import Side
 from physsim_ros.engine.contacts.sleeping_pairs import read_sleeping_pairs, SleepingPairs
@@ -95,10 +95,14 @@ class ContactReport:
         sleep_changed = slots != self._slots
         sleeping = len(self._sleeping.ids)
         if self._same_pairs and not sleep_changed:
+            if not len(self._first_ids):
+                # The engine lists none; those that sleep repeat their impulses.
+                self._sums += self._impulses
+                return
             firsts, impulses = self._io.read_contacts(_FIRSTS_AND_IMPULSES)
             if len(firsts) == len(self._ids) - sleeping:
                 # The engine turns a pair round as its bodies move, in a contact that goes on too.
-                if not np.array_equal(firsts, self._first_ids):
+                if np.count_nonzero(firsts != self._first_ids):
                     self._first_ids, self._signs = firsts.copy(), self._signs_of(firsts)
                 self._add_impulses(impulses.reshape(-1, 2))
                 return
@@ -132,7 +136,9 @@ class ContactReport:
         return SleepingPairs(ids, self._impulses[sleeps], manifolds)
 
     def _add_impulses(self, impulses: Floats) -> None:
-        self._impulses = np.concatenate((impulses * self._signs, self._sleeping.impulses))
+        self._impulses = impulses * self._signs
+        if len(self._sleeping.ids):
+            self._impulses = np.concatenate((self._impulses, self._sleeping.impulses))
         self._sums += self._impulses
 
     def _signs_of(self, firsts: Ids) -> Floats:
@@ -226,6 +232,10 @@ class ContactReport:
         """
         if self._steps == 0:
             return NO_CONTACTS
+        if not (len(self._ids) or self._parted):
+            self._last.end_frame(NO_PAIRS, NO_MANIFOLDS)
+            self._steps = 0
+            return NO_CONTACTS
         parted, parted_sums = self._merge_parted()
         touching, sums, manifolds = self._ids, self._sums, self._read_manifolds()
         if len(parted):
@@ -257,6 +267,8 @@ class ContactReport:
         """
         if self._copied_manifolds is not None:
             return self._copied_manifolds
+        if not len(self._first_ids):
+            return self._sleeping.manifolds
         ints, floats = self._io.read_contacts(_MANIFOLDS)
         firsts, counts = ints.reshape(-1, 2).T
         if not np.array_equal(firsts, self._first_ids):
