@@ -22,6 +22,7 @@ Ids = NDArray[np.uint64]
 
 _STATE = batch.BodyFields.POSITION | batch.BodyFields.ANGLE
 _STATE |= batch.BodyFields.VELOCITY | batch.BodyFields.ANGULAR_VELOCITY
+_ID_AND_STATE = batch.BodyFields.BODY_ID | _STATE
 # Of all spaces: the memory that is written from is numpy's, which the engine may neither grow nor
 # free.
 _WRITTEN = batch.Buffer()
@@ -38,23 +39,18 @@ class BatchIO:
         self._space = space
         self._buffer = _new_buffer()
 
-    def read_ids(self) -> Ids:
-        """Return (m,) uint64: the engine's ids of all bodies, by slot."""
-        self._buffer.clear()
-        batch.get_space_bodies(self._space, batch.BodyFields.BODY_ID, self._buffer)
-        return np.frombuffer(self._buffer.int_buf(), dtype=np.uint64).copy()
-
-    def read_states(self) -> tuple[Ids, Floats]:
+    def read_states(self) -> tuple[bytes, Floats]:
         """
         Return ids and states of all bodies, by slot.
 
-        :return: (m,) uint64, and (m, 6) float64: x, y [m], yaw [rad], velocity [m/s], spin [rad/s]
+        :return: the ids as the bytes of (m,) uint64, which are compared at once; and (m, 6)
+            float64: x, y [m], yaw [rad], velocity [m/s], spin [rad/s], a view that the next
+            reading overwrites
         """
         self._buffer.clear()
-        batch.get_space_bodies(self._space, batch.BodyFields.BODY_ID | _STATE, self._buffer)
-        ids = np.frombuffer(self._buffer.int_buf(), dtype=np.uint64).copy()
+        batch.get_space_bodies(self._space, _ID_AND_STATE, self._buffer)
         states = np.frombuffer(self._buffer.float_buf(), dtype=np.float64)
-        return ids, states.reshape(-1, 6).copy()
+        return self._buffer.int_buf()[:], states.reshape(-1, 6)
 
     def write_states(self, states: Floats) -> None:
         """
