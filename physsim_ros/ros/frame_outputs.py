@@ -45,6 +45,7 @@ class FrameOutputs:
     :ivar sketchpad: of the world; None where it is not served
     :ivar statistics: cost of the frames
     :ivar frame: the last frame that was shown; None before the first
+    :ivar records_contacts: whether `frame` has contacts though nobody else receives them
     """
 
     def __init__(self, node: Node, values: Mapping[str, Any], session: DrawingSession) -> None:
@@ -58,6 +59,7 @@ class FrameOutputs:
         self.sketchpad: Sketchpad | None = None
         self.statistics = FrameStatistics()
         self.frame: Frame | None = None
+        self.records_contacts = False
         self._node = node
         self._values = values
         self._session = session
@@ -66,9 +68,10 @@ class FrameOutputs:
 
     @property
     def wants_contacts(self) -> bool:
-        """Whether contacts have a subscriber, a viewer or a page."""
+        """Whether contacts have a reader, a subscriber, a viewer or a page."""
         return (
-            self.topics.wants_contacts
+            self.records_contacts
+            or self.topics.wants_contacts
             or self.viewer.is_open
             or (self.sketchpad is not None and self.sketchpad.wants_contacts)
         )
