@@ -21,7 +21,7 @@ from physsim_ros.engine.body import REST, RigidBody
 from physsim_ros.engine.ccd.body_extents import corner_count, safe_depths, turning_radius
 from physsim_ros.engine.fast_bodies import slow_bounds
 from physsim_ros.engine.graph_search import reachable, Rows
-from physsim_ros.model.arrays import Flags, Floats, Ints
+from physsim_ros.model.arrays import Flags, Floats, greatest, Ints
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.scene import Scene
 import pymunk
@@ -37,6 +37,8 @@ class SceneColumns(NamedTuple):
     Columns that follow from the scene alone, for n bodies.
 
     :ivar rows: name -> row
+    :ivar moving: whether there is a body that is not anchored; else a step changes nothing
+    :ivar most_elastic: greatest restitution of a pair that could collide
     :ivar dynamic: (n + 1,) bool: forces move it; never the background
     :ivar anchored: (n + 1,) bool: it does not move at all; always the background
     :ivar friction: (n + 1,) float64: the engine's coefficient, whose products are those of pairs
@@ -60,6 +62,8 @@ class SceneColumns(NamedTuple):
     """
 
     rows: dict[str, int]
+    moving: bool
+    most_elastic: float
     dynamic: Flags
     anchored: Flags
     friction: Floats
@@ -243,6 +247,7 @@ def _columns_of(scene: Scene, dt: float) -> SceneColumns:
     dynamic = np.array([*(not body.fixed for body in bodies), False], np.bool_)
     sensor = np.array([body.sensor for body in bodies], np.bool_)
     lead = (*(half * dt / 2 for half in scene.settings.gravity), 0.0)
+    elasticity = np.sqrt([*(body.elasticity for body in bodies), scene.settings.elasticity])
     friction = [*(body.friction for body in bodies), scene.settings.friction]
     rows = {name: row for row, name in enumerate(scene.names)}
     ends = [(rows[joint.a], rows.get(joint.b, count)) for joint in scene.joints]
@@ -256,10 +261,12 @@ def _columns_of(scene: Scene, dt: float) -> SceneColumns:
             expiries.setdefault(body.expires, []).append(body.name)
     return SceneColumns(
         rows=rows,
+        moving=bool((~anchored[:-1]).any()),
+        most_elastic=greatest(elasticity[:-1]) * greatest(elasticity),
         dynamic=dynamic,
         anchored=anchored,
         friction=np.sqrt(friction),
-        elasticity=np.sqrt([*(body.elasticity for body in bodies), scene.settings.elasticity]),
+        elasticity=elasticity,
         reach=np.array([body.shape.form.outer for body in bodies]),
         offsets=np.where(anchored[:-1, None], 0.0, scene.centroids),
         gravity_lead=np.where(dynamic[:-1, None], lead, 0.0),
