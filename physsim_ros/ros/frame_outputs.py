@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from functools import lru_cache
 from pathlib import Path
 import sys
 import time
@@ -172,7 +173,7 @@ class FrameOutputs:
         context = FrameContext(
             real_time_factor=self.statistics.real_time_factor,
             cost=self.statistics.frame_cost,
-            title=Path(self._values['world_file']).stem or 'empty world',
+            title=_title_of(self._values['world_file']),
             traced=parameters.traced_names(self._values['trace']),
         )
         self.viewer.show(frame, context=context)
@@ -191,3 +192,8 @@ class FrameOutputs:
         elif answer.topic == 'viewer':
             # The address of the viewer, for the person at the terminal.
             self._node.get_logger().info(answer.message)
+
+
+@lru_cache(maxsize=1)
+def _title_of(world_file: str) -> str:
+    return Path(world_file).stem or 'empty world'
