@@ -70,6 +70,7 @@ class BatchIO:
 
     def __init__(self, space: pymunk.Space) -> None:
         self._space = space
+        self._engine = space._space  # noqa: SLF001 - Chipmunk's, for its own functions
         self._ints = _Numbers(lib.pmIntArrayNew(0), lib.pmIntArrayFree, np.uint64)
         self._floats = _Numbers(lib.pmFloatArrayNew(0), lib.pmFloatArrayFree, np.float64)
         self._request = ffi.new('pmBatchedData *')
@@ -85,7 +86,7 @@ class BatchIO:
             reading overwrites
         """
         self._begin_reading(_ID_AND_STATE)
-        lib.cpSpaceEachBody(self._space._space, _READ_BODY, self._request)  # noqa: SLF001
+        lib.cpSpaceEachBody(self._engine, _READ_BODY, self._request)
         return self._ints.read().tobytes(), self._floats.read().reshape(-1, 6)
 
     def read_contacts(self, fields: batch.ArbiterFields) -> tuple[Ids, Floats]:
@@ -97,7 +98,7 @@ class BatchIO:
         :return: the fields that are ids or counts, and those that are numbers, pair after pair
         """
         self._begin_reading(fields)
-        lib.cpSpaceEachCachedArbiter(self._space._space, _READ_ARBITER, self._request)  # noqa: SLF001
+        lib.cpSpaceEachCachedArbiter(self._engine, _READ_ARBITER, self._request)
         return self._ints.read(), self._floats.read()
 
     def _begin_reading(self, fields: batch.BodyFields | batch.ArbiterFields) -> None:
