@@ -11,6 +11,7 @@ ones, then sleeping ones. A *slot* is a place in that order; `body_table` maps s
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -24,7 +25,7 @@ Ids = NDArray[np.uint64]
 
 _STATE = batch.BodyFields.POSITION | batch.BodyFields.ANGLE
 _STATE |= batch.BodyFields.VELOCITY | batch.BodyFields.ANGULAR_VELOCITY
-_ID_AND_STATE = batch.BodyFields.BODY_ID | _STATE
+_ID_AND_STATE = (batch.BodyFields.BODY_ID | _STATE).value
 # Called by the engine for each body, for each pair of shapes that touch.
 _READ_BODY = ffi.addressof(lib, 'pmSpaceBodyGetIteratorFuncBatched')
 _READ_ARBITER = ffi.addressof(lib, 'pmSpaceArbiterIteratorFuncBatched')
@@ -49,7 +50,7 @@ class _Numbers:
         self._array: NDArray[Any] = np.empty(0, kind)
         self._place: Any = None
 
-    def read(self) -> NDArray[Any]:
+    def array(self) -> NDArray[Any]:
         """Return what was written last, a view that the next reading overwrites."""
         memory = self.memory
         if memory.num != len(self._array) or memory.arr != self._place:
@@ -58,24 +59,45 @@ class _Numbers:
         return self._array
 
 
+class _Reading:
+    """
+    Fields of all bodies, or of all contacts, in memory that stays from reading to reading.
+
+    `batch.get_space_bodies` and `get_space_arbiters` of Pymunk make a request and views anew each
+    time, which takes three times as long for a few bodies.
+
+    :param each: calls a function for each of them
+    :param function: reads the fields of one
+    """
+
+    def __init__(self, each: Callable[..., None], function: Any) -> None:
+        self._each = each
+        self._function = function
+        self._ints = _Numbers(lib.pmIntArrayNew(0), lib.pmIntArrayFree, np.uint64)
+        self._floats = _Numbers(lib.pmFloatArrayNew(0), lib.pmFloatArrayFree, np.float64)
+        self._request = ffi.new('pmBatchedData *')
+        self._request.intArray = self._ints.memory
+        self._request.floatArray = self._floats.memory
+
+    def read(self, space: pymunk.Space, fields: int) -> tuple[Ids, Floats]:
+        """Return the fields that are ids or counts, and those that are numbers."""
+        self._ints.memory.num = self._floats.memory.num = 0
+        self._request.fields = fields
+        self._each(space._space, self._function, self._request)  # noqa: SLF001
+        return self._ints.array(), self._floats.array()
+
+
 class BatchIO:
     """
     Reads and writes the bodies and contacts of a space as arrays.
-
-    What is read stays in one place from reading to reading: `batch.get_space_bodies` and
-    `get_space_arbiters` of Pymunk take three times as long for a few bodies.
 
     :param space: of the engine
     """
 
     def __init__(self, space: pymunk.Space) -> None:
         self._space = space
-        self._engine = space._space  # noqa: SLF001 - Chipmunk's, for its own functions
-        self._ints = _Numbers(lib.pmIntArrayNew(0), lib.pmIntArrayFree, np.uint64)
-        self._floats = _Numbers(lib.pmFloatArrayNew(0), lib.pmFloatArrayFree, np.float64)
-        self._request = ffi.new('pmBatchedData *')
-        self._request.intArray = self._ints.memory
-        self._request.floatArray = self._floats.memory
+        self._bodies = _Reading(lib.cpSpaceEachBody, _READ_BODY)
+        self._contacts = _Reading(lib.cpSpaceEachCachedArbiter, _READ_ARBITER)
 
     def read_states(self) -> tuple[bytes, Floats]:
         """
@@ -85,9 +107,8 @@ class BatchIO:
             float64: x, y [m], yaw [rad], velocity [m/s], spin [rad/s], a view that the next
             reading overwrites
         """
-        self._begin_reading(_ID_AND_STATE)
-        lib.cpSpaceEachBody(self._engine, _READ_BODY, self._request)
-        return self._ints.read().tobytes(), self._floats.read().reshape(-1, 6)
+        ids, states = self._bodies.read(self._space, _ID_AND_STATE)
+        return ids.tobytes(), states.reshape(-1, 6)
 
     def read_contacts(self, fields: batch.ArbiterFields) -> tuple[Ids, Floats]:
         """
@@ -97,13 +118,7 @@ class BatchIO:
 
         :return: the fields that are ids or counts, and those that are numbers, pair after pair
         """
-        self._begin_reading(fields)
-        lib.cpSpaceEachCachedArbiter(self._engine, _READ_ARBITER, self._request)
-        return self._ints.read(), self._floats.read()
-
-    def _begin_reading(self, fields: batch.BodyFields | batch.ArbiterFields) -> None:
-        self._request.fields = fields.value
-        self._ints.memory.num = self._floats.memory.num = 0
+        return self._contacts.read(self._space, fields.value)
 
     def write_states(self, states: Floats) -> None:
         """
