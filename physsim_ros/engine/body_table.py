@@ -19,9 +19,10 @@ import numpy as np
 from physsim_ros.engine.batch_io import BatchIO, Ids
 from physsim_ros.engine.body import REST, RigidBody
 from physsim_ros.engine.ccd.body_extents import corner_count, safe_depths, turning_radius
+from physsim_ros.engine.fast_bodies import slow_bounds
 from physsim_ros.engine.graph_search import reachable, Rows
 from physsim_ros.engine.memory import indices_of
-from physsim_ros.model.arrays import Flags, Floats, Ints
+from physsim_ros.model.arrays import Flags, Floats, greatest, Ints
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.scene import Scene
 import pymunk
@@ -37,6 +38,8 @@ class SceneColumns(NamedTuple):
     Columns that follow from the scene alone, for n bodies.
 
     :ivar rows: name -> row
+    :ivar moving: whether there is a body that is not anchored; else a step changes nothing
+    :ivar most_elastic: greatest restitution of a pair that could collide
     :ivar dynamic: (n + 1,) bool: forces move it; never the background
     :ivar anchored: (n + 1,) bool: it does not move at all; always the background
     :ivar friction: (n + 1,) float64: the engine's coefficient, whose products are those of pairs
@@ -60,6 +63,8 @@ class SceneColumns(NamedTuple):
     """
 
     rows: dict[str, int]
+    moving: bool
+    most_elastic: float
     dynamic: Flags
     anchored: Flags
     friction: Floats
@@ -95,6 +100,9 @@ class BodyTable:
     :ivar leads: (n, 3) float64: the half-step lead of each body in free flight, wrench included
     :ivar free: (n,) bool: in free flight, so that the engine's velocity leads by that
     :ivar asleep: (n,) bool: in the engine's sleep, as of the last reading
+    :ivar sleepers: count of those
+    :ivar can_fly: (n,) bool: awake, and free flight has a half-step lead
+    :ivar may_fly: whether any can
     :ivar memory: (n + 1,) int64: index of each body in the engine's memory
     :ivar slot_changes: counts how often slots were found changed, by sleeping and waking
     """
@@ -110,7 +118,7 @@ class BodyTable:
         self.scene = scene
         self.bodies = tuple(bodies)
         self.columns = _columns_of(scene, dt)
-        self.leads = self.columns.gravity_lead.copy()
+        self.leads = self.columns.gravity_lead.copy(order='F')
         for row, rigid in enumerate(bodies):
             if rigid.wrench != REST:
                 self.leads[row] = rigid.lead(scene.settings.gravity, dt)
@@ -125,7 +133,12 @@ class BodyTable:
         self._sorted_ids = self.ids[self._ascending]
         self._rows = {rigid.engine: row for row, rigid in enumerate(bodies)}
         self._state: Floats | None = None
-        self._listed = io.read_ids()
+        self._sizes: Floats | None = None
+        # Of positions and velocities: within them a body is neither lost nor fast.
+        self._bounds = np.full((len(bodies), 6), LOST, order='F')
+        np.minimum(LOST, slow_bounds(self.columns, dt), out=self._bounds[:, 3:])
+        self._all_within: bool | None = None
+        self._listed, _ = io.read_states()
         self._map_slots()
 
     def rows_of(self, ids: Ids) -> Rows:
@@ -155,6 +168,22 @@ class BodyTable:
         """Return (n + 1, 6) float64: the same, and zeros for the background."""
         return np.concatenate((self.state, np.zeros((1, 6))))
 
+    @property
+    def sizes(self) -> Floats:
+        """Return (n, 6) float64: the absolute values of `state`; read only."""
+        if self._sizes is None:
+            self._sizes = np.abs(self.state)
+        return self._sizes
+
+    @property
+    def all_slow(self) -> bool:
+        """Return whether no body is lost, or fast enough for any stage (`fast_bodies`)."""
+        if self._all_within is None:
+            # NaN compares false.
+            within = self.sizes < self._bounds
+            self._all_within = np.count_nonzero(within) == within.size
+        return self._all_within
+
     def read_states(self) -> Floats:
         """
         Return poses and velocities as the engine has them now, in the middle of a step too.
@@ -162,21 +191,24 @@ class BodyTable:
         :return: (n + 1, 6) float64, by row [m, rad, m/s, rad/s]
         """
         listed, states = self._io.read_states()
-        if not np.array_equal(listed, self._listed):
+        if listed != self._listed:
             self._listed = listed
             self.slot_changes += 1
             self._map_slots()
-        return states.take(self._slots, axis=0)
+        # By column: numpy computes with rows of a thousand bodies three times as slowly.
+        return np.asfortranarray(states.take(self._slots, axis=0))
 
     def lost(self) -> list[str]:
         """Return the names of the bodies whose state is not finite, or too large."""
+        if self.all_slow:
+            return []
         # NaN compares false, so that it is lost too.
-        far = ~(np.abs(self.state) < LOST).all(axis=1)
+        far = ~(self.sizes < LOST).all(axis=1)
         return [self.scene.names[row] for row in np.flatnonzero(far)]
 
     def write_state(self, state: Floats) -> None:
         """Set the poses and velocities of all bodies, (n, 6) float64; none may sleep."""
-        states = np.zeros((len(self._listed), 6))
+        states = np.zeros((len(self.ids), 6))
         states[self._slots[:-1]] = state
         self._io.write_states(states)
         self.forget_state()
@@ -197,10 +229,11 @@ class BodyTable:
             lib.cpBodySetPosition(engine, (x, y))
             lib.cpBodySetAngle(engine, yaw)
         state[rows, :3] = poses
+        self._sizes = self._all_within = None
 
     def forget_state(self) -> None:
         """Drop the cached state, which the engine has changed."""
-        self._state = None
+        self._state = self._sizes = self._all_within = None
 
     def store_flags(self) -> None:
         """Write to each body whether it is in free flight, before the table is dropped."""
@@ -208,12 +241,16 @@ class BodyTable:
             rigid.free = free
 
     def _map_slots(self) -> None:
-        rows = self.rows_of(self._listed)
+        rows = self.rows_of(np.frombuffer(self._listed, np.uint64))
         slots = np.empty(len(self.ids), np.intp)
         slots[rows] = np.arange(len(rows))
         self._slots = slots
         # The engine lists sleeping bodies behind all static ones, the background among them.
-        self.asleep = self.columns.dynamic[:-1] & (slots[:-1] > slots[-1])
+        dynamic = self.columns.dynamic[:-1]
+        self.asleep = dynamic & (slots[:-1] > slots[-1])
+        self.sleepers = np.count_nonzero(self.asleep)
+        self.can_fly = dynamic & ~self.columns.sprung & ~self.asleep
+        self.may_fly = np.count_nonzero(self.can_fly) > 0
 
 
 # A world is often built anew from the scene that it has, and then another one follows it.
@@ -224,6 +261,7 @@ def _columns_of(scene: Scene, dt: float) -> SceneColumns:
     dynamic = np.array([*(not body.fixed for body in bodies), False], np.bool_)
     sensor = np.array([body.sensor for body in bodies], np.bool_)
     lead = (*(half * dt / 2 for half in scene.settings.gravity), 0.0)
+    elasticity = np.sqrt([*(body.elasticity for body in bodies), scene.settings.elasticity])
     friction = [*(body.friction for body in bodies), scene.settings.friction]
     rows = {name: row for row, name in enumerate(scene.names)}
     ends = [(rows[joint.a], rows.get(joint.b, count)) for joint in scene.joints]
@@ -237,10 +275,12 @@ def _columns_of(scene: Scene, dt: float) -> SceneColumns:
             expiries.setdefault(body.expires, []).append(body.name)
     return SceneColumns(
         rows=rows,
+        moving=bool((~anchored[:-1]).any()),
+        most_elastic=greatest(elasticity[:-1]) * greatest(elasticity),
         dynamic=dynamic,
         anchored=anchored,
         friction=np.sqrt(friction),
-        elasticity=np.sqrt([*(body.elasticity for body in bodies), scene.settings.elasticity]),
+        elasticity=elasticity,
         reach=np.array([body.shape.form.outer for body in bodies]),
         offsets=np.where(anchored[:-1, None], 0.0, scene.centroids),
         gravity_lead=np.where(dynamic[:-1, None], lead, 0.0),

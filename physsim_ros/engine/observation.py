@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+import numpy as np
 from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.body_table import BodyTable
 from physsim_ros.engine.stages.half_step import StartState
@@ -23,9 +24,10 @@ def observe_bodies(table: BodyTable, start: StartState) -> tuple[Floats, Floats]
     """
     poses, twists = start.state[:, :3].copy(), start.state[:, 3:].copy()
     offsets = table.columns.offsets
-    if offsets.any():
+    if np.count_nonzero(offsets):
         poses[:, :2] -= turned(offsets, poses[:, 2])
-    twists[start.free] -= table.leads[start.free]
+    if np.count_nonzero(start.free):
+        twists -= np.where(start.free[:, None], table.leads, 0.0)
     return poses, twists
 
 

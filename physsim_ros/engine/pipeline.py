@@ -25,7 +25,6 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping
 
-import numpy as np
 from physsim_ros.engine.batch_io import BatchIO
 from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.ccd.continuous import ContinuousCollision
@@ -98,10 +97,9 @@ class Pipeline:
         table = context.table
         self.wrenches.apply_wrenches()
         unsupported = self.half_step.begin_step(table)
-        if unsupported.any():
-            rows = np.flatnonzero(unsupported).tolist()
-            clear_impulses(self._shapes, [table.bodies[row] for row in rows])
-        context.poses, context.twists = np.split(table.state.copy(), [3], axis=1)
+        if unsupported:
+            clear_impulses(self._shapes, [table.bodies[row] for row in unsupported])
+        context.poses, context.twists = table.state[:, :3], table.state[:, 3:]
         self.mouse_joints.apply_forces(context)
         self.resting_damping.damp_resting(context)
         self.continuous_collision.clamp_moves(context)

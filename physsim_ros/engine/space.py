@@ -228,7 +228,8 @@ class Space:
         for rigid in self.pipeline.wrenches.ended(number):
             self.set_wrench(rigid, REST, None)
         table = self.table
-        self.pipeline.step(StepContext(table, self._settings, self.dt, self._age, watching))
+        if table.columns.moving:
+            self.pipeline.step(StepContext(table, self._settings, self.dt, self._age, watching))
         self._age += 1
         for name, force in self.joints.broken():
             self.unjoin(name)

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from functools import lru_cache
 from pathlib import Path
 import sys
 import time
@@ -45,6 +46,7 @@ class FrameOutputs:
     :ivar sketchpad: of the world; None where it is not served
     :ivar statistics: cost of the frames
     :ivar frame: the last frame that was shown; None before the first
+    :ivar records_contacts: whether `frame` has contacts though nobody else receives them
     """
 
     def __init__(self, node: Node, values: Mapping[str, Any], session: DrawingSession) -> None:
@@ -58,6 +60,7 @@ class FrameOutputs:
         self.sketchpad: Sketchpad | None = None
         self.statistics = FrameStatistics()
         self.frame: Frame | None = None
+        self.records_contacts = False
         self._node = node
         self._values = values
         self._session = session
@@ -66,9 +69,10 @@ class FrameOutputs:
 
     @property
     def wants_contacts(self) -> bool:
-        """Whether contacts have a subscriber, a viewer or a page."""
+        """Whether contacts have a reader, a subscriber, a viewer or a page."""
         return (
-            self.topics.wants_contacts
+            self.records_contacts
+            or self.topics.wants_contacts
             or self.viewer.is_open
             or (self.sketchpad is not None and self.sketchpad.wants_contacts)
         )
@@ -169,7 +173,7 @@ class FrameOutputs:
         context = FrameContext(
             real_time_factor=self.statistics.real_time_factor,
             cost=self.statistics.frame_cost,
-            title=Path(self._values['world_file']).stem or 'empty world',
+            title=_title_of(self._values['world_file']),
             traced=parameters.traced_names(self._values['trace']),
         )
         self.viewer.show(frame, context=context)
@@ -188,3 +192,8 @@ class FrameOutputs:
         elif answer.topic == 'viewer':
             # The address of the viewer, for the person at the terminal.
             self._node.get_logger().info(answer.message)
+
+
+@lru_cache(maxsize=1)
+def _title_of(world_file: str) -> str:
+    return Path(world_file).stem or 'empty world'

@@ -50,10 +50,6 @@ class RequestClient:
             for topic, kind in _MESSAGES.items()
         }
         self.node.create_subscription(DiagnosticStatus, '/physsim/events', self._receive, LOSSLESS)
-        # Contacts are recorded only while there is a subscriber.
-        self.node.create_subscription(
-            MultiDOFJointState, '/physsim/contacts', lambda _: None, 5, raw=True
-        )
         self._topic = ''
         self._received: list[DiagnosticStatus] = []
         executor.add_node(self.node)

@@ -40,6 +40,8 @@ class PhysSim(ObservedWorld):
         values = {'viewer': 'none', 'publish_rate': 60.0} | parameters
         overrides = [Parameter(name, value=value) for name, value in values.items()]
         super().__init__(PhysSimNode(context=context, parameter_overrides=overrides))
+        # `contacts` reads them from the frame, where no message is needed.
+        self.node.outputs.records_contacts = True
         self.context = context
         self.recording: Path | None = None
         self._directories = [*filter(None, [directory]), Path()]

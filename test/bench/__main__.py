@@ -10,6 +10,7 @@ from . import (
     capacity,
     chromium_page,
     crowd,
+    fixture,
     frames,
     joints,
     outside,
@@ -25,6 +26,7 @@ from . import (
 gc.collect()
 gc.freeze()
 frames.table([int(word) for word in sys.argv[1:]] or [100, 300, 1000])
+fixture.table()
 outside.table()
 resting.table()
 capacity.table()

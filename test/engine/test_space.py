@@ -9,6 +9,7 @@ import numpy as np
 from physsim_ros.model.errors import Anchored
 from physsim_ros.model.requests import (
     Command,
+    Delete,
 )
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Shape
@@ -234,3 +235,40 @@ def test_a_body_that_is_faster_than_any_number_is_lost() -> None:
     world.step(100)
     assert world.snapshot().scene.names[0] == 'a/0'
     assert pose(world, 'a/0').tolist() == [0.0, 0.0, 0.0]
+
+
+# Where nothing can move
+
+
+def test_a_body_falls_as_exactly_after_steps_in_which_nothing_could_move() -> None:
+    worlds = World(settings=YARD), World(settings=YARD)
+    for world, still in zip(worlds, (240, 0), strict=True):
+        spawn(world, 'floor/0', BOX, (5.0, 0.5, 0.0), anchored=True)
+        world.step(still)
+        spawn(world, 'a/0', ELL, (0.0, 8.0, 0.3), spin=1.0)
+        world.step(600)
+        assert world.step_count == still + 600
+    first, second = (world.snapshot() for world in worlds)
+
+    assert np.array_equal(first.poses, second.poses)
+    assert np.array_equal(first.twists, second.twists)
+
+
+def test_the_contacts_of_the_last_body_that_could_move_end_with_it(world: World) -> None:
+    world.watching = True
+    spawn(world, 'floor/0', BOX, (0.0, -0.5, 0.0), anchored=True)
+    spawn(world, 'a/0', BOX, (0.0, 0.5, 0.0))
+    world.step(8)
+    assert len(world.contacts(world.snapshot()).pairs) == 1
+    world.step(3)
+    world.apply(Delete(name='a/0'))
+    world.step(1)
+    assert len(world.contacts(world.snapshot()).pairs) == 0
+
+
+def test_a_body_that_cannot_move_is_gone_when_its_life_ends(world: World) -> None:
+    spawn(world, 'floor/0', BOX, (0.0, 0.0, 0.0), anchored=True, lifetime=0.5)
+    world.step(119)
+    assert 'floor/0' in world
+    world.step(1)
+    assert 'floor/0' not in world

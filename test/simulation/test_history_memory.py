@@ -14,6 +14,8 @@ from physsim_ros.simulation.past.history_memory import LEAST_MEMORY, MEGABYTE
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
+from .driven import Driven
+
 SECOND = 1_000_000_000
 NAMES = tuple(f'a/{number}' for number in range(100))
 TWISTS = np.random.default_rng(17).uniform(-1.0, 1.0, (64, 100, 3))
@@ -224,3 +226,20 @@ def test_a_budget_that_is_none_is_refused(value: float, refusal: type[Refusal]) 
     with pytest.raises(refusal):
         sim.limit_memory(value)
     assert sim.past.memory.megabytes == 256.0
+
+
+def test_the_frames_take_what_their_segments_take_after_every_way_through_time() -> None:
+    driven = Driven(history=20.0, checkpoints=1.0, history_memory=1.0)
+    driven.ask(Spawn(name='body/0', shape=Disc(radius=0.1), pose=(0.0, 5.0, 0.0)))
+    cache = driven.simulation.past.frame_cache
+    sizes = []
+    for speed, seconds in ((1.0, 5.0), (-1.0, 2.0), (1.0, 1.0), (-2.0, 1.0), (1.0, 25.0)):
+        driven.run(speed, seconds)
+        # From the past on: another course, whose frames take the place of those.
+        driven.ask(Command(names=('body/0',), twists=np.array([[speed, 0.0, 0.0]])))
+        driven.tick()
+        sizes.append(cache.size)
+
+        assert cache.size == sum(each.size for each in cache._segments.values())  # noqa: SLF001
+    assert driven.simulation.past.frame_cache is cache
+    assert min(sizes) > 0

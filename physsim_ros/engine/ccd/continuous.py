@@ -23,6 +23,7 @@ from physsim_ros.engine.ccd.broad_phase import boxes_overlap
 from physsim_ros.engine.ccd.hulls import Hulls
 from physsim_ros.engine.ccd.impact_islands import ImpactIslands
 from physsim_ros.engine.ccd.static_shapes import static_shapes, StaticShapes
+from physsim_ros.engine.fast_bodies import fast_bodies
 from physsim_ros.engine.plane_vectors import coordinates, dot
 from physsim_ros.engine.step_context import StepContext
 from physsim_ros.engine.work_correction import is_jointed, take_back_work
@@ -53,10 +54,11 @@ class ContinuousCollision:
 
     def clamp_moves(self, context: StepContext) -> None:
         """Set back bodies by what they may not go in the coming step of the engine."""
-        table, columns, dt = context.table, context.table.columns, context.dt
-        moves = context.twists * dt
-        lengths = np.hypot(moves[:, 0], moves[:, 1]) + np.abs(moves[:, 2]) * columns.turning_radii
-        fast = columns.solid & (lengths > columns.safe_depths.min(initial=np.inf))
+        table = context.table
+        if table.all_slow:
+            return
+        moves = context.twists * context.dt
+        fast = fast_bodies(table.columns, moves)
         if not fast.any():
             return
         if self._table is not table or self._static is None:
@@ -75,7 +77,7 @@ class ContinuousCollision:
                 way = complex(*moves[row, :2].tolist())
                 # As far as another body carries it, that is none of its own way.
                 share = -dot(way, back) / max(dot(way, way), 1e-300)
-                take_back_work(self._space, engine, -way * min(max(share, 0.0), 1.0), dt)
+                take_back_work(self._space, engine, -way * min(max(share, 0.0), 1.0), context.dt)
                 context.twists[row] = *engine.velocity, engine.angular_velocity
             table.forget_state()
 

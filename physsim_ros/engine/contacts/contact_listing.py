@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.engine.batch_io import Ids
 from physsim_ros.engine.body_table import BodyTable
+from physsim_ros.engine.contacts.pair_ids import same_ids
 from physsim_ros.model.arrays import Flags, Floats, Ints
 from physsim_ros.model.snapshot import Contacts
 
@@ -45,7 +46,7 @@ class PairListing:
 
     def is_of(self, touching: Ids, table: BodyTable) -> bool:
         """Return whether the listing was made of these pairs."""
-        return self.table is table and np.array_equal(self.touching, touching)
+        return self.table is table and same_ids(self.touching, touching)
 
     def merge_contacts(
         self, manifolds: Floats, sums: Floats, current: int

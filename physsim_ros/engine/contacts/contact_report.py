@@ -25,8 +25,14 @@ from physsim_ros.engine.contacts.contact_listing import (
     set_overlap_manifolds,
     set_wall_manifolds,
 )
-from physsim_ros.engine.contacts.manifolds import LastManifolds
-from physsim_ros.engine.contacts.pair_ids import find_pairs, NO_PAIRS, oriented, Renaming
+from physsim_ros.engine.contacts.manifolds import LastManifolds, NO_MANIFOLDS
+from physsim_ros.engine.contacts.pair_ids import (
+    find_pairs,
+    NO_PAIRS,
+    oriented,
+    Renaming,
+    same_ids,
+)
 from physsim_ros.engine.contacts.side import Side
 from physsim_ros.engine.contacts.sleeping_pairs import read_sleeping_pairs, SleepingPairs
 from physsim_ros.model.arrays import Floats
@@ -95,10 +101,14 @@ class ContactReport:
         sleep_changed = slots != self._slots
         sleeping = len(self._sleeping.ids)
         if self._same_pairs and not sleep_changed:
+            if not len(self._first_ids):
+                # The engine lists none; those that sleep repeat their impulses.
+                self._sums += self._impulses
+                return
             firsts, impulses = self._io.read_contacts(_FIRSTS_AND_IMPULSES)
             if len(firsts) == len(self._ids) - sleeping:
                 # The engine turns a pair round as its bodies move, in a contact that goes on too.
-                if not np.array_equal(firsts, self._first_ids):
+                if not same_ids(firsts, self._first_ids):
                     self._first_ids, self._signs = firsts.copy(), self._signs_of(firsts)
                 self._add_impulses(impulses.reshape(-1, 2))
                 return
@@ -110,7 +120,7 @@ class ContactReport:
             self._sleeping = self._find_sleeping(table, ids)
             self._slots = slots
         ids = np.concatenate((ids, self._sleeping.ids))
-        if not np.array_equal(ids, self._ids):
+        if not same_ids(ids, self._ids):
             self._begin_listing(ids)
         self._add_impulses(impulses)
         self._same_pairs = True
@@ -132,7 +142,9 @@ class ContactReport:
         return SleepingPairs(ids, self._impulses[sleeps], manifolds)
 
     def _add_impulses(self, impulses: Floats) -> None:
-        self._impulses = np.concatenate((impulses * self._signs, self._sleeping.impulses))
+        self._impulses = impulses * self._signs
+        if len(self._sleeping.ids):
+            self._impulses = np.concatenate((self._impulses, self._sleeping.impulses))
         self._sums += self._impulses
 
     def _signs_of(self, firsts: Ids) -> Floats:
@@ -226,6 +238,10 @@ class ContactReport:
         """
         if self._steps == 0:
             return NO_CONTACTS
+        if not (len(self._ids) or self._parted):
+            self._last.end_frame(NO_PAIRS, NO_MANIFOLDS)
+            self._steps = 0
+            return NO_CONTACTS
         parted, parted_sums = self._merge_parted()
         touching, sums, manifolds = self._ids, self._sums, self._read_manifolds()
         if len(parted):
@@ -235,14 +251,14 @@ class ContactReport:
             )
             manifolds = np.concatenate((manifolds, self._last.of_pairs(parted)), axis=1)
         self._last.end_frame(self._ids, manifolds[:, : len(self._ids)])
-        self._sums = np.zeros_like(self._sums)
+        self._sums = np.zeros(self._sums.shape)
         self._steps = 0
         if len(table.bodies) == 0 or len(touching) == 0:
             return NO_CONTACTS
         if self._listing is None or not self._listing.is_of(touching, table):
             self._listing = list_pairs(touching, table)
         contacts, pointless = self._listing.merge_contacts(manifolds, sums, len(self._ids))
-        if pointless.any():
+        if np.count_nonzero(pointless):
             with_wall, places = contacts.pairs[:, 1] < 0, centers()
             set_overlap_manifolds(contacts, np.flatnonzero(pointless & ~with_wall), places)
             set_wall_manifolds(contacts, np.flatnonzero(pointless & with_wall), places, table)
@@ -257,9 +273,11 @@ class ContactReport:
         """
         if self._copied_manifolds is not None:
             return self._copied_manifolds
+        if not len(self._first_ids):
+            return self._sleeping.manifolds
         ints, floats = self._io.read_contacts(_MANIFOLDS)
         firsts, counts = ints.reshape(-1, 2).T
-        if not np.array_equal(firsts, self._first_ids):
+        if not same_ids(firsts, self._first_ids):
             return self._last.of_pairs(self._ids)
         # Columns, because numpy adds them up five times as fast as pairs.
         columns = np.ascontiguousarray(floats.reshape(-1, 10).T)
@@ -270,4 +288,6 @@ class ContactReport:
         first, second = columns[2:4] + columns[4:6], columns[6:8] + columns[8:10]
         np.add(first, second, out=manifolds[3:])
         manifolds[3:] *= 0.5 / np.maximum(counts, 1)
-        return np.concatenate((manifolds, self._sleeping.manifolds), axis=1)
+        if len(self._sleeping.ids):
+            return np.concatenate((manifolds, self._sleeping.manifolds), axis=1)
+        return manifolds

@@ -25,6 +25,11 @@ def oriented(pairs: Ids) -> tuple[Ids, Floats]:
     return np.column_stack((np.minimum(first, second), np.maximum(first, second))), signs
 
 
+def same_ids(one: Ids, other: Ids) -> bool:
+    """Return whether two arrays of ids or pairs are equal, in half the time of numpy."""
+    return one is other or (len(one) == len(other) and not np.count_nonzero(one != other))
+
+
 def find_pairs(pairs: Ids, listing: Ids) -> tuple[NDArray[np.intp], Flags]:
     """
     Find pairs in a listing of pairs.

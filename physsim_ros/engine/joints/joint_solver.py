@@ -319,7 +319,8 @@ class _Step:
             distance = apart + system.rates(normals, bodies.poses - start)[self._normals]
             errors = np.concatenate((np.abs(gaps), -np.minimum(distance, 0.0)))
             of_row = self._of_row[: len(errors)]
-            sums: Floats = np.bincount(of_row, errors, count)
+            sums = np.zeros(count)
+            np.add.at(sums, of_row, errors)
             better = sums < least
             least = np.minimum(sums, least)
             best[better[self._island]] = bodies.poses[better[self._island]]

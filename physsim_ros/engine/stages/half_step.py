@@ -66,30 +66,39 @@ class HalfStep:
 
     def start_state(self, table: BodyTable) -> StartState:
         """Return the state that the next step begins with, after all requests until now."""
-        columns, free = table.columns, table.free
-        flies = free & ~columns.sprung
+        columns, free, state = table.columns, table.free, table.state
         unsupported = np.zeros(len(free), np.bool_)
+        if table.sleepers:
+            # A sleeping body does not move, whatever velocity the engine keeps for it.
+            state = state.copy()
+            state[table.asleep, 3:] = 0.0
+        if not self._may_change(table):
+            return StartState(state, free, unsupported)
+        flies = free & ~columns.sprung
         rows = [columns.rows[name] for name in self._released if name in columns.rows]
         released = sorted(row for row in rows if columns.dynamic[row])
         if released:
             unsupported = find_unsupported(self._space, self._io, table, released)
             flies = flies | unsupported
-        state = table.state
-        if table.asleep.any() or not np.array_equal(flies, free):
+        if not np.array_equal(flies, free):
             state = state.copy()
-            # A sleeping body does not move, whatever velocity the engine keeps for it.
-            state[table.asleep, 3:] = 0.0
             begin, end = flies & ~free, free & ~flies
             state[begin, 3:] += table.leads[begin]
             state[end, 3:] -= table.leads[end]
         return StartState(state, flies, unsupported)
 
-    def begin_step(self, table: BodyTable) -> Flags:
+    def _may_change(self, table: BodyTable) -> bool:
+        """Return whether requests may have begun or ended the free flight of a body."""
+        return bool(self._released) or len(table.columns.on_springs) > 0
+
+    def begin_step(self, table: BodyTable) -> list[int]:
         """
         Write the half-step leads of bodies whose free flight requests have changed.
 
-        :return: (n,) bool: bodies whose support was removed
+        :return: rows of the bodies whose support was removed
         """
+        if not self._may_change(table):
+            return []
         start = self.start_state(table)
         self._released.clear()
         changed = np.flatnonzero(start.free != table.free).tolist()
@@ -100,14 +109,18 @@ class HalfStep:
         if changed:
             table.free = start.free
             table.forget_state()
-        return start.unsupported
+        return np.flatnonzero(start.unsupported).tolist()
 
     @staticmethod
     def find_free(context: StepContext) -> None:
         """Find which bodies the step only accelerated: those are in free flight."""
         table = context.table
+        # Reads which bodies sleep, too.
         after = table.state[:, 3:]
+        if not table.may_fly:
+            table.free = np.zeros(len(after), np.bool_)
+            return
         kept = (1.0 - context.settings.damping) ** context.dt
         flown = context.twists * kept + 2.0 * table.leads
-        same = (np.abs(flown - after) <= ROUNDING * (1.0 + np.abs(after))).all(axis=1)
-        table.free = same & table.columns.dynamic[:-1] & ~table.columns.sprung & ~table.asleep
+        same = np.abs(flown - after) <= ROUNDING * (1.0 + table.sizes[:, 3:])
+        table.free = table.can_fly & same[:, 0] & same[:, 1] & same[:, 2]

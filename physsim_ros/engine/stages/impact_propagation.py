@@ -40,7 +40,7 @@ from physsim_ros.engine.batch_io import BatchIO
 from physsim_ros.engine.body_table import BodyTable
 from physsim_ros.engine.stages.pre_solve_hook import add_pre_solve
 from physsim_ros.engine.tolerances import COLLISION_SLOP
-from physsim_ros.model.arrays import Floats, greatest, Ints
+from physsim_ros.model.arrays import Floats, Ints
 import pymunk
 from pymunk import batch
 
@@ -90,15 +90,15 @@ class ImpactPropagation:
         table = self.table
         if table is None:
             return
-        elasticity, dynamic = table.columns.elasticity, table.columns.dynamic
-        if greatest(elasticity[:-1]) * greatest(elasticity) < ELASTIC:
+        if table.columns.most_elastic < ELASTIC:
             return
+        dynamic = table.columns.dynamic
         contacts = self._contacts(table)
         if contacts is None:
             return
         rows, approach, depths = contacts
         # The fastest approach of each body; bodies that forces do not move take no impact.
-        impacts = np.zeros(len(elasticity))
+        impacts = np.zeros(len(dynamic))
         # Polygons that just touch have one point by rounding, and both in the next step.
         grazing = (approach > SLOWEST) & (depths < GRAZING)
         hits = (approach > SLOWEST) & ~grazing

@@ -39,15 +39,21 @@ def enable_sleeping(space: pymunk.Space) -> None:
 def keep_flying_awake(context: StepContext) -> None:
     """Keep bodies awake that fly slowly: nothing would stop them (Newton's first law)."""
     table = context.table
-    speeds = np.abs(table.state[:, 3:]).max(axis=1)
-    for row in np.flatnonzero(table.free & (speeds < IDLE_SPEED) & (speeds > 0.0)).tolist():
-        # Chipmunk begins to count idle time anew.
-        table.bodies[row].engine.activate()
+    if not np.count_nonzero(table.free):
+        return
+    speeds = table.sizes[:, 3:]
+    slow = speeds < IDLE_SPEED
+    for row in np.flatnonzero(table.free & slow[:, 0] & slow[:, 1] & slow[:, 2]).tolist():
+        if speeds[row].any():
+            # Chipmunk begins to count idle time anew.
+            table.bodies[row].engine.activate()
 
 
 def keep_swinging_awake(context: StepContext) -> None:
     """Keep bodies on springs awake that accelerate: a slow swing has only reached its turn."""
     table, rows = context.table, context.table.columns.on_springs
+    if not len(rows):
+        return
     twists = table.state[rows, 3:]
     slow = np.abs(twists).max(axis=1, initial=0.0) < IDLE_SPEED
     changes = np.abs(twists - context.twists[rows]).max(axis=1, initial=0.0)

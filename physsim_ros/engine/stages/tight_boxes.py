@@ -30,22 +30,17 @@ from __future__ import annotations
 import numpy as np
 from physsim_ros.engine.body import index_at_rest
 from physsim_ros.engine.ccd.broad_phase import count_candidates
+from physsim_ros.engine.fast_bodies import EXTENSION, fast_in_crowd, MOST_PAIRS
 from physsim_ros.engine.step_context import StepContext
-
-# The engine extends a box by the way of so long [s].
-EXTENSION = 0.1
-# Pairs of the pieces of a body and of what is near it, from which it is indexed anew: the engine
-# goes through so many in 3 to 5 us, and keeps 56 kB for them.
-MOST_PAIRS = 1000.0
 
 
 def tighten_boxes(context: StepContext) -> None:
     """Have the engine's broad phase bound fast bodies in a crowd where the coming step ends."""
     table, columns = context.table, context.table.columns
+    if table.all_slow:
+        return
     ways = context.twists[:, :2] * EXTENSION
-    # A box of k half widths overlaps k² / 2 others at most, where bodies of a size fill the plane.
-    most = (ways**2).sum(axis=1) / (2.0 * columns.half_widths**2)
-    fast = columns.pieces * np.minimum(most, columns.pieces.sum()) > MOST_PAIRS
+    fast = fast_in_crowd(columns, ways)
     if not fast.any():
         return
     starts, reach = context.poses[:, :2], columns.reach[:, None]

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import fields
+from functools import lru_cache
 from typing import Any
 
 from physsim_ros.drawing import DrawingSettings
@@ -66,6 +67,7 @@ def world_parameters(settings: WorldSettings) -> list[Parameter]:
     return parameters
 
 
+@lru_cache(maxsize=1)
 def traced_names(value: str) -> tuple[str, ...]:
     """Return the names of bodies in the value of parameter `trace`."""
     return tuple(name for each in value.split(',') if (name := each.strip()))

@@ -9,8 +9,6 @@ Law: the last message is that of the last frame, but for times of a running worl
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 from physsim_ros.model.timeline import TimelineStatus
 from rclpy.publisher import Publisher
@@ -48,9 +46,18 @@ class TimelinePublisher:
 
 def _differs_in_time(one: TimelineStatus, other: TimelineStatus | None) -> bool:
     """Return whether two statuses differ in nothing but times."""
-    if other is None:
-        return False
-    return replace(one, oldest=other.oldest, now=other.now, newest=other.newest) == other
+    return other is not None and _without_times(one) == _without_times(other)
+
+
+def _without_times(status: TimelineStatus) -> tuple[object, ...]:
+    return (
+        status.state,
+        status.speed,
+        status.course,
+        status.courses,
+        status.undo,
+        status.redo,
+    )
 
 
 def _message(status: TimelineStatus) -> DiagnosticStatus:

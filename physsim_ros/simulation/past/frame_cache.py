@@ -39,6 +39,8 @@ class FrameCache:
     :param frame_steps: steps from one frame to the next, unless finer ones are asked for
     :param budget: memory that may be taken, at most [bytes]; for few bodies it is less, a pose of
         each body for each frame that the history is long
+
+    :ivar size: memory that the frames take [bytes]
     """
 
     def __init__(
@@ -47,7 +49,10 @@ class FrameCache:
         self._history = history
         self._frame_steps = frame_steps
         self.budget = budget
+        self.size = 0
         self._segments: dict[Mark, FrameSegment] = {}
+        # The first checkpoint of the history, as far as segments before it are dropped.
+        self._first = history.checkpoints[0].moment
         # The step that is shown.
         self._shown = 0
         # Number of bodies in the last frame.
@@ -55,11 +60,6 @@ class FrameCache:
         # The world that replays the segment which is shown next in a rewind.
         self._replay = Replay(World(physics_rate=physics_rate, frame_steps=frame_steps), history)
         self._segment_replay: SegmentReplay | None = None
-
-    @property
-    def size(self) -> int:
-        """Return the memory that the frames take [bytes]."""
-        return sum(segment.size for segment in self._segments.values())
 
     def take_answers(self) -> list[Answer]:
         """Return the reports of replays since the last call."""
@@ -86,7 +86,10 @@ class FrameCache:
         """Add a frame that has just been shown."""
         self._bodies = len(frame.snapshot.poses)
         mark, _ = self._history.segment(frame.snapshot.step)
-        self._segments.setdefault(mark, FrameSegment()).add(frame)
+        segment = self._segments.setdefault(mark, FrameSegment())
+        before = segment.size
+        segment.add(frame)
+        self.size += segment.size - before
         self._evict(frame.snapshot.step)
 
     def with_first_contacts(self, frame: CachedFrame) -> CachedFrame:
@@ -106,6 +109,7 @@ class FrameCache:
             dropped += self._segments.pop(mark).frames.values()
         for segment in self._segments.values():
             dropped += segment.pop_from(step)
+        self._count_size()
         return dropped
 
     def cached_frame(self, step: int, *, watching: bool) -> CachedFrame | None:
@@ -141,10 +145,9 @@ class FrameCache:
         replay.replay_steps(end - mark.step, is_overdue)
         if replay.steps_left:
             return None
-        segment = self._segments[mark] = replay.segment
-        self._segment_replay = None
+        self._keep_replayed(mark, replay.segment)
         self._evict(step)
-        return segment.frames[step].copy()
+        return replay.segment.frames[step].copy()
 
     def replay_ahead(
         self,
@@ -175,8 +178,7 @@ class FrameCache:
         frames_left = max(1, (step - gap) // max(1, steps))
         replay.replay_steps(-(-replay.steps_left // frames_left), is_overdue)
         if replay.steps_left == 0:
-            self._segments[mark] = replay.segment
-            self._segment_replay = None
+            self._keep_replayed(mark, replay.segment)
             self._evict(step)
 
     def _missing_step(self, step: int, apart: int, *, watching: bool) -> int | None:
@@ -204,17 +206,28 @@ class FrameCache:
             replay = self._segment_replay = SegmentReplay(self._replay, mark, end, stride)
         return replay
 
+    def _keep_replayed(self, mark: Mark, segment: FrameSegment) -> None:
+        """Keep the frames of a replay that has come to its end."""
+        self._segments[mark] = segment
+        self._segment_replay = None
+        self._count_size()
+
+    def _count_size(self) -> None:
+        self.size = sum(segment.size for segment in self._segments.values())
+
     def _evict(self, step: int) -> None:
         """Drop the segments that the history has no more, and more of them until all fit."""
         self._shown = step
         first = self._history.checkpoints[0].moment
-        for mark in [mark for mark in self._segments if mark.moment < first]:
-            del self._segments[mark]
-        size = self.size
+        if first != self._first:
+            self._first = first
+            for mark in [mark for mark in self._segments if mark.moment < first]:
+                del self._segments[mark]
+            self._count_size()
         poses = self._history.length // self._frame_steps * self._bodies
         budget = min(self.budget, poses * _BODY)
-        while size > budget and (dropped := self.drop_oldest()):
-            size -= dropped
+        while self.size > budget and self.drop_oldest():
+            pass
 
     def drop_oldest(self) -> int:
         """
@@ -229,6 +242,7 @@ class FrameCache:
             return 0
         marks = sorted(self._segments, key=lambda mark: mark.moment)
         last = self._segments.pop(marks[-1] if marks[-1].step > self._shown else marks[0])
+        self.size -= last.size
         return last.size
 
 

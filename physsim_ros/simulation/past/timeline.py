@@ -233,9 +233,8 @@ class Timeline(SeekableReplay):
         self._enter_checkpoint()
         step = self.world.step_count
         changed = self._resumed is not None and self._resumed[0] == step
-        if self.history.checkpoint_at(*self.moment) is None and (
-            changed or self.history.is_checkpoint_due(step)
-        ):
+        due = changed or self.history.is_checkpoint_due(step)
+        if due and self.history.checkpoint_at(*self.moment) is None:
             self.add_checkpoint()
 
     def add_checkpoint(self) -> None:

@@ -1,0 +1,77 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+The pytest fixture: how many times faster than real time a test runs, beside the bare steps.
+
+CPU time of the process, in turns, as a machine whose speed drifts does not favour one of them;
+over whole times between checkpoints.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+import time
+
+from physsim_ros.model.body_properties import Properties
+from physsim_ros.model.requests import Restore, Spawn
+from physsim_ros.model.shapes import Box, Disc
+from physsim_ros.simulation.world import World
+from physsim_ros.testing import own_context, PhysSim
+import pytest
+
+from .bodies import Bare
+
+COUNTS = (0, 10, 100)
+# A frame of the simulation lasts so long [ms].
+FRAME = 1000 / 60
+# Frames in a row of each, and how often: three checkpoints.
+TURN, TURNS = 60, 9
+# Speed of discs that roll [m/s], their distance and radius [m].
+SPEED, APART, RADIUS = 0.2, 1.0, 0.25
+
+
+def on_floor(count: int, speed: float) -> World:
+    """Return discs in a row on a floor, rolling or at rest."""
+    world = World()
+    if count:
+        floor = Box(width=4.0 * count * APART + 100.0, height=2.0)
+        fixed = Properties(anchored=True)
+        world.apply(Spawn(name='floor/0', shape=floor, pose=(0.0, -1.0, 0.0), properties=fixed))
+    for number in range(count):
+        rolling = Properties(velocity=(speed, 0.0), spin=-speed / RADIUS)
+        pose = (APART * number, RADIUS, 0.0)
+        world.apply(
+            Spawn(name=f'body/{number}', shape=Disc(radius=RADIUS), pose=pose, properties=rolling)
+        )
+    return world
+
+
+def cpu(act: Callable[[], object]) -> float:
+    """Return the CPU time of a call, of all threads of this process [ms]."""
+    began = time.process_time()
+    act()
+    return (time.process_time() - began) * 1e3
+
+
+def measure(sim: PhysSim, count: int, speed: float) -> None:
+    """Print a row."""
+    world = on_floor(count, speed)
+    sim.node.simulation.perform(Restore(state=world.save()))
+    bare = Bare(world)
+    sim.step(TURN)
+    times = [(cpu(lambda: sim.step(TURN)), cpu(lambda: bare.step(4 * TURN))) for _ in range(TURNS)]
+    ours, base = (sum(each) / (TURN * TURNS) for each in zip(*times, strict=True))
+    state = 'rolling' if speed else 'at rest'
+    print(f'{count:6}  {state} {base:10.3f} {ours:13.3f} {FRAME / ours:15.0f}', flush=True)
+
+
+def table() -> None:
+    """Print a row for each count of bodies that roll on a floor, and that lie on it."""
+    print('\nCPU of a frame of 4 steps in the pytest fixture, nothing subscribed')
+    print('bodies  on floor  bare [ms]  fixture [ms]  times real time')
+    with pytest.MonkeyPatch.context() as patch, own_context(patch) as context:
+        for count in COUNTS:
+            for speed in (SPEED, 0.0) if count else (0.0,):
+                with PhysSim(context) as sim:
+                    measure(sim, count, speed)
