@@ -70,7 +70,9 @@ CONTACT_REGULARISATION = 1e-3
 # An island with a gap wider than this after a Newton step gets another one [m, rad]: ten planks
 # that are straight sag by 7 mm with a gap of 1e-6 m each ...
 CLOSED = 1e-5
-# ... at most so many in a step of the engine.
+# ... the first one from this on [m, rad] ...
+NEGLIGIBLE = 1e-7
+# ... and at most so many in a step of the engine.
 MOST_STEPS = 16
 # The furthest that a body turns in a Newton step [rad]: rows are linear for small turns only.
 MOST_TURN = 0.25
@@ -204,6 +206,7 @@ class _Step:
         solution = system.solve(pressing, _first_sides(pressing, given), even)
         if len(contacts):
             solution = self._solve_friction(pressing, solution, given, even)
+        solution = system.refine(pressing, solution)
         changes = solution.changes
         more, bent = self._bend(jacobian, bodies.velocities + without + changes, solution)
         bodies.write_velocities(without + changes + bent)
@@ -326,7 +329,7 @@ class _Step:
             best[better[self._island]] = bodies.poses[better[self._island]]
             best_impulses = np.where(better[self._of_row], impulses, best_impulses)
             wide = np.zeros(count, np.bool_)
-            wide[of_row[errors > CLOSED * (number > 0)]] = True
+            wide[of_row[errors > (CLOSED if number else NEGLIGIBLE)]] = True
             if number == MOST_STEPS or not wide.any():
                 break
             lower, upper = self._joint_bounds(JointRows(gaps, rows.jacobian))
@@ -341,8 +344,10 @@ class _Step:
             share = self._trusted(solution.changes, sums)
             bodies.poses[:] += solution.changes * share[self._island][:, None]
             impulses = impulses + solution.impulses * share[self._of_row]
+        if not best_impulses.any():
+            return
         bodies.poses[:] = best
-        self._remove_velocity(best - pushed, best_impulses)
+        self._remove_velocity(best - pushed, rows, best_impulses)
 
     def _take_pushes(self, normals: Floats) -> Floats:
         """
@@ -353,9 +358,9 @@ class _Step:
         bodies, contacts = self.bodies, self._contacts
         places = bodies.memory[:, None] + np.arange(PUSH, PUSH + 3)
         bias = self._per_row(0.0, contacts.bias, 0.0)
-        pushes = NUMBERS[places] - self._system.momenta(normals, bias) * bodies.inverse
+        pushes: Floats = NUMBERS[places] - self._system.momenta(normals, bias) * bodies.inverse
         pushes[~bodies.inverse.any(axis=1)] = 0.0
-        ways = pushes * self._dt
+        ways: Floats = pushes * self._dt
         ways[bodies.jointed :] = 0.0
         # The engine moves what has no joints by the others itself, in the next step.
         pushes[: bodies.jointed] = 0.0
@@ -377,11 +382,12 @@ class _Step:
         trusted: Floats = np.minimum(1.0, np.minimum(by_turn, by_way))
         return trusted
 
-    def _remove_velocity(self, moved: Floats, impulses: Floats) -> None:
+    def _remove_velocity(self, moved: Floats, rows: JointRows, impulses: Floats) -> None:
         """
         Change velocities by a displacement, as far as their energy falls by it.
 
         :param moved: (b, 3) float64 [m, rad]
+        :param rows: of the joints
         :param impulses: (r,) float64: λ of the displacement [kg m, kg m²]
         """
         bodies, system = self.bodies, self._system
@@ -391,7 +397,6 @@ class _Step:
         bodies.write_velocities(changes * share[self._island][:, None])
         given = impulses * share[self._of_row] / self._dt
         joints, contacts = self._joints, self._contacts
-        rows = joints.read(bodies.poses)
         before = joints.impulses(rows)
         joints.write_impulses(rows, before + given[self._of_joints], self._holding)
         normal, tangent = contacts.impulses

@@ -91,17 +91,22 @@ class SaddlePoint:
         place = np.full(len(inverse), -1, np.intp)
         place[self._moved] = np.arange(len(self._moved))
         self._unknowns, count = 3 * len(self._moved), len(ends)
-        # The columns of the upper triangle: an entry each of M, then of each row J and E, its
-        # bodies in ascending order.
+        # Columns of the upper triangle: an entry each of M, then of each row J and E, its bodies
+        # in ascending order.
         places = place[ends]
-        self._descending = places[:, 0] > places[:, 1]
-        columns = np.sort(places, axis=1)
-        entries = np.repeat(columns, 3, axis=1) * 3 + np.tile(np.arange(3), 2)
-        present = np.column_stack((np.repeat(columns >= 0, 3, axis=1), np.ones(count, np.bool_)))
+        order = np.argsort(places, axis=1, kind='stable')
+        ascending = np.take_along_axis(places, order, axis=1)
+        entries = np.repeat(ascending, 3, axis=1) * 3 + np.tile(np.arange(3), 2)
+        present = np.column_stack((np.repeat(ascending >= 0, 3, axis=1), np.ones(count, np.bool_)))
         own = np.arange(self._unknowns, self._unknowns + count)
         indices = np.column_stack((entries, own))[present]
+        # Of each entry its place in J and E of the rows, which stand side by side.
+        sources = np.repeat(order, 3, axis=1) * 3 + np.tile(np.arange(3), 2)
+        sources = np.column_stack((sources, np.full(count, 6))) + 7 * np.arange(count)[:, None]
+        self._sources = sources[present]
+        self._rows = np.empty((count, 7))
+        self._inverse_of_rows = inverse[ends].reshape(-1, 6)
         ends_of_rows = self._unknowns + np.cumsum(present.sum(axis=1))
-        self._present = present
         self._masses = np.zeros_like(inverse)
         self._masses[self._moved] = 1.0 / inverse[self._moved]
         values = np.concatenate((self._masses[self._moved].ravel(), np.ones(len(indices))))
@@ -139,12 +144,11 @@ class SaddlePoint:
 
         :param regularisation: (r,) float64: E, as a share of the diagonal of J M^-1 J^T
         """
-        used = np.where(active[:, None, None], jacobian, 0.0)
-        parts = (used * used * self.inverse[self.ends]).reshape(-1, 6)
-        diagonal: Floats = np.add.reduce(parts, axis=1)
-        used[self._descending] = used[self._descending, ::-1]
-        last = np.where(active & (diagonal > 0.0), -regularisation * diagonal, -1.0)
-        self._of_rows[:] = np.column_stack((used.reshape(-1, 6), last))[self._present]
+        used = self._rows[:, :6]
+        np.multiply(jacobian.reshape(-1, 6), active[:, None], out=used)
+        diagonal = np.add.reduce(used * used * self._inverse_of_rows, axis=1)
+        self._rows[:, 6] = np.where(diagonal > 0.0, -regularisation * diagonal, -1.0)
+        np.take(self._rows, self._sources, out=self._of_rows)
         if self._factors is None:
             self._factors = qdldl.Solver(self._matrix, upper=True)
         else:
@@ -201,7 +205,14 @@ class SaddlePoint:
                 changed = np.zeros_like(wrong)
                 changed[np.flatnonzero(wrong)[-1]] = True
             sides[changed] = np.where(below, -1, np.where(above, 1, 0))[changed]
-        # Iterative refinement: what E has left of the targets, once more.
-        left = np.where(active, wanted - self.rates(jacobian, changes), 0.0)
-        more, further = self.solve_active(left)
-        return Solution(impulses + np.where(active, more, 0.0), changes + further, sides, wrong)
+        return Solution(impulses, changes, sides, wrong)
+
+    def refine(self, problem: Problem, solution: Solution) -> Solution:
+        """Return a solution of `solve` that comes closer to the targets, which E keeps it from."""
+        active = solution.sides == 0
+        left = problem.wanted - self.rates(problem.jacobian, solution.changes)
+        impulses, changes = self.solve_active(np.where(active, left, 0.0))
+        return solution._replace(
+            impulses=solution.impulses + np.where(active, impulses, 0.0),
+            changes=solution.changes + changes,
+        )
