@@ -1,0 +1,133 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""What lies on a bridge of light planks stays on it, however heavy, and presses with its weight."""
+
+import math
+
+import numpy as np
+from physsim_ros.model.shapes import Box, Disc
+import pytest
+
+from .scenes import G, join, simulation, spawn, steps
+
+PLANKS = 10
+PLANK = 0.22  # kg
+SPAN = PLANKS * 1.0  # m
+
+
+def bridge(kind, slack=0.0):
+    """
+    Return a bridge of planks of 1 m between two points of the background, and its middle.
+
+    :param slack: by which the planks together are longer than the span [m]
+    """
+    sim = simulation()
+    slope = math.acos((SPAN - slack) / SPAN)
+    ends = [np.array((0.0, 5.0))]
+    for number in range(PLANKS):
+        turn = -slope if number < PLANKS // 2 else slope
+        ends.append(ends[-1] + (math.cos(turn), math.sin(turn)))
+        pose = (*(ends[-2] + ends[-1]) / 2, turn)
+        spawn(sim, f'plank/{number}', Box(width=1.0, height=0.2), pose, mass=PLANK, group=7)
+    for number, end in enumerate(ends):
+        a = f'plank/{min(number, PLANKS - 1)}'
+        b = f'plank/{number - 1}' if 0 < number < PLANKS else 'world'
+        join(sim, f'joint/{number}', kind, [tuple(end)], a=a, b=b)
+    return sim, ends[PLANKS // 2]
+
+
+def put_load(sim, shape, ratio, middle, **said):
+    """Put a load on planks, and return its row."""
+    radius = shape.radius if isinstance(shape, Disc) else shape.height / 2
+    return spawn(
+        sim,
+        'load/0',
+        shape,
+        (middle[0], middle[1] + 0.1 + radius, 0.0),
+        mass=ratio * PLANK,
+        **said,
+    )
+
+
+def depth(sim):
+    """Return how deep the load lies in a plank [m], by the engine's shapes."""
+    bodies = sim.world._space.bodies.by_name  # noqa: SLF001
+    planks = [bodies[f'plank/{number}'].engine for number in range(PLANKS)]
+    (load,) = bodies['load/0'].engine.shapes
+    return max(_overlap(load, shape) for plank in planks for shape in plank.shapes)
+
+
+def _overlap(one, other):
+    if not one.bb.intersects(other.bb):
+        return 0.0
+    try:
+        return max(-point.distance for point in one.shapes_collide(other).points)
+    except AssertionError:
+        # Pymunk 7.3.1 asserts that there is a point.
+        return 0.0
+
+
+TABLE = [
+    ('axle', 0.0, Box(width=0.6, height=0.6), 3.0, 0.02),
+    ('axle', 0.0, Box(width=0.6, height=0.6), 30.0, 0.02),
+    ('axle', 0.0, Box(width=0.6, height=0.6), 100.0, 0.02),
+    ('axle', 0.0, Disc(radius=0.3), 273.0, 0.03),
+    ('axle', 0.001, Disc(radius=0.3), 10.0, 0.02),
+    ('axle', 0.001, Disc(radius=0.3), 30.0, 0.02),
+    ('axle', 0.01, Disc(radius=0.3), 30.0, 0.02),
+    ('axle', 0.05, Disc(radius=0.3), 30.0, 0.02),
+    ('pin', 0.0, Disc(radius=0.3), 10.0, 0.02),
+    ('pin', 0.0, Disc(radius=0.3), 100.0, 0.02),
+    ('pin', 0.0, Disc(radius=0.3), 273.0, 0.03),
+]
+
+
+@pytest.mark.parametrize(('kind', 'slack', 'shape', 'ratio', 'deepest'), TABLE)
+def test_a_load_lies_on_a_bridge(report, kind, slack, shape, ratio, deepest):
+    sim, middle = bridge(kind, slack)
+    load = put_load(sim, shape, ratio, middle)
+    what = f'{ratio:g} : 1 on planks, {kind}, slack of {slack * 1e3:g} mm'
+    for now in steps(sim, 480):
+        gap = float(np.hypot(*(now.ends[:, 0] - now.ends[:, 1]).T).max())
+        report.check(33, f'{what}, gap', gap, 0.0, 0.02, 'm')
+        report.check(33, f'{what}, depth', depth(sim), 0.0, deepest, 'm')
+    # A slack of 5 cm lets the middle sink by half a metre from the straight line.
+    lowest = middle[1] - 0.1 * SPAN / 2 * math.sqrt(2.0 * slack / SPAN) - 0.05
+    assert now.poses[load, 1] > lowest + 0.1
+
+
+@pytest.mark.parametrize('kind', ['axle', 'pin'])
+def test_a_bridge_is_told_the_weight_that_lies_on_it(report, kind):
+    sim, middle = bridge(kind)
+    load = put_load(sim, Box(width=0.6, height=0.6), 30.0, middle)
+    sim.watch_contacts(True)
+    for _ in range(120):
+        sim.advance_frame()
+    pressed = np.zeros(2)
+    for _ in range(60):
+        contacts = sim.advance_frame().contacts
+        pressed -= contacts.impulses[contacts.pairs[:, 0] == load].sum(axis=0)
+        pressed += contacts.impulses[contacts.pairs[:, 1] == load].sum(axis=0)
+    weight = 30.0 * PLANK * G
+    what = f'30 : 1 on planks, {kind}, impulse in 1 s'
+    report.check(30, what, pressed[1], weight, 0.01, 'N s', relative=True)
+
+
+@pytest.mark.parametrize('ratio', [10.0, 100.0])
+def test_a_disc_rolls_over_a_bridge(report, ratio):
+    sim, _ = bridge('axle')
+    radius = 0.3
+    put_load(
+        sim,
+        Disc(radius=radius),
+        ratio,
+        np.array((0.7, 5.0)),
+        velocity=(2.0, 0.0),
+        spin=-2.0 / radius,
+    )
+    for now in steps(sim, 960):
+        report.check(33, f'disc of {ratio:g} : 1 rolls, depth', depth(sim), 0.0, 0.02, 'm')
+    x, y, _ = now.poses[-1]
+    assert x > 2.0
+    assert y > 5.0
