@@ -27,6 +27,7 @@ from physsim_ros.engine.ccd.hulls import Hull, Hulls
 from physsim_ros.engine.contacts.contact import Contact
 from physsim_ros.engine.contacts.side import Side
 from physsim_ros.engine.plane_vectors import coordinates
+from physsim_ros.model.transform import dots
 import pymunk
 from pymunk._chipmunk_cffi import lib
 
@@ -72,5 +73,5 @@ class FalseContacts:
 def _separates(one: Hull, other: Hull) -> bool:
     """Return whether an edge of a hull has another one wholly outside."""
     edges = (one.corners * one.normals).sum(axis=1)
-    distances = (one.normals @ other.corners.T).min(axis=1) - edges
+    distances = dots(one.normals[:, None], other.corners).min(axis=1) - edges
     return bool((distances > one.radius + other.radius).any())
