@@ -11,7 +11,6 @@ that they have met.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 import itertools
 from typing import NamedTuple
 
@@ -83,12 +82,12 @@ class ImpactIslands:
         self._members: dict[int, list[int]] = {}
         self._leaders: dict[int, int] = {}
 
-    def shifts(self, fast: Flags) -> Iterable[tuple[int, Floats]]:
+    def shifts(self, fast: Flags) -> tuple[Ints, Floats]:
         """
         Return the places of bodies that end elsewhere than in the engine, and by how far.
 
         :param fast: (m,) bool: bodies that could meet others unseen by the engine
-        :return: rows, and (3,) float64 shifts [m, rad]
+        :return: (k,) rows, and (k, 3) float64 shifts [m, rad]
         """
         impacts: list[Impact] = []
         changed = np.flatnonzero(fast)
@@ -103,7 +102,7 @@ class ImpactIslands:
         ends, _ = self._motions.poses_at(rows, np.ones(len(rows)))
         shifts = ends - self._ends[rows]
         shifts[self._turning[rows] == 0.0, 2] = 0.0
-        return zip(rows.tolist(), shifts, strict=True)
+        return rows, shifts
 
     def _impacts(self, changed: Ints) -> list[Impact]:
         """Return the impacts to come of rows whose motions have changed."""
