@@ -101,9 +101,10 @@ def write_numbers(places: Ints, offsets: Ints, numbers: Floats) -> None:
 
 def contacts_of_step(space: pymunk.Space) -> Ints:
     """Return (n,) places of the `cpArbiter` that this step solves, in the engine's order."""
-    listed = places_in(_WORDS[place_of(space._space) + _SPACE_ARBITERS])
-    first = places_in(_WORDS[listed + _ARRAY])
-    return places_in(_WORDS[first : first + _HALVES[2 * listed]])
+    listed = ffi.cast('intptr_t *', space._space)[_SPACE_ARBITERS]
+    first = ffi.cast('intptr_t *', listed)[_ARRAY] // 8 - 1
+    last = first + ffi.cast('int *', listed)[0]
+    return places_in(_WORDS[first:last])
 
 
 def bodies_of(arbiters: Ints) -> Ints:

@@ -69,6 +69,8 @@ def correct_first_touches(space: pymunk.Space, context: StepContext) -> Touches 
     :return: these; None where there are none
     """
     arbiters = memory.contacts_of_step(space)
+    if not len(arbiters):
+        return None
     begun = arbiters[memory.begins(arbiters)]
     if not len(begun):
         return None

@@ -30,10 +30,13 @@ class PreSolveHook:
         self._space = space
         # A massive body outside the space, whose angle stays 0 and within the limits.
         body = pymunk.Body(1.0, 1.0)
-        self._constraint = pymunk.RotaryLimitJoint(space.static_body, body, -1.0, 1.0)
-        space.add(self._constraint)
+        constraint = pymunk.RotaryLimitJoint(space.static_body, body, -1.0, 1.0)
+        constraint.pre_solve = lambda *_: self._before_solving()
+        space.add(constraint)
+        # In a step that is not made here, as for a warm start, there is nothing to do.
+        self._before_solving: Callable[[], None] = lambda: None
 
     def step(self, dt: float, before_solving: Callable[[], None]) -> None:
         """Make a step of the engine, with a call before its contacts are solved."""
-        self._constraint.pre_solve = lambda *_: before_solving()
+        self._before_solving = before_solving
         self._space.step(dt)
