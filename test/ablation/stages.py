@@ -117,8 +117,8 @@ STAGES = (
     ),
     Stage(
         'contact at impact',
-        (((first_touch, 'contacts_at_impact'), lambda touches, _: touches),),
-        ((first_touch, 'contacts_at_impact'),),
+        (((first_touch, 'move_to_impact'), _nothing),),
+        ((first_touch, 'move_to_impact'),),
     ),
     Stage(
         'contact projection',
@@ -127,7 +127,7 @@ STAGES = (
     ),
     Stage(
         'internal edges',
-        (((first_touch, 'slide_over_edges'), lambda touches: touches),),
+        (((first_touch, 'slide_over_edges'), _nothing),),
         ((first_touch, 'slide_over_edges'),),
     ),
     Stage(

@@ -20,7 +20,7 @@ _BOTH = np.array((0, 1))
 
 class Touches(NamedTuple):
     """
-    Contacts that begin in this step.
+    Contacts that begin in this step; their normals and places are corrected in these arrays.
 
     Arrays of both sides begin with an axis of two, the engine's first shape and its second one.
 

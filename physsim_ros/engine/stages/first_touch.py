@@ -82,7 +82,8 @@ def correct_first_touches(space: pymunk.Space, context: StepContext) -> Touches 
         if false.all():
             return None
         touches = read_touches(context.table, begun[~false])
-    touches = slide_over_edges(contacts_at_impact(touches, context))
+    move_to_impact(touches, context)
+    slide_over_edges(touches)
     _write(touches)
     moved = project_contacts(touches, context)
     changed = touches.arbiters
@@ -133,8 +134,8 @@ def face_depths(shapes: Shapes, rows: Ints) -> Floats:
     return depths
 
 
-def contacts_at_impact(touches: Touches, context: StepContext) -> Touches:
-    """Return contacts with those of discs as they are at their impact."""
+def move_to_impact(touches: Touches, context: StepContext) -> None:
+    """Replace normals and places of the contacts of discs by those of their impact."""
     shapes, dt = touches.shapes, context.dt
     arms = touches.places[:, :, 0] - touches.states[..., memory.BODY_POSITION]
     velocities = touches.states[..., memory.BODY_VELOCITY]
@@ -145,7 +146,7 @@ def contacts_at_impact(touches: Touches, context: StepContext) -> Touches:
     discs &= (shapes.kinds[0] == memory.CIRCLE) & (shapes.kinds[1] != memory.SEGMENT)
     rows = np.flatnonzero(discs)
     if not len(rows):
-        return touches
+        return
     places, yaws = _moments(touches, rows, context)
     (begin, end, now), radii = places[:, 1], shapes.radii[:, rows]
     # The way of the disc in the frame that the other shape has where the step ends.
@@ -164,7 +165,6 @@ def contacts_at_impact(touches: Touches, context: StepContext) -> Touches:
     touches.places[0, rows[hit]], touches.places[1, rows[hit]] = (
         each[hit, None] for each in (on_disc, on_other)
     )
-    return touches
 
 
 def _moments(touches: Touches, rows: Ints, context: StepContext) -> tuple[Floats, Floats]:
@@ -222,15 +222,15 @@ def _first_hits(start: Floats, stop: Floats, shapes: Shapes, rows: Ints) -> tupl
     return first, outwards
 
 
-def slide_over_edges(touches: Touches) -> Touches:
-    """Return contacts with those at seams along the face that the shapes approach slowest."""
+def slide_over_edges(touches: Touches) -> None:
+    """Replace contacts at seams by those with the face that the shapes approach slowest."""
     shapes, normals = touches.shapes, touches.shapes.normals
     points, reach = touches.places[:, :, :1], (_NEAR + shapes.radii)[..., None]
     near = _length(shapes.corners - points) <= reach
     # At a corner of both; a disc is one.
     rows = np.flatnonzero(near.any(axis=2).all(axis=0) & normals.any(axis=(0, 2, 3)))
     if not len(rows):
-        return touches
+        return
     near |= _length(shapes.begins - points) <= reach
     # The spin of a disc does not move its surface along a face.
     discs = shapes.kinds == memory.CIRCLE
@@ -244,7 +244,7 @@ def slide_over_edges(touches: Touches) -> Touches:
     slides = near[:, rows] & normals[:, rows].any(axis=3) & (approaches < slowest)
     slides &= approach[:, None] > 0.0
     if not slides.any():
-        return touches
+        return
     depths = face_depths(shapes, rows)
     slides &= (depths >= 0.0) & (depths <= COLLISION_SLOP)
     approaches = np.concatenate(np.where(slides, approaches, np.inf), axis=1)
@@ -260,7 +260,6 @@ def slide_over_edges(touches: Touches) -> Touches:
     half = (along * depth / 2.0)[:, None]
     touches.normals[rows] = along
     touches.places[0, rows], touches.places[1, rows] = middles + half, middles - half
-    return touches
 
 
 def _length(vectors: Floats) -> Floats:
