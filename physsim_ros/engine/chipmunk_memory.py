@@ -5,8 +5,8 @@
 Memory of Chipmunk: numbers of many of its structs at once, as arrays.
 
 Problem: Pymunk 7.3.1 reads and writes a contact or a shape by a Python call each, and has no
-functions for some of their numbers at all. Here the memory of the process is one array of words of
-8 bytes; a struct is a *place* in it, the number of its first word. A place holds for as long as
+functions for some of their numbers at all. The memory of the process is one array (`memory`); a
+struct is a *place* in it, the index of its first word. A place holds for as long as
 the engine keeps the struct: those of contacts, until the step ends.
 
 The structs are those of `include/chipmunk/chipmunk_structs.h` of Munk2D as in Pymunk 7.3.1. An
@@ -19,15 +19,15 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from physsim_ros.engine.memory import index_of, NUMBERS
 from physsim_ros.model.arrays import Flags, Floats, Ints
 import pymunk
 from pymunk._chipmunk_cffi import ffi, lib
 
 # ruff: noqa: SLF001
 
-# All that a process of 48-bit addresses can have, from the second word on: that at 0 is none.
-_WORDS: Ints = np.frombuffer(ffi.buffer(ffi.cast('char *', 8), 2**48 - 8), np.int64)
-_NUMBERS: Floats = _WORDS.view(np.float64)
+_NUMBERS = NUMBERS
+_WORDS: Ints = NUMBERS.view(np.int64)
 _HALVES = _WORDS.view(np.int32)
 
 # Words of a `cpVect`.
@@ -61,11 +61,6 @@ _POLYGON_COUNT, _POLYGON_PLANES, _CIRCLE_CENTER, _SEGMENT_ENDS = 25, 26, 26, 30
 # Words from a corner to the next one: of a segment, and of a polygon, whose corner is followed by
 # the normal of the edge that ends there.
 _CORNER_SIZE = np.array((0, 2, 4))
-
-
-def place_of(pointer: Any) -> int:
-    """Return the place of a struct."""
-    return int(ffi.cast('intptr_t', pointer)) // 8 - 1
 
 
 def pointer_to(kind: str, place: int) -> Any:
@@ -172,14 +167,14 @@ def _check_layout() -> None:
     bar = pymunk.Segment(ground, (-1.0, -0.25), (1.0, -0.25), 0.0625)
     space.add(body, ground, disc, box, bar)
     space.step(1e-3)
-    shapes = np.array([place_of(each._shape) for each in (disc, bar, box)])
+    shapes = np.array([index_of(each._shape) for each in (disc, bar, box)])
     kinds = shape_kinds(shapes)
     first, size, count = corner_places(shapes, kinds)
     ends = [(1.25, -0.25), *map(body.local_to_world, (disc.offset, box.get_vertices()[-1]))]
-    (numbers,) = read_numbers(np.array([place_of(body._body)]), BODY_WORDS)
+    (numbers,) = read_numbers(np.array([index_of(body._body)]), BODY_WORDS)
     twist = (*body.velocity, body.angular_velocity)
     found = (
-        set(contacts_of_step(space).tolist()) ^ {place_of(it) for it in space._get_arbiters()},
+        set(contacts_of_step(space).tolist()) ^ {index_of(it) for it in space._get_arbiters()},
         kinds - (CIRCLE, SEGMENT, POLYGON),
         shape_radii(shapes, kinds) - (0.25, 0.0625, 0.0),
         read_numbers(first + size * (count - 1), VECTOR)[[1, 0, 2]] - ends,

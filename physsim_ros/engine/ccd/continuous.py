@@ -25,6 +25,7 @@ from physsim_ros.engine.ccd.hulls import Hulls
 from physsim_ros.engine.ccd.impact_islands import ImpactIslands
 from physsim_ros.engine.ccd.static_shapes import static_shapes, StaticShapes
 from physsim_ros.engine.fast_bodies import fast_bodies
+from physsim_ros.engine.memory import indices_of
 from physsim_ros.engine.step_context import StepContext
 from physsim_ros.engine.work_correction import are_jointed, take_back_work
 from physsim_ros.model.arrays import Floats, Ints
@@ -88,7 +89,7 @@ class ContinuousCollision:
         # As far as another body carries it, that is none of its own way.
         shares = -dots(ways, shifts[:, :2]) / np.maximum(dots(ways, ways), 1e-300)
         backs = -ways * np.clip(shares, 0.0, 1.0)[:, None]
-        places = np.array([memory.place_of(engine._body) for engine in engines])  # noqa: SLF001
+        places = indices_of(engines)
         states = memory.read_numbers(places, memory.BODY_WORDS)
         twists = take_back_work(context, states, backs)
         loose = ~are_jointed(context, rows)
