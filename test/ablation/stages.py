@@ -18,7 +18,6 @@ import numpy as np
 from physsim_ros.engine import body_table, checkpoint, pipeline, settings, warm_start
 from physsim_ros.engine.body import REST, RigidBody
 from physsim_ros.engine.ccd.continuous import ContinuousCollision
-from physsim_ros.engine.joints import joint_table
 from physsim_ros.engine.joints.joint_set import JointSet
 from physsim_ros.engine.stages import first_touch, half_step
 from physsim_ros.engine.stages.block_solver import BlockSolver
@@ -58,14 +57,6 @@ def _no_unsupported(_space: Any, _io: Any, table: Any, _released: Any) -> Any:
 def _columns_without_lead(scene: Any, dt: float, _columns: Any = body_table._columns_of) -> Any:
     columns = _columns(scene, dt)
     return columns._replace(gravity_lead=np.zeros_like(columns.gravity_lead))
-
-
-def _motion_without_turn(
-    a: Any, b: Any, pull: Any, dt: float, _kind: Any = joint_table.Motion
-) -> Any:
-    """Return the motion of bodies that have poses only, so that the centripetal term is zero."""
-    a, b = (np.concatenate((each[:, :3], np.zeros((len(each), 3))), axis=1) for each in (a, b))
-    return _kind(a, b, np.zeros_like(pull), dt)
 
 
 def _no_common_points(*_: object) -> Any:
@@ -141,14 +132,9 @@ STAGES = (
         ((BlockSolver, 'solve_impacts'),),
     ),
     Stage(
-        'joint targets',
-        (((joint_table, 'Motion'), _motion_without_turn),),
-        ((JointSet, 'set_targets'),),
-    ),
-    Stage(
-        'joint gaps',
-        (((JointSet, 'close_gaps'), _nothing),),
-        ((JointSet, 'close_gaps'),),
+        'joint solver',
+        (((JointSet, 'end_step'), _nothing),),
+        ((JointSet, 'begin_step'), (JointSet, 'end_step')),
     ),
     Stage('sleeping', (((settings, 'enable_sleeping'), _nothing),), ()),
     Stage(
