@@ -20,7 +20,6 @@ from physsim_ros.engine.joints.joint_set import JointSet
 from physsim_ros.engine.pipeline import Pipeline
 from physsim_ros.engine.settings import apply_settings, make_engine
 from physsim_ros.engine.stages.half_step import StartState
-from physsim_ros.engine.step_context import StepContext
 from physsim_ros.engine.warm_start import ShapeIds
 from physsim_ros.model.grips import Grip
 from physsim_ros.model.scene import Body, Joint, Scene
@@ -229,7 +228,7 @@ class Space:
             self.set_wrench(rigid, REST, None)
         table = self.table
         if table.columns.moving:
-            self.pipeline.step(StepContext(table, self._settings, self.dt, self._age, watching))
+            self.pipeline.step(table, self._settings, age=self._age, watching=watching)
         self._age += 1
         for name, force in self.joints.broken():
             self.unjoin(name)

@@ -5,15 +5,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
-import numpy as np
 from physsim_ros.engine.body_table import BodyTable
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.settings import WorldSettings
 
 
-@dataclass(slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False)
 class StepContext:
     """
     One step of the pipeline.
@@ -34,5 +33,5 @@ class StepContext:
     dt: float
     age: int
     watching: bool
-    poses: Floats = field(default_factory=lambda: np.empty((0, 3)))
-    twists: Floats = field(default_factory=lambda: np.empty((0, 3)))
+    poses: Floats
+    twists: Floats

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Position corrections that keep the energy: of continuous collision and of contact projection.
+Position corrections that keep the energy: of continuous collision and of first touches.
 
 A body that is set back against gravity or a wrench has the velocity of the place that it came to;
 without this, each bounce of a falling body would gain the potential energy of the way set back.
@@ -10,40 +10,46 @@ without this, each bounce of a falling body would gain the potential energy of t
 
 from __future__ import annotations
 
-import math
-
-from physsim_ros.engine.plane_vectors import coordinates, dot
-import pymunk
-
-
-def is_jointed(space: pymunk.Space, body: pymunk.Body) -> bool:
-    """Return whether a body has joints, which remove the work that it gains."""
-    # A body lists joints that have left the space for as long as anything refers to them.
-    dynamic = body.body_type == pymunk.Body.DYNAMIC
-    # `Space.constraints` copies the list of all joints of the space.
-    inside = space._constraints  # noqa: SLF001
-    return dynamic and any(joint in inside for joint in body.constraints)
+import numpy as np
+from physsim_ros.engine import chipmunk_memory as memory
+from physsim_ros.engine.step_context import StepContext
+from physsim_ros.model.arrays import Flags, Floats, Ints
+from physsim_ros.model.transform import dots
 
 
-def take_back_work(space: pymunk.Space, body: pymunk.Body, back: complex, dt: float) -> None:
+def are_jointed(context: StepContext, rows: Ints) -> Flags:
+    """Return which rows are of bodies with joints, which remove the work that they gain."""
+    columns = context.table.columns
+    jointed = np.zeros(len(columns.dynamic), np.bool_)
+    jointed[columns.joined] = True
+    found: Flags = (jointed & columns.dynamic)[rows]
+    return found
+
+
+def take_back_work(context: StepContext, states: Floats, backs: Floats) -> Floats:
     """
-    Set the velocity of a body that is set back to that which it had at that place.
+    Return the velocities which bodies that are set back had at the place that they come to.
 
-    :param back: the way by which it is set back [m]
-    :param dt: of a step [s]
+    :param states: (k, 24) float64: numbers of `cpBody`
+    :param backs: (k, 2) float64: the way by which each is set back [m]
+    :return: (k, 3) float64 [m/s, rad/s]
     """
-    pull = complex(*space.gravity) + complex(*body.force) / body.mass
-    work = dot(pull, back)
-    if not work:
-        return
-    velocity, along = complex(*body.velocity), back / abs(back)
+    dt = context.dt
+    velocities, spins = states[:, memory.BODY_VELOCITY], states[:, memory.BODY_SPIN]
+    inverse = states[:, memory.BODY_INVERSE_MASS, None]
+    pulls = context.settings.gravity + states[:, memory.BODY_FORCE] * inverse
+    ways = np.hypot(backs[:, 0], backs[:, 1])
+    along = backs / np.where(ways > 0.0, ways, 1.0)[:, None]
+    works = dots(pulls, backs)
     # The engine's velocity is that of half a step before.
-    speed = dot(velocity, along) + dot(pull, along) * dt / 2
-    square = speed * speed + 2.0 * work
-    change = math.copysign(math.sqrt(max(square, 0.0)), speed) - speed
-    body.velocity = coordinates(velocity + along * change)
-    if square < 0.0:
-        # It has come so far by turning.
-        spin = body.angular_velocity
-        left = max(spin * spin + square * body.mass / body.moment, 0.0)
-        body.angular_velocity = math.copysign(math.sqrt(left), spin)
+    speeds = dots(velocities, along) + dots(pulls, along) * dt / 2
+    squares = speeds * speeds + 2.0 * works
+    changes = np.copysign(np.sqrt(np.maximum(squares, 0.0)), speeds) - speeds
+    changes[works == 0.0] = 0.0
+    # It has come by what is missing by turning.
+    missing = np.minimum(squares, 0.0) * (works != 0.0)
+    missing *= states[:, memory.BODY_INVERSE_MOMENT] / inverse[:, 0]
+    left = np.where(
+        missing < 0.0, np.sqrt(np.maximum(spins * spins + missing, 0.0)), np.abs(spins)
+    )
+    return np.column_stack((velocities + along * changes[:, None], np.copysign(left, spins)))

@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Plane vectors: rotation counter-clockwise, of one or of many at once, and the cross product."""
+"""Plane vectors: rotation counter-clockwise, of one or of many at once, and their products."""
 
 from __future__ import annotations
 
@@ -44,6 +44,16 @@ def turned(vectors: Floats, yaw: Floats) -> Floats:
 def cross(a: Floats, b: Floats) -> Floats:
     """Return (...) float64: the z component of the cross product of plane vectors (..., 2)."""
     product: Floats = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
+    return product
+
+
+def dots(a: Floats, b: Floats) -> Floats:
+    """
+    Return (...) float64: the dot products of plane vectors (..., 2).
+
+    `@` and `einsum` sum in another order where a processor has other vectors.
+    """
+    product: Floats = a[..., 0] * b[..., 0] + a[..., 1] * b[..., 1]
     return product
 
 

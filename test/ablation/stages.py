@@ -18,14 +18,11 @@ import numpy as np
 from physsim_ros.engine import body_table, checkpoint, pipeline, settings, warm_start
 from physsim_ros.engine.body import REST, RigidBody
 from physsim_ros.engine.ccd.continuous import ContinuousCollision
-from physsim_ros.engine.joints import joint_table
 from physsim_ros.engine.joints.joint_set import JointSet
-from physsim_ros.engine.stages import half_step
+from physsim_ros.engine.stages import first_touch, half_step
 from physsim_ros.engine.stages.block_solver import BlockSolver
-from physsim_ros.engine.stages.false_contacts import FalseContacts
 from physsim_ros.engine.stages.half_step import HalfStep
 from physsim_ros.engine.stages.impact_propagation import ImpactPropagation
-from physsim_ros.engine.stages.internal_edges import InternalEdges
 from physsim_ros.engine.stages.resting_damping import RestingDamping
 
 Target = tuple[Any, str]
@@ -62,16 +59,16 @@ def _columns_without_lead(scene: Any, dt: float, _columns: Any = body_table._col
     return columns._replace(gravity_lead=np.zeros_like(columns.gravity_lead))
 
 
-def _motion_without_turn(
-    a: Any, b: Any, pull: Any, dt: float, _kind: Any = joint_table.Motion
-) -> Any:
-    """Return the motion of bodies that have poses only, so that the centripetal term is zero."""
-    a, b = (np.concatenate((each[:, :3], np.zeros((len(each), 3))), axis=1) for each in (a, b))
-    return _kind(a, b, np.zeros_like(pull), dt)
-
-
 def _no_common_points(*_: object) -> Any:
     return np.empty(0, np.intp), np.empty(0, np.intp)
+
+
+def _no_false(touches: Any) -> Any:
+    return np.zeros(len(touches.arbiters), np.bool_)
+
+
+def _no_bodies(*_: object) -> Any:
+    return np.empty(0, np.int64)
 
 
 STAGES = (
@@ -106,43 +103,38 @@ STAGES = (
     ),
     Stage(
         'false contacts',
-        (((FalseContacts, 'reject'), lambda *_: False),),
-        ((FalseContacts, 'reject'),),
+        (((first_touch, 'find_false'), _no_false),),
+        ((first_touch, 'find_false'),),
     ),
     Stage(
-        'contact normal at impact',
-        (((pipeline, 'contact_at_impact'), _nothing),),
-        ((pipeline, 'contact_at_impact'),),
+        'contact at impact',
+        (((first_touch, 'move_to_impact'), _nothing),),
+        ((first_touch, 'move_to_impact'),),
     ),
     Stage(
         'contact projection',
-        (((pipeline, 'project_contact'), _nothing),),
-        ((pipeline, 'project_contact'),),
+        (((first_touch, 'project_contacts'), _no_bodies),),
+        ((first_touch, 'project_contacts'),),
     ),
     Stage(
         'internal edges',
-        (((InternalEdges, 'slide_over'), _nothing),),
-        ((InternalEdges, 'slide_over'),),
+        (((first_touch, 'slide_over_edges'), _nothing),),
+        ((first_touch, 'slide_over_edges'),),
     ),
     Stage(
         'impact propagation',
-        (((ImpactPropagation, '_propagate'), _nothing),),
-        ((ImpactPropagation, '_propagate'),),
+        (((ImpactPropagation, 'leave_open'), _nothing),),
+        ((ImpactPropagation, 'leave_open'),),
     ),
     Stage(
         'block solver',
         (((BlockSolver, '_solve'), _nothing),),
-        ((BlockSolver, '_solve_impacts'),),
+        ((BlockSolver, 'solve_impacts'),),
     ),
     Stage(
-        'joint targets',
-        (((joint_table, 'Motion'), _motion_without_turn),),
-        ((JointSet, 'set_targets'),),
-    ),
-    Stage(
-        'joint gaps',
-        (((JointSet, 'close_gaps'), _nothing),),
-        ((JointSet, 'close_gaps'),),
+        'joint solver',
+        (((JointSet, 'end_step'), _nothing),),
+        ((JointSet, 'begin_step'), (JointSet, 'end_step')),
     ),
     Stage('sleeping', (((settings, 'enable_sleeping'), _nothing),), ()),
     Stage(

@@ -33,7 +33,7 @@ def test_every_stage_can_be_switched_off(stage):
         ('stack of ten (18)', 'resting damping'),
         ('thin wall (25)', 'continuous collision'),
         ('bounce (7)', 'contact projection'),
-        ('disc on a corner (6)', 'contact normal at impact'),
+        ('disc on a corner (6)', 'contact at impact'),
         ('seams of tiles', 'internal edges'),
         ('flat fall (8)', 'block solver'),
         ('elastic rows, 2 of 5 (36)', 'impact propagation'),

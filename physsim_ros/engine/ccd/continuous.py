@@ -18,16 +18,18 @@ where it would come deeper; islands that do not meet do not know of each other.
 from __future__ import annotations
 
 import numpy as np
+from physsim_ros.engine import chipmunk_memory as memory
 from physsim_ros.engine.body_table import BodyTable
 from physsim_ros.engine.ccd.broad_phase import boxes_overlap
 from physsim_ros.engine.ccd.hulls import Hulls
 from physsim_ros.engine.ccd.impact_islands import ImpactIslands
 from physsim_ros.engine.ccd.static_shapes import static_shapes, StaticShapes
 from physsim_ros.engine.fast_bodies import fast_bodies
-from physsim_ros.engine.plane_vectors import coordinates, dot
+from physsim_ros.engine.memory import indices_of
 from physsim_ros.engine.step_context import StepContext
-from physsim_ros.engine.work_correction import is_jointed, take_back_work
+from physsim_ros.engine.work_correction import are_jointed, take_back_work
 from physsim_ros.model.arrays import Floats, Ints
+from physsim_ros.model.transform import dots
 import pymunk
 
 # So few fast bodies have their boxes compared first: it saves the rest, and changes no result.
@@ -68,18 +70,32 @@ class ContinuousCollision:
         if len(rows) <= FEW and not _boxes_meet(table, self._static, moves, rows):
             return
         step = ImpactIslands(table, self._static, moves, self._hulls)
-        for row, shift in step.shifts(fast):
-            engine = table.bodies[row].engine
-            back = complex(*shift[:2].tolist())
-            engine.position += coordinates(back)
-            engine.angle += float(shift[2])
-            if not is_jointed(self._space, engine):
-                way = complex(*moves[row, :2].tolist())
-                # As far as another body carries it, that is none of its own way.
-                share = -dot(way, back) / max(dot(way, way), 1e-300)
-                take_back_work(self._space, engine, -way * min(max(share, 0.0), 1.0), context.dt)
-                context.twists[row] = *engine.velocity, engine.angular_velocity
-            table.forget_state()
+        moved, shifts = step.shifts(fast)
+        self._set_back(context, moved, shifts, moves[moved, :2])
+
+    def _set_back(self, context: StepContext, rows: Ints, shifts: Floats, ways: Floats) -> None:
+        """
+        Set bodies back.
+
+        :param shifts: (k, 3) by how far [m, rad]
+        :param ways: (k, 2) of their centres of mass in the step [m]
+        """
+        if not len(rows):
+            return
+        engines = [context.table.bodies[row].engine for row in rows.tolist()]
+        for engine, (x, y, turn) in zip(engines, shifts.tolist(), strict=True):
+            engine.position += (x, y)
+            engine.angle += turn
+        # As far as another body carries it, that is none of its own way.
+        shares = -dots(ways, shifts[:, :2]) / np.maximum(dots(ways, ways), 1e-300)
+        backs = -ways * np.clip(shares, 0.0, 1.0)[:, None]
+        places = indices_of(engines)
+        states = memory.read_numbers(places, memory.BODY_WORDS)
+        twists = take_back_work(context, states, backs)
+        loose = ~are_jointed(context, rows)
+        context.twists[rows[loose]] = twists[loose]
+        memory.write_numbers(places[loose], memory.BODY_TWIST, twists[loose])
+        context.table.forget_state()
 
 
 def _boxes_meet(table: BodyTable, static: StaticShapes, moves: Floats, rows: Ints) -> bool:

@@ -11,7 +11,6 @@ that they have met.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 import itertools
 from typing import NamedTuple
 
@@ -25,6 +24,7 @@ from physsim_ros.engine.ccd.time_of_impact import first_impacts, Motions, Pairs
 from physsim_ros.engine.graph_search import ranges
 from physsim_ros.engine.tolerances import COLLISION_SLOP
 from physsim_ros.model.arrays import Flags, Floats, Ints
+from physsim_ros.model.transform import cross, dots
 
 # Impacts one after the other in a step that a body takes part in, at most: so many may touch in a
 # row before a wall. The engine's own result holds for what is left.
@@ -82,12 +82,12 @@ class ImpactIslands:
         self._members: dict[int, list[int]] = {}
         self._leaders: dict[int, int] = {}
 
-    def shifts(self, fast: Flags) -> Iterable[tuple[int, Floats]]:
+    def shifts(self, fast: Flags) -> tuple[Ints, Floats]:
         """
         Return the places of bodies that end elsewhere than in the engine, and by how far.
 
         :param fast: (m,) bool: bodies that could meet others unseen by the engine
-        :return: rows, and (3,) float64 shifts [m, rad]
+        :return: (k,) rows, and (k, 3) float64 shifts [m, rad]
         """
         impacts: list[Impact] = []
         changed = np.flatnonzero(fast)
@@ -102,7 +102,7 @@ class ImpactIslands:
         ends, _ = self._motions.poses_at(rows, np.ones(len(rows)))
         shifts = ends - self._ends[rows]
         shifts[self._turning[rows] == 0.0, 2] = 0.0
-        return zip(rows.tolist(), shifts, strict=True)
+        return rows, shifts
 
     def _impacts(self, changed: Ints) -> list[Impact]:
         """Return the impacts to come of rows whose motions have changed."""
@@ -159,7 +159,8 @@ class ImpactIslands:
         left = np.flatnonzero(found)
         apart = self._columns.not_colliding
         if len(apart) and len(left):
-            keys = np.concatenate((apart, apart[:, ::-1])) @ (self._count, 1)
+            a, b = np.concatenate((apart, apart[:, ::-1])).T
+            keys = a * self._count + b
             places = self._places[one[left]], self._places[other[left]]
             found[left] = ~np.isin(places[0] * self._count + places[1], keys)
         return found
@@ -241,16 +242,15 @@ class ImpactIslands:
         :return: (2,) their centre of mass [m], and (3,) its way and their turn in a step [m, rad]
         """
         engines = [self._engines[row] for row in rows.tolist()]
-        mass = np.array([engine.mass for engine in engines])
+        mass = np.array([engine.mass for engine in engines])[:, None]
         moment = np.array([engine.moment for engine in engines])
         moment[self._turning[rows] == 0.0] = 0.0
         rates = self._motions.rates[rows]
         arms = poses[:, :2] - pivots
         ways = rates[:, :2] + rates[:, 2:] * np.column_stack((-arms[:, 1], arms[:, 0]))
-        center, way = mass @ poses[:, :2] / mass.sum(), mass @ ways / mass.sum()
+        center = (mass * poses[:, :2]).sum(axis=0) / mass.sum()
+        way = (mass * ways).sum(axis=0) / mass.sum()
         arms = poses[:, :2] - center
-        momentum = mass[:, None] * (ways - way)
-        angular = moment @ rates[:, 2]
-        angular += (arms[:, 0] * momentum[:, 1] - arms[:, 1] * momentum[:, 0]).sum()
-        total = moment.sum() + mass @ (arms**2).sum(axis=1)
+        angular = (moment * rates[:, 2] + cross(arms, mass * (ways - way))).sum()
+        total = (moment + mass[:, 0] * dots(arms, arms)).sum()
         return center, np.array([*way, angular / total if total > 0.0 else 0.0])

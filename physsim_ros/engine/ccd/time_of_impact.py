@@ -19,7 +19,7 @@ from typing import NamedTuple
 import numpy as np
 from physsim_ros.engine.ccd.hulls import Hull
 from physsim_ros.model.arrays import Flags, Floats, Ints
-from physsim_ros.model.transform import turned
+from physsim_ros.model.transform import cross, dots, turned
 
 # A pair that approaches by less than this share of the lesser inner radius in a step needs no time
 # of impact: each keeps its centre well on the side it came from.
@@ -183,8 +183,8 @@ def _separation(a: _Side, b: _Side) -> tuple[Floats, Floats, Flags]:
     length = np.hypot(nearest[:, 0], nearest[:, 1])[:, None]
     nearest /= np.where(length > 0.0, length, 1.0)
     axes = np.concatenate((a.normals, -b.normals, nearest[:, None]), axis=1)
-    lead = np.einsum('pkx,pvx->pkv', axes, a.corners).max(axis=2)
-    separations = np.einsum('pkx,pvx->pkv', axes, b.corners).min(axis=2) - lead
+    lead = dots(axes[:, :, None], a.corners[:, None]).max(axis=2)
+    separations = dots(axes[:, :, None], b.corners[:, None]).min(axis=2) - lead
     # A point has no normals, and two points in one place no axis.
     separations[~axes.any(axis=2)] = -np.inf
     best = separations.argmax(axis=1)
@@ -235,8 +235,8 @@ def _length(vectors: Floats) -> Floats:
 
 def _contact_points(a: _Side, b: _Side, axis: Floats, of_a: Flags) -> Floats:
     """Return (k, 2) the foremost corner of the body whose side the axis is not a normal of."""
-    ahead = np.einsum('px,pvx->pv', axis, a.corners).argmax(axis=1)
-    behind = np.einsum('px,pvx->pv', axis, b.corners).argmin(axis=1)
+    ahead = dots(axis[:, None], a.corners).argmax(axis=1)
+    behind = dots(axis[:, None], b.corners).argmin(axis=1)
     pairs = np.arange(len(axis))
     points: Floats = np.where(of_a[:, None], b.corners[pairs, behind], a.corners[pairs, ahead])
     return points
@@ -245,9 +245,7 @@ def _contact_points(a: _Side, b: _Side, axis: Floats, of_a: Flags) -> Floats:
 def _rate(motions: Motions, rows: Ints, arms: Floats, axis: Floats) -> Floats:
     """Return (k,) how far points of bodies would go along an axis in a whole step [m]."""
     rates = motions.rates[rows]
-    along = (rates[:, :2] * axis).sum(axis=1)
-    rate: Floats = along + rates[:, 2] * (arms[:, 0] * axis[:, 1] - arms[:, 1] * axis[:, 0])
-    return rate
+    return dots(rates[:, :2], axis) + rates[:, 2] * cross(arms, axis)
 
 
 def _stacked(hulls: Sequence[Hull], shapes: Ints) -> _Side:

@@ -1,20 +1,14 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""
-Contact: normal and points of two shapes that touch, read from the engine and written back.
-
-`Arbiter.contact_point_set` of Pymunk 7.3.1 sets every point to the first: a box that lies on two
-points would lie on one.
-"""
+"""Contact: normal and points of two shapes that touch, read from the engine."""
 
 from __future__ import annotations
 
 from typing import NamedTuple
 
-from physsim_ros.engine.plane_vectors import coordinates
 import pymunk
-from pymunk._chipmunk_cffi import ffi, lib
+from pymunk._chipmunk_cffi import lib
 
 # ruff: noqa: SLF001 - Chipmunk's arbiter has no other public way to be read in a microsecond
 
@@ -54,14 +48,3 @@ def read_contact(arbiter: pymunk.Arbiter) -> Contact:
         a, b = point.pointA, point.pointB
         points.append(ContactPoint(complex(a.x, a.y), complex(b.x, b.y), point.distance))
     return Contact(complex(found.normal.x, found.normal.y), tuple(points))
-
-
-def write_contact(arbiter: pymunk.Arbiter, contact: Contact) -> None:
-    """Replace normal and points of a contact by others, of the same number."""
-    found = lib.cpArbiterGetContactPointSet(arbiter._arbiter)
-    found.normal = coordinates(contact.normal)
-    for number, point in enumerate(contact.points):
-        found.points[number].pointA = coordinates(point.a)
-        found.points[number].pointB = coordinates(point.b)
-        found.points[number].distance = point.distance
-    lib.cpArbiterSetContactPointSet(arbiter._arbiter, ffi.addressof(found))

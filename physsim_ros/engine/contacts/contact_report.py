@@ -18,7 +18,6 @@ from collections.abc import Callable
 import numpy as np
 from physsim_ros.engine.batch_io import BatchIO, Ids
 from physsim_ros.engine.body_table import BodyTable
-from physsim_ros.engine.contacts.contact import Contact
 from physsim_ros.engine.contacts.contact_listing import (
     list_pairs,
     PairListing,
@@ -33,15 +32,14 @@ from physsim_ros.engine.contacts.pair_ids import (
     Renaming,
     same_ids,
 )
-from physsim_ros.engine.contacts.side import Side
 from physsim_ros.engine.contacts.sleeping_pairs import read_sleeping_pairs, SleepingPairs
+from physsim_ros.engine.contacts.touches import Touches
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.snapshot import Contacts, NO_CONTACTS
 from pymunk import batch
 
 _F = batch.ArbiterFields
-_FIRSTS_AND_IMPULSES = _F.BODY_A_ID | _F.TOTAL_IMPULSE
-_PAIRS_AND_IMPULSES = _F.BODY_B_ID | _FIRSTS_AND_IMPULSES
+_PAIRS_AND_IMPULSES = _F.BODY_A_ID | _F.BODY_B_ID | _F.TOTAL_IMPULSE
 _MANIFOLDS = _F.BODY_A_ID | _F.NORMAL | _F.CONTACT_COUNT
 _MANIFOLDS |= _F.POINT_A_1 | _F.POINT_B_1 | _F.POINT_A_2 | _F.POINT_B_2
 # Greatest count of steps whose parted pairs are kept apart before they are merged.
@@ -79,15 +77,17 @@ class ContactReport:
         self._parted: list[tuple[Ids, Floats]] = []
         self._last = LastManifolds()
         self._listing: PairListing | None = None
-        # Whether no pair has begun to touch since the ids were read: then the pairs are the same
-        # for as long as their number is.
-        self._same_pairs = False
+        # The ids of the last step as the engine listed them; None where they were dropped.
+        self._listed: Ids | None = None
 
-    def add_first_touch(self, contact: Contact, sides: tuple[Side, Side]) -> None:
-        """Store the manifold of two shapes that begin to touch: they may part within the frame."""
-        self._same_pairs = False
-        a, b = (side.body.id for side in sides)
-        self._last.add_first_touch(a, b, contact)
+    def add_first_touches(self, touches: Touches) -> None:
+        """Store the manifolds of shapes that begin to touch: they may part within the frame."""
+        pairs, signs = oriented(touches.ids)
+        manifolds = np.empty((5, len(pairs)))
+        manifolds[:2] = (touches.normals * signs).T
+        manifolds[2] = touches.counts
+        manifolds[3:] = touches.places.mean(axis=(0, 2)).T
+        self._last.add_first_touches(pairs, manifolds)
 
     def add_step(self, table: BodyTable) -> None:
         """
@@ -99,22 +99,14 @@ class ContactReport:
         self._copied_manifolds = None
         slots = table, table.slot_changes
         sleep_changed = slots != self._slots
-        sleeping = len(self._sleeping.ids)
-        if self._same_pairs and not sleep_changed:
-            if not len(self._first_ids):
-                # The engine lists none; those that sleep repeat their impulses.
-                self._sums += self._impulses
-                return
-            firsts, impulses = self._io.read_contacts(_FIRSTS_AND_IMPULSES)
-            if len(firsts) == len(self._ids) - sleeping:
-                # The engine turns a pair round as its bodies move, in a contact that goes on too.
-                if not same_ids(firsts, self._first_ids):
-                    self._first_ids, self._signs = firsts.copy(), self._signs_of(firsts)
-                self._add_impulses(impulses.reshape(-1, 2))
-                return
         ints, impulses = self._io.read_contacts(_PAIRS_AND_IMPULSES)
-        self._first_ids = ints[::2].copy()
-        impulses = impulses.reshape(-1, 2).copy()
+        impulses = impulses.reshape(-1, 2)
+        listed = self._listed
+        if listed is not None and not sleep_changed and same_ids(ints, listed):
+            self._add_impulses(impulses)
+            return
+        self._listed, self._first_ids = ints.copy(), ints[::2].copy()
+        impulses = impulses.copy()
         ids, self._signs = oriented(ints.reshape(-1, 2))
         if sleep_changed:
             self._sleeping = self._find_sleeping(table, ids)
@@ -123,7 +115,6 @@ class ContactReport:
         if not same_ids(ids, self._ids):
             self._begin_listing(ids)
         self._add_impulses(impulses)
-        self._same_pairs = True
 
     def _find_sleeping(self, table: BodyTable, listed: Ids) -> SleepingPairs:
         """Return the pairs of the step before that sleep now."""
@@ -184,7 +175,7 @@ class ContactReport:
 
         :param body: its id in the engine
         """
-        self._same_pairs = False
+        self._listed = None
         stays = (self._ids != body).all(axis=1)
         self._first_ids = self._first_ids[stays[: len(self._first_ids)]]
         if self._copied_manifolds is not None:
@@ -202,7 +193,7 @@ class ContactReport:
         self._ids, self._sums = NO_PAIRS, np.empty((0, 2))
         self._impulses = self._sums
         self.clear()
-        self._same_pairs = False
+        self._listed = None
 
     def clear(self) -> None:
         """Drop the sums since the last call of `take_contacts`."""

@@ -41,12 +41,17 @@ class LastManifolds:
     def __init__(self) -> None:
         self.ids: Ids = NO_PAIRS
         self.manifolds: Floats = NO_MANIFOLDS
-        # By ids of the pair: the sign of the normal, and the contact.
-        self._first_touches: dict[tuple[int, int], tuple[int, Contact]] = {}
+        # Of each step: the pairs, and their manifolds.
+        self._first_touches: list[tuple[Ids, Floats]] = []
 
-    def add_first_touch(self, a: int, b: int, contact: Contact) -> None:
-        """Add the manifold of two bodies, by their ids, that begin to touch."""
-        self._first_touches[min(a, b), max(a, b)] = (1 if a < b else -1, contact)
+    def add_first_touches(self, pairs: Ids, manifolds: Floats) -> None:
+        """
+        Add pairs that begin to touch.
+
+        :param pairs: (k, 2) uint64
+        :param manifolds: (5, k) float64
+        """
+        self._first_touches.append((pairs, manifolds))
 
     def end_frame(self, ids: Ids, manifolds: Floats) -> None:
         """Replace all manifolds by those at the end of a frame."""
@@ -63,20 +68,18 @@ class LastManifolds:
         manifolds[0] = 1.0
         rows, found = find_pairs(pairs, self.ids)
         manifolds[:, found] = self.manifolds[:, rows[found]]
-        if self._first_touches:
-            for row, pair in enumerate(map(tuple, pairs.tolist())):
-                if pair in self._first_touches:
-                    sign, contact = self._first_touches[pair]
-                    manifolds[:, row] = manifold_of(contact, sign)
+        for touching, first in self._first_touches:
+            rows, found = find_pairs(pairs, touching)
+            manifolds[:, found] = first[:, rows[found]]
         return manifolds
 
     def copy(self, old: LastManifolds, renaming: Renaming) -> None:
         """Copy the manifolds of the same bodies under other ids."""
-        self.ids, rows = renaming.rename_pairs(old.ids, old.manifolds.T)
-        self.manifolds = rows.T
-        for pair, (sign, contact) in old._first_touches.items():
-            (ids, signs) = renaming.rename_pairs(
-                np.array([pair], np.uint64), np.full((1, 2), float(sign))
-            )
-            for (a, b), (same, _) in zip(ids.tolist(), signs.tolist(), strict=True):
-                self._first_touches[a, b] = (int(same), contact)
+        self.ids, self.manifolds = _renamed(old.ids, old.manifolds, renaming)
+        self._first_touches = [_renamed(*each, renaming) for each in old._first_touches]
+
+
+def _renamed(pairs: Ids, manifolds: Floats, renaming: Renaming) -> tuple[Ids, Floats]:
+    """Return pairs under their other ids, with their manifolds."""
+    ids, rows = renaming.rename_pairs(pairs, manifolds.T)
+    return ids, rows.T

@@ -39,7 +39,8 @@ def find_pairs(pairs: Ids, listing: Ids) -> tuple[NDArray[np.intp], Flags]:
     if len(listing) == 0:
         return np.zeros(len(pairs), np.intp), np.zeros(len(pairs), np.bool_)
     wanted, keys = (each[:, 0] * _SPREAD + each[:, 1] for each in (pairs, listing))
-    order = np.argsort(keys)
+    # Of a pair that is listed twice the first one, whatever the ids are.
+    order = np.argsort(keys, kind='stable')
     place = np.minimum(np.searchsorted(keys, wanted, sorter=order), len(keys) - 1)
     rows = order[place]
     # Another pair may have the same key: then this one counts as not found.

@@ -33,16 +33,14 @@ from collections.abc import Iterator, Sequence
 import itertools
 from typing import Any
 
-from physsim_ros.engine.contacts.contact import Contact
-from physsim_ros.engine.contacts.side import Side
+from physsim_ros.engine import chipmunk_memory as memory
+from physsim_ros.engine.contacts.touches import Touches, velocities_at
 from physsim_ros.engine.lcp import product, solve_lcp
 from physsim_ros.engine.plane_vectors import dot
 from physsim_ros.engine.stages.impact_point import is_moved, MovedBody, points_of
 from physsim_ros.engine.stages.impact_propagation import SLOWEST
-from physsim_ros.engine.stages.pre_solve_hook import add_pre_solve
+from physsim_ros.model.transform import dots
 import pymunk
-
-# ruff: noqa: SLF001 - Chipmunk's contacts have no public way to be written
 
 # Points that are solved together at most: of four boxes on each other and the ground, eight are.
 MOST = 8
@@ -57,28 +55,16 @@ class BlockSolver:
 
     def __init__(self, space: pymunk.Space) -> None:
         self._space = space
-        # `cpArbiter` of the impacts that have begun in this step.
-        self._begun: list[Any] = []
-        add_pre_solve(space, self._solve_impacts)
 
-    def add_contact(
-        self, arbiter: pymunk.Arbiter, contact: Contact, sides: tuple[Side, Side]
-    ) -> None:
-        """Add a contact that begins in this step, if it is an impact."""
-        # Munk2D calls `begin` for two that forces do not move too, and solves no such contact.
-        if not _moved_by(arbiter._arbiter):
-            return
-        a, b = sides
-        velocities = (b.velocity_at(point.b) - a.velocity_at(point.a) for point in contact.points)
-        if any(-dot(velocity, contact.normal) > SLOWEST for velocity in velocities):
-            self._begun.append(arbiter._arbiter)
-
-    def _solve_impacts(self, *_: object) -> None:
-        """Solve the impacts of this step."""
+    def solve_impacts(self, touches: Touches) -> None:
+        """Solve the impacts among contacts that begin."""
+        arms = touches.places - touches.states[:, :, None, memory.BODY_POSITION]
+        a, b = velocities_at(touches, arms)
+        approach = -dots(b - a, touches.normals[:, None]).min(axis=1)
+        begun = touches.arbiters[approach > SLOWEST]
         impacts: dict[frozenset[Any], list[Any]] = {}
-        for contact in self._begun:
+        for contact in (memory.pointer_to('cpArbiter *', each) for each in begun.tolist()):
             impacts.setdefault(frozenset(_moved_by(contact)), []).append(contact)
-        self._begun.clear()
         solved: set[Any] = set()
         for contacts in impacts.values():
             if contacts[0] in solved:

@@ -38,7 +38,6 @@ from typing import Any
 import numpy as np
 from physsim_ros.engine.batch_io import BatchIO
 from physsim_ros.engine.body_table import BodyTable
-from physsim_ros.engine.stages.pre_solve_hook import add_pre_solve
 from physsim_ros.engine.tolerances import COLLISION_SLOP
 from physsim_ros.model.arrays import Floats, Ints
 import pymunk
@@ -75,21 +74,14 @@ class ImpactPropagation:
 
     :param space: of the engine, whose `collision_persistence` is 1
     :param io: of it
-
-    :ivar table: of the bodies while a step is made; None leaves contacts alone
     """
 
     def __init__(self, space: pymunk.Space, io: BatchIO) -> None:
-        self.table: BodyTable | None = None
         self._space = space
         self._io = io
-        add_pre_solve(space, self._propagate)
 
-    def _propagate(self, *_: object) -> None:
+    def leave_open(self, table: BodyTable) -> None:
         """Leave contacts open in the coming solve whose bodies are in a faster impact."""
-        table = self.table
-        if table is None:
-            return
         if table.columns.most_elastic < ELASTIC:
             return
         dynamic = table.columns.dynamic
@@ -162,7 +154,7 @@ class ImpactPropagation:
                 raw = arbiter._arbiter
                 impact = others.get(raw.body_b if raw.body_a == own else raw.body_a)
                 if impact is not None:
-                    leave_open(raw, impact)
+                    _leave_open(raw, impact)
 
             engine.each_arbiter(look)
 
@@ -171,7 +163,7 @@ class ImpactPropagation:
         return table.bodies[row].engine if row < len(table.bodies) else self._space.static_body
 
 
-def leave_open(arbiter: Any, impact: float) -> None:
+def _leave_open(arbiter: Any, impact: float) -> None:
     """
     Exclude a contact from this step, unless it is as fast as an impact or loaded.
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Call a function between the narrow phase and the solver of a Pymunk step.
+A step of the engine with a call between its narrow phase and its solver.
 
 At that moment all contacts of the step are known, with their target velocities, and none has been
 solved. Pymunk 7.3.1 has no hook there: `Space.on_collision(pre_solve=...)` calls Python once a
@@ -19,11 +19,24 @@ from collections.abc import Callable
 import pymunk
 
 
-def add_pre_solve(
-    space: pymunk.Space, function: Callable[[pymunk.Constraint, pymunk.Space], None]
-) -> None:
-    """Call a function in each step of a space, before its contacts are solved."""
-    # A massive body outside the space, whose angle stays 0 and within the limits.
-    hook = pymunk.RotaryLimitJoint(space.static_body, pymunk.Body(1.0, 1.0), -1.0, 1.0)
-    hook.pre_solve = function
-    space.add(hook)
+class PreSolveHook:
+    """
+    The hook of a space.
+
+    :param space: of the engine
+    """
+
+    def __init__(self, space: pymunk.Space) -> None:
+        self._space = space
+        # A massive body outside the space, whose angle stays 0 and within the limits.
+        body = pymunk.Body(1.0, 1.0)
+        constraint = pymunk.RotaryLimitJoint(space.static_body, body, -1.0, 1.0)
+        constraint.pre_solve = lambda *_: self._before_solving()
+        space.add(constraint)
+        # In a step that is not made here, as for a warm start, there is nothing to do.
+        self._before_solving: Callable[[], None] = lambda: None
+
+    def step(self, dt: float, before_solving: Callable[[], None]) -> None:
+        """Make a step of the engine, with a call before its contacts are solved."""
+        self._before_solving = before_solving
+        self._space.step(dt)
