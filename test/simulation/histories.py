@@ -441,10 +441,16 @@ class Player:
 
     def save(self) -> None:
         """Save; the file is the world to the bit, and all that load it go on alike."""
-        state = self.saved = self.sim.save()
+        state = self.sim.save()
+        if len(state.bodies) > state.settings.max_bodies:
+            # The limit has come down since; no world may begin so.
+            return
+        self.saved = state
         text = text_of(state, self.rate)
-        loaded = state_from(load_mapping(text, field='file'), WorldSettings(), self.rate)
+        # Limits are the node's to say. They may have come down since.
         limits = {name: getattr(state.settings, name) for name in LIMITS}
+        content = load_mapping(text, field='file')
+        loaded = state_from(content, WorldSettings(), self.rate)
         loaded = replace(loaded, settings=replace(loaded.settings, **limits))
         self._check(loaded.settings == state.settings, 'settings load differently')
         for one, other in zip(loaded.bodies, state.bodies, strict=True):
@@ -631,11 +637,12 @@ def shrunk(operations: Sequence[Operation], seconds: float = 60.0) -> list[Opera
     while size and time.process_time() < end:
         place = 1
         while place < len(left) and time.process_time() < end:
-            fewer = left[:place] + left[place + size :]
+            rest = place + size
+            fewer = left[:place] + left[rest:]
             if difference_of(fewer):
                 left = fewer
             else:
-                place += size
+                place = rest
         size //= 2
     return left
 

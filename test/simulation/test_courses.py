@@ -220,6 +220,24 @@ def test_a_course_has_all_its_bodies_whatever_is_undone_in_those_that_branch_off
     assert (sim.status.now, sim.world.snapshot().scene.names) == (0.2, ('a/0',))
 
 
+def test_a_step_is_shown_without_a_request_that_a_running_world_has_applied_there() -> None:
+    sim = Simulation()
+    assert sim.apply_requests() is not None
+    sim.requests.submit(spawning('a/0', BOX, anchored=True), topic='')
+    sim.advance_frame()
+    # Frames back to the checkpoint after the request are made again, from its step on.
+    sim.speed = -0.3
+    for tick in range(25):
+        sim.advance(tick * SECOND // 60)
+    sim.perform(spawning('b/0', BOX, anchored=True))
+    sim.advance_frame()
+    sim.return_to_course(1)
+    sim.speed = -1.0
+    frames = [frame for tick in range(9) for frame in sim.advance(SECOND + tick * SECOND // 60)]
+    assert frames[-1].snapshot.step == 0
+    assert frames[-1].snapshot.scene.names == ()
+
+
 def test_as_many_courses_are_kept_as_are_said() -> None:
     sim = simulation()
     run(sim, 0.5)

@@ -103,7 +103,9 @@ class SegmentReplay:
         self._watching = replay.world.watching
         replay.resume(mark)
         replay.replay_shown(mark.step)
-        self._add_frame()
+        # Its step may have been shown before the requests that it follows.
+        if replay.serial == replay.history.serial_shown_at(mark.step):
+            self._add_frame()
 
     def suits(self, mark: Mark, end: int, stride: int, *, watching: bool) -> bool:
         """Return whether it goes from a checkpoint to a step, with all frames of a stride."""

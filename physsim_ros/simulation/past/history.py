@@ -91,7 +91,8 @@ class History:
 
     def nodes_between(self, serial: int, end: int) -> list[Node]:
         """Return the requests from one serial to another."""
-        return self.nodes[serial - self._first + 1 : end - self._first + 1]
+        first, last = serial - self._first + 1, end - self._first + 1
+        return self.nodes[first:last]
 
     def serial_at(self, step: int) -> int:
         """Return the number of requests that were made until a step, and at it."""
