@@ -181,6 +181,9 @@ def read_impulses(
     _, pairs, points = found
     # The engine lists by address, which is never the same twice.
     order = np.lexsort((points['hash'], pairs[:, 1], pairs[:, 0]))
+    # A contact without impulses is like one that is found anew, and a rebuilt space has more of
+    # them: all that touch, though it has not stepped yet.
+    order = order[(points['jnAcc'][order] != 0.0) | (points['jtAcc'][order] != 0.0)]
     points = points[order]
     return ImpulseCache(
         ids=np.array([rigid.first for rigid in rigids], dtype=np.int64),

@@ -200,7 +200,9 @@ def _wrench_steps(wrench: Mapping[Any, Any], physics_rate: float) -> int | None:
     """Return the number of steps for which a wrench acts; None is for ever."""
     seconds, steps = wrench.get('seconds'), wrench.get('steps')
     if seconds is not None:
-        return steps_in(Within(0.0, LONGEST, 's')(seconds, 'seconds'), physics_rate)
+        seconds = Within(0.0, LONGEST, 's')(seconds, 'seconds')
+        # One that ends at the step at which it was saved acts no more.
+        return steps_in(seconds, physics_rate) if seconds > 0.0 else 0
     # Older files have steps, of the rate at which they were saved.
     if steps is None or count_from(steps, 'steps') <= LONGEST * physics_rate:
         return steps

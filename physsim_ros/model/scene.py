@@ -31,7 +31,7 @@ class Body:
     :param shape: geometry in the body's frame
     :param color: red, green, blue, alpha, each 0 .. 1
     :param mass: [kg]; None is density times area
-    :param density: [kg/m²]
+    :param density: [kg/m²]; of a body with a mass, that by its area
     :param friction: coefficient
     :param elasticity: coefficient of restitution
     :param anchored: fixed to the background

@@ -116,5 +116,5 @@ class FrameLoop:
             speed=self._playback.speed,
             moved=moved,
             past=snapshot.step < self._past.timeline.history.head,
-            course=self._past.timeline.courses.current,
+            course=self._past.course,
         )

@@ -18,7 +18,7 @@ from physsim_ros.model.snapshot import NO_CONTACTS
 from physsim_ros.simulation.clock import Clock
 from physsim_ros.simulation.past.frame_segment import CachedFrame
 from physsim_ros.simulation.past.past import Past
-from physsim_ros.simulation.past.records import Moment
+from physsim_ros.simulation.past.tree import Moment
 from physsim_ros.simulation.world import World
 
 
@@ -81,7 +81,7 @@ class Playback:
         timeline = self._past.timeline
         if self._shown is None:
             return timeline.moment
-        return self.step, timeline.history.log.serial_shown_at(self.step)
+        return self.step, timeline.history.serial_shown_at(self.step)
 
     @property
     def time(self) -> str:
@@ -154,7 +154,7 @@ class Playback:
         """Have requests that were applied just now belong to the frame of this step."""
         timeline = self._past.timeline
         step, serial = timeline.moment
-        if serial > timeline.history.log.serial_shown_at(step):
+        if serial > timeline.history.serial_shown_at(step):
             self._observe_world(moved=False)
 
     def seek_shown(self) -> None:

@@ -109,7 +109,7 @@ class RequestHandler:
         for grip in timeline.world.grips:
             if grip.hand not in self.hands:
                 # Undone together with the request before.
-                gesture = timeline.history.log.gesture_before(timeline.serial, self._queue.gesture)
+                gesture = timeline.history.node(timeline.serial).gesture or self._queue.gesture
                 self._apply_to_world(LetGo(hand=grip.hand), gesture)
                 message = f'{grip.hand} is silent and has let go of {grip.body}'
                 self.answers.append(

@@ -9,7 +9,7 @@ import numpy as np
 from physsim_ros.model.errors import OutOfHistory
 from physsim_ros.model.requests import Command, Delete
 from physsim_ros.model.shapes import Box
-from physsim_ros.simulation.past.courses import MOST_COURSES
+from physsim_ros.simulation.past.lines import MOST_COURSES
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
@@ -168,41 +168,74 @@ def test_undo_and_redo_go_along_a_course() -> None:
     assert sim.world.digest() == first
 
 
-def test_courses_that_part_in_what_was_undone_are_there_when_it_is_redone() -> None:
+def test_a_course_loses_nothing_by_an_undo_in_another() -> None:
     sim = undone_branch()
-    assert (sim.step, numbers(sim)) == (120, [])
+    assert (sim.step, numbers(sim)) == (120, [1])
     sim.redo()
     assert numbers(sim) == [1]
     sim.undo()
-    act(sim, 3.0)
-    assert numbers(sim) == []
-
-
-def test_courses_that_part_in_what_was_undone_are_hidden_while_time_goes_on() -> None:
-    sim = undone_branch()
-
     # To a later step than that at which they part, with fewer requests.
     run(sim, 1.5)
-    assert numbers(sim) == []
-    with pytest.raises(OutOfHistory):
-        sim.return_to_course(1)
-    sim.redo()
-    assert numbers(sim) == [1]
-    sim.undo()
-    run(sim, 1.5)
+    assert [tuple(each) for each in sim.status.courses] == [(1, 0.5, 2.0)]
     act(sim, 3.0)
-    assert numbers(sim) == []
+    assert numbers(sim) == [1]
+    branch(sim, 0.25, 7.0)
+    assert numbers(sim) == [1, 2]
 
 
-def test_courses_that_part_in_what_was_undone_are_lost_where_another_course_begins() -> None:
-    sim = undone_branch()
-    run(sim, 1.5)
+def test_a_course_that_parts_in_what_was_undone_is_returned_to() -> None:
+    sim = simulation()
+    run(sim, 0.5)
+    act(sim, 1.0)
+    first = run(sim, 1.5)
+    branch(sim, 1.0, 5.0)
+    sim.undo()
+    sim.undo()
+    undone = run(sim, 1.5)
     branch(sim, 0.25, 7.0)
 
-    # The first course parts from the second one in a gesture that nobody can redo.
-    assert numbers(sim) == [2]
+    sim.return_to_course(1)
+    follow(sim, first, 124)
+    # As short as the undo has made it, and as long as it went on from there.
     sim.return_to_course(2)
-    assert numbers(sim) == [3]
+    follow(sim, undone, 124)
+
+
+def test_a_course_has_all_its_bodies_whatever_is_undone_in_those_that_branch_off() -> None:
+    sim = Simulation()
+    sim.perform(spawning('a/0', BOX, anchored=True))
+    run(sim, 1.0)
+    sim.seek(SECOND // 5)
+    sim.perform(spawning('b/0', BOX, (3.0, 0.0, 0.0), anchored=True))
+    run(sim, 1.0)
+    sim.seek(4 * SECOND // 5)
+    sim.perform(spawning('c/0', BOX, (6.0, 0.0, 0.0), anchored=True))
+    sim.undo()
+    sim.undo()
+    sim.return_to_course(1)
+    sim.return_to_course(2)
+    sim.seek(9 * SECOND // 10)
+    assert sim.world.snapshot().scene.names == ('a/0', 'b/0')
+    sim.return_to_course(3)
+    assert (sim.status.now, sim.world.snapshot().scene.names) == (0.2, ('a/0',))
+
+
+def test_a_step_is_shown_without_a_request_that_a_running_world_has_applied_there() -> None:
+    sim = Simulation()
+    assert sim.apply_requests() is not None
+    sim.requests.submit(spawning('a/0', BOX, anchored=True), topic='')
+    sim.advance_frame()
+    # Frames back to the checkpoint after the request are made again, from its step on.
+    sim.speed = -0.3
+    for tick in range(25):
+        sim.advance(tick * SECOND // 60)
+    sim.perform(spawning('b/0', BOX, anchored=True))
+    sim.advance_frame()
+    sim.return_to_course(1)
+    sim.speed = -1.0
+    frames = [frame for tick in range(9) for frame in sim.advance(SECOND + tick * SECOND // 60)]
+    assert frames[-1].snapshot.step == 0
+    assert frames[-1].snapshot.scene.names == ()
 
 
 def test_as_many_courses_are_kept_as_are_said() -> None:

@@ -22,7 +22,7 @@ from physsim_ros.model.requests import (
     UnjoinAll,
 )
 from physsim_ros.simulation.past.frame_segment import CachedFrame
-from physsim_ros.simulation.past.records import Entry
+from physsim_ros.simulation.past.tree import Node
 from physsim_ros.simulation.simulation import CHECKPOINTS, Simulation
 import pytest
 
@@ -156,20 +156,20 @@ def test_the_thousandth_command_to_a_paused_world_costs_no_more_than_the_first(
 ) -> None:
     looks = [0]
 
-    class Counted(Entry):
+    class Counted(Node):
         """A request of which each look at whether it was seen is counted."""
 
         def __getattribute__(self, name: str) -> Any:
-            if name == 'seen':
+            if name == 'shown':
                 looks[-1] += 1
             return super().__getattribute__(name)
 
         def __setattr__(self, name: str, value: Any) -> None:
-            if name == 'seen':
+            if name == 'shown':
                 looks[-1] += 1
             super().__setattr__(name, value)
 
-    monkeypatch.setattr('physsim_ros.simulation.past.timeline.Entry', Counted)
+    monkeypatch.setattr('physsim_ros.simulation.past.tree.Node', Counted)
     driven = Driven(speed=0.0)
     driven.ask(spawning('a/0', BOX))
     for _ in range(1000):
@@ -276,6 +276,41 @@ def test_all_that_go_on_from_what_was_saved_go_on_alike(driven: Driven, frames: 
         snapshot = restored.simulation.advance_frame().snapshot
         np.testing.assert_array_equal(snapshot.poses, expected.poses)
         np.testing.assert_array_equal(snapshot.twists, expected.twists)
+
+
+@pytest.mark.parametrize('speeds', [(1.0,), (0.3,), (4.0,), (0.3, 1.0)])
+def test_checkpoints_come_at_the_same_steps_however_the_steps_were_made(
+    speeds: tuple[float, ...],
+) -> None:
+    # 41 steps, which are no multiple of a frame.
+    driven = Driven(checkpoints=41 / 240)
+    collide(driven)
+    for speed in speeds:
+        driven.run(speed, 0.8 / speed)
+    # At the beginning there are two, before and after the first requests.
+    steps = sorted({mark.step for mark in driven.simulation.past.timeline.history.checkpoints})
+    assert steps == list(range(0, 41 * len(steps), 41))
+    assert len(steps) > 4
+
+
+def test_redo_that_the_history_is_too_short_for_says_so() -> None:
+    driven = Driven()
+    driven.ask(spawning('a/0', BOX, (0.0, 5.0, 0.0)))
+    driven.run(1.0, 1.0)
+    driven.ask(spawning('b/0', BOX, (3.0, 5.0, 0.0)))
+    driven.run(1.0, 4.0)
+    driven.simulation.seek(3 * SECOND // 2)
+    driven.simulation.undo()
+    driven.simulation.history = 2.0
+    message = driven.simulation.redo()
+    oldest = driven.simulation.past.timeline.history.oldest
+    assert driven.simulation.step == oldest > 360
+    time = f'{oldest / 240:.3f} s'
+    assert message.endswith(time)
+    assert (
+        told([driven.apply_requests()], 'history')[0].message
+        == f'{time} is the oldest that is kept'
+    )
 
 
 # Requests at checkpoints

@@ -53,7 +53,7 @@ def test_a_spawned_body_is_what_was_said_and_where(world: World) -> None:
 
     assert answer == ('box/3', 'spawned box/3')
     assert body(world, 'box/3') == Body(
-        name='box/3', shape=Box(width=2.0, height=1.0), color=RED, mass=4.0, density=1.0,
+        name='box/3', shape=Box(width=2.0, height=1.0), color=RED, mass=4.0, density=2.0,
         friction=0.25, elasticity=0.75, anchored=False, kinematic=False, group=5, sensor=True,
         expires=240,
     )  # fmt: skip

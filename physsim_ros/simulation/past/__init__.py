@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-What is kept for going back: the log of requests, checkpoints and frames; replay, courses and undo.
+What is kept for going back: a tree of requests with checkpoints; frames, replay, courses and undo.
 
-Not here: the moment that is shown (`playback`). Start with `past`, which has the budget, then
-`timeline`, `history` with its `request_log`, `replay`, `frame_cache` and `undo`.
+Not here: the moment that is shown (`playback`). Start with the head of `tree`, which tells the
+theory of operation, then `past`, `history`, `lines`, `timeline` and `frame_cache`.
 """

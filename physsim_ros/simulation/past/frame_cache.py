@@ -19,8 +19,8 @@ import numpy as np
 from physsim_ros.model.snapshot import Answer, Snapshot
 from physsim_ros.simulation.past.frame_segment import CachedFrame, FrameSegment, SegmentReplay
 from physsim_ros.simulation.past.history import History
-from physsim_ros.simulation.past.records import Mark
 from physsim_ros.simulation.past.replay import Replay
+from physsim_ros.simulation.past.tree import Mark
 from physsim_ros.simulation.world import World
 
 # Segments that are never dropped for want of memory: the one that is shown, and the one beside it

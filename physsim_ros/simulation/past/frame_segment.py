@@ -17,8 +17,8 @@ from typing import NamedTuple
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Contacts, Snapshot
 from physsim_ros.simulation.past.memory_size import frame_size, scene_size
-from physsim_ros.simulation.past.records import Mark
 from physsim_ros.simulation.past.replay import Replay
+from physsim_ros.simulation.past.tree import Mark
 
 
 class CachedFrame(NamedTuple):
@@ -61,12 +61,15 @@ class FrameSegment:
 
     def add(self, frame: CachedFrame) -> None:
         """Add a frame, in place of the one of the same step."""
-        old = self.frames.get(frame.snapshot.step)
-        self.size += frame_size(*frame) - (0 if old is None else frame_size(*old))
+        replaced = frame.snapshot.step in self.frames
+        self.frames[frame.snapshot.step] = frame.copy()
+        if replaced:
+            self.size = size_of_frames(self.frames.values())
+            return
+        self.size += frame_size(*frame)
         if frame.snapshot.scene is not self._scene:
             self._scene = frame.snapshot.scene
             self.size += scene_size(self._scene)
-        self.frames[frame.snapshot.step] = frame.copy()
 
     def pop_from(self, step: int) -> list[CachedFrame]:
         """Drop the frames from a step on, and return them."""
@@ -100,7 +103,9 @@ class SegmentReplay:
         self._watching = replay.world.watching
         replay.resume(mark)
         replay.replay_shown(mark.step)
-        self._add_frame()
+        # Its step may have been shown before the requests that it follows.
+        if replay.serial == replay.history.serial_shown_at(mark.step):
+            self._add_frame()
 
     def suits(self, mark: Mark, end: int, stride: int, *, watching: bool) -> bool:
         """Return whether it goes from a checkpoint to a step, with all frames of a stride."""

@@ -23,7 +23,7 @@ from physsim_ros.model.requests import (
     Unjoin,
     UnjoinAll,
 )
-from physsim_ros.simulation.past.records import Entry
+from physsim_ros.simulation.past.tree import Node
 
 # Verbs of the requests that are not named by their own.
 _VERBS = {
@@ -51,16 +51,16 @@ _OBJECTS = {
 }
 
 
-def gesture_phrase(entry: Entry, count: int) -> str:
+def gesture_phrase(first: Node, count: int) -> str:
     """
     Return the phrase for a gesture.
 
-    :param entry: its first request
+    :param first: its first request
     :param count: number of its requests
     """
-    request = entry.request
+    request = first.request
     verb = _VERBS.get(type(request), type(request).__name__.lower())
-    phrase = f'{verb} {entry.subject or _OBJECTS.get(type(request), "")}'.rstrip()
+    phrase = f'{verb} {first.subject or _OBJECTS.get(type(request), "")}'.rstrip()
     if isinstance(request, DeleteAll | UnjoinAll) and request.namespace is not None:
         phrase += f' of {request.namespace or "no namespace"}'
     # All moves of a hand are one drag.

@@ -2,52 +2,54 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-History: the log of the requests to a world, and the checkpoints from which it is replayed.
+History: the line of events in force, from the oldest checkpoint that is kept to its tip.
 
-Laws: a moment is a step and the number of requests made until then; the same log from the same
-checkpoint leads to the same bits; what is dropped is dropped from one end.
+Laws: a moment is a step and the number of requests made until then; the same requests from the
+same checkpoint lead to the same bits; requests are counted from the beginning of the world, and
+their numbers never change, whichever are dropped. See `tree` for the theory of operation.
 """
 
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
+from itertools import pairwise
 
-from physsim_ros.model.errors import OutOfHistory
-from physsim_ros.simulation.past.memory_size import checkpoint_size
-from physsim_ros.simulation.past.records import Entry, Mark, Moment, Tail, total_size
-from physsim_ros.simulation.past.request_log import RequestLog
+from physsim_ros.model.checkpoint import Checkpoint, WorldState
+from physsim_ros.model.requests import Request
+from physsim_ros.simulation.past.tree import Mark, Moment, Node, Tree
 
 
 class History:
     """
-    The log and the checkpoints of one course of events.
+    The line of events in force.
 
-    :param first: checkpoint of the beginning
+    :param tree: that it is a line of
     :param length: steps that are kept, at least
-    :param spacing: steps from one checkpoint to the next, at least
-
-    :ivar log: the requests
-    :ivar log_limit: memory of the requests after the last checkpoint, from which on the next one
+    :param spacing: steps from one checkpoint to the next, at most
+    :param log_limit: memory of the requests after the last checkpoint, from which on the next one
         is due [bytes]: what lies after a checkpoint can be dropped only together with it
-    :ivar size: memory that the log and the checkpoints take [bytes]
+
+    :ivar nodes: the requests, the root first
+    :ivar checkpoints: those of its nodes, oldest first; a line that runs on where another one has
+        run before has the checkpoints ahead, too
+    :ivar head: the last step that was reached
     :ivar shown: the moment that is shown; the checkpoint that it is replayed from is not dropped
         for want of memory
     """
 
-    def __init__(self, first: Mark, *, length: int, spacing: int, log_limit: int) -> None:
+    def __init__(self, tree: Tree, *, length: int, spacing: int, log_limit: int) -> None:
+        self.tree = tree
         self.log_limit = log_limit
-        self._spacing = spacing
+        self.shown = (0, 0)
+        self.head = 0
+        self.nodes: list[Node] = []
+        self.checkpoints: list[Mark] = []
         self._length = length
-        self.log = RequestLog(first.serial)
-        self._marks = [first._replace(size=checkpoint_size(first.key))]
-        self.shown = first.moment
-        # Whether the oldest step was shown without requests that were dropped with it.
-        self._begins_later = False
-        # Memory of the requests after the last checkpoint [bytes].
-        self._since = 0
-        self._count_size()
-        # The last step that was reached.
-        self.head = first.step
+        self.spacing = spacing
+        # Serials of the first request of each gesture.
+        self._openings: dict[int, int] = {}
+        # Of tips of other lines, the step at which they part from this one.
+        self._partings: dict[Node, int | None] = {}
 
     # Reading
 
@@ -64,23 +66,50 @@ class History:
     @property
     def oldest(self) -> int:
         """Return the oldest step that can be gone back to."""
-        first = self._marks[0].step + self._begins_later
-        return min(self.head, max(first, self.head - self._length))
+        root, first = self.nodes[0], self.checkpoints[0].step
+        # Its request was dropped; the step was shown without it.
+        begins_later = root.step == first and not root.shown
+        return min(self.head, max(first + begins_later, self.head - self._length))
+
+    @property
+    def tip(self) -> Node:
+        """Return the last node."""
+        return self.nodes[-1]
 
     @property
     def end(self) -> Moment:
         """Return the last moment that was reached."""
-        return self.head, self.log.end
+        return self.head, self.tip.serial
 
     @property
-    def checkpoints(self) -> list[Mark]:
-        """Return the checkpoints, oldest first."""
-        return self._marks
+    def _first(self) -> int:
+        return self.nodes[0].serial if self.nodes else 0
+
+    def node(self, serial: int) -> Node:
+        """Return the node of the last request before a serial, and with it."""
+        return self.nodes[serial - self._first]
+
+    def nodes_between(self, serial: int, end: int) -> list[Node]:
+        """Return the requests from one serial to another."""
+        first, last = serial - self._first + 1, end - self._first + 1
+        return self.nodes[first:last]
+
+    def serial_at(self, step: int) -> int:
+        """Return the number of requests that were made until a step, and at it."""
+        place = bisect_right(self.nodes, step, key=lambda each: each.step)
+        return self._first + max(0, place - 1)
+
+    def serial_shown_at(self, step: int) -> int:
+        """Return the number of requests that were made until a step was shown last."""
+        # Of a step those come first that have been shown.
+        not_shown = (step, True)
+        place = bisect_left(self.nodes, not_shown, key=lambda each: (each.step, not each.shown))
+        return self._first + max(0, place - 1)
 
     def checkpoint_before(self, step: int, serial: int) -> Mark:
         """Return the last checkpoint from which a moment can be reached."""
-        place = bisect_right(self._marks, (step, serial), key=lambda each: each.moment)
-        return self._marks[place - 1]
+        place = bisect_right(self.checkpoints, (step, serial), key=lambda each: each.moment)
+        return self.checkpoints[place - 1]
 
     def checkpoint_at(self, step: int, serial: int) -> Mark | None:
         """Return the checkpoint of exactly that moment; None is none."""
@@ -89,138 +118,186 @@ class History:
 
     def segment(self, step: int) -> tuple[Mark, int]:
         """Return the checkpoint before a step, and the step of the next one, or the last step."""
-        place = bisect_left(self._marks, step, key=lambda each: each.step)
-        first = self._marks[max(0, place - 1)]
-        end = self._marks[place].step if place < len(self._marks) else self.head
+        place = bisect_left(self.checkpoints, step, key=lambda each: each.step)
+        first = self.checkpoints[max(0, place - 1)]
+        end = self.head
+        if place < len(self.checkpoints):
+            end = min(end, self.checkpoints[place].step)
         return first, max(step, end)
 
     def next_stop(self, step: int, end: int) -> int:
         """Return the next step at which there is a request or a checkpoint, or the end."""
-        mark = bisect_right(self._marks, step, key=lambda each: each.step)
-        if mark < len(self._marks):
-            end = min(end, self._marks[mark].step)
-        return self.log.next_stop(step, end)
+        place = bisect_right(self.checkpoints, step, key=lambda each: each.step)
+        if place < len(self.checkpoints):
+            end = min(end, self.checkpoints[place].step)
+        elif (due := self.checkpoints[-1].step + self.spacing) > step:
+            # However the steps are counted out, a checkpoint comes at the same.
+            end = min(end, due)
+        place = bisect_right(self.nodes, step, key=lambda each: each.step)
+        return min(end, self.nodes[place].step) if place < len(self.nodes) else end
 
     def is_checkpoint_due(self, step: int) -> bool:
-        """Return whether a checkpoint is due at a step; a loaded state begins with one."""
-        last = self._marks[-1]
-        long = step - last.step >= self._spacing or self.is_log_long
-        return long or self.log.restored > last.serial
+        """Return whether a checkpoint is due at the tip; a loaded state begins with one."""
+        last = self.checkpoints[-1]
+        long = step - last.step >= self.spacing or self.is_log_long
+        return long or self.tip.loaded.serial > last.serial
 
     @property
     def is_log_long(self) -> bool:
         """Whether the requests after the last checkpoint take so much that the next is due."""
-        return self._since > self.log_limit
+        last = self.node(self.checkpoints[-1].serial)
+        return self.tip.total - last.total > self.log_limit
+
+    def lies_ahead(self, step: int, serial: int) -> bool:
+        """Return whether there are steps or requests after a moment."""
+        return self.head > step or serial < self.tip.serial
+
+    def last_gesture(self, serial: int) -> tuple[Node, int] | None:
+        """
+        Return the first request of the last gesture before a serial; None where none is kept.
+
+        :return: it, and the number of requests from it on; among them are those of other gestures
+            that came in between, since time goes back before them; None also for a gesture of
+            which the beginning is kept no more: it is undone as a whole or not at all
+        """
+        if serial <= self._first:
+            return None
+        opening = self.node(serial).opening
+        return (self.node(opening), serial - opening + 1) if opening > self._first else None
+
+    def gesture_start(self, gesture: int, serial: int) -> Moment | None:
+        """Return the moment before the first request of a gesture before a serial, if kept."""
+        opening = self._openings.get(gesture, serial + 1)
+        kept = self._first < opening <= serial
+        return (self.node(opening).step, opening - 1) if kept else None
+
+    def parting(self, tip: Node) -> int | None:
+        """
+        Return the first step at which another line differs from this one.
+
+        :param tip: of the other line
+        :return: None where they have no moment in common that is kept
+        """
+        if tip not in self._partings:
+            kept, apart = self._apart(tip)
+            root = self.checkpoints[0]
+            lost = kept == 0 or (kept == 1 and apart and apart[0].after < root.step)
+            steps = [each[0].step for each in (self.nodes[kept:], apart) if each]
+            self._partings[tip] = None if lost else min(steps, default=self.head)
+        return self._partings[tip]
+
+    def _apart(self, tip: Node) -> tuple[int, list[Node]]:
+        """Return how many nodes this line has in common with another, and the others of that."""
+        apart: list[Node] = []
+        node: Node | None = tip
+        while node is not None:
+            place = node.serial - self._first
+            if 0 <= place < len(self.nodes) and self.nodes[place] is node:
+                return place + 1, apart[::-1]
+            apart.append(node)
+            node = node.parent
+        return 0, apart[::-1]
 
     # Changing
 
+    def begin(self, state: WorldState, key: Checkpoint, digest: str) -> None:
+        """Begin a world with a state, at time 0."""
+        root = self.tree.add_root(state)
+        self.tree.add_mark(root, Mark(0, 0, key, digest), None)
+        self.follow(root, 0)
+
+    def follow(self, tip: Node, head: int) -> int:
+        """
+        Put another line in force.
+
+        :param tip: of the line
+        :param head: the last step that it has reached
+        :return: the step from which on it differs from the one before
+        """
+        kept, apart = self._apart(tip)
+        left = self.nodes[kept:]
+        self.tree.hold(tip)
+        if self.nodes:
+            self.tree.release(self.tip)
+        self.nodes[kept:] = apart
+        if left:
+            self._openings.clear()
+        if not kept:
+            self.checkpoints.clear()
+        for node in self.nodes if left else apart:
+            self._openings[node.gesture] = node.opening
+        # Those of the last node in common depend on the one that follows.
+        last = max(0, kept - 1)
+        while self.checkpoints and self.checkpoints[-1].serial >= self.nodes[last].serial:
+            self.checkpoints.pop()
+        for node, following in pairwise(self.nodes[last:]):
+            self.checkpoints += [mark for mark in node.marks if mark.step <= following.after]
+        self.checkpoints += tip.marks
+        self._partings.clear()
+        steps = [head, *(each[0].step for each in (left, apart) if each)]
+        self.head = head
+        self._drop_old()
+        return min(steps) if kept else 0
+
+    def add_request(self, moment: Moment, request: Request, *, gesture: int, subject: str) -> Node:
+        """Add a request that changed the world at a moment of this line, and follow it."""
+        step, serial = moment
+        opening = self._openings.get(gesture, serial + 1)
+        node = self.tree.add_node(
+            self.node(serial),
+            step,
+            request,
+            gesture=gesture,
+            opening=opening if opening <= serial else serial + 1,
+            subject=subject,
+        )
+        self.follow(node, step)
+        return node
+
+    def add_checkpoint(self, moment: Moment, key: Checkpoint, digest: str) -> Mark:
+        """Add a checkpoint at the tip, as the last."""
+        mark = Mark(*moment, key, digest)
+        mark = self.tree.add_mark(self.tip, mark, self.checkpoints[-1].key)
+        self.checkpoints.append(mark)
+        return mark
+
     def note_step(self, step: int) -> None:
         """Note that the world has reached a step."""
+        self.tip.end = max(self.tip.end, step)
         if step > self.head:
             self.head = step
             self._drop_old()
 
-    def lies_ahead(self, step: int, serial: int) -> bool:
-        """Return whether there are steps or requests after a moment."""
-        return self.head > step or serial < self.log.end
+    def note_shown(self, step: int, serial: int) -> None:
+        """Note that a step has been shown, with the requests up to a serial."""
+        place = serial - self._first
+        while place > 0 and self.nodes[place].step == step and not self.nodes[place].shown:
+            self.nodes[place].shown = True
+            place -= 1
 
-    def add_entry(self, entry: Entry) -> None:
-        """Add a request that changed the world, as the last."""
-        self.log.add_entry(entry)
-        self.size += entry.size
-        self._since += entry.size
-
-    def add_checkpoint(self, mark: Mark) -> None:
-        """Add a checkpoint, as the last."""
-        mark = mark._replace(size=checkpoint_size(mark.key, self._marks[-1].key))
-        self._marks.append(mark)
-        self.size += mark.size
-        self._since = 0
-
-    def cut(self, step: int, serial: int, *, now: Moment) -> Tail:
-        """
-        Cut off what came after a moment.
-
-        :param now: the moment at which that is asked
-        """
-        head, marks = self.head, tuple(self._marks)
-        entries = self.log.cut(serial)
-        while self._marks[-1].step > step or self._marks[-1].serial > serial:
-            self._marks.pop()
-        left = len(self._marks)
-        self._count_size()
-        self.head = step
-        return Tail(self._marks[-1].moment, entries, marks[left:], head, *now)
-
-    def exchange(self, tail: Tail, begins: Moment, *, now: Moment) -> Tail:
-        """
-        Cut off what came after a moment, and append another tail instead.
-
-        :param begins: the moment at which the two part
-        :param now: the moment that is shown
-        :return: the tail that is cut off
-        :raises OutOfHistory: the beginning is too long ago; nothing is changed
-        """
-        self._check_splice(tail)
-        own = self.cut(*begins, now=now)
-        # Checkpoints that only this course has made, at that very moment.
-        common = bisect_right(self._marks, tail.after, key=lambda each: each.moment)
-        marks = (*self._marks[common:], *own.marks)
-        own = own._replace(after=self._marks[common - 1].moment, marks=marks)
-        self.splice(tail)
-        return own
-
-    def splice(self, tail: Tail) -> None:
-        """
-        Append a tail that was cut off.
-
-        :raises OutOfHistory: that is too long ago
-        """
-        self._check_splice(tail)
-        while self._marks[-1].moment > tail.after:
-            self._marks.pop()
-        for entry in tail.entries:
-            self.add_entry(entry)
-        self._marks += tail.marks
-        self._count_size()
-        self.head = tail.head
-        self._drop_old()
-
-    def _check_splice(self, tail: Tail) -> None:
-        if self._marks[0].moment > tail.after:
-            raise OutOfHistory('what was undone is kept no more', field='history')
+    # Forgetting
 
     def _drop_old(self) -> None:
         """Drop checkpoints older than `length`, but for the last one before the oldest step."""
-        old = bisect_right(self._marks, self.head - self._length, key=lambda each: each.step) - 1
+        oldest = self.head - self._length
+        old = bisect_right(self.checkpoints, oldest, key=lambda each: each.step) - 1
         if old > 0:
             self._drop_before(old)
 
-    def drop_oldest(self) -> int:
-        """
-        Drop the oldest checkpoint and the requests up to the next one.
-
-        :return: memory that they took [bytes]; 0 where that checkpoint is still needed
-        """
-        if len(self._marks) == 1 or self._marks[1].moment > self.shown:
-            return 0
-        before = self.size
+    def drop_oldest(self) -> bool:
+        """Drop the oldest checkpoint and the requests up to the next one, if it can be spared."""
+        if len(self.checkpoints) == 1 or self.checkpoints[1].moment > self.shown:
+            return False
         self._drop_before(1)
-        return before - self.size
+        return True
 
     def _drop_before(self, place: int) -> None:
         """Drop the checkpoints before one of them, and the requests up to it."""
-        del self._marks[:place]
-        first = self._marks[0]
-        last = self.log.drop_before(first.serial)
-        self._begins_later = last is not None and last.step == first.step and not last.shown
-        self._count_size()
-
-    def _count_size(self) -> None:
-        """Count the memory of all requests and checkpoints, and of those requests at the end."""
-        since = self.log.entries_between(self._marks[-1].serial, self.log.end)
-        self._since = total_size(since)
-        # The scene of the first checkpoint was counted with one that is dropped.
-        first = self._marks[0]
-        scene = checkpoint_size(first.key) - first.size
-        self.size = self.log.size + total_size(self._marks) + scene
+        mark = self.checkpoints[place]
+        root = self.node(mark.serial)
+        del self.checkpoints[:place]
+        del self.nodes[: root.serial - self._first]
+        self.tree.make_root(root, mark)
+        # Of a gesture that began before, the beginning remains known.
+        self._openings = {each.gesture: each.opening for each in self.nodes}
+        self._partings.clear()

@@ -15,8 +15,7 @@ checkpoint, the requests after it, and the frames beside the one that is shown.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Protocol
+from collections.abc import Callable, Sequence
 
 from physsim_ros.model.checks import Within
 from physsim_ros.model.snapshot import Answer
@@ -35,17 +34,6 @@ _LOG_SHARE = 1 / 8
 _FRAME_SHARE = 1 / 4
 # Share of the budget below which the next loss is news again.
 _RELIEF = 1 / 2
-
-
-class Store(Protocol):
-    """A part of the past: frames, ghosts, courses, tails, timelines or a history."""
-
-    @property
-    def size(self) -> int:
-        """Return the memory that it takes [bytes]."""
-
-    def drop_oldest(self) -> int:
-        """Drop the oldest of it, and return the memory that this took; 0 is nothing to drop."""
 
 
 class HistoryMemory:
@@ -93,21 +81,22 @@ class HistoryMemory:
         """Return the memory that frames may take [bytes]."""
         return round(self.size * _FRAME_SHARE)
 
-    def fit(self, frames: Store, stores: Sequence[Store]) -> bool:
+    def fit(self, used: Callable[[], int], kinds: Sequence[Callable[[], object]]) -> bool:
         """
         Drop the oldest until everything fits.
 
-        :param frames: which a replay makes again; they go first
-        :param stores: the others, in the order in which they go
-        :return: whether anything but frames was lost, once until less than half is taken again
+        :param used: returns the memory that is taken [bytes]
+        :param kinds: each drops the oldest of its kind, and returns whether there was any; in the
+            order in which they go, the first being frames that a replay makes again
+        :return: whether anything but these was lost, once until less than half is taken again
         """
-        self.used = frames.size + sum(store.size for store in stores)
+        self.used = used()
         self._told = self._told and self.used > _RELIEF * self.size
         lost = False
-        for store in (frames, *stores):
-            while self.used > self.size and (dropped := store.drop_oldest()):
-                self.used -= dropped
-                lost |= store is not frames
+        for drop in kinds:
+            while self.used > self.size and drop():
+                self.used = used()
+                lost |= drop != kinds[0]
         news = lost and not self._told
         self._told |= lost
         return news

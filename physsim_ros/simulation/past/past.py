@@ -2,36 +2,36 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The past: the timeline in force, and all that was shown, left or undone.
+The past: the timeline in force with its cached frames, all other lines, and their budget.
 
-Laws: a cached frame is one of the course in force, a ghost one of a course that was left; after
-each frame all of them, with what undo and redo need, are within one budget of memory.
+Laws: gestures are undone last first, and redone first first, until another request is applied;
+after each frame everything that is remembered is within one budget of memory. See `tree` for the
+theory of operation.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-import itertools
+from collections.abc import Iterator, Sequence
 
 from physsim_ros.model.checkpoint import WorldState
-from physsim_ros.model.errors import Refusal
-from physsim_ros.model.requests import Request, Restore
+from physsim_ros.model.errors import OutOfHistory, Refusal
+from physsim_ros.model.requests import Request
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer, Snapshot
-from physsim_ros.model.timeline import TimelineStatus
+from physsim_ros.model.timeline import CourseSpan, TimelineStatus
 from physsim_ros.simulation.past.frame_cache import FrameCache
-from physsim_ros.simulation.past.ghosts import Ghosts
+from physsim_ros.simulation.past.frame_segment import CachedFrame
+from physsim_ros.simulation.past.gesture_phrase import gesture_phrase
+from physsim_ros.simulation.past.history import History
 from physsim_ros.simulation.past.history_memory import HistoryMemory
-from physsim_ros.simulation.past.records import Moment
+from physsim_ros.simulation.past.lines import Line, Lines, MOST_COURSES
 from physsim_ros.simulation.past.timeline import Timeline
-from physsim_ros.simulation.past.timeline_status import status_of
-from physsim_ros.simulation.past.undo import Undo
-from physsim_ros.simulation.world import World
+from physsim_ros.simulation.past.tree import Moment, Node, Tree
 
 
 class Past:
     """
-    The timeline in force, with its cached frames, ghosts, and what undo and redo need.
+    The timeline in force, with its cached frames, and the lines that are not.
 
     Requests, undo and redo apply to the moment at which the timeline is. A cached frame may be
     shown at another one, so `Playback.seek_shown` comes first.
@@ -43,7 +43,9 @@ class Past:
     :param checkpoints: from one checkpoint to the next [s]
     :param memory: budget in bytes
 
-    :ivar frame_cache: frames of the course in force
+    :ivar timeline: the world on the line in force
+    :ivar frame_cache: frames of that line
+    :ivar course: number of that line
     """
 
     def __init__(
@@ -60,26 +62,39 @@ class Past:
         self.frame_steps = frame_steps
         self.memory = memory
         self._length = length
-        self._checkpoints = checkpoints
-        self._watching = False
-        self._course_numbers = itertools.count(1)
-        self._ghosts = Ghosts()
-        self._undo = Undo(self._timeline_of, WorldState(settings=settings))
-        self.frame_cache = self._new_frame_cache()
-
-    @property
-    def timeline(self) -> Timeline:
-        """Return the timeline in force."""
-        return self._undo.timeline
+        self._tree = Tree()
+        self._lines = Lines(self._tree)
+        history = History(
+            self._tree,
+            length=self.steps_in(length),
+            spacing=self.steps_in(checkpoints),
+            log_limit=memory.log_limit,
+        )
+        self.timeline = Timeline(
+            history,
+            WorldState(settings=settings),
+            physics_rate=physics_rate,
+            frame_steps=frame_steps,
+        )
+        self.frame_cache = FrameCache(
+            history,
+            physics_rate=physics_rate,
+            frame_steps=frame_steps,
+            budget=memory.frame_limit,
+        )
+        self.course = self._courses = 1
+        self._era = 0
+        # The oldest checkpoint when lines were looked through that part before it.
+        self._oldest = history.checkpoints[0]
+        self._answers: list[Answer] = []
 
     @property
     def watching(self) -> bool:
         """Return whether contacts are recorded."""
-        return self._watching
+        return self.timeline.watching
 
     @watching.setter
     def watching(self, watching: bool) -> None:
-        self._watching = watching
         self.timeline.watch_contacts(watching)
 
     def steps_in(self, seconds: float) -> int:
@@ -93,7 +108,33 @@ class Past:
         :param shown: the moment that is shown
         :param speed: simulation seconds a second
         """
-        return status_of(self._undo, shown, speed=speed, dt=1.0 / self.physics_rate)
+        history, rate = self.timeline.history, self.physics_rate
+        if speed < 0.0:
+            state = 'rewinding'
+        elif shown != history.end:
+            state = 'in the past'
+        else:
+            state = 'playing' if speed else 'paused'
+        gesture, undo = history.last_gesture(shown[1]), ''
+        if gesture is not None:
+            undo = gesture_phrase(*gesture)
+        elif self._undoes_reset(shown[1]):
+            undo = 'reset'
+        redo = self._lines.undone[-1].words if self._is_undone else ''
+        return TimelineStatus(
+            state=state,
+            speed=speed,
+            oldest=history.oldest / rate,
+            now=shown[0] / rate,
+            newest=history.head / rate,
+            course=self.course,
+            undo=undo and f'undo {undo}',
+            redo=redo and f'redo {redo}',
+            courses=tuple(
+                CourseSpan(line.course, min(step, line.head) / rate, line.head / rate)
+                for line, step in sorted(self._courses_left(), key=lambda each: each[0].course)
+            ),
+        )
 
     def ghost(self, course: int, seconds: float) -> Snapshot | None:
         """
@@ -103,11 +144,12 @@ class Past:
         :param seconds: simulation time [s]
         :return: the last snapshot until then; None where none is kept
         """
-        return self._ghosts.snapshot_at(course, self.steps_in(seconds))
+        return self._lines.ghost_at(course, self.steps_in(seconds))
 
     def take_answers(self) -> list[Answer]:
         """Return the reports of events without a request since the last call."""
-        return self.timeline.take_answers() + self.frame_cache.take_answers()
+        answers, self._answers = self._answers, []
+        return answers + self.timeline.take_answers() + self.frame_cache.take_answers()
 
     # Limits
 
@@ -142,9 +184,16 @@ class Past:
         :param shown: the moment that is shown, which remains
         :return: the report of that, once
         """
-        history = self.timeline.history
+        history, lines, frames = self.timeline.history, self._lines, self.frame_cache
         history.shown = shown
-        if self.memory.fit(self.frame_cache, (self._ghosts, *self._undo.stores)):
+        self._drop_lost()
+        kinds = (
+            frames.drop_oldest,
+            lines.drop_oldest_ghost,
+            lines.drop_oldest,
+            history.drop_oldest,
+        )
+        if self.memory.fit(lambda: frames.size + self._tree.size, kinds):
             return [self.memory.report(history.oldest / self.physics_rate)]
         return []
 
@@ -152,23 +201,43 @@ class Past:
         """Limit the timeline in force, and return whether it is at the same moment as before."""
         return self.timeline.keep_within(self.steps_in(self._length), self.memory.log_limit)
 
-    # Changes of the course in force
+    # Requests
 
     def apply(self, request: Request, gesture: int) -> tuple[str, str]:
         """
-        Apply a request to the world.
+        Apply a request to the world; in the past it begins a course.
 
         :param gesture: that it is part of
         :return: the body or joint concerned, or '', and a sentence that says what was done
         :raises Refusal: and nothing is changed
         """
-        courses = self.timeline.courses
-        before = courses.current
-        done = self.timeline.apply(request, gesture)
-        if self.timeline.world.changed:
-            self._undo.clear_undone()
-        if courses.current != before:
-            self._keep_ghost(before, self.timeline.moment[0])
+        timeline = self.timeline
+        if not timeline.history.lies_ahead(*timeline.moment):
+            done = timeline.apply(request, gesture)
+        else:
+            done = self._branch(request, gesture)
+        if timeline.world.changed:
+            self._lines.clear_undone(self._era)
+        return done
+
+    def _branch(self, request: Request, gesture: int) -> tuple[str, str]:
+        """Apply a request to the world, and keep what lay ahead, if it changes anything."""
+        timeline = self.timeline
+        left = self._lines.hold(self._line())
+        try:
+            done = timeline.apply(request, gesture)
+        except Refusal:
+            self._lines.drop(left)
+            raise
+        if not timeline.world.changed:
+            self._lines.drop(left)
+            return done
+        step, _ = timeline.moment
+        self._keep_course(left, self.frame_cache.drop_from(step))
+        self._courses += 1
+        self.course = self._courses
+        message = f'course {self.course} begins at {step / self.physics_rate:.3f} s'
+        self._answers.append(Answer(topic='branch', message=f'{message}; {left.course} is kept'))
         return done
 
     def amend(
@@ -180,9 +249,11 @@ class Past:
         :return: for each request what `apply` returns, or its refusal
         """
         step, done = self.timeline.amend(gestures, requests)
-        self._undo.clear_undone()
+        self._lines.clear_undone(self._era)
         self.frame_cache.drop_from(step)
         return done
+
+    # Moves of the cursor
 
     def begin(self, state: WorldState) -> None:
         """
@@ -190,10 +261,10 @@ class Past:
 
         Nothing before it can be undone or returned to.
         """
-        self._course_numbers = itertools.count(1)
-        self._ghosts = Ghosts()
-        self._undo.begin(state)
-        self.frame_cache = self._new_frame_cache()
+        self._lines.drop_all()
+        self.timeline.begin(state)
+        self.frame_cache.drop_from(0)
+        self.course = self._courses = 1
 
     def reset(self) -> bool:
         """
@@ -201,9 +272,16 @@ class Past:
 
         :return: whether anything had happened since
         """
-        if not self._undo.reset():
+        history = self.timeline.history
+        if history.head == 0 and self.timeline.moment[1] == 0:
+            # Nothing has happened since the beginning.
             return False
-        self.frame_cache = self._new_frame_cache()
+        self._lines.clear_undone(self._era)
+        self._lines.resets.append(self._lines.hold(self._line()))
+        self.timeline.begin(history.tip.loaded.state)
+        self.frame_cache.drop_from(0)
+        self._courses += 1
+        self.course, self._era = self._courses, self._era + 1
         return True
 
     def undo(self) -> str:
@@ -212,9 +290,22 @@ class Past:
 
         :raises OutOfHistory: there is none in the history
         """
-        undone, step = self._undo.undo()
-        self._drop_frames(step)
-        return undone
+        history, lines = self.timeline.history, self._lines
+        serial = self.timeline.moment[1]
+        gesture = history.last_gesture(serial)
+        if gesture is not None:
+            first, count = gesture
+            before = history.node(first.serial - 1)
+            words = gesture_phrase(first, count)
+            left, _ = self._follow(before, first.step, (first.step, before.serial))
+        elif self._undoes_reset(serial):
+            # Before the reset come the requests since then, though they are kept no more.
+            words, (left, _) = 'reset', self._return_to(lines.resets.pop())
+        else:
+            raise OutOfHistory('there is nothing to undo', field='history')
+        left.words = words
+        lines.undone.append(left)
+        return words
 
     def redo(self) -> None:
         """
@@ -222,7 +313,14 @@ class Past:
 
         :raises OutOfHistory: nothing was undone, or another request was applied since
         """
-        self._drop_frames(self._undo.redo())
+        if not self._is_undone:
+            raise OutOfHistory('there is nothing to redo', field='history')
+        line, era = self._lines.undone.pop(), self._era
+        left, _ = self._return_to(line)
+        if self._era == era:
+            self._lines.drop(left)
+        else:
+            self._lines.resets.append(left)
 
     def return_to_course(self, number: int) -> bool:
         """
@@ -232,57 +330,77 @@ class Past:
         :raises OutOfHistory: it is kept no more; nothing is changed
         """
         self.timeline.note_shown()
-        left = self.timeline.courses.current
-        step = self.timeline.return_to_course(number)
-        if number == left:
+        if number == self.course:
             return False
-        self._keep_ghost(left, step)
-        for frame in self._ghosts.take_course(number):
-            self.frame_cache.add_frame(frame)
-        self._undo.clear_undone()
+        line = next((line for line, _ in self._courses_left() if line.course == number), None)
+        if line is None:
+            raise OutOfHistory(f'course {number} is not kept', field='course')
+        line.moment = min(self.timeline.moment[0], line.head), None
+        self._keep_course(*self._return_to(line))
+        self._lines.clear_undone(self._era)
         return True
 
-    def _drop_frames(self, step: int | None) -> None:
-        """
-        Drop the cached frames that another course makes invalid.
+    @property
+    def _is_undone(self) -> bool:
+        """Whether there is anything to redo."""
+        self._drop_lost()
+        return bool(self._lines.undone)
 
-        :param step: from which on; None is all, with another timeline in force
-        """
-        if step is not None:
-            self.frame_cache.drop_from(step)
-            return
-        self.frame_cache = self._new_frame_cache()
-        self.timeline.watch_contacts(self._watching)
-        if self._limit_timeline():
-            # With the contacts of the frame that was shown.
-            self.timeline.seek_moment(*self.timeline.moment)
+    def _undoes_reset(self, serial: int) -> bool:
+        """Return whether nothing was requested since the last reset, as far as that is kept."""
+        kept = self.timeline.history.oldest == 0
+        return serial == 0 and kept and bool(self._lines.resets)
 
-    def _keep_ghost(self, left: int, step: int) -> None:
-        """Keep the frames of a course that was left, from the step on where it ends."""
-        self._ghosts.add_course(left, self.frame_cache.drop_from(step))
-        kept = self.timeline.courses.reachable(self.timeline.history)
-        self._ghosts.retain({course.number for course in kept})
+    def _courses_left(self) -> Iterator[tuple[Line, int]]:
+        """Yield the courses that can be returned to, and the step at which each parts."""
+        for line in self._lines.left.values():
+            step = self.timeline.history.parting(line.tip)
+            if step is not None:
+                yield line, step
 
-    def _timeline_of(self, state: WorldState) -> Timeline:
-        """Return a timeline that begins with a state."""
-        world = World(
-            physics_rate=self.physics_rate, frame_steps=self.frame_steps, settings=state.settings
-        )
-        world.apply(Restore(state=state))
-        world.watching = self._watching
-        return Timeline(
-            world,
-            length=self.steps_in(self._length),
-            spacing=self.steps_in(self._checkpoints),
-            log_limit=self.memory.log_limit,
-            courses=self._course_numbers,
+    def _line(self) -> Line:
+        """Return the line in force."""
+        history, moment = self.timeline.history, self.timeline.moment
+        return Line(
+            tip=history.tip, head=history.head, moment=moment, course=self.course, era=self._era
         )
 
-    def _new_frame_cache(self) -> FrameCache:
-        """Return an empty frame cache of the timeline."""
-        return FrameCache(
-            self.timeline.history,
-            physics_rate=self.physics_rate,
-            frame_steps=self.frame_steps,
-            budget=self.memory.frame_limit,
-        )
+    def _follow(
+        self, tip: Node, head: int, moment: tuple[int, int | None]
+    ) -> tuple[Line, list[CachedFrame]]:
+        """Put a line in force; return the one that was, and the frames that it alone has shown."""
+        left = self._lines.hold(self._line())
+        step = self.timeline.follow(tip, head, moment)
+        reached, _ = self.timeline.moment
+        if reached != moment[0]:
+            message = f'{reached / self.physics_rate:.3f} s is the oldest that is kept'
+            self._answers.append(Answer(topic='history', message=message))
+        return left, self.frame_cache.drop_from(step)
+
+    def _return_to(self, line: Line) -> tuple[Line, list[CachedFrame]]:
+        """Put a line in force that was left; return as `_follow` does."""
+        left = self._follow(line.tip, line.head, line.moment)
+        self.course, self._era = line.course, line.era
+        for frame in line.ghost:
+            if frame.snapshot.step >= self.timeline.history.oldest:
+                self.frame_cache.add_frame(frame)
+        self._lines.drop(line)
+        return left
+
+    def _keep_course(self, left: Line, frames: list[CachedFrame]) -> None:
+        """Keep a line as a course that was left, with the frames that it alone has shown."""
+        self._lines.keep_ghost(left, frames)
+        courses = self._lines.left
+        courses[left.course] = left
+        of_era = [line for line in courses.values() if line.era == left.era]
+        if len(of_era) > MOST_COURSES:
+            self._lines.drop(of_era[0])
+
+    def _drop_lost(self) -> None:
+        """Drop lines that part from the one in force before the oldest checkpoint."""
+        history = self.timeline.history
+        if self._oldest is not history.checkpoints[0]:
+            self._oldest = history.checkpoints[0]
+            self._lines.drop_where(
+                lambda line: line.era == self._era and history.parting(line.tip) is None
+            )

@@ -15,7 +15,7 @@ from collections.abc import Callable
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.past.history import History
-from physsim_ros.simulation.past.records import Mark, Moment
+from physsim_ros.simulation.past.tree import Mark, Moment
 from physsim_ros.simulation.world import World
 
 
@@ -31,7 +31,7 @@ class Replay:
         self._world = world
         self.history = history
         # Number of requests of the history that were applied.
-        self.serial = history.checkpoints[0].serial
+        self.serial = 0
         self._resumed: Moment | None = None
         self._reports: list[Answer] = []
 
@@ -78,7 +78,7 @@ class Replay:
 
     def replay_shown(self, step: int) -> None:
         """Replay up to a step of the past, with the requests that it was shown with."""
-        self.replay_to(step, self.history.log.serial_shown_at(step))
+        self.replay_to(step, self.history.serial_shown_at(step))
 
     def _replay_to_stop(self, end: int, is_overdue: Callable[[], bool] = lambda: False) -> bool:
         """
@@ -86,12 +86,12 @@ class Replay:
 
         :return: whether all requests were applied with which that step was shown
         """
-        log = self.history.log
-        if not self._apply_logged(log.serial_at(self._world.step_count), is_overdue):
+        history, world = self.history, self._world
+        if not self._apply_logged(history.serial_at(world.step_count), is_overdue):
             return False
         self._enter_checkpoint()
         self._make_steps(end)
-        return self._apply_logged(log.serial_shown_at(self._world.step_count), is_overdue)
+        return self._apply_logged(history.serial_shown_at(world.step_count), is_overdue)
 
     def _make_steps(self, end: int) -> None:
         step = self._world.step_count
@@ -110,10 +110,10 @@ class Replay:
 
     def _apply_logged(self, serial: int, is_overdue: Callable[[], bool] = lambda: False) -> bool:
         """Apply the logged requests of this step again, up to a serial; return whether all."""
-        for entry in self.history.log.entries_between(self.serial, serial):
+        for node in self.history.nodes_between(self.serial, serial):
             self._enter_checkpoint()
             try:
-                self._world.replay(entry.request)
+                self._world.replay(node.request)
             except Refusal as refusal:
                 self._report('divergence', f'a request of the log is refused now: {refusal}')
             self.serial += 1

@@ -18,8 +18,8 @@ from physsim_ros.model.errors import OutOfHistory
 from physsim_ros.model.requests import Configure, Restore
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.simulation.past.history import History
-from physsim_ros.simulation.past.records import Moment
 from physsim_ros.simulation.past.replay import Replay
+from physsim_ros.simulation.past.tree import Moment
 from physsim_ros.simulation.world import World
 
 
@@ -68,8 +68,8 @@ class SeekableReplay(Replay):
         goal = self._seek.goal
         mark = self.history.checkpoint_before(*goal)
         settings = mark.key.scene.settings
-        for entry in self.history.log.entries_between(mark.serial, goal[1]):
-            match entry.request:
+        for node in self.history.nodes_between(mark.serial, goal[1]):
+            match node.request:
                 case Configure(changes=changes):
                     settings = replace(settings, **changes)
                 case Restore(state=state):
@@ -96,21 +96,27 @@ class SeekableReplay(Replay):
                 f'{history.oldest * dt:.3f} to {history.head * dt:.3f} s',
                 field='clock',
             )
-        moment = step, history.log.serial_shown_at(step)
+        moment = step, history.serial_shown_at(step)
         self.seek_moment(*moment, with_contacts=with_contacts)
 
-    def seek_moment(self, step: int, serial: int, *, with_contacts: bool = True) -> None:
-        """Go to a moment of the past, from the nearest checkpoint or from here."""
+    def seek_moment(
+        self, step: int, serial: int, *, with_contacts: bool = True, elsewhere: bool = False
+    ) -> None:
+        """
+        Go to a moment of the past, from the nearest checkpoint or from here.
+
+        :param elsewhere: whether the world is on another line now
+        """
         history, frame = self.history, self._world.frame_steps
         # Its contacts are those of one frame, as they were the first time.
         begin = max(history.oldest, step - (step % frame or frame))
-        start = begin, history.log.serial_shown_at(begin)
+        start = begin, history.serial_shown_at(begin)
         first = (step, serial)
         if self._world.watching:
             first = min(first, start)
         mark = history.checkpoint_before(*first)
         # A seek that this one takes the place of has come to a moment of the history, too.
-        if not mark.moment <= super().moment <= first:
+        if elsewhere or not mark.moment <= super().moment <= first:
             self.resume(mark)
         self._seek = _Seek(min(start, (step, serial)), (step, serial), with_contacts)
 

@@ -63,6 +63,9 @@ def changed_body(old: Body, changes: dict[str, Any], properties: Properties) -> 
     if properties.density is not None:
         said['mass'] = None
     body = replace(old, **changes, **said)
+    if body.mass is not None:
+        # Not that of the world on the day of its birth, which no file would know.
+        body = replace(body, density=body.mass / body.shape.form.area)
     if not LIGHTEST <= body.total_mass <= HEAVIEST:
         field = 'density' if body.mass is None else 'mass'
         raise BadProperty(

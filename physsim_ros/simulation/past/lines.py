@@ -1,0 +1,138 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+The lines of events that are not in force: courses that were left, what was undone, what was reset.
+
+Law: a line is complete in itself, whatever becomes of others; a ghost is what it has shown, to the
+bit; what it has not shown has none. See `tree` for the theory of operation.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+
+from physsim_ros.model.snapshot import Snapshot
+from physsim_ros.simulation.past.frame_segment import CachedFrame, size_of_frames
+from physsim_ros.simulation.past.tree import Node, Tree
+
+# Courses that are kept, at most, as many as a person tells apart; the one that was left first
+# goes first.
+MOST_COURSES = 16
+
+
+@dataclass(slots=True, eq=False, kw_only=True)
+class Line:
+    """
+    A line of events, and the moment at which it was left.
+
+    :param tip: its last node
+    :param head: the last step that it has reached
+    :param moment: at which it is to be shown; without a number of requests, those that its step
+        was shown with
+    :param course: number of it
+    :param era: number of resets before it
+    :param words: phrase for the gesture that was undone in it; '' is none
+
+    :ivar ghost: frames that it has shown, in the order of time, from where it parted from the line
+        that took its place
+    :ivar size: memory of these [bytes]
+    """
+
+    tip: Node
+    head: int
+    moment: tuple[int, int | None]
+    course: int
+    era: int
+    words: str = ''
+    ghost: list[CachedFrame] = field(default_factory=list)
+    size: int = 0
+
+
+class Lines:
+    """
+    The lines that are not in force.
+
+    :param tree: that they are lines of
+
+    :ivar left: courses by number, the one that was left first comes first
+    :ivar undone: lines that redo returns to, the last one first to be redone
+    :ivar resets: lines before each reset
+    """
+
+    def __init__(self, tree: Tree) -> None:
+        self._tree = tree
+        self.left: dict[int, Line] = {}
+        self.undone: list[Line] = []
+        self.resets: list[Line] = []
+
+    def __iter__(self) -> Iterator[Line]:
+        """Iterate over all lines, the first to be dropped first."""
+        yield from self.left.values()
+        yield from self.undone
+        yield from self.resets
+
+    def hold(self, line: Line) -> Line:
+        """Have the tree keep a line, which is not in force from now on; return it."""
+        self._tree.hold(line.tip)
+        return line
+
+    def keep_ghost(self, line: Line, ghost: Sequence[CachedFrame]) -> None:
+        """Keep the frames that a line has shown."""
+        kept = [frame._replace(contacts=None) for frame in ghost]
+        line.ghost = sorted(kept, key=lambda frame: frame.snapshot.step)
+        line.size = size_of_frames(kept)
+        self._tree.size += line.size
+
+    def drop(self, line: Line) -> None:
+        """Keep a line no more."""
+        if self.left.get(line.course) is line:
+            del self.left[line.course]
+        for stack in (self.undone, self.resets):
+            if line in stack:
+                stack.remove(line)
+        self.drop_ghost(line)
+        self._tree.release(line.tip)
+
+    def drop_ghost(self, line: Line) -> None:
+        """Keep the frames of a line no more."""
+        self._tree.size -= line.size
+        line.ghost, line.size = [], 0
+
+    def drop_all(self) -> None:
+        """Drop all lines."""
+        self.drop_where(lambda _: True)
+
+    def clear_undone(self, era: int) -> None:
+        """Drop what was undone, resets and what followed them included: there is no redo."""
+        undone = [line for line in self.left.values() if line.era > era]
+        for line in [*self.undone, *undone]:
+            self.drop(line)
+
+    def drop_where(self, is_lost: Callable[[Line], bool]) -> None:
+        """Drop lines."""
+        for line in [line for line in self if is_lost(line)]:
+            self.drop(line)
+
+    def drop_oldest_ghost(self) -> bool:
+        """Drop the frames of the line that was left first; return whether there were any."""
+        line = next((line for line in self if line.size), None)
+        if line is not None:
+            self.drop_ghost(line)
+        return line is not None
+
+    def drop_oldest(self) -> bool:
+        """Drop the first line; return whether there was one."""
+        line = next(iter(self), None)
+        if line is not None:
+            self.drop(line)
+        return line is not None
+
+    def ghost_at(self, course: int, step: int) -> Snapshot | None:
+        """Return the last frame that a course showed until a step; None where it is not kept."""
+        line = self.left.get(course)
+        ghost = line.ghost if line is not None else []
+        place = bisect_right(ghost, step, key=lambda frame: frame.snapshot.step)
+        return ghost[place - 1].snapshot if place else None

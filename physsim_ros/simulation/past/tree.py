@@ -1,0 +1,229 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+The past as one version tree, and the memory that it takes.
+
+Theory of operation
+-------------------
+
+*Nodes.* A node is a request that changed the world, with the run of the world after it: the
+checkpoints that were made until the next request, and the last step that was reached. Its parent
+is the request before. The root is the state that the world began with. The requests from the root
+to a node, each at its step, decide every bit of what happens; two requests after the same one are
+two branches. Nothing in the tree is ever changed: a node is added at an end, and removed when
+nothing needs it any more.
+
+*The cursor.* A line of events is a node, its tip, with the last step that was reached there, its
+head. One line is in force. `History` has it as flat lists, from the oldest checkpoint that is kept
+to the tip. The cursor is a moment of that line: a step, and the number of requests made until
+then. All that a person does with time moves it:
+
+- Rewind, seek and play move it to another moment of the line in force.
+- A request adds a node at the cursor, the new tip. If something lay ahead, that line is left as a
+  course, with its number, and the line in force gets the next number.
+- Undo moves it to the moment before a gesture. The node before it is the new tip, and the line
+  keeps the number of its course. The line with the gesture is kept for redo, until the next
+  request.
+- Redo moves it to the line and the moment at which undo was asked for.
+- The return to a course moves it to that line. The line that was in force is a course that was
+  left, in its turn.
+- Reset moves it to a root of its own, with the state that was loaded last. The line before is
+  kept, and undo at the root returns to it.
+
+*A course after an undo in it* is as short as the undo has made it, and goes on from there. What
+was undone is lost with the next request or the return to another course. Other courses lose
+nothing by it, though they may have begun in what was undone: each is a line of its own, with all
+of its requests.
+
+*Checkpoints* belong to a node. The world goes on in a space that is built from each of them, so a
+line that passes one goes over into it, and a line that parted before it does not. Several lines
+may run on from one node: they have the same bits, and the first to come to a step makes the
+checkpoint that all of them use. A request at the very step of a checkpoint comes before or after
+it, which `Node.after` says. When a checkpoint is due depends on the requests alone, not on the
+frames in which the steps were made.
+
+*Forgetting.* The tree counts the users of each node: its children and the lines that end with it.
+A node without users is gone. The oldest checkpoint of the line in force is the root of everything
+that can be gone back to: when it is dropped, the next one takes its place, and lines that part
+before that are lost. `history_memory` says in which order things go.
+
+*Ghosts* are the frames that a course has shown, and keeps when it is left (`lines`). Those of the
+line in force are in the frame cache.
+
+Source: Driscoll, Sarnak, Sleator, Tarjan, "Making data structures persistent", 1989, full
+persistence. Editors know such a tree as an undo tree.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+from physsim_ros.model.checkpoint import Checkpoint, WorldState
+from physsim_ros.model.requests import Request, Restore
+from physsim_ros.simulation.past.memory_size import checkpoint_size, RequestSizes
+
+# A step, and the number of requests made until then.
+Moment = tuple[int, int]
+
+
+class Mark(NamedTuple):
+    """
+    A checkpoint and its moment.
+
+    :ivar step: of the checkpoint
+    :ivar serial: number of requests made until then
+    :ivar key: the checkpoint
+    :ivar digest: of the world then
+    :ivar size: memory that it takes [bytes]
+    """
+
+    step: int
+    serial: int
+    key: Checkpoint
+    digest: str
+    size: int = 0
+
+    @property
+    def moment(self) -> Moment:
+        """Return step and serial."""
+        return self.step, self.serial
+
+
+class Loaded(NamedTuple):
+    """
+    The state that was loaded last.
+
+    :ivar serial: number of requests made until then, with the one that loaded it
+    :ivar state: that was loaded
+    """
+
+    serial: int
+    state: WorldState
+
+
+@dataclass(slots=True, eq=False, kw_only=True)
+class Node:
+    """
+    A request that changed the world, and the run of the world up to the next one.
+
+    :param parent: the node before; None at the root
+    :param serial: number of requests from the beginning of the world to this one
+    :param step: at which it was applied, where it branches off the run of its parent
+    :param after: step of the last checkpoint of the parent that it follows; -1 is none
+    :param request: that was applied; that of a root loads what was loaded last
+    :param gesture: requests of one gesture are undone together
+    :param opening: serial of the first request of the gesture
+    :param subject: name of the body or joint concerned, or ''
+    :param loaded: the state that was loaded last
+    :param size: memory of the request [bytes]
+    :param total: memory of all requests from the beginning to this one [bytes]
+    :param shown: whether its step has been shown with it; a request to a running world shows only
+        in the next frame
+
+    :ivar end: the last step that was reached before another request
+    :ivar marks: checkpoints up to there
+    :ivar users: number of children, and of lines that end with it
+    """
+
+    parent: Node | None
+    serial: int
+    step: int
+    request: Request
+    loaded: Loaded
+    after: int = -1
+    gesture: int = 0
+    opening: int = 0
+    subject: str = ''
+    size: int = 0
+    total: int = 0
+    shown: bool = False
+    end: int = field(init=False)
+    marks: list[Mark] = field(default_factory=list)
+    users: int = 0
+
+    def __post_init__(self) -> None:
+        self.end = self.step
+
+
+class Tree:
+    """
+    The nodes that any line uses, and their memory.
+
+    :ivar size: memory of their requests and checkpoints [bytes]
+    """
+
+    def __init__(self) -> None:
+        self.size = 0
+        self._sizes = RequestSizes()
+
+    def add_root(self, state: WorldState) -> Node:
+        """Return the beginning of a world with a state."""
+        request, loaded = Restore(state=state), Loaded(0, state)
+        return Node(parent=None, serial=0, step=0, request=request, loaded=loaded, shown=True)
+
+    def add_node(
+        self,
+        parent: Node,
+        step: int,
+        request: Request,
+        *,
+        gesture: int,
+        opening: int,
+        subject: str,
+    ) -> Node:
+        """Return a new node, after the checkpoints that its parent has up to a step."""
+        serial, size = parent.serial + 1, self._sizes.size_of(request)
+        marks = [mark.step for mark in parent.marks if mark.step <= step]
+        node = Node(
+            parent=parent,
+            serial=serial,
+            step=step,
+            after=marks[-1] if marks else -1,
+            request=request,
+            gesture=gesture,
+            opening=opening,
+            subject=subject,
+            loaded=Loaded(serial, request.state)
+            if isinstance(request, Restore)
+            else parent.loaded,
+            size=size,
+            total=parent.total + size,
+        )
+        parent.users += 1
+        self.size += size
+        return node
+
+    def add_mark(self, node: Node, mark: Mark, before: Checkpoint | None) -> Mark:
+        """
+        Add a checkpoint to a node, as its last; return it with its size.
+
+        :param before: the checkpoint before, with which it may share the scene
+        """
+        mark = mark._replace(size=checkpoint_size(mark.key, before))
+        node.marks.append(mark)
+        self.size += mark.size
+        return mark
+
+    def hold(self, node: Node) -> None:
+        """Note that a line ends with a node."""
+        node.users += 1
+
+    def release(self, node: Node | None) -> None:
+        """Note that a line or a child does not use a node any more; drop what nothing uses."""
+        while node is not None:
+            node.users -= 1
+            if node.users:
+                return
+            self.size -= node.size + sum(mark.size for mark in node.marks)
+            node = node.parent
+
+    def make_root(self, node: Node, mark: Mark) -> None:
+        """Have a node begin at one of its checkpoints; drop what lies before on its line."""
+        place = node.marks.index(mark)
+        self.size -= node.size + sum(each.size for each in node.marks[:place])
+        del node.marks[:place]
+        parent, node.parent, node.size = node.parent, None, 0
+        node.request = Restore(state=node.loaded.state)
+        self.release(parent)

@@ -1,0 +1,689 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+Random histories of a simulation, and the oracle that says what each of them must have shown.
+
+A history is a list of operations, made of a seed: requests, speeds, seeks, undo, redo, resets,
+courses, limits, saved worlds. The oracle keeps a plain list of requests, each with its step, for
+the line of events that is in force, for each course that was left, and for what can be redone. At
+the end it plays every list from nothing, one step at a time and forward only. That is what each
+frame must have shown, however its moment was reached.
+
+    python -m test.simulation.histories 17           # the history of seed 17
+    python -m test.simulation.histories 1000 2000    # those of all seeds from one to another
+    python -m test.simulation.histories 17 --digest  # what it has shown, as a hash
+
+A history that differs is shrunk, and printed as a program.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
+import hashlib
+import itertools
+import random
+import sys
+import time
+from typing import Any
+
+from physsim_ros.files import load_mapping, state_from, text_of
+from physsim_ros.files.world_schema import LIMITS
+from physsim_ros.model.body_properties import Properties
+from physsim_ros.model.checkpoint import WorldState
+from physsim_ros.model.errors import OutOfHistory, Refusal
+from physsim_ros.model.joints import JointKind, JointProperties
+from physsim_ros.model.requests import (
+    Anchor,
+    Axle,
+    ChangeBody,
+    Command,
+    Configure,
+    Delete,
+    DeleteAll,
+    Grab,
+    HandRequest,
+    Join,
+    LetGo,
+    MoveBodies,
+    MoveHand,
+    Pin,
+    Release,
+    Request,
+    Restore,
+    Spawn,
+    Unjoin,
+)
+from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon
+from physsim_ros.model.snapshot import Frame, Snapshot
+from physsim_ros.simulation.past.history_memory import HistoryMemory
+from physsim_ros.simulation.past.past import Past
+from physsim_ros.simulation.simulation import Simulation
+
+# Processor time of one history that is worth a word [s].
+LONGEST = 60.0
+# A call of `Player`: the name of a method and its arguments.
+Operation = tuple[Any, ...]
+
+SETTINGS = WorldSettings(bounds=(-5.0, 0.0, 5.0, 9.0))
+RATES = ((240.0, 60.0), (240.0, 60.0), (480.0, 30.0), (60.0, 60.0), (1000.0, 50.0))
+SHAPES = (
+    Disc(radius=0.3),
+    Disc(radius=0.05),
+    Box(width=0.8, height=0.4),
+    Polygon(outline=((0.0, 0.0), (1.0, 0.0), (0.2, 0.3), (0.0, 1.0))),
+    Compound(element=Box(width=0.3, height=0.3), centers=((-0.3, 0.0), (0.0, 0.0), (0.0, 0.3))),
+    Chain(points=((-1.0, 0.0), (0.0, 0.2), (1.0, 0.0)), thickness=0.1),
+)
+NAMES = tuple(f'a/{number}' for number in range(4))
+JOINTS = ('j/0', 'j/1')
+
+
+class Difference(AssertionError):
+    """A history has shown something else than it must have."""
+
+
+# Making histories
+
+
+def history_of(seed: int) -> list[Operation]:
+    """Return the operations of a seed."""
+    rng = random.Random(seed)
+    physics, publish = rng.choice(RATES)
+    operations: list[Operation] = [
+        ('begin', physics, publish, rng.choice((0.1, 0.17, 0.5, 1.0, 3.0)), rng.random() < 0.5)
+    ]
+    spawns = (replace(spawn_of(rng), name=name, lifetime=0.0) for name in NAMES)
+    operations += [('ask', spawn) for spawn in spawns if rng.random() < 0.8]
+    if rng.random() < 0.5:
+        # The state that a reset returns to.
+        operations += [('save',), ('load',)]
+    for _ in range(rng.randint(8, 50)):
+        operations.append(operation_of(rng))
+    return operations
+
+
+def operation_of(rng: random.Random) -> Operation:
+    makers: list[tuple[int, Callable[[], Operation]]] = [
+        (6, lambda: ('ask', request_of(rng))),
+        (6, lambda: ('ask_running', request_of(rng))),
+        (8, lambda: ('run', rng.choice((1.0, 1.0, 1.0, 4.0, 0.3, -1.0, -4.0, -0.3, -64.0)),
+                     rng.randint(1, 40))),
+        (6, lambda: ('seek', round(rng.random(), 3))),
+        (4, lambda: ('undo',)),
+        (3, lambda: ('redo',)),
+        (1, lambda: ('reset',)),
+        (4, lambda: ('course', rng.randint(0, 7))),
+        (1, lambda: ('limit_memory', rng.choice((1.0, 2.0, 16.0, 256.0)))),
+        (1, lambda: ('limit_history', rng.choice((0.5, 1.0, 5.0, 600.0)))),
+        (2, lambda: ('save',)),
+        (1, lambda: ('load',)),
+        (2, lambda: ('drag', rng.choice(NAMES), point_of(rng), rng.randint(1, 10),
+                     rng.random() < 0.5)),
+    ]  # fmt: skip
+    weights = [weight for weight, _ in makers]
+    return rng.choices([make for _, make in makers], weights)[0]()
+
+
+def number_of(rng: random.Random, most: float = 3.0) -> float:
+    return round(rng.uniform(-most, most), 2)
+
+
+def point_of(rng: random.Random) -> tuple[float, float]:
+    return number_of(rng), round(number_of(rng) + 3.0, 2)
+
+
+def spawn_of(rng: random.Random) -> Spawn:
+    anchored = rng.random() < 0.2
+    wild = rng.random() < 0.1
+    speed = 300.0 if wild else 3.0
+    said: dict[str, Any] = {'anchored': anchored or None}
+    if not anchored and rng.random() < 0.5:
+        said |= {'velocity': (number_of(rng, speed), number_of(rng, speed))}
+        said |= {'spin': number_of(rng, speed)}
+    match rng.randint(0, 6):
+        case 0:
+            said['mass'] = rng.choice((0.1, 1.0, 1e3 if wild else 3.0))
+        case 1:
+            said['density'] = rng.choice((0.1, 2.0, 1e3 if wild else 3.0))
+        case 2:
+            said |= {'friction': 0.1, 'elasticity': 0.9}
+        case 3:
+            said |= {'sensor': True, 'group': rng.randint(0, 1)}
+        case 4 if not anchored:
+            said |= {'kinematic': True}
+    return Spawn(
+        name=rng.choice(NAMES),
+        shape=rng.choice(SHAPES),
+        pose=(*point_of(rng), number_of(rng)),
+        lifetime=rng.choice((0.0,) * 8 + (0.013, 0.4)),
+        color=rng.choice((None, None, (0.1, 0.2, 0.3, 0.4))),
+        properties=Properties(**said),
+    )
+
+
+def change_of(rng: random.Random) -> dict[str, Any]:
+    return rng.choice(
+        [
+            {'gravity': (number_of(rng), number_of(rng, 10.0))},
+            {'damping': rng.choice((0.0, 0.2, 0.9))},
+            {'iterations': rng.choice((1, 3, 25))},
+            {'bounds': rng.choice((None, (-4.0, 0.0, 4.0, 9.0)))},
+            {'density': rng.choice((0.5, 2.0))},
+            {'friction': rng.choice((0.1, 0.9)), 'elasticity': rng.choice((0.0, 0.9))},
+            {'command_timeout': rng.choice((0.0, 0.01, 0.25))},
+            {'max_bodies': rng.choice((3, 1000))},
+        ]
+    )
+
+
+def command_of(rng: random.Random) -> Command:
+    rows = {
+        key: ((number_of(rng), number_of(rng), number_of(rng)),)
+        for key in rng.sample(('poses', 'twists', 'wrenches'), rng.randint(1, 2))
+    }
+    return Command(names=(rng.choice(NAMES),), **rows)
+
+
+def join_of(rng: random.Random) -> Join:
+    kind = rng.choice(list(JointKind))
+    first, second = rng.sample(NAMES, 2)
+    return Join(
+        name=rng.choice(JOINTS),
+        kind=kind,
+        points=tuple(point_of(rng) for _ in range(kind.points)),
+        a=first,
+        b=rng.choice((second, 'world')),
+        properties=JointProperties(break_force=rng.choice((None, None, 30.0))),
+    )
+
+
+def request_of(rng: random.Random) -> Request:
+    """Return a request of any kind; names are few, so that requests meet."""
+    properties = rng.choice(
+        (
+            {},
+            {'density': 3.0},
+            {'mass': 2.0},
+            {'friction': 0.1, 'elasticity': 0.0},
+            {'velocity': (1.0, 2.0)},
+            {'anchored': True},
+            {'anchored': False},
+            {'kinematic': True},
+        )
+    )
+    makers: list[tuple[int, Callable[[], Request]]] = [
+        (16, lambda: spawn_of(rng)),
+        (12, lambda: command_of(rng)),
+        (6, lambda: Configure(changes=change_of(rng))),
+        (8, lambda: join_of(rng)),
+        (2, lambda: Delete(name=rng.choice(NAMES))),
+        (1, DeleteAll),
+        (1, lambda: Anchor(point=(0.0, 0.0), frame=rng.choice(NAMES))),
+        (2, lambda: Release(point=(0.0, 0.0), frame=rng.choice(NAMES))),
+        (2, lambda: Pin(point=(0.0, 0.0), frame=rng.choice(NAMES))),
+        (2, lambda: Axle(point=(0.0, 0.0), frame=rng.choice(NAMES))),
+        (2, lambda: Unjoin(name=rng.choice(JOINTS))),
+        (6, lambda: ChangeBody(name=rng.choice(NAMES), properties=Properties(**properties))),
+        (3, lambda: MoveBodies(names=(rng.choice(NAMES),), by=(number_of(rng), 1.0))),
+    ]
+    weights = [weight for weight, _ in makers]
+    return rng.choices([make for _, make in makers], weights)[0]()
+
+
+# The oracle
+
+
+@dataclass(slots=True, eq=False)
+class Made:
+    """A request that changed the world; `shown` is whether its step was shown with it."""
+
+    step: int
+    request: Request
+    gesture: int
+    shown: bool = False
+
+
+@dataclass(slots=True)
+class Line:
+    """A line of events: the state it began with, the requests, and the last step."""
+
+    course: int
+    state: WorldState
+    made: list[Made] = field(default_factory=list)
+    head: int = 0
+    # The moment at which it was left: a step, and a number of requests.
+    moment: tuple[int, int] = (0, 0)
+
+    def serial_shown(self, step: int) -> int:
+        """Return the number of requests with which a step was shown last."""
+        return sum((each.step, not each.shown) < (step, True) for each in self.made)
+
+
+@dataclass(slots=True, eq=False)
+class Shown:
+    """A snapshot that was shown, after those requests, and in which operation."""
+
+    state: WorldState
+    made: list[Made]
+    snapshot: Snapshot
+    operation: int
+
+
+def key_of(state: WorldState, made: Sequence[Made]) -> tuple[int, ...]:
+    return (id(state), *map(id, made))
+
+
+def same(one: Snapshot, other: Snapshot) -> bool:
+    """Return whether two snapshots are equal to the bit."""
+    return (
+        one.step == other.step
+        and one.scene.key == other.scene.key
+        and one.poses.tobytes() == other.poses.tobytes()
+        and one.twists.tobytes() == other.twists.tobytes()
+        and one.forces.tobytes() == other.forces.tobytes()
+    )
+
+
+class Player:
+    """
+    Plays a history, with the oracle beside.
+
+    Each operation is a method; one that can do nothing where it comes does nothing, so that any
+    part of a history is one too.
+    """
+
+    def __init__(self) -> None:
+        self.now = 0
+        self.operation = 0
+        self.shown: list[Shown] = []
+        # Requests since the last frame.
+        self.submitted: list[Request] = []
+        # Whether anything may have been dropped of the past.
+        self.dropped = False
+        # Courses of each time since a reset, by number, and what can be redone and undone.
+        self.left: dict[int, Line] = {}
+        self.undone: list[tuple[Line, dict[int, Line] | None]] = []
+        self.resets: list[tuple[Line, dict[int, Line]]] = []
+        self.saved: WorldState | None = None
+
+    # Operations
+
+    def begin(self, physics: float, publish: float, checkpoints: float, contacts: bool) -> None:
+        self.rate, self.checkpoints = physics, checkpoints
+        self.frame_steps = round(physics / publish)
+        self.sim = Simulation(
+            physics_rate=physics,
+            publish_rate=publish,
+            settings=SETTINGS,
+            checkpoints=checkpoints,
+            speed=0.0,
+        )
+        self.sim.watch_contacts(contacts)
+        self.line = Line(1, WorldState(settings=SETTINGS))
+        self.courses = 1
+
+    def ask(self, request: Request) -> None:
+        """Submit a request to the world that stands, and show it."""
+        self._submit(request)
+        self._look(self.sim.apply_requests())
+
+    def ask_running(self, request: Request) -> None:
+        """Submit a request, and make a frame with it."""
+        self._submit(request)
+        self._look(self.sim.advance_frame())
+
+    def run(self, speed: float, frames: int) -> None:
+        self.sim.speed = speed
+        for _ in range(frames):
+            self.now += round(1e9 * self.frame_steps / self.rate)
+            for frame in self.sim.advance(self.now):
+                self._look(frame)
+        self.sim.speed = 0.0
+
+    def seek(self, share: float) -> None:
+        oldest, newest = (round(each * self.rate) for each in self._span())
+        step = round(oldest + share * (newest - oldest))
+        self.sim.seek(round(step * 1e9 / self.rate))
+        self._look(self.sim.apply_requests())
+        self._check(self.sim.step == step, f'a seek to step {step} came to {self.sim.step}')
+
+    def undo(self) -> None:
+        before, words = self._position(), self.sim.status.undo
+        serial = before.moment[1]
+        try:
+            self.sim.undo()
+        except OutOfHistory:
+            self._check(not words, f'undo is refused, though it is told: {words}')
+            self._check(self.dropped or not (serial or self.resets), 'undo is refused')
+            return
+        if words == 'undo reset':
+            self.undone.append((before, self.left))
+            self.line, self.left = self.resets.pop()
+            self._arrive(self.line.moment)
+            return
+        gesture = before.made[serial - 1].gesture
+        first = next(n for n, each in enumerate(before.made) if each.gesture == gesture)
+        step = before.made[first].step
+        self.undone.append((before, None))
+        self.line = Line(before.course, before.state, before.made[:first], step)
+        self._arrive((step, first))
+
+    def redo(self) -> None:
+        before, words = self._position(), self.sim.status.redo
+        try:
+            self.sim.redo()
+        except OutOfHistory:
+            self._check(not words, f'redo is refused, though it is told: {words}')
+            self._check(self.dropped or not self.undone, 'redo is refused')
+            return
+        line, left = self.undone.pop()
+        if left is not None:
+            self.resets.append((before, self.left))
+            self.left = left
+        self.line = line
+        self._arrive(line.moment)
+
+    def reset(self) -> None:
+        before = self._position()
+        self.sim.reset()
+        if not (before.head or before.moment[1]):
+            return
+        self.resets.append((before, self.left))
+        self.undone.clear()
+        loads = [each.request.state for each in before.made if isinstance(each.request, Restore)]
+        self.courses += 1
+        self.line = Line(self.courses, loads[-1] if loads else before.state)
+        self.left = {}
+        self._arrive((0, 0))
+
+    def course(self, choice: int) -> None:
+        listed = [each.number for each in self.sim.status.courses]
+        known = [*self.left]
+        self._check(set(listed) <= set(known), f'courses {listed} are told of {known}')
+        self._check(self.dropped or set(listed) == set(known[-16:]), f'{listed}, {known}')
+        if not listed:
+            return
+        number = listed[choice % len(listed)]
+        step = self.sim.step
+        before = self._position()
+        self.sim.return_to_course(number)
+        self.left[before.course] = before
+        self.line = self.left.pop(number)
+        self.undone.clear()
+        oldest = round(self._span()[0] * self.rate)
+        step = max(oldest, min(step, self.line.head))
+        self._arrive((step, self.line.serial_shown(step)))
+
+    def limit_memory(self, megabytes: float) -> None:
+        self.dropped |= megabytes < 16.0
+        self.sim.limit_memory(megabytes)
+        self._look(self.sim.apply_requests())
+
+    def limit_history(self, seconds: float) -> None:
+        self.dropped |= seconds < 600.0
+        self.sim.history = seconds
+        self._look(self.sim.apply_requests())
+
+    def drag(self, name: str, to: tuple[float, float], frames: int, lets_go: bool) -> None:
+        """Drag a body for some frames; a hand that does not let go is gone at the next jump."""
+        self.sim.speed = 1.0
+        self._submit(Grab(hand='h', point=(0.0, 0.0), frame=name))
+        for number in range(frames):
+            self._look(self.sim.advance_frame())
+            self._submit(MoveHand(hand='h', point=(to[0], to[1] + number / 10)))
+        if lets_go:
+            self._submit(LetGo(hand='h'))
+        self._look(self.sim.advance_frame())
+        self.sim.speed = 0.0
+
+    def save(self) -> None:
+        """Save; the file is the world to the bit, and all that load it go on alike."""
+        state = self.sim.save()
+        if len(state.bodies) > state.settings.max_bodies:
+            # The limit has come down since; no world may begin so.
+            return
+        self.saved = state
+        text = text_of(state, self.rate)
+        # Limits are the node's to say. They may have come down since.
+        limits = {name: getattr(state.settings, name) for name in LIMITS}
+        content = load_mapping(text, field='file')
+        loaded = state_from(content, WorldSettings(), self.rate)
+        loaded = replace(loaded, settings=replace(loaded.settings, **limits))
+        self._check(loaded.settings == state.settings, 'settings load differently')
+        for one, other in zip(loaded.bodies, state.bodies, strict=True):
+            self._check(one == other, f'a body loads differently: {one} was {other}')
+        for one, other in zip(loaded.joints, state.joints, strict=True):
+            self._check(one == other, f'a joint loads differently: {one} was {other}')
+        self._check(text_of(loaded, self.rate) == text, 'saved, loaded and saved again differs')
+        worlds = [Simulation(physics_rate=self.rate, publish_rate=self.rate / self.frame_steps,
+                             checkpoints=self.checkpoints) for _ in range(2)]  # fmt: skip
+        for world, begins in zip(worlds, (state, loaded), strict=True):
+            world.begin(begins)
+        again = text_of(worlds[1].save(), self.rate)
+        self._check(again == text, 'a world that was loaded is saved differently')
+        for _ in range(20):
+            one, other = (world.advance_frame().snapshot for world in worlds)
+            self._check(same(one, other), 'two worlds of one file go apart')
+
+    def load(self) -> None:
+        """Load the world that was saved last; time goes on."""
+        if self.saved is not None:
+            self.ask(Restore(state=self.saved))
+
+    # What it has shown
+
+    def _submit(self, request: Request) -> None:
+        self.submitted.append(request)
+        self.sim.requests.submit(request, topic='~/fuzz')
+
+    def _span(self) -> tuple[float, float]:
+        return self.sim.status.oldest, self.sim.status.newest
+
+    def _position(self) -> Line:
+        """Return the line of events, with the moment that is shown."""
+        serial = self.line.serial_shown(self.sim.step)
+        return replace(self.line, made=[*self.line.made], moment=(self.sim.step, serial))
+
+    def _arrive(self, moment: tuple[int, int]) -> None:
+        """Check where a jump has come to."""
+        step, digest = self.sim.step, self.sim.world.digest()
+        if not self.dropped:
+            self._check(step == moment[0], f'step {step} instead of {moment[0]}')
+        self._check(self.sim.status.course == self.line.course, 'another course')
+        self._look(self.sim.apply_requests())
+        self._check(digest == self.sim.world.digest(), 'a frame has changed the world')
+
+    def _look(self, frame: Frame | None) -> None:
+        """Note the requests that were applied before a frame, and what it shows."""
+        if frame is None:
+            return
+        bad = [each.message for each in frame.answers if each.code == 'divergence']
+        self._check(not bad, f'{bad}')
+        self.dropped |= any(each.code == 'history' for each in frame.answers)
+        step = frame.snapshot.step
+        for each in self._note_requests(frame):
+            # One that a running world has applied shows in the next frame only.
+            each.shown = each.step == step
+        line = self.line
+        line.head = max(line.head, step)
+        made = line.made[: line.serial_shown(step)]
+        self.shown.append(Shown(line.state, made, frame.snapshot, self.operation))
+
+    def _note_requests(self, frame: Frame) -> list[Made]:
+        """Return the requests that have changed the world since the last frame, from its log."""
+        history, line = self.sim.past.timeline.history, self.line
+        dropped, logged = history.nodes[0].serial, history.nodes[1:]
+        pairs = zip(line.made[dropped:], logged, strict=False)
+        same_yet = itertools.takewhile(lambda pair: pair[0].request is pair[1].request, pairs)
+        common = len([*same_yet])
+        if frame.course != line.course:
+            self.left[line.course] = line
+            self.courses += 1
+            kept = line.made[: dropped + common]
+            self.line = Line(frame.course, line.state, kept, logged[-1].step)
+        else:
+            self._check(dropped + common == len(line.made), 'requests are lost')
+        fresh = [Made(each.step, each.request, each.gesture) for each in logged[common:]]
+        for each in fresh:
+            by_hand = isinstance(each.request, HandRequest)
+            self._check(by_hand or each.request in self.submitted, 'nobody has asked for this')
+        self.submitted.clear()
+        if fresh:
+            self.undone.clear()
+        self.line.made += fresh
+        return fresh
+
+    # What it must have shown
+
+    def verify(self) -> None:
+        """Play all requests from nothing, and compare what was shown on the way."""
+        pending: dict[tuple[int, ...], list[Shown]] = {}
+        for each in self.shown:
+            pending.setdefault(key_of(each.state, each.made), []).append(each)
+        while pending:
+            longest = max(pending, key=len)
+            last = max(pending[longest], key=lambda each: each.snapshot.step)
+            for state, made, snapshot in self.straight(last.state, last.made, last.snapshot.step):
+                key = key_of(state, made)
+                here = [
+                    each for each in pending.get(key, []) if each.snapshot.step == snapshot.step
+                ]
+                for each in here:
+                    if not same(each.snapshot, snapshot):
+                        raise Difference(
+                            f'operation {each.operation} has shown step {snapshot.step} otherwise '
+                            f'than {len(made)} requests played from nothing'
+                        )
+                if here:
+                    pending[key] = [each for each in pending[key] if each not in here]
+                    if not pending[key]:
+                        del pending[key]
+
+    def straight(
+        self, state: WorldState, made: list[Made], end: int
+    ) -> Iterator[tuple[WorldState, list[Made], Snapshot]]:
+        """Play requests from nothing, step by step; yield what is there after each of both."""
+        past = Past(
+            physics_rate=self.rate,
+            frame_steps=1,
+            settings=state.settings,
+            length=1e6,
+            checkpoints=self.checkpoints,
+            memory=HistoryMemory(1e6),
+        )
+        past.begin(state)
+        timeline = past.timeline
+        yield state, [], timeline.world.snapshot()
+        for count in range(len(made) + 1):
+            goal = made[count].step if count < len(made) else end
+            while timeline.world.step_count < goal:
+                timeline.advance(1)
+                yield state, made[:count], timeline.world.snapshot()
+            if count < len(made):
+                timeline.apply(made[count].request, count)
+                yield state, made[: count + 1], timeline.world.snapshot()
+
+    def digest(self) -> str:
+        """Return a hash of all that was shown."""
+        digest = hashlib.blake2b(digest_size=16)
+        for each in self.shown:
+            snapshot = each.snapshot
+            digest.update(f'{snapshot.step} '.encode() + snapshot.scene.key)
+            for array in (snapshot.poses, snapshot.twists, snapshot.forces):
+                digest.update(array.tobytes())
+        return digest.hexdigest()
+
+    def _check(self, holds: bool, message: str) -> None:
+        if not holds:
+            raise Difference(message)
+
+
+# Playing and shrinking
+
+
+def play(operations: Sequence[Operation]) -> Player:
+    """
+    Play a history.
+
+    :raises Difference: it has shown anything else than the oracle
+    """
+    player = Player()
+    for number, (name, *arguments) in enumerate(operations):
+        player.operation = number
+        try:
+            getattr(player, name)(*arguments)
+        except Refusal as refusal:
+            raise Difference(f'{name} is refused: {refusal}') from refusal
+    player.verify()
+    return player
+
+
+def difference_of(operations: Sequence[Operation]) -> str:
+    """Return how a history differs from the oracle, or ''."""
+    try:
+        play(operations)
+    except Difference as difference:
+        return str(difference)
+    return ''
+
+
+def shrunk(operations: Sequence[Operation], seconds: float = 60.0) -> list[Operation]:
+    """Leave out operations, half of them, a quarter and so on, as long as a difference remains."""
+    left, size = list(operations), len(operations) // 2
+    end = time.process_time() + seconds
+    while size and time.process_time() < end:
+        place = 1
+        while place < len(left) and time.process_time() < end:
+            rest = place + size
+            fewer = left[:place] + left[rest:]
+            if difference_of(fewer):
+                left = fewer
+            else:
+                place = rest
+        size //= 2
+    return left
+
+
+def script(operations: Sequence[Operation]) -> str:
+    """Return a history as a program."""
+    lines = [f'player.{name}({", ".join(map(repr, rest))})' for name, *rest in operations]
+    return '\n'.join(['player = Player()', *lines, 'player.verify()'])
+
+
+def check(seed: int) -> None:
+    """
+    Play the history of a seed.
+
+    :raises Difference: with its program, shrunk
+    """
+    operations = history_of(seed)
+    if difference_of(operations):
+        short = shrunk(operations)
+        raise Difference(f'seed {seed}: {difference_of(short)}\n{script(short)}')
+
+
+def main(arguments: list[str]) -> int:
+    """Play histories; return how many differ."""
+    seeds = [int(each) for each in arguments if each.isdigit()]
+    if '--digest' in arguments:
+        sys.stdout.write(f'{play(history_of(seeds[0])).digest()}\n')
+        return 0
+    found = 0
+    for seed in range(seeds[0], seeds[-1] + 1):
+        before = time.process_time()
+        try:
+            check(seed)
+        except Difference as difference:
+            found += 1
+            sys.stdout.write(f'{difference}\n')
+        if (seconds := time.process_time() - before) > LONGEST:
+            sys.stdout.write(f'seed {seed} took {seconds:.0f} s of the processor\n')
+        sys.stdout.flush()
+    return found
+
+
+if __name__ == '__main__':
+    sys.exit(main(sys.argv[1:]))
