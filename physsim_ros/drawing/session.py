@@ -43,7 +43,7 @@ from physsim_ros.model.names import split_name
 from physsim_ros.model.preview import Line, NO_PREVIEW, Preview
 from physsim_ros.model.requests import Join, Request, Spawn
 from physsim_ros.model.snapshot import Answer, Snapshot
-from physsim_ros.model.transform import Point
+from physsim_ros.model.transform import Point, turned
 from physsim_ros.simulation.queue_entries import Amend
 from physsim_ros.simulation.simulation import Simulation
 
@@ -250,10 +250,10 @@ def _in_world(samples: Floats, frame: str, scene: SceneQuery) -> Floats:
     """Return samples of a frame in the world, (n, 3) float64: x, y [m], time [s]."""
     if not frame:
         return samples
-    origin, ahead = scene.resolve_point((0.0, 0.0), frame), scene.resolve_point((1.0, 0.0), frame)
-    cos, sin = ahead[0] - origin[0], ahead[1] - origin[1]
-    turn = np.array(((cos, sin, 0.0), (-sin, cos, 0.0), (0.0, 0.0, 1.0)))
-    return np.asarray(samples @ turn + (*origin, 0.0))
+    origin = scene.resolve_point((0.0, 0.0), frame)
+    placed = samples.copy()
+    placed[:, :2] = turned(samples[:, :2], scene.pose(frame)[2]) + origin
+    return placed
 
 
 def _unrecognised_preview(samples: Floats) -> Preview:

@@ -30,10 +30,11 @@ from physsim_ros.drawing.strokes.meanings import (
     RECTANGLE,
 )
 from physsim_ros.drawing.strokes.outer_boundary import outer_boundary
-from physsim_ros.drawing.strokes.polyline import angles, point_of, smoothed, turns, widened
+from physsim_ros.drawing.strokes.plane import angles, principal_axis
+from physsim_ros.drawing.strokes.polyline import point_of, smoothed, turns, widened
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.shapes import crosses_itself, is_convex, signed_area
-from physsim_ros.model.transform import cross, Point
+from physsim_ros.model.transform import cross, Point, turned
 
 # Of the forms, only this is no meaning too.
 OVAL = 'oval'
@@ -73,9 +74,9 @@ def hypotheses(features: Features, plain: float) -> Iterator[Hypothesis]:
 def _shapes(outline: Floats, gap: float) -> Iterator[Hypothesis]:
     """Yield the shapes that an outline may have, with weights that do not add up to anything."""
     center, radius, error, aspect = roundness(outline)
-    wide, narrow = widened(outline)
+    wide, narrowed = widened(outline)
     at = corner_detection.corners(wide, closed=True, gap=gap)
-    found = corner_detection.vertices(wide, at, closed=True) @ narrow
+    found = narrowed(corner_detection.vertices(wide, at, closed=True))
     # Residual of the sides, compared with that of a circle; a hexagon's is a fifth of it.
     size = float(np.hypot(*np.ptp(wide, axis=0)))
     residual = corner_detection.side_error(wide, at) / size if len(at) >= 3 else 1.0
@@ -104,7 +105,7 @@ def _shapes(outline: Floats, gap: float) -> Iterator[Hypothesis]:
     if len(at) == 4 and squareness(found) > square:
         corners, square = found, squareness(found)
     else:
-        corners = corners @ narrow
+        corners = narrowed(corners)
     yield Hypothesis(primitive=RECTANGLE, weight=broad * (1.0 - edgeless) * square, points=corners)
     if len(at) >= 3 and crosses_itself(found):
         boundary = outer_boundary(found)
@@ -202,11 +203,12 @@ def roundness(outline: Floats) -> tuple[Floats, float, float, float]:
     if abs(area) > 1e-6 * float((np.ptp(outline, axis=0) ** 2).sum()):
         center = base + ((outline + following - 2 * base) * weight[:, None]).sum(axis=0) / 6 / area
     away = outline - center
-    squares, axes = np.linalg.eigh(away.T @ away / len(away))
-    scales = np.sqrt(np.maximum(squares, 1e-18 * squares[1]))
-    radii = np.hypot(*(away @ axes / scales).T)
+    angle, along, across = principal_axis(away)
+    aspect = math.sqrt(max(across / along, 1e-18))
+    x, y = turned(away, -angle).T
+    radii = np.hypot(x, y / aspect)
     radius = math.sqrt(abs(area) / math.pi)
-    return center, radius, float(radii.std() / radii.mean()), float(scales[0] / scales[1])
+    return center, radius, float(radii.std() / radii.mean()), aspect
 
 
 def squareness(found: Floats) -> float:

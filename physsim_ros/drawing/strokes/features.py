@@ -103,7 +103,8 @@ class Features:
 def swings_of(points: Floats) -> Swings:
     """Return the oscillation of a polyline, in the direction in which it turns back most often."""
     # A row for each direction: numpy sorts and sums those twice as fast as columns.
-    across = _DIRECTIONS @ points.T
+    x, y = points.T
+    across = _DIRECTIONS[:, :1] * x + _DIRECTIONS[:, 1:] * y
     ordered = np.partition(across, (FRINGE, len(points) - 1 - FRINGE), axis=1)
     # The outermost points may be drawn by mistake.
     low, high = ordered[:, FRINGE, None], ordered[:, -1 - FRINGE, None]

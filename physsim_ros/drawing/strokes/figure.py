@@ -32,7 +32,6 @@ from physsim_ros.drawing.strokes.stroke_order import joined_strokes
 from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.requests import Join, Request
-from scipy.spatial.distance import cdist
 
 # The greatest number of strokes of one figure.
 MOST_STROKES = 12
@@ -141,8 +140,9 @@ def marked_solid(figures: Sequence[Figure], last: Figure, settings: DrawingSetti
     if not figures or not figures[-1].is_solid or not last.is_open:
         return False
     solid = figures[-1]
-    near = _follows(solid, last, settings)
-    return near and _share_inside(last, solid) >= _ON_SOLID
+    if not _follows(solid, last, settings) or _is_side(last, solid, settings):
+        return False
+    return _share_inside(last, solid) >= _ON_SOLID
 
 
 def marks_inside(
@@ -194,12 +194,18 @@ def _leaves_its_bodies(figure: Figure) -> bool:
 
 
 def _is_side(line: Figure, figure: Figure, settings: DrawingSettings) -> bool:
-    """Return whether a line begins and ends on a figure of several lines: it is one more side."""
+    """Return whether a line is one more side of several: it joins the two ends of their solid."""
     if len(figure.strokes) < 2 or not figure.is_solid:
         return False
-    outline = np.vstack([_few_points(stroke) for stroke in figure.strokes])
     (stroke,) = line.strokes
-    return all(_touch(end[None, :2], outline, settings) for end in stroke[[0, -1]])
+    first, last = (end[None, :2] for end in stroke[[0, -1]])
+    ends = joined_strokes(figure.strokes)
+    begin, end = ends[:1], ends[-1:]
+    size = _size(stroke)
+    return any(
+        _touch(first, one, size, settings) and _touch(last, other, size, settings)
+        for one, other in ((begin, end), (end, begin))
+    )
 
 
 def _hang_together(group: Sequence[Figure], settings: DrawingSettings) -> bool:
@@ -207,7 +213,11 @@ def _hang_together(group: Sequence[Figure], settings: DrawingSettings) -> bool:
     paths = [_few_points(stroke) for figure in group for stroke in figure.strokes]
     reached, waiting = [paths[0]], paths[1:]
     while waiting:
-        near = [path for path in waiting if any(_touch(path, it, settings) for it in reached)]
+        near = [
+            path
+            for path in waiting
+            if any(_touch(path, it, max(_size(path), _size(it)), settings) for it in reached)
+        ]
         if not near:
             return False
         reached += near
@@ -215,9 +225,14 @@ def _hang_together(group: Sequence[Figure], settings: DrawingSettings) -> bool:
     return True
 
 
-def _touch(one: Floats, other: Floats, settings: DrawingSettings) -> bool:
-    size = max(float(np.hypot(*np.ptp(path, axis=0))) for path in (one, other))
-    return float(cdist(one, other).min()) <= min(_TOUCHING * size, max(settings.snap, size / 20))
+def _touch(one: Floats, other: Floats, size: float, settings: DrawingSettings) -> bool:
+    """Return whether points are as near to others as those of strokes of a size that touch."""
+    x, y = (one[:, None] - other[None]).transpose(2, 0, 1)
+    return float(np.hypot(x, y).min()) <= min(_TOUCHING * size, max(settings.snap, size / 20))
+
+
+def _size(stroke: Floats) -> float:
+    return float(np.hypot(*np.ptp(stroke[:, :2], axis=0)))
 
 
 def _few_points(stroke: Floats) -> Floats:

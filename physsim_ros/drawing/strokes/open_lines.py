@@ -21,7 +21,7 @@ from physsim_ros.drawing.strokes.fitting import simplified
 from physsim_ros.drawing.strokes.glyphs import hatching
 from physsim_ros.drawing.strokes.hypothesis import falls, Hypothesis, LEAST, rises
 from physsim_ros.drawing.strokes.meanings import BETWEEN, Context, Interpretation
-from physsim_ros.drawing.strokes.polyline import path_length, point_of
+from physsim_ros.drawing.strokes.polyline import COUNT, path_length, point_of
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
@@ -102,7 +102,21 @@ def _joint_along(points: Floats, context: Context) -> tuple[JointKind, float]:
 
 def _cubic_length(points: Floats) -> float:
     """Return the length of the cubic nearest to a stroke: of the stroke without tremor [m]."""
-    share = np.linspace(-1.0, 1.0, len(points))
-    basis = np.polynomial.legendre.legvander(share, 3)
-    coefficients, *_ = np.linalg.lstsq(basis, points, rcond=None)
-    return path_length(basis @ coefficients)
+    cubic = sum(each[:, None] * (each[:, None] * points).sum(axis=0) for each in _CUBICS)
+    return path_length(np.asarray(cubic))
+
+
+def _gram_polynomials(degree: int, count: int) -> list[Floats]:
+    """Return polynomials that are orthonormal on evenly spaced points (Gram, 1883)."""
+    share = np.linspace(-1.0, 1.0, count)
+    found: list[Floats] = []
+    for _ in range(degree + 1):
+        power = share * found[-1] if found else np.ones(count)
+        for each in found:
+            power = power - each * float((each * power).sum())
+        found.append(power / math.sqrt(float((power * power).sum())))
+    return found
+
+
+# All polynomials of at most the third degree, along a resampled stroke.
+_CUBICS = _gram_polynomials(3, COUNT)
