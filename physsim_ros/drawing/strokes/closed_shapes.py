@@ -31,7 +31,7 @@ from physsim_ros.drawing.strokes.meanings import (
 )
 from physsim_ros.drawing.strokes.outer_boundary import outer_boundary
 from physsim_ros.drawing.strokes.plane import angles, principal_axis
-from physsim_ros.drawing.strokes.polyline import point_of, smoothed, turns, widened
+from physsim_ros.drawing.strokes.polyline import point_of, widened
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.shapes import crosses_itself, is_convex, signed_area
 from physsim_ros.model.transform import cross, Point, turned
@@ -46,6 +46,9 @@ _GAP = 0.147
 _SQUARE, _SQUARER = 0.022, 0.22
 # The least aspect of a circle as people draw it, and the number of sides of an oval, which rolls.
 _CIRCULAR, _OVAL_SIDES = 0.68, 48
+# Evidence for a circle: a constant, the factors of the logarithm of its error and of the number of
+# corners of a convex outline, and the number of those that is no evidence.
+_EVIDENCE, _ERROR, _CORNER, _FEW = 1.1, 1.18, 0.5, 5.0
 # The least number of equal corners that are the samples of a circle.
 MANY = 9
 # Factor on the weight of an outline that is neither round nor made of straight sides.
@@ -77,15 +80,14 @@ def _shapes(outline: Floats, gap: float) -> Iterator[Hypothesis]:
     wide, narrowed = widened(outline)
     at = corner_detection.corners(wide, closed=True, gap=gap)
     found = narrowed(corner_detection.vertices(wide, at, closed=True))
-    # Residual of the sides, compared with that of a circle; a hexagon's is a fifth of it.
     size = float(np.hypot(*np.ptp(wide, axis=0)))
     residual = corner_detection.side_error(wide, at) / size if len(at) >= 3 else 1.0
-    bend = turns(smoothed(wide, 2.5, closed=True), 6, closed=True)
-    sharpness = float(np.sort(np.abs(bend))[-8:].mean() / np.abs(bend).mean())
-    ratio = math.log(max(residual, 1e-6) / max(error, 1e-6) / 0.19)
-    evidence = ratio + 1.5 * math.log(2.25 / sharpness)
-    circle = rises(evidence, 0.0, 0.3)
-    if len(at) >= MANY and is_convex(_counterclockwise(found)):
+    # Logistic regression on hands' circles and polygons: sides fit a circle badly, and there are
+    # many of them about it.
+    evidence = _EVIDENCE + math.log(max(residual, 1e-6)) - _ERROR * math.log(max(error, 1e-6))
+    convex = len(at) > 3 and is_convex(_counterclockwise(found))
+    circle = rises(evidence + (_CORNER * (len(at) - _FEW) if convex else 0.0), 0.0, 0.31)
+    if len(at) >= MANY and convex:
         # Corners that many and that equal are the samples of a circle that was drawn quickly.
         circle = max(circle, falls(error, 0.04, 0.004))
     edgeless = circle
