@@ -23,6 +23,7 @@ from numpy._core._multiarray_umath import __cpu_dispatch__, __cpu_features__
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes.interpretation import guess_meanings, MOST_GUESSES, reading_of
+from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import Refusal
 from physsim_ros.simulation.world import World
@@ -69,7 +70,7 @@ def digest_of_readings(strokes: Iterable[tuple[Floats, SceneQuery]]) -> str:
     total = hashlib.sha256()
     for samples, scene in strokes:
         try:
-            guesses = guess_meanings(samples, scene, DrawingSettings())
+            guesses = guess_meanings(resample_stroke(samples), scene, DrawingSettings())
         except Refusal as refusal:
             total.update(repr(refusal).encode())
             continue

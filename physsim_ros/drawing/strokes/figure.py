@@ -28,8 +28,11 @@ from physsim_ros.drawing.strokes.meanings import (
     POLYGON,
     RECTANGLE,
 )
+from physsim_ros.drawing.strokes.polyline import COUNT, path_length
+from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.drawing.strokes.stroke_order import joined_strokes
 from physsim_ros.model.arrays import Flags, Floats
+from physsim_ros.model.errors import Refusal
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.requests import Join, Request
 
@@ -41,9 +44,12 @@ _LOOSE = frozenset({'wall', 'hatching'})
 _SINGLE = OPEN | {DELETION}
 # The greatest distance of strokes that touch, in shares of the larger one's size.
 _TOUCHING = 0.15
-# The greatest number of points of a stroke between which distances are taken.
-_MOST_POINTS = 100
-# The least share of a line that lies on a solid whose mark it is.
+# Stride of the points of a stroke between which distances are taken: 1.6 % of its length.
+_STRIDE = 2
+# The length by which a stroke may end short of another that it is to meet, in shares of its own;
+# the number of points on it; the number of those at an end of a stroke that give its direction.
+_BEYOND, _POINTS_BEYOND, _END = 0.2, 10, 8
+# The least share of the middle half of a line that lies on a solid whose mark it is.
 _ON_SOLID = 0.6
 
 
@@ -52,7 +58,7 @@ class Figure:
     """
     One or several strokes that are read together.
 
-    :param strokes: each (n, 3) float64: x, y [m], time [s]
+    :param strokes: each (COUNT, 2) float64: evenly spaced [m]
     :param began: when its first stroke began [s]
     :param ended: when its last stroke ended [s]
     :param scene: over which the first one was drawn
@@ -119,8 +125,11 @@ def likeliest_group(
             continue
         strokes = tuple(stroke for figure in group for stroke in figure.strokes)
         first = group[0]
-        guesses = guess_meanings(joined_strokes(strokes), first.scene, settings)
+        guesses = guess_meanings(resample_stroke(joined_strokes(strokes)), first.scene, settings)
         if not is_likely(guesses, settings) or guesses[0].meaning in _SINGLE:
+            continue
+        if not _can_be_built(guesses[0]):
+            # Two walls that cross are no x in the open.
             continue
         if guesses[0].meaning in CLOSED or not any(joints):
             return Figure(
@@ -158,6 +167,14 @@ def marks_inside(
         gestures += figure.gestures
         later = figure
     return tuple(gestures)
+
+
+def _can_be_built(guess: Guess) -> bool:
+    try:
+        guess.build()
+    except Refusal:
+        return False
+    return True
 
 
 def _groups(
@@ -198,10 +215,10 @@ def _is_side(line: Figure, figure: Figure, settings: DrawingSettings) -> bool:
     if len(figure.strokes) < 2 or not figure.is_solid:
         return False
     (stroke,) = line.strokes
-    first, last = (end[None, :2] for end in stroke[[0, -1]])
+    first, last = (end[None] for end in stroke[[0, -1]])
     ends = joined_strokes(figure.strokes)
     begin, end = ends[:1], ends[-1:]
-    size = _size(stroke)
+    size = _size(ends)
     return any(
         _touch(first, one, size, settings) and _touch(last, other, size, settings)
         for one, other in ((begin, end), (end, begin))
@@ -210,13 +227,13 @@ def _is_side(line: Figure, figure: Figure, settings: DrawingSettings) -> bool:
 
 def _hang_together(group: Sequence[Figure], settings: DrawingSettings) -> bool:
     """Return whether each stroke touches another one, directly or by others."""
-    paths = [_few_points(stroke) for figure in group for stroke in figure.strokes]
+    strokes = [stroke for figure in group for stroke in figure.strokes]
+    size = max(map(_size, strokes))
+    paths = [_extended(stroke) for stroke in strokes]
     reached, waiting = [paths[0]], paths[1:]
     while waiting:
         near = [
-            path
-            for path in waiting
-            if any(_touch(path, it, max(_size(path), _size(it)), settings) for it in reached)
+            path for path in waiting if any(_touch(path, it, size, settings) for it in reached)
         ]
         if not near:
             return False
@@ -232,17 +249,29 @@ def _touch(one: Floats, other: Floats, size: float, settings: DrawingSettings) -
 
 
 def _size(stroke: Floats) -> float:
-    return float(np.hypot(*np.ptp(stroke[:, :2], axis=0)))
+    return float(np.hypot(*np.ptp(stroke, axis=0)))
+
+
+def _extended(stroke: Floats) -> Floats:
+    """Return points of a stroke and of its lines beyond both ends, where others may meet it."""
+    step = _BEYOND * path_length(stroke) / _POINTS_BEYOND
+    parts = [_few_points(stroke)]
+    for points in (stroke, stroke[::-1]):
+        ahead = points[0] - points[_END]
+        ahead *= step / max(float(np.hypot(*ahead)), 1e-300)
+        parts.append(points[0] + np.arange(1, _POINTS_BEYOND + 1)[:, None] * ahead)
+    return np.vstack(parts)
 
 
 def _few_points(stroke: Floats) -> Floats:
-    return stroke[:: 1 + len(stroke) // _MOST_POINTS, :2]
+    return stroke[::_STRIDE]
 
 
 def _share_inside(line: Figure, solid: Figure) -> float:
-    """Return the share of the points of a line inside the outline of a solid, 0 .. 1."""
-    outline = joined_strokes(solid.strokes)[:, :2]
-    points = np.vstack([_few_points(stroke) for stroke in line.strokes])
+    """Return the share of the middle half of a line inside the outline of a solid, 0 .. 1."""
+    outline = joined_strokes(solid.strokes)
+    quarter = COUNT // 4
+    points = np.vstack([stroke[quarter : COUNT - quarter] for stroke in line.strokes])
     return float(_inside(points, outline).mean())
 
 

@@ -15,7 +15,13 @@ from physsim_ros.drawing.strokes import regularisation
 from physsim_ros.drawing.strokes.corner_detection import ARM
 from physsim_ros.drawing.strokes.features import Features
 from physsim_ros.drawing.strokes.hypothesis import falls, Hypothesis, LEAST, rises
-from physsim_ros.drawing.strokes.meanings import Context, Interpretation, MISPLACED, Outcome
+from physsim_ros.drawing.strokes.meanings import (
+    Context,
+    GRAVITY,
+    Interpretation,
+    MISPLACED,
+    Outcome,
+)
 from physsim_ros.drawing.strokes.plane import dot
 from physsim_ros.drawing.strokes.polyline import point_of, smoothed, turns
 from physsim_ros.model.arrays import Floats
@@ -106,7 +112,7 @@ def interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[Interp
         return
     free = not under
     yield Interpretation(
-        meaning='gravity',
+        meaning=GRAVITY,
         weight=hypothesis.weight * (1.0 if free else MISPLACED),
         build=partial(_turn_gravity, points, context),
     )
