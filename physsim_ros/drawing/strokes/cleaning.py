@@ -89,8 +89,8 @@ def _without_jumps(points: Floats) -> Floats:
 
 
 def _goes_on(points: Floats, astray: float) -> bool:
-    """Return whether a stroke comes from its first point, or from no farther off [m]."""
+    """Return whether a stroke comes from its first point, no farther off [m], or ends near it."""
     first, second, ahead = points[[0, 1, 1 + _AHEAD]]
     step, along = second - first, ahead - second
     along = along * (math.hypot(*step) / max(math.hypot(*along), 1e-300))
-    return math.hypot(*(step - along)) <= astray
+    return math.hypot(*(step - along)) <= astray or math.dist(first, points[-1]) <= astray / 2
