@@ -49,6 +49,8 @@ _CIRCULAR, _OVAL_SIDES = 0.68, 48
 # Evidence for a circle: a constant, the factors of the logarithm of its error and of the number of
 # corners of a convex outline, and the number of those that is no evidence.
 _EVIDENCE, _ERROR, _CORNER, _FEW = 1.1, 1.18, 0.5, 5.0
+# The least aspect of the corners of a polygon that may be a small circle.
+_LEAST_ROUND = 0.4
 # The least number of equal corners that are the samples of a circle.
 MANY = 9
 # Factor on the weight of an outline that is neither round nor made of straight sides.
@@ -179,7 +181,9 @@ def polygon_interpretations(hypothesis: Hypothesis, context: Context) -> Iterato
     """Yield axle and polygon: small circles are drawn with corners."""
     points = hypothesis.points
     center, radius = points.mean(axis=0), float(np.hypot(*np.ptp(points, axis=0))) / 3
+    _, along, across = principal_axis(points - center)
     share = axle.share_of(point_of(center), radius, context, corners=len(points))
+    share *= rises(math.sqrt(across / along), _LEAST_ROUND, 0.03)
     weight, shown = hypothesis.weight * share, math.dist(center, points[0])
     yield axle.interpretation(point_of(center), shown, context, weight=weight)
     yield Interpretation(

@@ -16,7 +16,7 @@ import math
 import numpy as np
 from physsim_ros.drawing.strokes import request_builder
 from physsim_ros.drawing.strokes.corner_detection import bends_of
-from physsim_ros.drawing.strokes.features import Features
+from physsim_ros.drawing.strokes.features import Features, loop_roundness
 from physsim_ros.drawing.strokes.fitting import simplified
 from physsim_ros.drawing.strokes.glyphs import hatching
 from physsim_ros.drawing.strokes.hypothesis import falls, Hypothesis, LEAST, rises
@@ -30,6 +30,9 @@ from physsim_ros.model.transform import cross
 LINE = 'line'
 # The longest loop that counts as a mistake of the hand, in shares of the length.
 _LOOP = 0.15
+# The greatest area of a loop that is the tip of a brace, by its length squared; the loop of an x
+# has 0.037 and more, that of a pigtail 0.07.
+_NARROW = 0.035
 # The least straightness of a rod: the distance of its ends by its length.
 _STRAIGHT = 0.95
 # The greatest straightness of a rope; an arc as high as a fifth of its chord has 0.9.
@@ -52,8 +55,11 @@ def hypotheses(features: Features, plain: float) -> Iterator[Hypothesis]:
         rises(straight, 0.9, 0.02),
         falls(swings.height / stroke.size, 0.06, 0.006),
     )
-    # Small loops come from bends, and from setting the pen down.
-    loops = sum(last - first > _LOOP * len(points) for _, first, last in features.crossings)
+    # Small loops come from bends, and from setting the pen down; narrow ones from retraced tips.
+    loops = sum(
+        each[2] - each[1] > _LOOP * len(points) and loop_roundness(points, each) > _NARROW
+        for each in features.crossings
+    )
     weight = plain * calm * rises(stroke.gap, 0.147, 0.006) * falls(loops, 0.5, 0.2)
     if weight >= LEAST:
         yield Hypothesis(primitive=LINE, weight=weight, points=bends_of(points))

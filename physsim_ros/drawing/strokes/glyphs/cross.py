@@ -9,12 +9,11 @@ from collections.abc import Iterator
 from functools import partial
 import math
 
-import numpy as np
-from physsim_ros.drawing.strokes.features import Features
+from physsim_ros.drawing.strokes.features import Features, loop_roundness
 from physsim_ros.drawing.strokes.fitting import line
 from physsim_ros.drawing.strokes.hypothesis import falls, Hypothesis, rises
 from physsim_ros.drawing.strokes.meanings import Context, Interpretation, MISPLACED, Outcome
-from physsim_ros.drawing.strokes.polyline import path_length, point_of
+from physsim_ros.drawing.strokes.polyline import point_of
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NothingThere
 from physsim_ros.model.requests import Anchor
@@ -31,7 +30,8 @@ def hypothesis(features: Features) -> Hypothesis:
     stroke, crossings = features.stroke, features.crossings
     best = Hypothesis(primitive=PRIMITIVE, weight=0.0, points=stroke.points[:1])
     count = len(stroke.points) - 1
-    for at, first, last in crossings:
+    for crossing in crossings:
+        at, first, last = crossing
         before, loop, after = first / count, (last - first) / count, 1.0 - last / count
         # Each line reaches half as far beyond the crossing as its end lies before it.
         until, since = int(1.5 * first) + 1, int(1.5 * last - 0.5 * count)
@@ -47,19 +47,11 @@ def hypothesis(features: Features) -> Hypothesis:
             * falls(max(bent, curved) / stroke.size, 0.06, 0.008)
             * rises(abs(float(cross(along, beside))), 0.5, 0.06)
             * falls(len(crossings), 2.5, 0.3)
-            * falls(_compactness(stroke.points, at, first, last), _ROUND, 0.002)
+            * falls(loop_roundness(stroke.points, crossing), _ROUND, 0.002)
         )
         if weight > best.weight:
             best = Hypothesis(primitive=PRIMITIVE, weight=weight, points=at[None])
     return best
-
-
-def _compactness(points: Floats, at: Floats, first: float, last: float) -> float:
-    """Return the area within the loop from a crossing to itself, by its length squared."""
-    loop = np.vstack((at, points[int(first) + 1 : int(last) + 1]))
-    following = np.roll(loop, -1, axis=0)
-    area = abs(float(cross(loop - at, following - at).sum())) / 2
-    return area / path_length(np.vstack((loop, loop[:1]))) ** 2
 
 
 def interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[Interpretation]:
