@@ -120,7 +120,7 @@ def _sharp_only(figure: Figure, _rng: Random) -> Figure | None:
     return None if figure.smooth else figure
 
 
-def _complete(hand: Hand, _rng: Random) -> Hand:
+def all_arrive(hand: Hand, _rng: Random) -> Hand:
     """Let all samples arrive."""
     return replace(hand, first_step=0.0, dropped=0.0, simplified=0.0)
 
@@ -131,10 +131,10 @@ def _size(samples: Floats) -> float:
 
 FAULTS: dict[str, Fault] = {
     'a pen that rests': Fault(samples=_resting),
-    'a spike': Fault(hand=_complete, samples=_spike),
-    'a stale first sample': Fault(hand=_complete, samples=_stale),
-    '10 samples': Fault(hand=_complete, samples=_resampled(10)),
-    '10,000 samples': Fault(hand=_complete, samples=_resampled(10_000)),
+    'a spike': Fault(hand=all_arrive, samples=_spike),
+    'a stale first sample': Fault(hand=all_arrive, samples=_stale),
+    '10 samples': Fault(hand=all_arrive, samples=_resampled(10)),
+    '10,000 samples': Fault(hand=all_arrive, samples=_resampled(10_000)),
     'tremor of 2 %': Fault(hand=lambda hand, rng: replace(hand, tremor=rng.uniform(0.015, 0.02))),
     'gap to 11.5 %': Fault(
         figure=_closed_only,

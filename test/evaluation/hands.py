@@ -10,7 +10,7 @@ effect often absent, so that there are tidy hands, hasty ones, old ones and mice
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 import math
 
 import numpy as np
@@ -71,7 +71,7 @@ def hand(rng: Random, figure: Figure, half: str = 'report') -> Hand:
     corners = max(len(figure.way) if not figure.smooth else 4, 3)
     # Whoever draws something thin takes more care, if not enough.
     care = min(1.0, math.sqrt(figure.thin / 0.25))
-    return Hand(
+    somebody = Hand(
         size=math.exp(rng.uniform(math.log(0.4), math.log(6.0))),
         place=(rng.uniform(-20.0, 20.0), rng.uniform(-20.0, 20.0)),
         rate=math.exp(_habit(rng, math.log(20.0), math.log(200.0), half)),
@@ -88,10 +88,18 @@ def hand(rng: Random, figure: Figure, half: str = 'report') -> Hand:
         slowing=_habit(rng, 0.0, 0.85, half),
         unsteady=_habit(rng, 0.0, 0.4, half),
         pixel=float(rng.choice([0.0, rng.uniform(0.0025, 0.012)])),
-        # A finger on a tablet goes 61 to 71 pixels before the screen calls it a stroke.
-        first_step=rng.uniform(0.1, 0.3) if rng.random() < 0.25 else 0.0,
-        dropped=rng.uniform(0.2, 0.7) if rng.random() < 0.3 else 0.0,
-        simplified=rng.uniform(0.004, 0.01) if rng.random() < 0.15 else 0.0,
+        first_step=0.0,
+        dropped=0.0,
+        simplified=0.0,
+    )
+    # A finger on a tablet goes 61 to 71 pixels before the screen calls it a stroke.
+    first_step = rng.uniform(0.1, 0.3) if rng.random() < 0.25 else 0.0
+    sending = rng.random()
+    return replace(
+        somebody,
+        first_step=first_step,
+        dropped=rng.uniform(0.2, 0.7) if sending < 0.3 else 0.0,
+        simplified=rng.uniform(0.004, 0.01) if sending > 0.85 else 0.0,
     )
 
 
@@ -236,7 +244,7 @@ def _received(samples: Floats, somebody: Hand, rng: Random) -> Floats:
     """Return the samples that arrive of those of a pen; the first and the last one do."""
     away = np.hypot(*(samples[:, :2] - samples[0, :2]).T)
     late = np.maximum.accumulate(away) >= somebody.first_step * somebody.size
-    kept = late & (rng.random(len(samples)) >= somebody.dropped)
+    kept = late & (rng.random(len(samples)) >= somebody.dropped) if somebody.dropped else late
     kept[[0, -1]] = True
     if somebody.simplified:
         kept &= _simplified(samples[:, :2], somebody.simplified * somebody.size)

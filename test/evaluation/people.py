@@ -15,7 +15,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from .faults import Fault, FAULTS
+from .faults import all_arrive, Fault, FAULTS
 from .figures import Figure
 from .hands import drawn, Hand, hand
 from .outlines import Floats
@@ -34,11 +34,10 @@ PEOPLE: dict[str, Fault] = {
             'gap to 11.5 %',
             'ends that cross',
             'bowed sides',
-            'a finger on a tablet',
-            'few samples',
         )
     },
     SEVERAL: Fault(),
+    **{name: FAULTS[name] for name in ('a finger on a tablet', 'few samples')},
 }
 # Typical distance by which a stroke is beside its place [m]: two pixels of a page of 1,600.
 _AIM = 0.02
@@ -71,6 +70,7 @@ def drawn_by(
         for way in _parts(_vertices(stroke)) if person == SEVERAL else [_vertices(stroke)]:
             figure, place = figure_of(way)
             somebody = hand(np.random.default_rng((SEEDS[half], number)), figure, half)
+            somebody = all_arrive(somebody, rng)
             faulty = fault.figure(figure, rng)
             if faulty is not None:
                 figure, somebody = faulty, fault.hand(somebody, rng)
