@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+import itertools
 
 import numpy as np
 from physsim_ros.drawing.scene_query import SceneQuery
@@ -188,8 +189,10 @@ def _groups(
         if not part or count > MOST_STROKES or not _follows(figure, group[0], settings):
             break
         group.insert(0, figure)
+    touching = _touching([stroke for each in group for stroke in each.strokes], settings)
     for first in range(len(group) - 1):
-        if _hang_together(group[first:], settings):
+        before = sum(len(each.strokes) for each in group[:first])
+        if _is_connected(touching[before:, before:]):
             yield group[first:]
 
 
@@ -225,21 +228,22 @@ def _is_side(line: Figure, figure: Figure, settings: DrawingSettings) -> bool:
     )
 
 
-def _hang_together(group: Sequence[Figure], settings: DrawingSettings) -> bool:
+def _touching(strokes: Sequence[Floats], settings: DrawingSettings) -> Flags:
+    """Return which strokes touch each other, (n, n) bool."""
+    paths, sizes = [_extended(stroke) for stroke in strokes], [_size(stroke) for stroke in strokes]
+    touching = np.zeros((len(paths), len(paths)), np.bool_)
+    for one, other in itertools.combinations(range(len(paths)), 2):
+        size = max(sizes[one], sizes[other])
+        touching[one, other] = _touch(paths[one], paths[other], size, settings)
+    return touching | touching.T
+
+
+def _is_connected(touching: Flags) -> bool:
     """Return whether each stroke touches another one, directly or by others."""
-    strokes = [stroke for figure in group for stroke in figure.strokes]
-    size = max(map(_size, strokes))
-    paths = [_extended(stroke) for stroke in strokes]
-    reached, waiting = [paths[0]], paths[1:]
-    while waiting:
-        near = [
-            path for path in waiting if any(_touch(path, it, size, settings) for it in reached)
-        ]
-        if not near:
-            return False
-        reached += near
-        waiting = [path for path in waiting if not any(path is it for it in near)]
-    return True
+    reached = np.arange(len(touching)) == 0
+    for _ in range(len(touching)):
+        reached |= touching[reached].any(axis=0)
+    return bool(reached.all())
 
 
 def _touch(one: Floats, other: Floats, size: float, settings: DrawingSettings) -> bool:
