@@ -258,7 +258,7 @@ def _simplified(points: Floats, tolerance: float) -> NDArray[np.bool_]:
     parts = [(0, len(points) - 1)]
     while parts:
         first, last = parts.pop()
-        along, away = points[last] - points[first], points[first : last + 1] - points[first]
+        along, away = points[last] - points[first], points[slice(first, last + 1)] - points[first]
         share = np.clip(away @ along / max(float(along @ along), 1e-12), 0.0, 1.0)
         off = np.hypot(*(away - share[:, None] * along).T)
         far = int(off.argmax())

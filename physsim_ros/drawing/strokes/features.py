@@ -140,7 +140,7 @@ def swings_of(points: Floats) -> Swings:
 def loop_roundness(points: Floats, crossing: Crossing) -> float:
     """Return the area within the loop from a crossing to itself, by its length squared."""
     at, first, last = crossing
-    loop = np.vstack((at, points[int(first) + 1 : int(last) + 1], at))
+    loop = np.vstack((at, points[slice(int(first) + 1, int(last) + 1)], at))
     area = abs(float(cross(loop[:-1] - at, loop[1:] - at).sum())) / 2
     return area / path_length(loop) ** 2
 

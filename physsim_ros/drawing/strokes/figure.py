@@ -275,7 +275,7 @@ def _share_inside(line: Figure, solid: Figure) -> float:
     """Return the share of the middle half of a line inside the outline of a solid, 0 .. 1."""
     outline = joined_strokes(solid.strokes)
     quarter = COUNT // 4
-    points = np.vstack([stroke[quarter : COUNT - quarter] for stroke in line.strokes])
+    points = np.vstack([stroke[slice(quarter, COUNT - quarter)] for stroke in line.strokes])
     return float(_inside(points, outline).mean())
 
 

@@ -63,8 +63,8 @@ def test_the_first_step_of_a_finger_is_kept(way: str, share: float) -> None:
     line = np.linspace((0.0, 0.0), (2.0, 1.0), 60)
     points = {'line': line, 'arc': ARC, 'square': square}[way]
     size = float(np.hypot(*np.ptp(points, axis=0)))
-    late = np.hypot(*(points - points[0]).T) > share * size
-    received = np.vstack((points[:1], points[late.argmax() :]))
+    late = np.maximum.accumulate(np.hypot(*(points - points[0]).T)) > share * size
+    received = np.vstack((points[:1], points[late]))
 
     for samples in (received, received[::-1]):
         assert (clean_samples(samples)[[0, -1]] == samples[[0, -1]]).all()
