@@ -36,6 +36,7 @@ from physsim_ros.drawing.strokes.interpretation import (
     reading_of,
 )
 from physsim_ros.drawing.strokes.meanings import Outcome
+from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.drawing.waiting_joints import requests_with_waiting_joints
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NotRecognised, UnknownBody
@@ -43,14 +44,12 @@ from physsim_ros.model.names import split_name
 from physsim_ros.model.preview import Line, NO_PREVIEW, Preview
 from physsim_ros.model.requests import Join, Request, Spawn
 from physsim_ros.model.snapshot import Answer, Snapshot
-from physsim_ros.model.transform import Point
+from physsim_ros.model.transform import Point, turned
 from physsim_ros.simulation.queue_entries import Amend
 from physsim_ros.simulation.simulation import Simulation
 
 # The least confidence in a runner-up that the label of a preview mentions.
 _MENTIONED = 0.05
-# The greatest number of points of a stroke in a preview.
-_MOST_POINTS = 200
 
 
 class DrawingSession:
@@ -117,12 +116,13 @@ class DrawingSession:
         scene = self._query(snapshot)
         self.preview = NO_PREVIEW
         placed = _in_world(samples, frame, scene)
+        drawn = resample_stroke(placed)
         figure = Figure(
-            strokes=(placed,),
+            strokes=(drawn.points,),
             began=began,
             ended=began + (float(np.ptp(samples[:, 2])) if len(samples) else 0.0),
             scene=scene,
-            guesses=guess_meanings(placed, scene, self.settings),
+            guesses=guess_meanings(drawn, scene, self.settings),
         )
         if is_likely(figure.guesses, self.settings):
             figure.chosen = 0
@@ -138,7 +138,7 @@ class DrawingSession:
             figure.gestures = marks_inside(self._figures, figure, self.settings)
         self._figures.append(figure)
         if figure.chosen is None:
-            self.preview = _unrecognised_preview(placed)
+            self.preview = _unrecognised_preview(drawn.points)
             raise not_recognised(figure.guesses)
         return self._shown(self._build(figure, figure.chosen))
 
@@ -250,20 +250,19 @@ def _in_world(samples: Floats, frame: str, scene: SceneQuery) -> Floats:
     """Return samples of a frame in the world, (n, 3) float64: x, y [m], time [s]."""
     if not frame:
         return samples
-    origin, ahead = scene.resolve_point((0.0, 0.0), frame), scene.resolve_point((1.0, 0.0), frame)
-    cos, sin = ahead[0] - origin[0], ahead[1] - origin[1]
-    turn = np.array(((cos, sin, 0.0), (-sin, cos, 0.0), (0.0, 0.0, 1.0)))
-    return np.asarray(samples @ turn + (*origin, 0.0))
+    origin = scene.resolve_point((0.0, 0.0), frame)
+    placed = samples.copy()
+    placed[:, :2] = turned(samples[:, :2], scene.pose(frame)[2]) + origin
+    return placed
 
 
-def _unrecognised_preview(samples: Floats) -> Preview:
+def _unrecognised_preview(points: Floats) -> Preview:
     """Return the preview of a stroke that was not recognised."""
-    stride = 1 + len(samples) // _MOST_POINTS
-    return Preview(lines=(_line(samples[::stride]),), label='not recognised')
+    return Preview(lines=(_line(points),), label='not recognised')
 
 
 def _line(points: Floats) -> Line:
-    return tuple((x, y) for x, y in points[:, :2].tolist())
+    return tuple((x, y) for x, y in points.tolist())
 
 
 def _mark_reading(figure: Figure) -> Reading:
@@ -276,7 +275,7 @@ def _mark_reading(figure: Figure) -> Reading:
             requests=(),
             subject='',
             message='a mark on what was drawn before',
-            outline=figure.strokes[0][:, :2],
+            outline=figure.strokes[0],
         ),
     )
     return reading_of((mark, *figure.guesses), 0)

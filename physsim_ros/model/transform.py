@@ -25,7 +25,7 @@ def rotated(vector: Point, yaw: float) -> Point:
     return cos * vector[0] - sin * vector[1], sin * vector[0] + cos * vector[1]
 
 
-def turned(vectors: Floats, yaw: Floats) -> Floats:
+def turned(vectors: Floats, yaw: Floats | float) -> Floats:
     """
     Return vectors, each rotated counter-clockwise by its own yaw.
 

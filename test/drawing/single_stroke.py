@@ -12,16 +12,17 @@ from physsim_ros.drawing.strokes.interpretation import (
     Reading,
     reading_of,
 )
+from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.arrays import Floats
 
 
 def interpret_stroke(samples: Floats, scene: SceneQuery, settings: DrawingSettings) -> Reading:
     """
-    Return the reading of a stroke; parameters as of `guess_meanings`.
+    Return the reading of a stroke; parameters as of `resample_stroke` and `guess_meanings`.
 
     :raises Refusal: no guess is likely enough, or the likeliest cannot be built
     """
-    guesses = guess_meanings(samples, scene, settings)
+    guesses = guess_meanings(resample_stroke(samples), scene, settings)
     if not is_likely(guesses, settings):
         raise not_recognised(guesses)
     return reading_of(guesses, 0)

@@ -47,6 +47,10 @@ class Desk:
         if len(points) < 20:
             sides = itertools.pairwise(points)
             points = np.vstack([np.linspace(a, b, 25) for a, b in sides])
+        return self.draw_samples(points, after=after)
+
+    def draw_samples(self, points: Floats, *, after: float = 0.3) -> Reading:
+        """Draw a stroke of no more than these samples."""
         times = np.linspace(0.0, 0.5, len(points))
         samples = np.column_stack((points, times))
         began, self.now = self.now + after, self.now + after + 0.5
@@ -233,3 +237,64 @@ def test_an_axle_drawn_before_its_wheel_waits_for_it() -> None:
 
     (axle,) = desk.scene.joints
     assert (axle.kind, axle.a, axle.b) == (JointKind.AXLE, 'chassis/0', 'drawn/0')
+
+
+def test_two_walls_that_cross_in_the_open_are_two_walls() -> None:
+    desk = Desk()
+    desk.draw([(0.0, 0.0), (3.0, 3.0)])
+    desk.draw([(0.0, 3.0), (3.0, 0.1)])
+
+    assert [kind for _, kind in desk.bodies] == ['Chain', 'Chain']
+
+
+@pytest.mark.parametrize('turned', [False, True])
+def test_an_x_or_a_plus_of_two_samples_a_line_anchors(turned: bool) -> None:
+    desk = Desk()
+    desk.spawn(spawning('a/0', Box(width=2.0, height=2.0)))
+    # Arms of unequal length.
+    lines = np.array([[(-0.5, -0.3), (0.3, 0.3)], [(-0.3, 0.4), (0.5, -0.5)]])
+    if turned:
+        lines = lines @ np.array([(1.0, 1.0), (-1.0, 1.0)]) / math.sqrt(2.0)
+    before = desk.scene.bodies[0].total_mass
+    for line in lines:
+        desk.draw_samples(line)
+
+    (body,) = desk.scene.bodies
+    assert body.anchored
+    assert body.total_mass == before
+
+
+@pytest.mark.parametrize('gap', [-0.1, 0.0, 0.3, 0.5])
+def test_a_shaft_that_ends_short_of_its_head_or_beyond_is_an_arrow(gap: float) -> None:
+    desk = Desk()
+    desk.spawn(Configure(changes={'gravity': (0.0, -9.81)}))
+    desk.draw([(0.0, 0.0), (3.0 - gap, 0.0)])
+
+    assert desk.draw([(2.5, 0.5), (3.0, 0.02), (2.5, -0.4)]).meaning == 'gravity'
+    assert desk.bodies == []
+
+
+@pytest.mark.parametrize('off', [0.02, 0.08])
+def test_four_lines_whose_ends_miss_each_other_are_a_rectangle(off: float) -> None:
+    desk = Desk()
+    rng = np.random.default_rng(3)
+    for side in SQUARE:
+        last = desk.draw(np.array(side) + 2.0 * off * rng.uniform(-0.7, 0.7, (2, 2)))
+
+    assert last.meaning == 'rectangle'
+    assert [kind for _, kind in desk.bodies] == ['Box']
+
+
+def test_a_line_of_which_most_lies_beside_the_circle_it_goes_through_is_a_mark() -> None:
+    desk = Desk()
+    desk.draw(circle(0.0, 0.0, 1.0))
+
+    assert desk.draw([(-2.4, 0.1), (2.4, 0.0)]).meaning == 'mark'
+    assert [kind for _, kind in desk.bodies] == ['Disc']
+
+
+def test_a_rod_from_the_middle_of_a_disc_is_no_mark() -> None:
+    desk = Desk()
+    desk.draw(circle(0.0, 0.0, 0.5))
+
+    assert desk.draw([(0.0, 0.0), (0.0, 1.5)]).meaning == 'rod'

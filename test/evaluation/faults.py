@@ -99,8 +99,30 @@ def _closed_only(figure: Figure, _rng: Random) -> Figure | None:
     return figure if figure.closed else None
 
 
+def _round_only(figure: Figure, _rng: Random) -> Figure | None:
+    return figure if figure.kind == 'disc' else None
+
+
+def _carelessly_closed(hand: Hand, rng: Random) -> Hand:
+    """Let the ends of a circle lie 4 to 11 % apart, or overlap by up to 18 %, and miss."""
+    ends = (rng.uniform(-0.11, -0.04), rng.uniform(0.05, 0.18))
+    return replace(hand, closing=float(rng.choice(ends)), slip=rng.uniform(0.02, 0.12))
+
+
+def _unequal_arms(figure: Figure, rng: Random) -> Figure | None:
+    """Draw the four ends of an x at 0.6 to 1.4 times their distance from its middle."""
+    if figure.kind != 'x' or len(figure.way) > 4:
+        return None
+    return replace(figure, way=figure.way * rng.uniform(0.6, 1.4, (len(figure.way), 1)))
+
+
 def _sharp_only(figure: Figure, _rng: Random) -> Figure | None:
     return None if figure.smooth else figure
+
+
+def all_arrive(hand: Hand, _rng: Random) -> Hand:
+    """Let all samples arrive."""
+    return replace(hand, first_step=0.0, dropped=0.0, simplified=0.0)
 
 
 def _size(samples: Floats) -> float:
@@ -109,10 +131,10 @@ def _size(samples: Floats) -> float:
 
 FAULTS: dict[str, Fault] = {
     'a pen that rests': Fault(samples=_resting),
-    'a spike': Fault(samples=_spike),
-    'a stale first sample': Fault(samples=_stale),
-    '10 samples': Fault(samples=_resampled(10)),
-    '10,000 samples': Fault(samples=_resampled(10_000)),
+    'a spike': Fault(hand=all_arrive, samples=_spike),
+    'a stale first sample': Fault(hand=all_arrive, samples=_stale),
+    '10 samples': Fault(hand=all_arrive, samples=_resampled(10)),
+    '10,000 samples': Fault(hand=all_arrive, samples=_resampled(10_000)),
     'tremor of 2 %': Fault(hand=lambda hand, rng: replace(hand, tremor=rng.uniform(0.015, 0.02))),
     'gap to 11.5 %': Fault(
         figure=_closed_only,
@@ -131,6 +153,17 @@ FAULTS: dict[str, Fault] = {
     'bowed sides': Fault(
         figure=_sharp_only, hand=lambda hand, rng: replace(hand, bow=rng.uniform(0.03, 0.07))
     ),
+    'a finger on a tablet': Fault(
+        hand=lambda hand, rng: replace(hand, first_step=rng.uniform(0.15, 0.35))
+    ),
+    'few samples': Fault(
+        hand=lambda hand, rng: replace(
+            hand, rate=rng.uniform(10.0, 25.0), dropped=rng.uniform(0.0, 0.4)
+        )
+    ),
+    'simplified': Fault(hand=lambda hand, rng: replace(hand, simplified=rng.uniform(0.004, 0.01))),
+    'circle with a gap or an overlap': Fault(figure=_round_only, hand=_carelessly_closed),
+    'x of unequal arms': Fault(figure=_unequal_arms),
     '3 cm': Fault(hand=lambda hand, _: replace(hand, size=0.03)),
     '50 m': Fault(hand=lambda hand, _: replace(hand, size=50.0)),
 }

@@ -245,6 +245,17 @@ def question_mark(rng: Random) -> Figure:
     return Figure(kind='line', way=_turned(way, rng.normal(0.0, 0.2)), smooth=True)
 
 
+def pigtail(rng: Random) -> Figure:
+    """Return a pigtail: a line with one loop in its middle."""
+    share = np.linspace(0.0, 1.0, 100)
+    angle = 2.0 * math.pi * np.clip((share - 0.3) / 0.4, 0.0, 1.0)
+    radius = rng.uniform(0.12, 0.3)
+    along = np.where(share < 0.5, np.minimum(share, 0.3), np.maximum(share, 0.7) - 0.4) - 0.3
+    x = along / 0.3 * rng.uniform(0.4, 0.7) + radius * np.sin(angle)
+    way = np.column_stack((x, radius * (1.0 - np.cos(angle)) * rng.choice([-1.0, 1.0])))
+    return Figure(kind='', way=_turned(way, rng.uniform(0, 7)), smooth=True)
+
+
 def scribble(rng: Random) -> Figure:
     """Return a scribble: to and fro, or round and round."""
     # People make six swings and more.

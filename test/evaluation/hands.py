@@ -10,10 +10,11 @@ effect often absent, so that there are tidy hands, hasty ones, old ones and mice
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 import math
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .figures import Figure, Floats, Random
 
@@ -39,6 +40,9 @@ class Hand:
     :param slowing: of the pen at corners, 0 .. 1
     :param unsteady: of the pen's speed
     :param pixel: to which samples are rounded; 0 is none
+    :param first_step: length within which a touch screen sends nothing after the first sample
+    :param dropped: share of the samples that are lost
+    :param simplified: greatest distance of samples left out from the line through the others
     """
 
     size: float
@@ -57,6 +61,9 @@ class Hand:
     slowing: float
     unsteady: float
     pixel: float
+    first_step: float
+    dropped: float
+    simplified: float
 
 
 def hand(rng: Random, figure: Figure, half: str = 'report') -> Hand:
@@ -64,7 +71,7 @@ def hand(rng: Random, figure: Figure, half: str = 'report') -> Hand:
     corners = max(len(figure.way) if not figure.smooth else 4, 3)
     # Whoever draws something thin takes more care, if not enough.
     care = min(1.0, math.sqrt(figure.thin / 0.25))
-    return Hand(
+    somebody = Hand(
         size=math.exp(rng.uniform(math.log(0.4), math.log(6.0))),
         place=(rng.uniform(-20.0, 20.0), rng.uniform(-20.0, 20.0)),
         rate=math.exp(_habit(rng, math.log(20.0), math.log(200.0), half)),
@@ -76,11 +83,23 @@ def hand(rng: Random, figure: Figure, half: str = 'report') -> Hand:
         bow=care * _often(rng, 0.7, 0.03),
         hook_down=care * _often(rng, 0.2, 0.05),
         hook_up=care * _often(rng, 0.25, 0.05),
-        closing=float(rng.choice([0.0, rng.uniform(-0.07, 0.0), rng.uniform(0.0, 0.1)])),
-        slip=care * _often(rng, 0.8, 0.035),
+        closing=float(rng.choice([0.0, rng.uniform(-0.08, 0.0), rng.uniform(0.0, 0.12)])),
+        slip=care * _often(rng, 0.8, 0.04),
         slowing=_habit(rng, 0.0, 0.85, half),
         unsteady=_habit(rng, 0.0, 0.4, half),
         pixel=float(rng.choice([0.0, rng.uniform(0.0025, 0.012)])),
+        first_step=0.0,
+        dropped=0.0,
+        simplified=0.0,
+    )
+    # A finger on a tablet goes 61 to 71 pixels before the screen calls it a stroke.
+    first_step = rng.uniform(0.1, 0.3) if rng.random() < 0.25 else 0.0
+    sending = rng.random()
+    return replace(
+        somebody,
+        first_step=first_step,
+        dropped=rng.uniform(0.2, 0.7) if sending < 0.3 else 0.0,
+        simplified=rng.uniform(0.004, 0.01) if sending > 0.85 else 0.0,
     )
 
 
@@ -102,7 +121,7 @@ def drawn(figure: Figure, somebody: Hand, rng: Random) -> Floats:
     if somebody.pixel:
         pixel = somebody.pixel * somebody.size
         here = np.round(here / pixel) * pixel
-    return np.column_stack((here, times))
+    return _received(np.column_stack((here, times)), somebody, rng)
 
 
 def stroke(figure: Figure, rng: Random) -> Floats:
@@ -219,6 +238,34 @@ def _paced(way: Floats, somebody: Hand, rng: Random) -> tuple[Floats, Floats]:
     times = np.append(times, somebody.duration)
     here = np.column_stack([np.interp(times, spent, way[:, axis]) for axis in (0, 1)])
     return here, times
+
+
+def _received(samples: Floats, somebody: Hand, rng: Random) -> Floats:
+    """Return the samples that arrive of those of a pen; the first and the last one do."""
+    away = np.hypot(*(samples[:, :2] - samples[0, :2]).T)
+    late = np.maximum.accumulate(away) >= somebody.first_step * somebody.size
+    kept = late & (rng.random(len(samples)) >= somebody.dropped) if somebody.dropped else late
+    kept[[0, -1]] = True
+    if somebody.simplified:
+        kept &= _simplified(samples[:, :2], somebody.simplified * somebody.size)
+    return samples[kept]
+
+
+def _simplified(points: Floats, tolerance: float) -> NDArray[np.bool_]:
+    """Return which points the Ramer-Douglas-Peucker algorithm keeps."""
+    kept = np.zeros(len(points), np.bool_)
+    kept[[0, -1]] = True
+    parts = [(0, len(points) - 1)]
+    while parts:
+        first, last = parts.pop()
+        along, away = points[last] - points[first], points[slice(first, last + 1)] - points[first]
+        share = np.clip(away @ along / max(float(along @ along), 1e-12), 0.0, 1.0)
+        off = np.hypot(*(away - share[:, None] * along).T)
+        far = int(off.argmax())
+        if off[far] > tolerance:
+            kept[first + far] = True
+            parts += [(first, first + far), (first + far, last)]
+    return kept
 
 
 def _wandering(times: Floats, somebody: Hand, rng: Random) -> Floats:

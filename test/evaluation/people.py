@@ -15,7 +15,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from .faults import Fault, FAULTS
+from .faults import all_arrive, Fault, FAULTS
 from .figures import Figure
 from .hands import drawn, Hand, hand
 from .outlines import Floats
@@ -37,6 +37,7 @@ PEOPLE: dict[str, Fault] = {
         )
     },
     SEVERAL: Fault(),
+    **{name: FAULTS[name] for name in ('a finger on a tablet', 'few samples')},
 }
 # Typical distance by which a stroke is beside its place [m]: two pixels of a page of 1,600.
 _AIM = 0.02
@@ -67,12 +68,13 @@ def drawn_by(
     for stroke in strokes:
         now += _BETWEEN
         for way in _parts(_vertices(stroke)) if person == SEVERAL else [_vertices(stroke)]:
-            figure, place = _figure(way)
+            figure, place = figure_of(way)
             somebody = hand(np.random.default_rng((SEEDS[half], number)), figure, half)
+            somebody = all_arrive(somebody, rng)
             faulty = fault.figure(figure, rng)
             if faulty is not None:
                 figure, somebody = faulty, fault.hand(somebody, rng)
-            samples = drawn(figure, _placed(somebody, way, place, rng), rng)
+            samples = drawn(figure, placed(somebody, way, place, rng), rng)
             samples = fault.samples(samples, rng)
             yield samples, now
             now += float(np.ptp(samples[:, 2])) + _WITHIN
@@ -114,7 +116,7 @@ def _crosses(way: Floats) -> bool:
     return sides[0] * sides[1] < 0.0 and bool(np.hypot(*(a - c)) < np.hypot(*(a - b)) * 1.1)
 
 
-def _figure(way: Floats) -> tuple[Figure, Floats]:
+def figure_of(way: Floats) -> tuple[Figure, Floats]:
     """Return a way as a figure about the origin, and where that lies [m]."""
     closed = _is_closed(way)
     sharp = np.count_nonzero(_turns(way) > _CORNER)
@@ -134,7 +136,7 @@ def _figure(way: Floats) -> tuple[Figure, Floats]:
     ), middle
 
 
-def _placed(somebody: Hand, way: Floats, place: Floats, rng: np.random.Generator) -> Hand:
+def placed(somebody: Hand, way: Floats, place: Floats, rng: np.random.Generator) -> Hand:
     """Return a hand that draws a way where it is, in its size, and not less exactly if large."""
     size = float(np.hypot(*np.ptp(way, axis=0)))
     share = min(1.0, _STEADY / size)
@@ -149,6 +151,8 @@ def _placed(somebody: Hand, way: Floats, place: Floats, rng: np.random.Generator
         'hook_up',
         'slip',
         'pixel',
+        'first_step',
+        'simplified',
     )
     exact = {name: share * getattr(somebody, name) for name in names}
     return replace(somebody, size=size, place=(x, y), **exact)

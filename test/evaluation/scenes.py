@@ -195,6 +195,8 @@ KINDS: tuple[Kind, ...] = (
     Kind('circle, on 2', figures.disc, 'axle', _under_both),
     Kind('arrow', figures.arrow, 'gravity', _nothing),
     Kind('scribble, on a body', figures.scribble, 'deletion', _scribbled),
+    Kind('pigtail, on a body', figures.pigtail, None, _under),
+    Kind('x', figures.cross, None, _nothing),
     Kind('squiggle', _squiggle, None, _nothing),
 )
 # All meanings of strokes, in the order of their kinds.

@@ -16,7 +16,7 @@ import math
 # The weight of no meaning at all.
 DOUBT = 0.12
 # Log odds of a group being right at equal weights, and their growth with the log odds of weights.
-GROUP_BIAS, GROUP_SLOPE = -0.4, 3.2
+GROUP_BIAS, GROUP_SLOPE = 0.2, 2.4
 # The same of a meaning within its group.
 SHARE_BIAS, SHARE_SLOPE = 0.36, 0.86
 # The least share of a doubt that is left, so that log odds are finite.

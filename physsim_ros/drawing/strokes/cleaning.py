@@ -4,11 +4,12 @@
 """
 Cleaning of the samples of a pen: rests, spikes and late first samples.
 
-Law: a stroke that was sampled well loses nothing but samples closer together than `GRAIN`.
+Law: nothing that was drawn is cut off. A stroke that was sampled well loses nothing but samples
+closer together than `GRAIN`.
 
 Samples close together are replaced by their mean (radial distance simplification), so that a pen
-that rests draws no length. Jumps are found as by the Hampel filter (Hampel, 1974): a step is
-compared with the median of the steps around it, not of the whole stroke, since pens hurry.
+that rests draws no length. A jump is a step much longer than all others: pens hurry, and what
+sends their strokes leaves samples out, on straight lines most of all.
 """
 
 from __future__ import annotations
@@ -21,13 +22,14 @@ from physsim_ros.model.arrays import Floats
 # The distance at which samples are distinct, in shares of the stroke's size: a pen that rests
 # jitters by some 0.2 % (standard deviation), and no side of a figure is shorter than 4 %.
 GRAIN = 0.01
-# The least step that is a jump, in medians of the steps around it and in shares of the size. A
-# barb drawn with one sample at its end is 5 steps of the shaft long.
-_JUMP, _FAR = 5.0, 0.15
-# The number of steps on either side whose median a step is compared with.
-_AROUND = 4
+# The least step that is a jump, in longest other steps and in shares of the size.
+_JUMP, _FAR = 2.0, 0.15
 # The least number of samples of a stroke with jumps: those of fewer are clicks.
 _FEWEST = 12
+# The greatest distance of a first sample from where the stroke comes from, in shares of the size:
+# a touch screen reports a finger late, at up to 35 % of the size. The number of steps by which
+# the direction there is known.
+_ASTRAY, _AHEAD = 0.3, 3
 
 
 def clean_samples(samples: Floats) -> Floats:
@@ -71,17 +73,24 @@ def _without_jumps(points: Floats) -> Floats:
         return points
     size = _robust_size(points)
     steps = np.hypot(*np.diff(points, axis=0).T)
+    # A jump at an end is the longest step, those of a spike are the two longest.
+    but_two, but_one = (_JUMP * np.sort(steps)[-3:-1]).tolist()
     kept = np.ones(len(points), np.bool_)
-    for at in np.flatnonzero(steps > _FAR * size).tolist():
-        around = slice(max(at - _AROUND, 0), at + 2 + _AROUND)
+    for at in np.flatnonzero(steps > max(_FAR * size, but_two)).tolist():
         if at + 1 < len(steps) and steps[at + 1] > _FAR * size:
-            # The two steps of a spike are not among those that they are compared with.
-            usual = float(np.median(np.sort(steps[around])[:-2]))
             back = math.dist(points[at], points[at + 2])
             there = min(float(steps[at]), float(steps[at + 1]))
-            kept[at + 1] = there <= _JUMP * usual or back >= 0.5 * there
+            kept[at + 1] = there <= but_two or back >= 0.5 * there
         elif at in {0, len(steps) - 1} and kept[at]:
             # The pen came from its last stroke, or went on to its next.
-            usual = float(np.median(np.sort(steps[around])[:-1]))
-            kept[at and at + 1] = steps[at] <= _JUMP * usual
+            path = points if at == 0 else points[::-1]
+            kept[at and at + 1] = steps[at] <= but_one or _goes_on(path, _ASTRAY * size)
     return points[kept]
+
+
+def _goes_on(points: Floats, astray: float) -> bool:
+    """Return whether a stroke comes from its first point, no farther off [m], or ends near it."""
+    first, second, ahead = points[[0, 1, 1 + _AHEAD]]
+    step, along = second - first, ahead - second
+    along = along * (math.hypot(*step) / max(math.hypot(*along), 1e-300))
+    return math.hypot(*(step - along)) <= astray or math.dist(first, points[-1]) <= astray / 2

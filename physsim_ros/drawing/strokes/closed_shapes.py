@@ -30,10 +30,11 @@ from physsim_ros.drawing.strokes.meanings import (
     RECTANGLE,
 )
 from physsim_ros.drawing.strokes.outer_boundary import outer_boundary
-from physsim_ros.drawing.strokes.polyline import angles, point_of, smoothed, turns, widened
+from physsim_ros.drawing.strokes.plane import angles, principal_axis
+from physsim_ros.drawing.strokes.polyline import point_of, widened
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.shapes import crosses_itself, is_convex, signed_area
-from physsim_ros.model.transform import cross, Point
+from physsim_ros.model.transform import cross, Point, turned
 
 # Of the forms, only this is no meaning too.
 OVAL = 'oval'
@@ -45,6 +46,11 @@ _GAP = 0.147
 _SQUARE, _SQUARER = 0.022, 0.22
 # The least aspect of a circle as people draw it, and the number of sides of an oval, which rolls.
 _CIRCULAR, _OVAL_SIDES = 0.68, 48
+# Evidence for a circle: a constant, the factors of the logarithm of its error and of the number of
+# corners of a convex outline, and the number of those that is no evidence.
+_EVIDENCE, _ERROR, _CORNER, _FEW = 1.1, 1.18, 0.5, 5.0
+# The least aspect of the corners of a polygon that may be a small circle.
+_LEAST_ROUND = 0.4
 # The least number of equal corners that are the samples of a circle.
 MANY = 9
 # Factor on the weight of an outline that is neither round nor made of straight sides.
@@ -73,18 +79,17 @@ def hypotheses(features: Features, plain: float) -> Iterator[Hypothesis]:
 def _shapes(outline: Floats, gap: float) -> Iterator[Hypothesis]:
     """Yield the shapes that an outline may have, with weights that do not add up to anything."""
     center, radius, error, aspect = roundness(outline)
-    wide, narrow = widened(outline)
+    wide, narrowed = widened(outline)
     at = corner_detection.corners(wide, closed=True, gap=gap)
-    found = corner_detection.vertices(wide, at, closed=True) @ narrow
-    # Residual of the sides, compared with that of a circle; a hexagon's is a fifth of it.
+    found = narrowed(corner_detection.vertices(wide, at, closed=True))
     size = float(np.hypot(*np.ptp(wide, axis=0)))
     residual = corner_detection.side_error(wide, at) / size if len(at) >= 3 else 1.0
-    bend = turns(smoothed(wide, 2.5, closed=True), 6, closed=True)
-    sharpness = float(np.sort(np.abs(bend))[-8:].mean() / np.abs(bend).mean())
-    ratio = math.log(max(residual, 1e-6) / max(error, 1e-6) / 0.19)
-    evidence = ratio + 1.5 * math.log(2.25 / sharpness)
-    circle = rises(evidence, 0.0, 0.3)
-    if len(at) >= MANY and is_convex(_counterclockwise(found)):
+    # Logistic regression on hands' circles and polygons: sides fit a circle badly, and there are
+    # many of them about it.
+    evidence = _EVIDENCE + math.log(max(residual, 1e-6)) - _ERROR * math.log(max(error, 1e-6))
+    convex = len(at) > 3 and is_convex(_counterclockwise(found))
+    circle = rises(evidence + (_CORNER * (len(at) - _FEW) if convex else 0.0), 0.0, 0.31)
+    if len(at) >= MANY and convex:
         # Corners that many and that equal are the samples of a circle that was drawn quickly.
         circle = max(circle, falls(error, 0.04, 0.004))
     edgeless = circle
@@ -104,7 +109,7 @@ def _shapes(outline: Floats, gap: float) -> Iterator[Hypothesis]:
     if len(at) == 4 and squareness(found) > square:
         corners, square = found, squareness(found)
     else:
-        corners = corners @ narrow
+        corners = narrowed(corners)
     yield Hypothesis(primitive=RECTANGLE, weight=broad * (1.0 - edgeless) * square, points=corners)
     if len(at) >= 3 and crosses_itself(found):
         boundary = outer_boundary(found)
@@ -176,7 +181,9 @@ def polygon_interpretations(hypothesis: Hypothesis, context: Context) -> Iterato
     """Yield axle and polygon: small circles are drawn with corners."""
     points = hypothesis.points
     center, radius = points.mean(axis=0), float(np.hypot(*np.ptp(points, axis=0))) / 3
+    _, along, across = principal_axis(points - center)
     share = axle.share_of(point_of(center), radius, context, corners=len(points))
+    share *= rises(math.sqrt(across / along), _LEAST_ROUND, 0.03)
     weight, shown = hypothesis.weight * share, math.dist(center, points[0])
     yield axle.interpretation(point_of(center), shown, context, weight=weight)
     yield Interpretation(
@@ -202,11 +209,12 @@ def roundness(outline: Floats) -> tuple[Floats, float, float, float]:
     if abs(area) > 1e-6 * float((np.ptp(outline, axis=0) ** 2).sum()):
         center = base + ((outline + following - 2 * base) * weight[:, None]).sum(axis=0) / 6 / area
     away = outline - center
-    squares, axes = np.linalg.eigh(away.T @ away / len(away))
-    scales = np.sqrt(np.maximum(squares, 1e-18 * squares[1]))
-    radii = np.hypot(*(away @ axes / scales).T)
+    angle, along, across = principal_axis(away)
+    aspect = math.sqrt(max(across / along, 1e-18))
+    x, y = turned(away, -angle).T
+    radii = np.hypot(x, y / aspect)
     radius = math.sqrt(abs(area) / math.pi)
-    return center, radius, float(radii.std() / radii.mean()), float(scales[0] / scales[1])
+    return center, radius, float(radii.std() / radii.mean()), aspect
 
 
 def squareness(found: Floats) -> float:

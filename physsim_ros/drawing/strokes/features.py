@@ -16,7 +16,7 @@ import math
 
 import numpy as np
 from physsim_ros.drawing.strokes.hypothesis import falls
-from physsim_ros.drawing.strokes.polyline import COUNT
+from physsim_ros.drawing.strokes.polyline import COUNT, path_length
 from physsim_ros.drawing.strokes.stroke import Stroke
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.transform import cross
@@ -103,7 +103,8 @@ class Features:
 def swings_of(points: Floats) -> Swings:
     """Return the oscillation of a polyline, in the direction in which it turns back most often."""
     # A row for each direction: numpy sorts and sums those twice as fast as columns.
-    across = _DIRECTIONS @ points.T
+    x, y = points.T
+    across = _DIRECTIONS[:, :1] * x + _DIRECTIONS[:, 1:] * y
     ordered = np.partition(across, (FRINGE, len(points) - 1 - FRINGE), axis=1)
     # The outermost points may be drawn by mistake.
     low, high = ordered[:, FRINGE, None], ordered[:, -1 - FRINGE, None]
@@ -134,6 +135,14 @@ def swings_of(points: Floats) -> Swings:
         advance=whole / 2 / len(advances) * len(strides) / max(height, 1e-12),
         steady=whole / max(steps, 1e-12),
     )
+
+
+def loop_roundness(points: Floats, crossing: Crossing) -> float:
+    """Return the area within the loop from a crossing to itself, by its length squared."""
+    at, first, last = crossing
+    loop = np.vstack((at, points[slice(int(first) + 1, int(last) + 1)], at))
+    area = abs(float(cross(loop[:-1] - at, loop[1:] - at).sum())) / 2
+    return area / path_length(loop) ** 2
 
 
 def crossings_of(points: Floats) -> list[Crossing]:

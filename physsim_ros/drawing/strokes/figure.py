@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+import itertools
 
 import numpy as np
 from physsim_ros.drawing.scene_query import SceneQuery
@@ -28,11 +29,13 @@ from physsim_ros.drawing.strokes.meanings import (
     POLYGON,
     RECTANGLE,
 )
+from physsim_ros.drawing.strokes.polyline import COUNT, path_length
+from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.drawing.strokes.stroke_order import joined_strokes
 from physsim_ros.model.arrays import Flags, Floats
+from physsim_ros.model.errors import Refusal
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.requests import Join, Request
-from scipy.spatial.distance import cdist
 
 # The greatest number of strokes of one figure.
 MOST_STROKES = 12
@@ -42,9 +45,12 @@ _LOOSE = frozenset({'wall', 'hatching'})
 _SINGLE = OPEN | {DELETION}
 # The greatest distance of strokes that touch, in shares of the larger one's size.
 _TOUCHING = 0.15
-# The greatest number of points of a stroke between which distances are taken.
-_MOST_POINTS = 100
-# The least share of a line that lies on a solid whose mark it is.
+# Stride of the points of a stroke between which distances are taken: 1.6 % of its length.
+_STRIDE = 2
+# The length by which a stroke may end short of another that it is to meet, in shares of its own;
+# the number of points on it; the number of those at an end of a stroke that give its direction.
+_BEYOND, _POINTS_BEYOND, _END = 0.2, 10, 8
+# The least share of the middle half of a line that lies on a solid whose mark it is.
 _ON_SOLID = 0.6
 
 
@@ -53,7 +59,7 @@ class Figure:
     """
     One or several strokes that are read together.
 
-    :param strokes: each (n, 3) float64: x, y [m], time [s]
+    :param strokes: each (COUNT, 2) float64: evenly spaced [m]
     :param began: when its first stroke began [s]
     :param ended: when its last stroke ended [s]
     :param scene: over which the first one was drawn
@@ -120,8 +126,11 @@ def likeliest_group(
             continue
         strokes = tuple(stroke for figure in group for stroke in figure.strokes)
         first = group[0]
-        guesses = guess_meanings(joined_strokes(strokes), first.scene, settings)
+        guesses = guess_meanings(resample_stroke(joined_strokes(strokes)), first.scene, settings)
         if not is_likely(guesses, settings) or guesses[0].meaning in _SINGLE:
+            continue
+        if not _can_be_built(guesses[0]):
+            # Two walls that cross are no x in the open.
             continue
         if guesses[0].meaning in CLOSED or not any(joints):
             return Figure(
@@ -141,8 +150,9 @@ def marked_solid(figures: Sequence[Figure], last: Figure, settings: DrawingSetti
     if not figures or not figures[-1].is_solid or not last.is_open:
         return False
     solid = figures[-1]
-    near = _follows(solid, last, settings)
-    return near and _share_inside(last, solid) >= _ON_SOLID
+    if not _follows(solid, last, settings) or _is_side(last, solid, settings):
+        return False
+    return _share_inside(last, solid) >= _ON_SOLID
 
 
 def marks_inside(
@@ -160,6 +170,14 @@ def marks_inside(
     return tuple(gestures)
 
 
+def _can_be_built(guess: Guess) -> bool:
+    try:
+        guess.build()
+    except Refusal:
+        return False
+    return True
+
+
 def _groups(
     figures: Sequence[Figure], last: Figure, settings: DrawingSettings
 ) -> Iterator[list[Figure]]:
@@ -171,8 +189,10 @@ def _groups(
         if not part or count > MOST_STROKES or not _follows(figure, group[0], settings):
             break
         group.insert(0, figure)
+    touching = _touching([stroke for each in group for stroke in each.strokes], settings)
     for first in range(len(group) - 1):
-        if _hang_together(group[first:], settings):
+        before = sum(len(each.strokes) for each in group[:first])
+        if _is_connected(touching[before:, before:]):
             yield group[first:]
 
 
@@ -194,40 +214,68 @@ def _leaves_its_bodies(figure: Figure) -> bool:
 
 
 def _is_side(line: Figure, figure: Figure, settings: DrawingSettings) -> bool:
-    """Return whether a line begins and ends on a figure of several lines: it is one more side."""
+    """Return whether a line is one more side of several: it joins the two ends of their solid."""
     if len(figure.strokes) < 2 or not figure.is_solid:
         return False
-    outline = np.vstack([_few_points(stroke) for stroke in figure.strokes])
     (stroke,) = line.strokes
-    return all(_touch(end[None, :2], outline, settings) for end in stroke[[0, -1]])
+    first, last = (end[None] for end in stroke[[0, -1]])
+    ends = joined_strokes(figure.strokes)
+    begin, end = ends[:1], ends[-1:]
+    size = _size(ends)
+    return any(
+        _touch(first, one, size, settings) and _touch(last, other, size, settings)
+        for one, other in ((begin, end), (end, begin))
+    )
 
 
-def _hang_together(group: Sequence[Figure], settings: DrawingSettings) -> bool:
+def _touching(strokes: Sequence[Floats], settings: DrawingSettings) -> Flags:
+    """Return which strokes touch each other, (n, n) bool."""
+    paths, sizes = [_extended(stroke) for stroke in strokes], [_size(stroke) for stroke in strokes]
+    touching = np.zeros((len(paths), len(paths)), np.bool_)
+    for one, other in itertools.combinations(range(len(paths)), 2):
+        size = max(sizes[one], sizes[other])
+        touching[one, other] = _touch(paths[one], paths[other], size, settings)
+    return touching | touching.T
+
+
+def _is_connected(touching: Flags) -> bool:
     """Return whether each stroke touches another one, directly or by others."""
-    paths = [_few_points(stroke) for figure in group for stroke in figure.strokes]
-    reached, waiting = [paths[0]], paths[1:]
-    while waiting:
-        near = [path for path in waiting if any(_touch(path, it, settings) for it in reached)]
-        if not near:
-            return False
-        reached += near
-        waiting = [path for path in waiting if not any(path is it for it in near)]
-    return True
+    reached = np.arange(len(touching)) == 0
+    for _ in range(len(touching)):
+        reached |= touching[reached].any(axis=0)
+    return bool(reached.all())
 
 
-def _touch(one: Floats, other: Floats, settings: DrawingSettings) -> bool:
-    size = max(float(np.hypot(*np.ptp(path, axis=0))) for path in (one, other))
-    return float(cdist(one, other).min()) <= min(_TOUCHING * size, max(settings.snap, size / 20))
+def _touch(one: Floats, other: Floats, size: float, settings: DrawingSettings) -> bool:
+    """Return whether points are as near to others as those of strokes of a size that touch."""
+    x, y = (one[:, None] - other[None]).transpose(2, 0, 1)
+    return float(np.hypot(x, y).min()) <= min(_TOUCHING * size, max(settings.snap, size / 20))
+
+
+def _size(stroke: Floats) -> float:
+    return float(np.hypot(*np.ptp(stroke, axis=0)))
+
+
+def _extended(stroke: Floats) -> Floats:
+    """Return points of a stroke and of its lines beyond both ends, where others may meet it."""
+    step = _BEYOND * path_length(stroke) / _POINTS_BEYOND
+    parts = [_few_points(stroke)]
+    for points in (stroke, stroke[::-1]):
+        ahead = points[0] - points[_END]
+        ahead *= step / max(float(np.hypot(*ahead)), 1e-300)
+        parts.append(points[0] + np.arange(1, _POINTS_BEYOND + 1)[:, None] * ahead)
+    return np.vstack(parts)
 
 
 def _few_points(stroke: Floats) -> Floats:
-    return stroke[:: 1 + len(stroke) // _MOST_POINTS, :2]
+    return stroke[::_STRIDE]
 
 
 def _share_inside(line: Figure, solid: Figure) -> float:
-    """Return the share of the points of a line inside the outline of a solid, 0 .. 1."""
-    outline = joined_strokes(solid.strokes)[:, :2]
-    points = np.vstack([_few_points(stroke) for stroke in line.strokes])
+    """Return the share of the middle half of a line inside the outline of a solid, 0 .. 1."""
+    outline = joined_strokes(solid.strokes)
+    quarter = COUNT // 4
+    points = np.vstack([stroke[slice(quarter, COUNT - quarter)] for stroke in line.strokes])
     return float(_inside(points, outline).mean())
 
 

@@ -13,8 +13,16 @@ import itertools
 import math
 
 import numpy as np
+from physsim_ros.drawing.strokes.plane import (
+    dot,
+    least_squares,
+    principal_axis,
+    quarter_heading,
+    unit_vector,
+)
 from physsim_ros.drawing.strokes.polyline import COUNT, smoothed, spaced
 from physsim_ros.model.arrays import Floats
+from physsim_ros.model.transform import turned
 
 # The greatest distance of an open stroke from straight sides, root mean square, at which it is no
 # curve; and the tolerance to which a curve is simplified. Both in shares of its size.
@@ -28,26 +36,19 @@ SMOOTHING = 1.2
 def line(points: Floats) -> tuple[Floats, Floats, float]:
     """Return the line of least squares: a point on it, its direction, the residual (rms) [m]."""
     middle = points.mean(axis=0)
-    away = points - middle
-    (xx, xy), (_, yy) = (away.T @ away).tolist()
-    angle = 0.5 * math.atan2(2.0 * xy, xx - yy)
-    least = (xx + yy) / 2 - math.hypot((xx - yy) / 2, xy)
-    direction = np.array((math.cos(angle), math.sin(angle)))
-    return middle, direction, math.sqrt(max(least, 0.0) / len(points))
+    angle, _, across = principal_axis(points - middle)
+    return middle, unit_vector(angle), math.sqrt(across / len(points))
 
 
 def rectangle(corners: Floats) -> Floats:
     """Return the corners of the rectangle nearest to four corners, in their order."""
     middle = corners.mean(axis=0)
     sides = np.roll(corners, -1, axis=0) - corners
-    # Four times the angle is the same for all sides of a rectangle; sides weigh by their length².
-    quadruple = (sides[:, 0] + 1j * sides[:, 1]) ** 4
-    quadruple /= np.maximum(np.abs(quadruple), 1e-300) ** 0.5
-    angle = float(np.angle(quadruple.sum())) / 4
-    axes = np.array(((math.cos(angle), math.sin(angle)), (-math.sin(angle), math.cos(angle))))
-    local = (corners - middle) @ axes.T
+    # Sides weigh by their length².
+    angle = quarter_heading(sides, dot(sides, sides))
+    local = turned(corners - middle, -angle)
     signs = np.where(local >= 0, 1.0, -1.0)
-    nearest: Floats = middle + (signs * np.abs(local).mean(axis=0)) @ axes
+    nearest: Floats = middle + turned(signs * np.abs(local).mean(axis=0), angle)
     return nearest
 
 
@@ -62,12 +63,8 @@ def rectangle_of(outline: Floats) -> tuple[Floats, float]:
     :return: (4, 2) float64 [m]; the distance from its sides (rms) [m]
     """
     steps = np.roll(outline, -max(len(outline) // 40, 1), axis=0) - outline
-    quadruple = (steps[:, 0] + 1j * steps[:, 1]) ** 4
-    quadruple /= np.maximum(np.abs(quadruple), 1e-300) ** 0.75
-    angle = float(np.angle(quadruple.sum())) / 4
-    cos, sin = math.cos(angle), math.sin(angle)
-    axes = np.array(((cos, sin), (-sin, cos)))
-    local = outline @ axes.T
+    angle = quarter_heading(steps, np.hypot(steps[:, 0], steps[:, 1]))
+    local = turned(outline, -angle)
     # Left, right, lower and upper side.
     sides = np.concatenate((local.min(axis=0), local.max(axis=0)))[[0, 2, 1, 3]]
     across = local[:, [0, 0, 1, 1]]
@@ -79,7 +76,7 @@ def rectangle_of(outline: Floats) -> tuple[Floats, float]:
     off = np.abs(across - sides).min(axis=1)
     left, right, lower, upper = sides.tolist()
     corners = np.array(((left, lower), (right, lower), (right, upper), (left, upper)))
-    return corners @ axes, math.sqrt(float((off**2).mean()))
+    return turned(corners, angle), math.sqrt(float((off**2).mean()))
 
 
 def ellipse(outline: Floats, sides: int) -> Floats:
@@ -89,14 +86,15 @@ def ellipse(outline: Floats, sides: int) -> Floats:
     middles = (outline + following) / 2
     center = (weights * middles).sum(axis=0) / weights.sum()
     away = outline - center
-    _, axes = np.linalg.eigh(away.T @ away)
-    local = away @ axes
+    angle, *_ = principal_axis(away)
+    local = turned(away, -angle)
     angles = np.arange(sides) * 2.0 * math.pi / sides
     # The half axes by which the outline is a unit circle (least squares), at most its reach.
-    inverse = np.linalg.lstsq(local**2, np.ones(len(local)), rcond=None)[0]
+    inverse = np.array(least_squares(local**2, np.ones(len(local))))
     reach = np.abs(local).max(axis=0)
     half = reach / np.sqrt(np.maximum(inverse * reach**2, 1.0))
-    corners: Floats = center + (np.column_stack((np.cos(angles), np.sin(angles))) * half) @ axes.T
+    circle = np.column_stack((np.cos(angles), np.sin(angles)))
+    corners: Floats = center + turned(circle * half, angle)
     return corners
 
 
@@ -141,7 +139,7 @@ def _traced(path: Floats, tolerance: float) -> Floats:
 def _off(points: Floats, start: Floats, end: Floats) -> Floats:
     """Return the distances of points from a segment, (n,) float64 [m]."""
     along = end - start
-    share = np.clip((points - start) @ along / max(float(along @ along), 1e-300), 0.0, 1.0)
+    share = np.clip(dot(points - start, along) / max(float(dot(along, along)), 1e-300), 0.0, 1.0)
     away = points - start - share[:, None] * along
     result: Floats = np.hypot(away[:, 0], away[:, 1])
     return result

@@ -28,6 +28,7 @@ from physsim_ros.drawing.strokes.meanings import (
     Context,
     DELETION,
     DISC,
+    GRAVITY,
     Interpretation,
     OPEN,
     Outcome,
@@ -35,13 +36,12 @@ from physsim_ros.drawing.strokes.meanings import (
     RECTANGLE,
 )
 from physsim_ros.drawing.strokes.recogniser import recognise_form
-from physsim_ros.drawing.strokes.stroke import resample_stroke
-from physsim_ros.model.arrays import Floats
+from physsim_ros.drawing.strokes.stroke import Stroke
 from physsim_ros.model.errors import NotRecognised
 
 # The greatest number of guesses that a reading has.
 MOST_GUESSES = 3
-# The least confidence with which bodies are deleted.
+# The least confidence with which bodies are deleted, and gravity is turned.
 SURE = 0.9
 
 Interpret = Callable[[Hypothesis, Context], Iterator[Interpretation]]
@@ -114,19 +114,16 @@ class Reading(Outcome):
 
 
 def guess_meanings(
-    samples: Floats, scene: SceneQuery, settings: DrawingSettings
+    drawn: Stroke, scene: SceneQuery, settings: DrawingSettings
 ) -> tuple[Guess, ...]:
     """
     Return the most likely meanings of a stroke, at most `MOST_GUESSES`, the likeliest first.
 
-    :param samples: (n, 2) float64: positions of the pen in the world, in order [m]; or (n, 3), the
-        third column the time of each, by which they are ordered where it differs
+    :param drawn: the stroke, in the world
     :param scene: the world that it was drawn over
     :param settings: of drawing
-    :raises Malformed: there are no samples, or one is not finite
-    :raises BadSize: the stroke is too small to be anything, or too large
     """
-    context = Context(drawn=resample_stroke(samples), scene=scene, settings=settings)
+    context = Context(drawn=drawn, scene=scene, settings=settings)
     weights: dict[str, float] = {}
     # The likeliest interpretation of each meaning.
     best: dict[str, Interpretation] = {}
@@ -190,7 +187,7 @@ def is_likely(guesses: Sequence[Guess], settings: DrawingSettings) -> bool:
     if not guesses:
         return False
     guess = guesses[0]
-    if guess.meaning == DELETION and guess.confidence < SURE:
+    if guess.meaning in {DELETION, GRAVITY} and guess.confidence < SURE:
         return False
     return guess.group_confidence >= settings.sketch_confidence
 

@@ -32,8 +32,8 @@ DISC, RECTANGLE, POLYGON = 'disc', 'rectangle', 'polygon'
 # meaning in neither is a group of its own.
 CLOSED = frozenset({DISC, RECTANGLE, POLYGON, 'axle', 'pin'})
 OPEN = frozenset({'wall', 'rod', 'rope', 'spring', 'hatching'})
-# The meaning that destroys what was drawn before.
-DELETION = 'deletion'
+# Meanings that destroy what was drawn before, or change the whole world.
+DELETION, GRAVITY = 'deletion', 'gravity'
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -16,12 +16,12 @@ import math
 import numpy as np
 from physsim_ros.drawing.strokes import request_builder
 from physsim_ros.drawing.strokes.corner_detection import bends_of
-from physsim_ros.drawing.strokes.features import Features
+from physsim_ros.drawing.strokes.features import Features, loop_roundness
 from physsim_ros.drawing.strokes.fitting import simplified
 from physsim_ros.drawing.strokes.glyphs import hatching
 from physsim_ros.drawing.strokes.hypothesis import falls, Hypothesis, LEAST, rises
 from physsim_ros.drawing.strokes.meanings import BETWEEN, Context, Interpretation
-from physsim_ros.drawing.strokes.polyline import path_length, point_of
+from physsim_ros.drawing.strokes.polyline import COUNT, path_length, point_of
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
@@ -30,6 +30,9 @@ from physsim_ros.model.transform import cross
 LINE = 'line'
 # The longest loop that counts as a mistake of the hand, in shares of the length.
 _LOOP = 0.15
+# The greatest area of a loop that is the tip of a brace, by its length squared; the loop of an x
+# has 0.037 and more, that of a pigtail 0.07.
+_NARROW = 0.035
 # The least straightness of a rod: the distance of its ends by its length.
 _STRAIGHT = 0.95
 # The greatest straightness of a rope; an arc as high as a fifth of its chord has 0.9.
@@ -52,8 +55,11 @@ def hypotheses(features: Features, plain: float) -> Iterator[Hypothesis]:
         rises(straight, 0.9, 0.02),
         falls(swings.height / stroke.size, 0.06, 0.006),
     )
-    # Small loops come from bends, and from setting the pen down.
-    loops = sum(last - first > _LOOP * len(points) for _, first, last in features.crossings)
+    # Small loops come from bends, and from setting the pen down; narrow ones from retraced tips.
+    loops = sum(
+        each[2] - each[1] > _LOOP * len(points) and loop_roundness(points, each) > _NARROW
+        for each in features.crossings
+    )
     weight = plain * calm * rises(stroke.gap, 0.147, 0.006) * falls(loops, 0.5, 0.2)
     if weight >= LEAST:
         yield Hypothesis(primitive=LINE, weight=weight, points=bends_of(points))
@@ -102,7 +108,21 @@ def _joint_along(points: Floats, context: Context) -> tuple[JointKind, float]:
 
 def _cubic_length(points: Floats) -> float:
     """Return the length of the cubic nearest to a stroke: of the stroke without tremor [m]."""
-    share = np.linspace(-1.0, 1.0, len(points))
-    basis = np.polynomial.legendre.legvander(share, 3)
-    coefficients, *_ = np.linalg.lstsq(basis, points, rcond=None)
-    return path_length(basis @ coefficients)
+    cubic = sum(each[:, None] * (each[:, None] * points).sum(axis=0) for each in _CUBICS)
+    return path_length(np.asarray(cubic))
+
+
+def _gram_polynomials(degree: int, count: int) -> list[Floats]:
+    """Return polynomials that are orthonormal on evenly spaced points (Gram, 1883)."""
+    share = np.linspace(-1.0, 1.0, count)
+    found: list[Floats] = []
+    for _ in range(degree + 1):
+        power = share * found[-1] if found else np.ones(count)
+        for each in found:
+            power = power - each * float((each * power).sum())
+        found.append(power / math.sqrt(float((power * power).sum())))
+    return found
+
+
+# All polynomials of at most the third degree, along a resampled stroke.
+_CUBICS = _gram_polynomials(3, COUNT)

@@ -9,11 +9,14 @@ Law: every function returns a fresh array; none changes its arguments.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import lru_cache, partial
 import math
 
 import numpy as np
+from physsim_ros.drawing.strokes.plane import angles, principal_axis, stretched, unit_vector
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.transform import cross, Point
+from physsim_ros.model.transform import Point
 
 # Number of points of a resampled stroke: a dozen for each side of a five-pointed star.
 COUNT = 128
@@ -39,34 +42,54 @@ def path_length(path: Floats) -> float:
 
 def smoothed(points: Floats, width: float, *, closed: bool) -> Floats:
     """Return points smoothed by a Gaussian whose standard deviation is `width` [points]."""
-    reach = math.ceil(3 * width)
-    kernel = np.exp(-0.5 * (np.arange(-reach, reach + 1) / width) ** 2)
-    kernel /= kernel.sum()
+    kernel = _gaussian(width)
+    reach = len(kernel) - 1
     if closed:
         first, last = points[-reach:], points[:reach]
     else:
         # Reflected at the ends, so that these do not move.
         first = 2 * points[0] - points[reach:0:-1]
         last = 2 * points[-1] - points[::-1][slice(1, reach + 1)]
-    padded = np.vstack((first, points, last))
-    return np.column_stack([np.convolve(axis, kernel, 'valid') for axis in padded.T])
+    x, y = np.vstack((first, points, last)).T.copy()
+    result = np.empty_like(points)
+    result[:, 0], result[:, 1] = _convolved(x, kernel), _convolved(y, kernel)
+    return result
 
 
-def widened(outline: Floats) -> tuple[Floats, Floats]:
+@lru_cache(maxsize=8)
+def _gaussian(width: float) -> tuple[float, ...]:
+    """Return the right half of a Gaussian from its middle on; the sum of both halves is 1."""
+    half = [math.exp(-0.5 * (at / width) ** 2) for at in range(math.ceil(3 * width) + 1)]
+    total = 2.0 * sum(half) - half[0]
+    return tuple(each / total for each in half)
+
+
+def _convolved(values: Floats, kernel: tuple[float, ...]) -> Floats:
+    """Return the convolution of values with a symmetric kernel, where it has all of them."""
+    reach = len(kernel) - 1
+    count = len(values) - 2 * reach
+    result = kernel[0] * values[slice(reach, reach + count)]
+    for at in range(1, reach + 1):
+        before, after = (
+            slice(reach - at, reach - at + count),
+            slice(reach + at, reach + at + count),
+        )
+        result += kernel[at] * (values[before] + values[after])
+    return result
+
+
+def widened(outline: Floats) -> tuple[Floats, Callable[[Floats], Floats]]:
     """
     Return a closed polyline stretched across, so that corners at its narrow ends are distinct.
 
-    :return: the polyline, evenly spaced; and the (2, 2) matrix that undoes the stretching
+    :return: the polyline, evenly spaced; and the function that undoes the stretching
     """
-    away = outline - outline.mean(axis=0)
-    squares, axes = np.linalg.eigh(away.T @ away)
-    aspect = math.sqrt(max(float(squares[0]), 0.0) / float(squares[1]))
-    stretch = min(max(WIDE / max(aspect, 1e-6), 1.0), WIDEST)
-    # A linear map: straight lines stay straight.
-    wide = axes @ np.diag((stretch, 1.0)) @ axes.T
-    narrow: Floats = axes @ np.diag((1.0 / stretch, 1.0)) @ axes.T
-    path = outline @ wide
-    return spaced(np.vstack((path, path[:1])), COUNT + 1)[:-1], narrow
+    angle, along, across = principal_axis(outline - outline.mean(axis=0))
+    factor = min(max(WIDE / max(math.sqrt(across / along), 1e-6), 1.0), WIDEST)
+    side = unit_vector(angle + math.pi / 2)
+    path = stretched(outline, side, factor)
+    narrowed = partial(stretched, along=side, factor=1.0 / factor)
+    return spaced(np.vstack((path, path[:1])), COUNT + 1)[:-1], narrowed
 
 
 def turns(points: Floats, arm: int, *, closed: bool) -> Floats:
@@ -81,12 +104,6 @@ def turns(points: Floats, arm: int, *, closed: bool) -> Floats:
     a = points - points[at - reach]
     b = points[(at + reach) % count] - points
     return angles(a, b)
-
-
-def angles(a: Floats, b: Floats) -> Floats:
-    """Return the angles from directions a to directions b [rad], counter-clockwise."""
-    result: Floats = np.arctan2(cross(a, b), a[..., 0] * b[..., 0] + a[..., 1] * b[..., 1])
-    return result
 
 
 def point_of(row: Floats) -> Point:

@@ -10,9 +10,11 @@ Law: nothing is decided here; the scene that the stroke was drawn over decides a
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from physsim_ros.drawing.strokes import closed_shapes, open_lines
 from physsim_ros.drawing.strokes.features import Features
-from physsim_ros.drawing.strokes.glyphs import SIGNS
+from physsim_ros.drawing.strokes.glyphs import arrow, cross, round_arrow, SIGNS
 from physsim_ros.drawing.strokes.hypothesis import Hypothesis, LEAST
 from physsim_ros.drawing.strokes.stroke import Stroke
 
@@ -20,12 +22,17 @@ from physsim_ros.drawing.strokes.stroke import Stroke
 def recognise_form(stroke: Stroke) -> tuple[Hypothesis, ...]:
     """Return the forms that a stroke may have, by falling weight."""
     features = Features.of(stroke)
-    signs = [sign.hypothesis(features) for sign in SIGNS]
+    signs = {sign.PRIMITIVE: sign.hypothesis(features) for sign in SIGNS}
+    for head in (arrow.PRIMITIVE, round_arrow.PRIMITIVE):
+        # The second line of an x lies about the end of the first as a head does about a tip, but
+        # the barbs of an arrow do not go on beyond the shaft.
+        weight = signs[head].weight * (1.0 - signs[cross.PRIMITIVE].weight)
+        signs[head] = replace(signs[head], weight=weight)
     # Each sign is a line or an outline too; a stroke that fits a sign is taken for the sign.
-    plain = 1.0 - max(each.weight for each in signs)
+    plain = 1.0 - max(each.weight for each in signs.values())
     shapes = [
         *open_lines.hypotheses(features, plain),
         *closed_shapes.hypotheses(features, plain),
     ]
-    likely = (each for each in (*signs, *shapes) if each.weight >= LEAST)
+    likely = (each for each in (*signs.values(), *shapes) if each.weight >= LEAST)
     return tuple(sorted(likely, key=lambda each: -each.weight))

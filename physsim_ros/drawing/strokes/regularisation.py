@@ -14,6 +14,7 @@ import math
 
 import numpy as np
 from physsim_ros.drawing.strokes import fitting
+from physsim_ros.drawing.strokes.plane import dot, headings, quarter_heading
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.shapes import crosses_itself
 from physsim_ros.model.transform import cross, Pose
@@ -80,14 +81,13 @@ def _regular(corners: Floats, tolerance: float) -> Floats | None:
     middle = corners.mean(axis=0)
     away = corners - middle
     radii = np.hypot(*away.T)
-    angles = np.arctan2(away[:, 1], away[:, 0])
     turn = 2 * math.pi / count
     if cross(away, np.roll(away, -1, axis=0)).sum() < 0:
         turn = -turn
     # The angle of the first corner, estimated from each corner.
-    firsts = np.exp(1j * (angles - turn * np.arange(count)))
-    first = float(np.angle(firsts.sum()))
-    off = np.abs(np.angle(firsts * np.exp(-1j * first)))
+    firsts = headings(away) - turn * np.arange(count)
+    first = math.atan2(float(np.sin(firsts).sum()), float(np.cos(firsts).sum()))
+    off = np.abs((firsts - first + math.pi) % (2.0 * math.pi) - math.pi)
     if off.max() > tolerance or np.ptp(radii) > 2 * tolerance * radii.mean():
         return None
     # A nearly horizontal or vertical side becomes exactly so.
@@ -105,10 +105,10 @@ def _squared(corners: Floats, tolerance: float) -> Floats:
     """Return corners whose nearly horizontal, vertical or perpendicular sides are exactly so."""
     following = np.roll(corners, -1, axis=0)
     sides = following - corners
-    angles = np.arctan2(sides[:, 1], sides[:, 0])
+    angles = headings(sides)
     lengths = np.hypot(*sides.T)
     # The dominant direction modulo a quarter turn, sides weighed by their length².
-    base = float(np.angle((lengths**2 * np.exp(4j * angles)).sum())) / 4
+    base = quarter_heading(sides, lengths**2)
     if abs(base) <= tolerance:
         base = 0.0
     for grid in (base, 0.0):
@@ -147,5 +147,5 @@ def _isosceles(corners: Floats, tolerance: float) -> Floats:
     base = corners[[apex - 1, (apex + 1) % 3]]
     along = (base[1] - base[0]) / np.hypot(*(base[1] - base[0]))
     result = corners.copy()
-    result[apex] -= along * float((corners[apex] - base.mean(axis=0)) @ along)
+    result[apex] -= along * float(dot(corners[apex] - base.mean(axis=0), along))
     return result

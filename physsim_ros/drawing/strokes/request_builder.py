@@ -87,7 +87,10 @@ def wall(points: Floats, context: Context) -> Outcome:
     path = regularisation.line(points, settings.beautify) if curve is None else curve
     corners = list(map(point_of, path))
     corners[0] = snapping.wall_end(corners[0], scene, settings)
-    corners[-1] = snapping.wall_end(corners[-1], scene, settings)
+    end = snapping.wall_end(corners[-1], scene, settings)
+    if end != corners[0]:
+        # Of a short wall, both ends would go to the same point.
+        corners[-1] = end
     length = sum(map(math.dist, corners, corners[1:]))
     return Outcome(
         requests=(body_requests.wall(name, corners, settings),),

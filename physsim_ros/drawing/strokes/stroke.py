@@ -15,7 +15,8 @@ import math
 
 import numpy as np
 from physsim_ros.drawing.strokes.cleaning import clean_samples
-from physsim_ros.drawing.strokes.polyline import angles, COUNT, spaced
+from physsim_ros.drawing.strokes.plane import angles
+from physsim_ros.drawing.strokes.polyline import COUNT, spaced
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.checks import FARTHEST
 from physsim_ros.model.errors import BadSize, Malformed

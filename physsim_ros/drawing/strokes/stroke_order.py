@@ -20,24 +20,26 @@ from physsim_ros.model.arrays import Floats
 
 # The greatest number of strokes of which all orders are compared: 4! · 2⁴ = 384.
 _COMPARED = 4
+# The number of points between two strokes, so that the way between is no jump of the pen.
+_BETWEEN = 32
 
 
 def joined_strokes(strokes: Sequence[Floats]) -> Floats:
     """
-    Return several strokes as one.
+    Return several strokes as one, with points along the straight ways between them.
 
-    :param strokes: each (n, 2) or (n, 3) float64: x, y [m], time [s]
-    :return: (n, 2) float64 [m], without times; a single stroke as it is
+    :param strokes: each (n, 2) float64: evenly spaced [m]
+    :return: (n, 2) float64 [m]; a single stroke as it is
     """
-    paths = [stroke for stroke in strokes if len(stroke)]
+    paths = list(strokes)
     if len(paths) < 2:
-        return paths[0] if paths else np.empty((0, 2))
-    paths = [path[:, :2] for path in paths]
+        return paths[0]
     if len(paths) <= _COMPARED:
         ordered = min(_orders(paths), key=_way_between)
     else:
         ordered = min((_nearest_next(paths, first) for first in _ways(paths)), key=_way_between)
-    return np.vstack(ordered)
+    ways = [np.linspace(a[-1], b[0], _BETWEEN + 2)[1:-1] for a, b in itertools.pairwise(ordered)]
+    return np.vstack([ordered[0], *itertools.chain(*zip(ways, ordered[1:], strict=True))])
 
 
 def _orders(paths: Sequence[Floats]) -> list[tuple[Floats, ...]]:

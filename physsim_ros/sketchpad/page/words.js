@@ -98,5 +98,6 @@ export function shapeWord({shape: {kind, outline, width}}) {
 
 /** @param {string} meaning of a stroke, as the server has it */
 export function meaningWord(meaning) {
+  if (meaning === 'hatching') return 'heavier by hatching';
   return meaning === 'disc' ? 'circle' : meaning.replaceAll('_', ' ');
 }

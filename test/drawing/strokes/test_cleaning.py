@@ -3,6 +3,8 @@
 
 """Rests, spikes and jumps of pens are gone before a stroke is read."""
 
+from itertools import pairwise
+
 import numpy as np
 from physsim_ros.drawing.strokes.cleaning import clean_samples, GRAIN
 from physsim_ros.model.arrays import Floats
@@ -50,3 +52,27 @@ def test_clicks_are_no_spikes() -> None:
 
     assert (clean_samples(ways) == ways).all()
     assert (clean_samples(teeth) == teeth).all()
+
+
+@pytest.mark.parametrize('share', [0.15, 0.35])
+@pytest.mark.parametrize('way', ['line', 'arc', 'square'])
+def test_the_first_step_of_a_finger_is_kept(way: str, share: float) -> None:
+    # A touch screen sends nothing until the finger has gone 61 to 71 pixels.
+    corners = np.array([(0, 0), (1, 0), (1, 1), (0, 1)], dtype=np.float64)
+    square = np.vstack([np.linspace(a, b, 20, endpoint=False) for a, b in pairwise(corners)])
+    line = np.linspace((0.0, 0.0), (2.0, 1.0), 60)
+    points = {'line': line, 'arc': ARC, 'square': square}[way]
+    size = float(np.hypot(*np.ptp(points, axis=0)))
+    late = np.maximum.accumulate(np.hypot(*(points - points[0]).T)) > share * size
+    received = np.vstack((points[:1], points[late]))
+
+    for samples in (received, received[::-1]):
+        assert (clean_samples(samples)[[0, -1]] == samples[[0, -1]]).all()
+
+
+def test_of_a_stroke_sent_as_its_corners_all_is_kept() -> None:
+    ends = [(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (0.0, 1.0), (0.0, 0.02)]
+    # Where the hand trembles at a corner, more samples remain.
+    corners = np.vstack([np.add(at, [(0.0, 0.0), (0.03, 0.02), (0.05, -0.02)]) for at in ends])
+
+    assert (clean_samples(corners) == corners).all()

@@ -168,3 +168,37 @@ def test_swings_are_counted_and_measured_across_their_advance() -> None:
     assert swings.height == pytest.approx(3.0, rel=0.05)
     assert swings.advance == pytest.approx(8 / 3, rel=0.1)
     assert swings.steady == pytest.approx(1.0, abs=0.01)
+
+
+def test_a_brace_whose_tip_is_retraced_is_a_line_and_a_pigtail_no_x() -> None:
+    upper = np.array([(0.2, 1.0), (0.05, 0.9), (0.0, 0.7), (0.0, 0.1), (-0.1, -0.04), (-0.5, 0.0)])
+    brace = np.vstack((upper, upper[-2::-1] * (1.0, -1.0)))
+    loop = 0.3 * np.column_stack((np.sin(ANGLE), 1.0 - np.cos(ANGLE)))
+    pigtail = np.vstack(([(-0.7, 0.0)], loop, [(0.7, 0.0)]))
+
+    assert recognise_form(resample_stroke(brace))[0].primitive == 'line'
+    found = recognise_form(resample_stroke(pigtail))
+    assert not any(each.primitive == 'x' for each in found)
+
+
+@pytest.mark.parametrize(
+    'arms', [(0.6, 1.4, 1.0, 0.8), (1.4, 0.7, 0.6, 1.2), (1.0, 1.0, 0.6, 0.6)]
+)
+def test_an_x_of_unequal_arms_is_no_arrow(arms: tuple[float, ...]) -> None:
+    ends = np.array([(-1, 1), (1, -1), (1, 1), (-1, -1)]) * np.array(arms)[:, None]
+
+    best, *others = recognise_form(resample_stroke(ends))
+
+    assert best.primitive == 'x'
+    assert not any(each.primitive == 'arrow' and each.weight > 0.2 for each in others)
+
+
+@pytest.mark.parametrize('closing', [-0.1, -0.05, 0.1, 0.17])
+@pytest.mark.parametrize('slip', [0.0, 0.1])
+def test_a_circle_with_a_gap_or_an_overlap_is_a_disc(closing: float, slip: float) -> None:
+    angle = np.linspace(0.0, 2.0 * math.pi * (1.0 + closing), 50)
+    # The end lies inside of the beginning, as of a spiral.
+    radius = 1.0 - slip * np.clip(np.linspace(-2.0, 1.0, 50), 0.0, 1.0)
+    way = radius[:, None] * np.column_stack((np.cos(angle), 0.85 * np.sin(angle)))
+
+    assert recognise_form(resample_stroke(way))[0].primitive == 'disc'

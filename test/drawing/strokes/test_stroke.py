@@ -28,9 +28,9 @@ def found(samples: Floats) -> Floats:
     """Return the corners of a closed stroke, from the lowest left one on, counter-clockwise."""
     drawn = resample_stroke(samples)
     assert drawn.outline is not None
-    outline, narrow = widened(drawn.outline)
+    outline, narrowed = widened(drawn.outline)
     at = corners(outline, closed=True, gap=drawn.gap)
-    made = vertices(outline, at, closed=True) @ narrow
+    made = narrowed(vertices(outline, at, closed=True))
     middle = made.mean(axis=0)
     angle = np.arctan2(*(made - middle).T[::-1])
     return made[np.argsort(angle)]

@@ -15,11 +15,19 @@ from physsim_ros.drawing.strokes import regularisation
 from physsim_ros.drawing.strokes.corner_detection import ARM
 from physsim_ros.drawing.strokes.features import Features
 from physsim_ros.drawing.strokes.hypothesis import falls, Hypothesis, LEAST, rises
-from physsim_ros.drawing.strokes.meanings import Context, Interpretation, MISPLACED, Outcome
+from physsim_ros.drawing.strokes.meanings import (
+    Context,
+    GRAVITY,
+    Interpretation,
+    MISPLACED,
+    Outcome,
+)
+from physsim_ros.drawing.strokes.plane import dot
 from physsim_ros.drawing.strokes.polyline import point_of, smoothed, turns
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NotRecognised
 from physsim_ros.model.requests import Command, Configure
+from physsim_ros.model.transform import cross
 
 PRIMITIVE = 'arrow'
 # The least gap between the ends of an arrow, in shares of its length.
@@ -85,8 +93,9 @@ def _arrow_from_tail(points: Floats) -> Hypothesis:
 def _in_frame(points: Floats, origin: Floats, one: Floats) -> Floats:
     """Return points in the frame in which one point is (0, 0) and another (1, 0)."""
     along = one - origin
-    result: Floats = (points - origin) @ np.column_stack((along, (-along[1], along[0])))
-    return result / max(float(along @ along), 1e-300)
+    away = points - origin
+    local = np.column_stack((dot(away, along), cross(along, away)))
+    return local / max(float(dot(along, along)), 1e-300)
 
 
 def interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[Interpretation]:
@@ -103,7 +112,7 @@ def interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[Interp
         return
     free = not under
     yield Interpretation(
-        meaning='gravity',
+        meaning=GRAVITY,
         weight=hypothesis.weight * (1.0 if free else MISPLACED),
         build=partial(_turn_gravity, points, context),
     )

@@ -14,7 +14,8 @@ from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.strokes.features import Features
 from physsim_ros.drawing.strokes.hypothesis import falls, Hypothesis, rises
 from physsim_ros.drawing.strokes.meanings import Context, Interpretation, MISPLACED, Outcome
-from physsim_ros.drawing.strokes.polyline import angles, point_of, smoothed
+from physsim_ros.drawing.strokes.plane import angles, least_squares
+from physsim_ros.drawing.strokes.polyline import point_of, smoothed
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NothingThere
 from physsim_ros.model.joints import JointKind, JointProperties
@@ -141,9 +142,10 @@ def _circle(points: Floats) -> tuple[Floats, float, float]:
     """
     middle = points.mean(axis=0)
     away = points - middle
-    system = np.column_stack((2.0 * away, np.ones(len(away))))
-    (x, y, rest), *_ = np.linalg.lstsq(system, (away**2).sum(axis=1), rcond=None)
-    radius = math.sqrt(max(rest + x * x + y * y, 1e-300))
+    squares = (away**2).sum(axis=1)
+    # About their mean, the equations of the centre and that of the radius are independent.
+    x, y = least_squares(2.0 * away, squares)
+    radius = math.sqrt(max(float(squares.mean()) + x * x + y * y, 1e-300))
     center = middle + np.array((x, y))
     residual = np.hypot(*(points - center).T) - radius
     return center, radius, float(np.sqrt((residual**2).mean()))

@@ -1,0 +1,317 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+Things that people draw in several strokes, and drawings of ten strokes, read by one session.
+
+Between strokes of one thing people pause for 0.3 to 0.7 s, 88 % of them for less than 0.8 s. Lines
+that should meet miss one another by 2 to 8 % of the thing, and shafts of arrows end short of their
+heads. A thing is right when the world is as it should be, whatever was read on the way.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+import math
+
+import numpy as np
+from physsim_ros.drawing import DrawingSession, DrawingSettings, submit_reading
+from physsim_ros.model.errors import Refusal
+from physsim_ros.model.requests import Spawn
+from physsim_ros.model.shapes import Box, Chain, Disc
+from physsim_ros.model.snapshot import Snapshot
+from physsim_ros.simulation.simulation import Simulation
+
+from . import figures
+from .hands import drawn, Hand, hand
+from .outlines import Floats, Random
+from .people import figure_of, placed
+from .scenes import SEEDS
+
+# Seconds between two strokes of one thing, and between two things: least and greatest.
+_WITHIN, _BETWEEN = (0.3, 0.7), (0.4, 1.6)
+# The longest first step of a finger, in shares of the stroke.
+_LONGEST_STEP = 0.4
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Thing:
+    """
+    A thing of several strokes.
+
+    :param ways: of the pen, (n, 2) float64 each [m]
+    :param under: the bodies that it is drawn over
+    :param right: tells whether the world is as it should be
+    """
+
+    ways: Sequence[Floats]
+    under: Sequence[Spawn] = ()
+    right: Callable[[Snapshot], bool]
+
+
+class Sheet:
+    """A standing world, and somebody who draws into it."""
+
+    def __init__(self, under: Sequence[Spawn] = ()) -> None:
+        self.simulation = Simulation(speed=0.0)
+        for request in under:
+            self.simulation.requests.submit(request, topic='')
+        self.session = DrawingSession(DrawingSettings())
+        self.frame = self.simulation.advance_frame()
+        self.frame = self.simulation.apply_requests() or self.frame
+        self.now = 0.0
+
+    def draw(self, samples: Floats, pause: float) -> str:
+        """Draw a stroke after a pause [s], and return its reading; '' where it is refused."""
+        began = self.now + pause
+        self.now = began + float(np.ptp(samples[:, 2]))
+        try:
+            reading = self.session.stroke(samples, '', self.frame.snapshot, began=began)
+        except Refusal:
+            return ''
+        submit_reading(self.simulation, self.session, reading, topic='~/stroke')
+        self.frame = self.simulation.apply_requests() or self.frame
+        return reading.meaning
+
+
+def show_several(count: int, half: str) -> None:
+    """Print the share of things of several strokes, and of drawings, that become what is meant."""
+    print('\nin several strokes, with pauses')
+    for number, (name, thing) in enumerate(THINGS.items()):
+        rng = np.random.default_rng((SEEDS[half], 2000 + number))
+        hits = [_is_right(thing(rng), half, rng) for _ in range(count)]
+        print(f'{name:<34}{np.mean(hits):7.1%} of {count}')
+    rng = np.random.default_rng((SEEDS[half], 3000))
+    count = max(count // 2, 10)
+    wrong: Counter[str] = Counter()
+    misread = [_misread(half, rng) for _ in range(count)]
+    for each in misread:
+        wrong.update(each)
+    right = np.mean([not each for each in misread])
+    print(f'{"drawings of ten strokes":<34}{right:7.1%} of {count}   {dict(wrong)}')
+
+
+def _is_right(thing: Thing, half: str, rng: Random) -> bool:
+    sheet = Sheet(thing.under)
+    somebody = hand(rng, figure_of(thing.ways[0])[0], half)
+    whole = _extent(np.vstack(thing.ways))
+    for way in thing.ways:
+        # The first step of a finger is as long for a barb as for a shaft.
+        first_step = min(somebody.first_step * whole / _extent(way), _LONGEST_STEP)
+        samples = _by_hand(way, replace(somebody, first_step=first_step), rng)
+        sheet.draw(samples, rng.uniform(*_WITHIN))
+    return thing.right(sheet.frame.snapshot)
+
+
+def _by_hand(way: Floats, somebody: Hand, rng: Random) -> Floats:
+    """Return the samples of a way that somebody draws where it is."""
+    figure, place = figure_of(way)
+    return drawn(figure, placed(somebody, way, place, rng), rng)
+
+
+def _extent(way: Floats) -> float:
+    return float(np.hypot(*np.ptp(way, axis=0)))
+
+
+def _misread(half: str, rng: Random) -> list[str]:
+    """Return the misreadings of ten strokes: eight, each in its place, an axle and an x on two."""
+    kinds = [figures.disc, figures.disc, figures.rectangle, figures.rectangle, figures.polygon]
+    kinds += [figures.line, figures.bent_line, figures.curve]
+    order = rng.permutation(len(kinds))
+    meant = ['disc', 'disc', 'rectangle', 'rectangle', 'polygon', 'wall', 'wall', 'wall']
+    sheet, wrong = Sheet(), []
+    person = hand(rng, figures.line(rng), half)
+    # Where the first disc and the first rectangle lie, and their sizes [m].
+    places: dict[int, tuple[Floats, float]] = {}
+    for cell, kind in enumerate(order.tolist()):
+        figure = kinds[kind](rng)
+        place, size = np.array((5.0 * (cell % 4), 5.0 * (cell // 4))), rng.uniform(1.5, 3.0)
+        places[kind] = place, size
+        wrong += _drawn_wrong(sheet, figure, person, (place, size), meant[kind], half, rng)
+    (place, size), (there, large) = places[0], places[2]
+    wrong += _drawn_wrong(sheet, figures.disc(rng), person, (place, 0.2 * size), 'axle', half, rng)
+    wrong += _drawn_wrong(
+        sheet, figures.cross(rng), person, (there, 0.4 * large), 'anchor', half, rng
+    )
+    snapshot = sheet.frame.snapshot
+    if not wrong and (len(snapshot.scene.bodies), len(snapshot.scene.joints)) != (8, 1):
+        wrong.append('count')
+    return wrong
+
+
+def _drawn_wrong(
+    sheet: Sheet,
+    figure: figures.Figure,
+    person: Hand,
+    where: tuple[Floats, float],
+    meant: str,
+    half: str,
+    rng: Random,
+) -> Iterator[str]:
+    """Draw a figure at a place in a size [m], and yield its misreading, if it is one."""
+    # Somebody keeps the habits of the screen, and has others anew for each figure.
+    somebody = replace(
+        hand(rng, figure, half),
+        size=where[1],
+        place=tuple(where[0].tolist()),
+        first_step=person.first_step,
+        dropped=person.dropped,
+        simplified=person.simplified,
+    )
+    read = sheet.draw(drawn(figure, somebody, rng), rng.uniform(*_BETWEEN))
+    if read != meant:
+        yield f'{meant} > {read or "refused"}'
+
+
+def _line(*points: tuple[float, float]) -> Floats:
+    return np.array(points, dtype=np.float64)
+
+
+def _placed_at_random(rng: Random, *ways: Floats, turn: float = 7.0) -> list[Floats]:
+    """Return ways turned and sized together, about the origin."""
+    angle, size = rng.uniform(0.0, turn), rng.uniform(0.6, 3.0)
+    cos, sin = size * math.cos(angle), size * math.sin(angle)
+    return [way @ np.array(((cos, sin), (-sin, cos))) for way in ways]
+
+
+def _x(rng: Random) -> list[Floats]:
+    """Return two lines that cross, their arms of unequal length, in any order."""
+    half = rng.uniform(0.7, 1.3) * math.pi / 4
+    ends = rng.uniform(0.3, 0.6, 4)
+    angles = np.array((half, half + math.pi, -half, math.pi - half)) + rng.normal(0.0, 0.08, 4)
+    points = np.column_stack((ends * np.cos(angles), ends * np.sin(angles)))
+    lines = [points[:2], points[2:]]
+    return lines if rng.random() < 0.5 else lines[::-1]
+
+
+def _body_under(ways: Sequence[Floats], rng: Random) -> Spawn:
+    """Return a box under all of some ways, 1.2 to 3 times as large."""
+    x, y = rng.uniform(1.2, 3.0) * np.ptp(np.vstack(ways), axis=0) * rng.uniform(1.0, 1.3, 2)
+    middle = np.vstack(ways)
+    at = (middle.min(axis=0) + middle.max(axis=0)) / 2
+    return Spawn(name='a/0', shape=Box(width=float(x), height=float(y)), pose=(*at.tolist(), 0.0))
+
+
+def _anchoring(turn: float) -> Callable[[Random], Thing]:
+    def thing(rng: Random) -> Thing:
+        ways = _placed_at_random(rng, *(_rotated(way, turn) for way in _x(rng)), turn=0.2)
+        body = _body_under(ways, rng)
+
+        def right(snapshot: Snapshot) -> bool:
+            (found, *others) = snapshot.scene.bodies
+            mass = body.shape.form.area * snapshot.scene.settings.density
+            same = math.isclose(found.total_mass, mass, rel_tol=1e-6)
+            return found.anchored and same and not others and not snapshot.scene.joints
+
+        return Thing(ways=ways, under=(body,), right=right)
+
+    return thing
+
+
+def _rotated(way: Floats, angle: float) -> Floats:
+    cos, sin = math.cos(angle), math.sin(angle)
+    return np.asarray(way @ np.array(((cos, sin), (-sin, cos))))
+
+
+def _arrow(rng: Random) -> list[Floats]:
+    """Return a shaft that ends short of its head, or beyond it, and the head, in any order."""
+    length, opening = rng.uniform(0.18, 0.4), rng.uniform(0.4, 0.9)
+    gap = rng.uniform(0.03, 0.2) if rng.random() < 0.6 else rng.uniform(-0.1, 0.03)
+    tip = np.array((0.5, 0.0)) + rng.normal(0.0, 0.02, 2)
+    barbs = np.array(
+        [(-math.cos(opening), math.sin(opening)), (-math.cos(opening), -math.sin(opening))]
+    )
+    barbs = tip + length * rng.uniform(0.75, 1.25, (2, 1)) * barbs
+    shaft = _line((-0.5, 0.0), (0.5 - gap, float(rng.normal(0.0, 0.02))))
+    return [shaft, np.array((barbs[0], tip, barbs[1]))]
+
+
+def _gravity_arrow(rng: Random) -> Thing:
+    ways = _placed_at_random(rng, *_arrow(rng))
+    shaft = ways[0][1] - ways[0][0]
+
+    def right(snapshot: Snapshot) -> bool:
+        x, y = snapshot.scene.settings.gravity
+        along = (x * shaft[0] + y * shaft[1]) / float(np.hypot(*shaft)) / math.hypot(x, y)
+        return along > math.cos(0.4) and not snapshot.scene.bodies
+
+    # Not downwards, where gravity is already.
+    return (
+        _gravity_arrow(rng)
+        if shaft[1] < -0.7 * float(np.hypot(*shaft))
+        else Thing(ways=ways if rng.random() < 0.7 else ways[::-1], right=right)
+    )
+
+
+def _velocity_arrow(rng: Random) -> Thing:
+    ways = _placed_at_random(rng, *_arrow(rng))
+    tail, tip = ways[0]
+    radius = float(np.hypot(*(tip - tail))) * rng.uniform(0.2, 0.5)
+    body = Spawn(name='a/0', shape=Disc(radius=radius), pose=(*tail.tolist(), 0.0))
+
+    def right(snapshot: Snapshot) -> bool:
+        x, y, _ = snapshot.twists[0].tolist()
+        off = float(np.hypot(*(np.array((x, y)) - (tip - tail))))
+        alone = len(snapshot.scene.bodies) == 1 and not snapshot.scene.joints
+        return alone and off < 0.3 * float(np.hypot(*(tip - tail)))
+
+    return Thing(ways=ways, under=(body,), right=right)
+
+
+def _four_lines(rng: Random) -> Thing:
+    high = rng.uniform(0.4, 1.0)
+    corners = _line((0, 0), (1, 0), (1, high), (0, high))
+    sides = [corners[[side, (side + 1) % 4]] for side in range(4)]
+    off = rng.uniform(0.02, 0.08)
+    sides = [side + off * rng.uniform(-0.7, 0.7, (2, 2)) for side in sides]
+    order = rng.permutation(4) if rng.random() < 0.5 else np.arange(4)
+    ways = _placed_at_random(rng, *(sides[each] for each in order.tolist()), turn=0.1)
+    return Thing(ways=ways, right=lambda snapshot: _shapes(snapshot) == {Box: 1})
+
+
+def _crossing_walls(rng: Random) -> Thing:
+    return Thing(
+        ways=_placed_at_random(rng, *_x(rng)),
+        right=lambda snapshot: _shapes(snapshot) == {Chain: 2},
+    )
+
+
+def _meeting_walls(rng: Random) -> Thing:
+    """Return a T or an L of two walls, or two beside each other."""
+    at, length = rng.uniform(0.0, 1.0), rng.uniform(0.5, 1.0)
+    angle = rng.uniform(1.1, 2.0)
+    foot = _line((at, 0.02), (at + length * math.cos(angle), length * math.sin(angle)))
+    ways = _placed_at_random(rng, _line((0, 0), (1, 0)), foot)
+    return Thing(ways=ways, right=lambda snapshot: _shapes(snapshot) == {Chain: 2})
+
+
+def _marked_circle(rng: Random) -> Thing:
+    angle = np.linspace(0.0, 2.0 * math.pi, 60)
+    circle = 0.5 * np.column_stack((np.cos(angle), np.sin(angle)))
+    circle[-1] = circle[0]
+    reach = rng.uniform(0.45, 1.2, 2)
+    high = rng.uniform(-0.15, 0.15)
+    line = _line((-reach[0], high), (reach[1], high))
+    ways = _placed_at_random(rng, circle, line)
+    return Thing(ways=ways, right=lambda snapshot: _shapes(snapshot) == {Disc: 1})
+
+
+def _shapes(snapshot: Snapshot) -> dict[type, int]:
+    """Return the number of bodies of each shape; joints count as such."""
+    found = Counter(type(body.shape) for body in snapshot.scene.bodies)
+    found.update(type(joint) for joint in snapshot.scene.joints)
+    return dict(found)
+
+
+THINGS: dict[str, Callable[[Random], Thing]] = {
+    'x of two lines, on a body': _anchoring(0.0),
+    '+ of two lines, on a body': _anchoring(math.pi / 4),
+    'arrow of shaft and head': _gravity_arrow,
+    'the same, tail on a body': _velocity_arrow,
+    'rectangle of four lines': _four_lines,
+    'two walls that cross': _crossing_walls,
+    'two walls that meet': _meeting_walls,
+    'circle with a line through it': _marked_circle,
+}
