@@ -18,7 +18,9 @@ from typing import Any
 from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.sketchpad.access import Role
 from physsim_ros.sketchpad.body_past import BodyPasts
+from physsim_ros.sketchpad.frame_codec import VERSION
 from physsim_ros.sketchpad.inbox import Closed, Inbox, Incoming, Opened, SERVER
+from physsim_ros.sketchpad.last_contacts import LastContacts
 from physsim_ros.sketchpad.page_requests import Content
 from physsim_ros.sketchpad.page_session import PageSession
 from physsim_ros.sketchpad.recording_handlers import Recordings
@@ -36,7 +38,7 @@ class Sketchpad:
     The sketchpad of a world.
 
     :param world: that the pages draw in
-    :param welcome: what a page is told first: version, frame, rate
+    :param welcome: what a page is told first: frame, rate
     :param address: to listen on
     :param port: to listen on, or the first free one after it
     :param world_dir: directory of the user's worlds
@@ -61,6 +63,7 @@ class Sketchpad:
         self._recordings = recordings
         self._inbox = Inbox()
         self._timeline = TimelineReport(world.simulation)
+        self._contacts = LastContacts()
         self._server = Server(
             address=address,
             port=port,
@@ -100,6 +103,7 @@ class Sketchpad:
 
     def show(self, frame: Frame) -> None:
         """Send a frame, its answers and the timeline to all pages; never blocks."""
+        frame = self._contacts.completed(frame)
         if not self._server.has_pages:
             # The first page to come gets this frame.
             self._server.keep(frame)
@@ -139,6 +143,8 @@ class Sketchpad:
             {
                 'type': 'welcome',
                 'client': str(number),
+                'version': VERSION,
+                'physics_rate': self._world.simulation.physics_rate,
                 **self._welcome,
                 'rerun': self._recording_path(),
                 'view_only': role is not Role.DRAW,

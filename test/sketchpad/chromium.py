@@ -48,17 +48,19 @@ def launched_chromium(playwright: Any, arguments: Sequence[str] = ARGUMENTS) -> 
     return playwright.chromium.launch(executable_path=path, args=list(arguments))
 
 
-def started_world(outside: Outside, **parameters: object) -> tuple[Program, str]:
+def started_world(
+    outside: Outside, *, world: str = WORLD, **parameters: object
+) -> tuple[Program, str]:
     """Start a world with a page, and return it with the address that it prints."""
     path = outside.directory / 'page.yaml'
-    path.write_text(WORLD)
+    path.write_text(world)
     given = {'world_file': path, 'world_dir': outside.directory, 'sketchpad': 'serve'}
-    world = outside.start_world(**given | parameters)
-    line = world.wait_for('/login?token=')
-    world.wait_for('ready')
+    program = outside.start_world(**given | parameters)
+    line = program.wait_for('/login?token=')
+    program.wait_for('ready')
     found = re.search(r'http\S+', line)
     assert found
-    return world, found[0]
+    return program, found[0]
 
 
 def circle(x: float, y: float, radius: float) -> list[tuple[float, float]]:

@@ -348,11 +348,14 @@ def test_the_velocity_arrow_of_a_body_is_dragged_to_another_velocity(sheet: Shee
     sheet.press('Hand')
     sheet.page.mouse.click(*sheet.place(0.0, 0.5))
     sheet.page.get_by_role('complementary', name='Body').wait_for()
-    scale = sheet.place(1.0, 0.0)[0] - sheet.place(0.0, 0.0)[0]
+    sheet.wait('physsim.scales.speed > 0')
+    scale = sheet.page.evaluate('physsim.scales.speed')
     x, y = sheet.place(0.0, 0.5)
     gap = 22  # px from the centre to the tail
-    with sheet.dragging((gap / scale, 0.5)):
-        sheet.page.mouse.move(x, y - gap - 4.0 * scale, steps=5)
+    sheet.page.mouse.move(x + gap, y)
+    sheet.page.mouse.down()
+    sheet.page.mouse.move(x, y - gap - 4.0 * scale, steps=5)
+    sheet.page.mouse.up()
     sheet.page.get_by_role('status').get_by_text('ball/0').wait_for()
     sheet.press('Play')
     # 4 m/s upwards rise by v^2 / 2 g.

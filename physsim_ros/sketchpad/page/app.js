@@ -5,6 +5,7 @@
  * Start reading here; each part is a file. The world moves on the server alone (world_state.js).
  */
 
+import {Arrows} from './arrows.js';
 import {BodyPanel} from './body_panel.js';
 import {Camera} from './camera.js';
 import {Connection} from './connection.js';
@@ -40,7 +41,6 @@ export class App {
     document.body.classList.toggle('view', this.viewOnly);
     /** @type {Record<string, any>} properties of the next drawings */
     this.material = {density: 1, friction: 0.5, elasticity: 0.5};
-    this.arrows = {velocities: false, contacts: false, forces: true};
     /** @type {number | undefined} of the server's protocol */
     this.version = undefined;
     this.framed = false;
@@ -53,6 +53,7 @@ export class App {
     this.selection = new Selection(this);
     this.view.overlays.push((view) => this.tool.draw(view));
     this.cursor = new Cursor(this);
+    this.arrows = new Arrows(this);
     this.words = new Words(this.connection);
     this.notes = new Notes(this);
     this.refusals = new Refusals(this);
@@ -117,10 +118,10 @@ export class App {
 
   /** Ask for the parts of frames that are shown. */
   askForParts() {
-    const {velocities} = this.arrows;
-    this.view.velocities = velocities;
+    const {velocities, forces} = this.arrows;
     this.view.dirty = true;
-    this.connection.send('show', {...this.arrows, velocities: velocities || this.panel.name !== ''});
+    // The drag of the air follows from velocities.
+    this.connection.send('show', {velocities: velocities || forces || this.panel.name !== '', contacts: forces, forces: true});
   }
 
   /** Frame the world. */
@@ -169,6 +170,10 @@ Object.assign(window, {physsim: {
   toWorld: (/** @type {number} */ px, /** @type {number} */ py) => app.camera.toWorld(px, py),
   get time() { return app.world.frame.time; },
   get speed() { return app.world.frame.speed; },
+  /** Forces as they are drawn. */
+  get forces() { return app.arrows.drawn; },
+  /** Lengths of arrows [px] to a newton and to a metre a second. */
+  get scales() { return {newton: app.arrows.newtons.length(1), speed: app.arrows.speeds.length(1)}; },
   get bodies() {
     const {frame, scene, count} = app.world;
     return Object.fromEntries(scene.bodies.slice(0, count).map(({name}, row) =>

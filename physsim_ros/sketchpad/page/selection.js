@@ -56,7 +56,7 @@ export class Selection {
 
   /** @param {SceneView} view */
   #draw(view) {
-    const {ctx, palette} = view, {world, tool} = this.app;
+    const {palette} = view, {world, tool} = this.app;
     for (const name of this.names) {
       const row = world.row(name);
       if (row >= 0) view.outline(row, palette.accent);
@@ -64,13 +64,7 @@ export class Selection {
     const row = this.hovered ? world.row(this.hovered) : -1;
     if (row < 0 || !this.hoveredAt) return;
     if (tool.aims) view.outline(row, palette[tool.aims]);
-    const [x, y] = this.hoveredAt, text = shorten(this.hovered);
-    ctx.font = '13px system-ui, sans-serif';
-    ctx.textAlign = 'left';
-    ctx.lineWidth = 4;
-    ctx.strokeStyle = palette.paper;
-    ctx.strokeText(text, x + 16, y - 10);
-    ctx.fillStyle = palette.ink;
-    ctx.fillText(text, x + 16, y - 10);
+    const [x, y] = this.hoveredAt;
+    view.write(shorten(this.hovered), [x + 16, y - 10], palette.ink);
   }
 }

@@ -21,8 +21,12 @@ export class WorldState {
     /** @type {{epoch: number, bodies: Body[]}} */
     this.ghostScene = {epoch: 0, bodies: []};
     this.rate = 60; // frames a second of simulation
+    this.physicsRate = 240; // steps a second of simulation
     this.version = 0; // of all that is drawn
-    connection.on('welcome', (welcome) => { this.rate = welcome.rate; });
+    connection.on('welcome', (welcome) => {
+      this.rate = welcome.rate;
+      this.physicsRate = welcome.physics_rate;
+    });
     connection.on('open', () => {
       // Another server counts anew.
       this.ghostScene = {epoch: 0, bodies: []};
