@@ -8,8 +8,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 import math
+from pathlib import Path
 import re
 import shutil
+import tempfile
 import time
 from typing import Any
 
@@ -52,9 +54,11 @@ def started_world(
     outside: Outside, *, world: str = WORLD, **parameters: object
 ) -> tuple[Program, str]:
     """Start a world with a page, and return it with the address that it prints."""
-    path = outside.directory / 'page.yaml'
+    # Of its own: a world that was not saved is offered to the next one in a directory.
+    directory = Path(tempfile.mkdtemp(dir=outside.directory))
+    path = directory / 'page.yaml'
     path.write_text(world)
-    given = {'world_file': path, 'world_dir': outside.directory, 'sketchpad': 'serve'}
+    given = {'world_file': path, 'world_dir': directory, 'sketchpad': 'serve'}
     program = outside.start_world(**given | parameters)
     line = program.wait_for('/login?token=')
     program.wait_for('ready')

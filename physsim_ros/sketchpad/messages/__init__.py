@@ -25,6 +25,7 @@ from physsim_ros.sketchpad.messages.fields import Readers
 from physsim_ros.sketchpad.messages.watching import ShowParts, Watch
 from physsim_ros.sketchpad.messages.worlds import (
     ACTIONS,
+    ManageWorld,
     Perform,
     ReturnToCourse,
     Seek,
@@ -42,6 +43,7 @@ __all__ = [
     'Drop',
     'Envelope',
     'Instead',
+    'ManageWorld',
     'Message',
     'Perform',
     'ReturnToCourse',
@@ -71,6 +73,7 @@ Message = (
     | Share
     | Upload
     | Perform
+    | ManageWorld
     | SetSpeed
     | Seek
     | ReturnToCourse

@@ -19,6 +19,7 @@ import {Readings} from './readings.js';
 import {Refusals} from './refusals.js';
 import {SceneView} from './scene_view.js';
 import {Selection} from './selection.js';
+import {EmptyCard} from './strokes.js';
 import {TimeBar} from './time_bar.js';
 import {Tips} from './tips.js';
 import {Toolbar} from './toolbar.js';
@@ -39,10 +40,12 @@ export class App {
   constructor() {
     this.viewOnly = new URLSearchParams(location.search).has('view');
     document.body.classList.toggle('view', this.viewOnly);
-    /** @type {Record<string, any>} properties of the next drawings */
-    this.material = {density: 1, friction: 0.5, elasticity: 0.5};
+    /** @type {Record<string, any>} properties of the next drawings that this page has chosen; others are the world's */
+    this.material = {};
     /** @type {number | undefined} of the server's protocol */
     this.version = undefined;
+    /** @type {?string | number[]} of the next drawings, where this page chose none */
+    this.color = null;
     this.framed = false;
     this.bounds = ''; // of the world that was framed: another one, as in the past, is framed anew
 
@@ -70,6 +73,7 @@ export class App {
     this.keyboard = new Keyboard(this);
     this.topBar = new TopBar(this);
     this.tips = new Tips(this.camera);
+    this.card = new EmptyCard(this);
     this.#listen();
     this.connection.connect();
     setInterval(() => this.#listBodies(), LIST_EVERY);
@@ -83,7 +87,9 @@ export class App {
       if (version !== (this.version ??= version)) location.reload();
       this.viewOnly ||= Boolean(viewOnly);
       document.body.classList.toggle('view', this.viewOnly);
-      Object.assign(this.material, settings, {color: settings.draw_color ?? null});
+      this.color = settings.draw_color ?? null;
+      // To the server this is another page.
+      if (Object.keys(this.material).length && !this.viewOnly) this.connection.send('draw_with', this.material);
       this.askForParts();
     });
     connection.on('open', () => {

@@ -65,6 +65,9 @@ export interface Scene {
   gravity: Point;
   bounds: number[];
   damping: number;
+  density: number;
+  friction: number;
+  elasticity: number;
 }
 
 /** The state of the world after a step, a column for each quantity; rows as in the scene. */

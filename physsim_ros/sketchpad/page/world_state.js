@@ -9,7 +9,8 @@ export class WorldState {
   /** @param {Connection} connection */
   constructor(connection) {
     /** @type {Scene} */
-    this.scene = {epoch: -1, bodies: [], joints: [], gravity: [0, -9.81], bounds: [], damping: 0};
+    this.scene = {epoch: -1, bodies: [], joints: [], gravity: [0, -9.81], bounds: [], damping: 0,
+      density: 1, friction: 0.5, elasticity: 0.5};
     /** @type {Frame} */
     this.frame = {epoch: -1, time: 0, speed: 0, ghost: false,
       x: new Float32Array(), y: new Float32Array(), yaw: new Float32Array()};
