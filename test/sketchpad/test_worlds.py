@@ -182,3 +182,19 @@ def test_an_empty_world_has_earth_and_walls_of_its_own(sheet: Sheet) -> None:
     sheet.page.get_by_role('status').get_by_text('An empty world').wait_for()
     sheet.press('Material')
     assert sheet.page.get_by_label('Gravity [m/s²], typed').input_value() == '9.81'
+
+
+def test_a_machine_that_is_too_slow_says_how_slow(chromium: Any, outside: Outside) -> None:
+    # 10,000 frames a second, each of one step, are more than any machine makes.
+    program, address = started_world(outside, physics_rate=10000.0, publish_rate=10000.0)
+    sheet = Sheet(chromium, address)
+    sheet.begin()
+    speed = sheet.page.locator('#speed')
+    assert speed.inner_text() == '1×'
+    sheet.press('Hand')
+    sheet.press('Play')
+    with sheet.dragging((0.0, 0.5), (1.0, 3.0)):
+        sheet.until(lambda: 'slower than 1×' in speed.get_attribute('aria-label'), 'the pace')
+        assert 0.0 < float(speed.inner_text().removesuffix('×')) < 0.9
+    sheet.close()
+    program.interrupt()

@@ -240,26 +240,22 @@ function drawLabels(view, labels) {
  * @param {SceneView} view
  * @param {[string, string, string][]} lines length of a bar, '' for a line of colour alone; colour; word
  */
-function drawLegend({ctx, palette, insets}, lines) {
-  const left = insets.left + 56, top = insets.top + 14;
-  ctx.font = FONT;
-  ctx.textAlign = 'left';
-  ctx.globalAlpha = 0.8;
-  ctx.fillStyle = palette.paper;
-  ctx.fillRect(left - 8, top - 8, BAR + 80, lines.length * LEGEND + 12);
-  ctx.globalAlpha = 1;
+function drawLegend(view, lines) {
+  const {ctx, palette, insets} = view, left = insets.left + 56, top = insets.top + 40;
   lines.forEach(([length, color, word], i) => {
-    const y = top + i * LEGEND + 6;
-    ctx.strokeStyle = ctx.fillStyle = color;
-    ctx.lineWidth = 2.5;
-    ctx.beginPath();
-    ctx.moveTo(left, y);
-    ctx.lineTo(left + (length ? BAR : 18), y);
-    if (length) for (const x of [left, left + BAR]) {
-      ctx.moveTo(x, y - 4);
-      ctx.lineTo(x, y + 4);
+    const y = top + i * LEGEND, width = length ? BAR : 18;
+    for (const [stroke, broad] of /** @type {[string, number][]} */ ([[palette.paper, 5.5], [color, 2.5]])) {
+      ctx.strokeStyle = stroke;
+      ctx.lineWidth = broad;
+      ctx.beginPath();
+      ctx.moveTo(left, y);
+      ctx.lineTo(left + width, y);
+      if (length) for (const x of [left, left + BAR]) {
+        ctx.moveTo(x, y - 4);
+        ctx.lineTo(x, y + 4);
+      }
+      ctx.stroke();
     }
-    ctx.stroke();
-    ctx.fillText(length ? `${length}  ${word}` : word, left + (length ? BAR : 18) + 8, y + 4);
+    view.write(length ? `${length}  ${word}` : word, [left + width + 8, y + 4], color);
   });
 }

@@ -33,8 +33,9 @@ export class Notes {
 
   /** @param {Answer} answer */
   #tell(answer) {
-    const {request, ok, message} = answer, own = request !== '';
-    if (SILENT.test(message) || !own && performance.now() < this.until) return;
+    const {request, ok, code, message} = answer, own = request !== '';
+    // What a page may do about a name that is taken, it is asked in a dialog.
+    if (SILENT.test(message) || own && code === 'exists' || !own && performance.now() < this.until) return;
     const tell = () => this.showMessage(this.app.words.tell(answer), {ok, quiet: !own});
     this.expected = () => {};
     if (this.app.words.knows(answer.subject)) tell();
