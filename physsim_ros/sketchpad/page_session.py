@@ -15,10 +15,12 @@ import time
 from typing import Any
 
 from physsim_ros.files import check_world_name, OwnWorlds
-from physsim_ros.model.errors import BadWorldFile, Busy, WorldFull
-from physsim_ros.model.requests import KeepHand, LetGo
+from physsim_ros.model.errors import BadWorldFile, Busy, UnknownJoint, WorldFull
+from physsim_ros.model.names import shown_name
+from physsim_ros.model.requests import Join, KeepHand, LetGo
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.deferred_calls import Wait
+from physsim_ros.simulation.world.joint_requests import drawn_points
 from physsim_ros.sketchpad import messages
 from physsim_ros.sketchpad.answers import asker_key, request_of
 from physsim_ros.sketchpad.autosave import Autosave
@@ -76,6 +78,7 @@ class PageSession:
             messages.Copy: drawing.copy_body,
             messages.DrawWith: drawing.choose_material,
             messages.Submit: self._submit,
+            messages.ChangeJoint: self._change_joint,
             messages.UseHand: self._use_hand,
             messages.Watch: self._watch,
             messages.Share: self._share,
@@ -117,6 +120,27 @@ class PageSession:
 
     def _submit(self, message: messages.Submit, asker: str) -> None:
         self._requests.submit(message.requests, message.topic, asker)
+
+    def _change_joint(self, message: messages.ChangeJoint, asker: str) -> None:
+        snapshot = self._world.current_snapshot()
+        scene, name = snapshot.scene, message.name
+        joint = next((each for each in scene.joints if each.name == name), None)
+        if joint is None:
+            refusal = UnknownJoint(f'there is no joint {shown_name(name)}', field='name')
+            self._requests.refuse(refusal, '~/join', asker)
+            return
+        rows = {body: row for row, body in enumerate(scene.names)}
+        x_y_yaw = {end: snapshot.poses[rows[end]].tolist() for end in {joint.a, joint.b} & {*rows}}
+        # Where it is drawn now, so that it keeps its seat.
+        request = Join(
+            name=name,
+            kind=joint.kind,
+            points=drawn_points(joint, {end: (x, y, yaw) for end, (x, y, yaw) in x_y_yaw.items()}),
+            a=joint.a,
+            b=joint.b,
+            properties=message.properties,
+        )
+        self._requests.submit((request,), '~/join', asker)
 
     def _use_hand(self, message: messages.UseHand, asker: str) -> None:
         holds = not isinstance(message.request, LetGo)

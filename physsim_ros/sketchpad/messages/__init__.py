@@ -17,11 +17,12 @@ from __future__ import annotations
 
 from physsim_ros.model.checks import check_key, shown
 from physsim_ros.model.errors import Malformed
-from physsim_ros.sketchpad.messages import bodies, drawing, watching, worlds
+from physsim_ros.sketchpad.messages import bodies, drawing, joints, watching, worlds
 from physsim_ros.sketchpad.messages.bodies import Copy, Submit
 from physsim_ros.sketchpad.messages.drawing import Click, DrawWith, Drop, Instead, Stroke, UseHand
 from physsim_ros.sketchpad.messages.envelope import Envelope, read_envelope
 from physsim_ros.sketchpad.messages.fields import Readers
+from physsim_ros.sketchpad.messages.joints import ChangeJoint
 from physsim_ros.sketchpad.messages.watching import ShowParts, Watch
 from physsim_ros.sketchpad.messages.worlds import (
     ACTIONS,
@@ -37,6 +38,7 @@ from physsim_ros.sketchpad.messages.worlds import (
 __all__ = [
     'ACTIONS',
     'OF_VIEWERS',
+    'ChangeJoint',
     'Click',
     'Copy',
     'DrawWith',
@@ -69,6 +71,7 @@ Message = (
     | UseHand
     | DrawWith
     | Copy
+    | ChangeJoint
     | Watch
     | Share
     | Upload
@@ -85,6 +88,7 @@ OF_VIEWERS = (ShowParts, Watch)
 _READERS: Readers = {
     **drawing.READERS,
     **bodies.READERS,
+    **joints.READERS,
     **worlds.READERS,
     **watching.READERS,
 }

@@ -13,6 +13,7 @@ import {createElement, elementOf} from './dom.js';
 import {Gallery} from './gallery.js';
 import {Hints} from './hints.js';
 import {Cursor, Keyboard} from './keyboard.js';
+import {JointPanel} from './joint_panel.js';
 import {Notes} from './notes.js';
 import {Pointers} from './pointer.js';
 import {Readings} from './readings.js';
@@ -62,6 +63,7 @@ export class App {
     this.refusals = new Refusals(this);
     this.readings = new Readings(this);
     this.panel = new BodyPanel(this);
+    this.joints = new JointPanel(this);
     this.arrow = new VelocityArrow(this);
     this.time = new TimeBar(this);
     this.gallery = new Gallery(this);

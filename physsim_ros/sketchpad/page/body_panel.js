@@ -46,7 +46,7 @@ export class BodyPanel {
     const anchored = createElement('input', {type: 'checkbox', checked: body.anchored,
       onchange: () => change({anchored: anchored.checked})});
     this.shown = JSON.stringify(body);
-    this.#show(this.app.words.title(name), [
+    this.show(this.app.words.title(name), [
       ...fields(body, change),
       createElement('label', {}, 'Anchored', anchored),
       createElement('div', {className: 'row'},
@@ -76,7 +76,7 @@ export class BodyPanel {
   showMany(names) {
     this.name = '';
     this.plots.watch('');
-    this.#show(`${names.length} bodies`, [
+    this.show(`${names.length} bodies`, [
       createElement('p', {textContent: 'Drag them with the lasso.'}),
       createElement('div', {className: 'row'},
         textButton('Delete bodies', () => this.app.selection.deleteBodies(), 'danger'))]);
@@ -100,7 +100,7 @@ export class BodyPanel {
     const chosen = app.material.color ?? app.color, color = chosen || [0.3, 0.47, 0.66];
     const any = createElement('input', {type: 'checkbox', checked: !chosen,
       onchange: () => change({color: any.checked ? '' : hexOf(color)})});
-    this.#show('Material of new bodies', [
+    this.show('Material of new bodies', [
       ...fields({...scene, ...app.material, color}, (properties) => {
         if (properties.color) any.checked = false;
         change(properties);
@@ -130,7 +130,7 @@ export class BodyPanel {
    * @param {Node[]} content
    * @param {string} name of the body, where that is not the title
    */
-  #show(title, content, name = '') {
+  show(title, content, name = '') {
     this.element.replaceChildren(createElement('header', {},
       createElement('h2', {}, `${title} `, createElement('small', {textContent: name})),
       iconButton('Close', 'close', () => this.app.selection.select([]))), ...content);
@@ -141,7 +141,7 @@ export class BodyPanel {
   /** Follow a scene in which the body was changed or deleted, by whomever. */
   #follow() {
     if (!this.name) {
-      const shows = !this.element.hidden && !this.app.selection.names.size;
+      const shows = !this.element.hidden && !this.app.selection.names.size && !this.app.selection.joint;
       if (shows && this.shown !== this.#worldKey() && !this.element.contains(document.activeElement)) {
         queueMicrotask(() => this.showMaterial());
       }
@@ -186,7 +186,7 @@ function hexOf(color) {
  * @param {number} value
  * @param {(value: number) => void} change when it is let go
  */
-function range(label, min, max, step, value, change) {
+export function range(label, min, max, step, value, change) {
   const typed = createElement('input', {type: 'number', min, step: 'any', value: Number(value.toPrecision(6)), 'aria-label': `${label}, typed`,
     onchange: () => typed.value !== '' && change(Number(typed.value))});
   const input = createElement('input', {type: 'range', min, max: Math.max(max, value), step, value, 'aria-label': label,

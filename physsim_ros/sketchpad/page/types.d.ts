@@ -56,6 +56,12 @@ export interface Joint {
   lower?: number;
   upper?: number;
   rate?: number;
+  max_torque?: number;
+  stiffness?: number;
+  damping?: number;
+  length?: number;
+  ratio?: number;
+  break_force?: number;
 }
 
 export interface Scene {

@@ -57,6 +57,8 @@ export class Words {
   tell({message, subject = '', topic = '', ok = true}) {
     if (topic === '~/clear' && ok) return 'All bodies deleted';
     const verb = subject ? message.slice(0, Math.max(message.indexOf(subject), 0)).trimEnd() : '';
+    const joint = /^changed (axle|pin|spring|rod|rope|motor|slider|gear) /.exec(message)?.[1];
+    if (joint) return `${capital(joint)} changed`;
     if (verb.startsWith('joined')) return capital(`${/ by (\w+) /.exec(message)?.[1] ?? 'joint'} added`);
     const done = VERBS.get(verb);
     if (done) return `${this.title(subject)} ${done}`;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The world as the server told it last: scene, frame, timeline. Nothing here is guessed. */
 
-import {boundsOf, containsPoint, nearestWithin, unionOf} from './body_path.js';
+import {boundsOf, containsPoint, distanceTo, nearestWithin, unionOf} from './body_path.js';
 
 /** @import {Body, Connection, Frame, Point, Scene, Timeline} from './types.js' */
 
@@ -108,6 +108,22 @@ export class WorldState {
       }
     }
     return -1;
+  }
+
+  /**
+   * @param {Point} point [m]
+   * @param {number} reach how near it counts [m]
+   * @param {boolean} onBody whether a body is there, which comes before lines
+   * @returns {string} the name of the joint there; '' where there is none
+   */
+  jointAt(point, reach, onBody) {
+    const near = this.scene.joints.filter(({kind, a, b, points}) => {
+      const p = this.place(a, points[0]);
+      if (['axle', 'motor', 'pin'].includes(kind)) return Math.hypot(p[0] - point[0], p[1] - point[1]) <= reach;
+      if (onBody || kind === 'gear') return false;
+      return distanceTo([p, this.place(b, points[1])], ...point) <= reach;
+    });
+    return near.at(-1)?.name ?? '';
   }
 
   /**
