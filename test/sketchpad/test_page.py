@@ -194,6 +194,17 @@ def test_a_body_is_tapped_and_changed_in_its_panel(sheet: Sheet) -> None:
     sheet.wait('!("ball/0" in physsim.bodies)')
 
 
+def test_a_body_that_is_tapped_has_its_numbers_of_now(sheet: Sheet) -> None:
+    sheet.press('Hand')
+    sheet.page.mouse.click(*sheet.place(0.0, 0.5))
+    numbers = sheet.page.get_by_role('region', name='Numbers')
+    numbers.get_by_text('0.785 kg · at 0, 0.50 m · 0° · 0 m/s · 0 rad/s').wait_for()
+    # m g h of pi / 4 kg in half a metre.
+    numbers.get_by_text('3.85 J').wait_for()
+    with sheet.dragging((0.0, 0.5), (-2.0, 4.5)):
+        numbers.get_by_text('at -2.00, 4.50 m').wait_for()
+
+
 def test_what_is_drawn_next_gets_the_chosen_colour_until_any_will_do(sheet: Sheet) -> None:
     def draw_disc(x: float) -> None:
         before = sheet.names()
@@ -356,7 +367,7 @@ def test_gravity_has_a_direction_and_a_number(sheet: Sheet) -> None:
         dial.press('ArrowRight')
     sheet.page.keyboard.press('Escape')
     sheet.press('Material')
-    assert gravity.input_value() == '5'
+    sheet.until(lambda: gravity.input_value() == '5', 'the strength that was typed')
     assert dial.get_attribute('aria-valuetext') == '90° from down'
     # Right is down now: the ball falls there.
     sheet.press('Play')

@@ -2,6 +2,7 @@
 /** The panel of the selected bodies: properties of a body, its plots. */
 
 import {createElement, elementOf, iconButton, textButton} from './dom.js';
+import {Numbers} from './numbers.js';
 import {Plots} from './plots.js';
 import {isDrawn} from './words.js';
 
@@ -22,9 +23,10 @@ export class BodyPanel {
     this.app = app;
     this.element = elementOf('panel', HTMLElement);
     this.plots = new Plots(app);
+    this.numbers = new Numbers(app);
     this.name = '';
     this.shown = ''; // what of the scene
-    this.turn = 0; // of gravity, where it is none [rad]
+    this.turn = 0; // of gravity from down, counter-clockwise [rad]
     app.connection.on('scene', () => this.#follow());
   }
 
@@ -47,6 +49,7 @@ export class BodyPanel {
       onchange: () => change({anchored: anchored.checked})});
     this.shown = JSON.stringify(body);
     this.show(this.app.words.title(name), [
+      this.numbers.element,
       ...fields(body, change),
       createElement('label', {}, 'Anchored', anchored),
       createElement('div', {className: 'row'},
@@ -86,12 +89,16 @@ export class BodyPanel {
   showMaterial() {
     this.app.selection.select([]);
     const {app} = this, {scene} = app.world, {gravity: [gx, gy]} = scene, strength = Math.hypot(gx, gy);
-    const turn = strength ? Math.atan2(gx, -gy) : this.turn; // from down, counter-clockwise [rad]
-    this.turn = turn;
-    const pull = (/** @type {number} */ size, /** @type {number} */ angle) => {
-      this.turn = angle;
+    // As it was set last: the panel stays as it is while somebody works in it.
+    let size = strength;
+    if (strength) this.turn = Math.atan2(gx, -gy);
+    const pull = () => {
       // Without the last digits of sines, where they are those of zero.
-      app.connection.send('gravity', {gravity: [Math.sin(angle) * size, -Math.cos(angle) * size].map((each) => Number(each.toFixed(9)))});
+      app.connection.send('gravity', {gravity: [Math.sin(this.turn) * size, -Math.cos(this.turn) * size].map((each) => Number(each.toFixed(9)))});
+    };
+    const setSize = (/** @type {number} */ value) => {
+      size = value;
+      pull();
     };
     const change = (/** @type {any} */ properties) => {
       Object.assign(app.material, properties);
@@ -107,9 +114,12 @@ export class BodyPanel {
       }),
       createElement('label', {}, 'Each body another colour', any),
       createElement('h3', {textContent: 'Gravity'}),
-      range('Gravity [m/s²]', 0, 25, 0.01, strength, (value) => pull(value, turn)),
-      createElement('div', {className: 'row'}, ...PLACES.map(([name, size]) => textButton(name, () => pull(size, turn)))),
-      createElement('label', {}, 'Direction', dial(turn, (angle) => pull(strength, angle)))]);
+      range('Gravity [m/s²]', 0, 25, 0.01, strength, setSize),
+      createElement('div', {className: 'row'}, ...PLACES.map(([name, value]) => textButton(name, () => setSize(value)))),
+      createElement('label', {}, 'Direction', dial(this.turn, (angle) => {
+        this.turn = angle;
+        pull();
+      }))]);
     this.shown = this.#worldKey();
   }
 
