@@ -18,6 +18,7 @@ const SHORT = 0.12; // share of that room below which the scale becomes finer
 const SETTLED = 400; // ms for which an arrow is too long or too short before the scale follows
 const CUT = 1.3; // times the room: longer arrows, of impacts, are cut
 const HEAD = 9, BETWEEN = 6, LEGEND = 17; // px: head, from a tip to its number, from line to line
+const LOW = 500; // px: on a lower page the legend is one line
 const LEAST = 4; // px: of an arrow
 const LEAST_SPEED = 5; // m/s: that there is always room for
 const FONT = '13px system-ui, sans-serif';
@@ -241,9 +242,10 @@ function drawLabels(view, labels) {
  * @param {[string, string, string][]} lines length of a bar, '' for a line of colour alone; colour; word
  */
 function drawLegend(view, lines) {
-  const {ctx, palette, insets} = view, left = insets.left + 56, top = insets.top + 40;
-  lines.forEach(([length, color, word], i) => {
-    const y = top + i * LEGEND, width = length ? BAR : 18;
+  const {ctx, palette, insets, camera} = view, low = camera.height < LOW;
+  let left = insets.left + 56, y = insets.top + (low ? 28 : 40);
+  for (const [length, color, word] of lines) {
+    const width = length ? BAR : 18, text = length ? `${length}  ${word}` : word;
     for (const [stroke, broad] of /** @type {[string, number][]} */ ([[palette.paper, 5.5], [color, 2.5]])) {
       ctx.strokeStyle = stroke;
       ctx.lineWidth = broad;
@@ -256,6 +258,8 @@ function drawLegend(view, lines) {
       }
       ctx.stroke();
     }
-    view.write(length ? `${length}  ${word}` : word, [left + width + 8, y + 4], color);
-  });
+    view.write(text, [left + width + 8, y + 4], color);
+    if (low) left += width + ctx.measureText(text).width + 24;
+    else y += LEGEND;
+  }
 }
