@@ -9,6 +9,7 @@ recognised in `drawing`. Start with `world_file`, then `world_reader` and `world
 """
 
 from physsim_ros.files.drawing_file import BadDrawing, drawings, find_drawing, load_drawing, Pace
+from physsim_ros.files.own_worlds import check_world_name, OwnWorlds
 from physsim_ros.files.regular_file import write_file
 from physsim_ros.files.resources import shipped, shipped_pictures, title_of
 from physsim_ros.files.user_directories import user_directory
@@ -30,7 +31,9 @@ __all__ = [
     'PARAMETERS',
     'SETTINGS',
     'BadDrawing',
+    'OwnWorlds',
     'Pace',
+    'check_world_name',
     'drawings',
     'find_drawing',
     'find_world',

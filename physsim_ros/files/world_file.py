@@ -230,7 +230,10 @@ def _check_place(path: Path, name: str, directories: tuple[Path, ...]) -> None:
     if not name.isprintable():
         raise BadWorldFile('the name of a world file is not printable', field='world_file')
     if path.suffix != _SUFFIX:
-        raise BadWorldFile(f'the name of a world file ends in {_SUFFIX}', field='world_file')
+        raise BadWorldFile(
+            f'{name!r} is no name of a world: without directory, or a path that ends in {_SUFFIX}',
+            field='world_file',
+        )
 
 
 def _is_world_file(path: Path) -> bool:

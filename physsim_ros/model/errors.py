@@ -159,6 +159,12 @@ class BadWorldFile(Refusal):
         self.cause = cause
 
 
+class Exists(Refusal):
+    """A name of a world that is taken."""
+
+    code = 'exists'
+
+
 class OutOfHistory(Refusal):
     """A time before the oldest or after the newest checkpoint, or no request to undo."""
 

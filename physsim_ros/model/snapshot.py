@@ -72,6 +72,8 @@ class Snapshot:
         empty if unknown
     :param springs: those of the joints that are springs
     :param grips: of hands on bodies
+    :param pulls: (j, 2) float64: force of each joint on its body b in the last step, world axes
+        [N]; empty if contacts were not requested
     """
 
     step: int
@@ -83,11 +85,12 @@ class Snapshot:
     compressed: Flags = field(default_factory=lambda: np.empty(0, dtype=bool))
     springs: Springs = NO_SPRINGS
     grips: tuple[Grip, ...] = ()
+    pulls: Floats = field(default_factory=lambda: np.empty((0, 2)))
 
     @property
     def nbytes(self) -> int:
         """Memory of its arrays [bytes], without cached properties."""
-        arrays = (self.poses, self.twists, self.forces, self.compressed, *self.springs)
+        arrays = (self.poses, self.twists, self.forces, self.compressed, self.pulls, *self.springs)
         return sum(array.nbytes for array in arrays)
 
     @cached_property
@@ -151,12 +154,14 @@ class Contacts:
     :param normals: (m, 2) float64: unit vector from the first to the second body, world
     :param impulses: (m, 2) float64: sum over the frame of the impulses on the second body by the
         first, world [N s]
+    :param steps: number of steps over which the impulses are summed
     """
 
     pairs: Ints
     points: Floats
     normals: Floats
     impulses: Floats
+    steps: int = 0
 
     @property
     def nbytes(self) -> int:

@@ -130,7 +130,6 @@ class FrameOutputs:
         self.sketchpad = Sketchpad(
             control,
             welcome={
-                'version': 1,
                 'frame_id': self._values['frame_id'],
                 'rate': self._values['publish_rate'],
             },

@@ -236,8 +236,8 @@ class PhysSimNode(NodeWithoutQosEvents):
         self._reply_pacer.flush()
         if self._started:
             self._diagnostics.publish_due(now_ns, message_delay=self.message_delay)
-        self._pages.handle_messages()
         self._update_contact_recording()
+        self._pages.handle_messages()
         frames = self.simulation.advance(
             now_ns, is_overdue=lambda: time.perf_counter_ns() - began > MOST_TICK_NS
         )
@@ -261,8 +261,8 @@ class PhysSimNode(NodeWithoutQosEvents):
 
     def advance_frame(self) -> None:
         """Advance the world by one publish period, at any time, and publish the frame."""
-        self._pages.handle_messages()
         self._update_contact_recording()
+        self._pages.handle_messages()
         self.publish_frame(self.simulation.advance_frame())
 
     def publish_frame(self, frame: Frame) -> None:
@@ -282,7 +282,11 @@ class PhysSimNode(NodeWithoutQosEvents):
         return answers
 
     def _update_contact_recording(self) -> None:
-        """Record contacts while there is a subscriber, a viewer or a page that shows them."""
+        """
+        Record contacts while there is a subscriber, a viewer or a page that shows them.
+
+        This comes before messages of pages: one that begins to show contacts seeks next.
+        """
         self.simulation.watch_contacts(self.outputs.wants_contacts)
 
     def _apply_up_to_seek(self) -> bool:

@@ -11,8 +11,10 @@ Little endian, each column on a multiple of four bytes:
     u8 version, u8 flags, u16 0, u32 epoch, f64 time [s], f32 speed, u32 n
     f32 x[n] [m], y[n] [m], yaw[n] [rad]                                   of each body's origin
     VELOCITIES  f32 vx[n] [m/s], vy[n] [m/s], spin[n] [rad/s]              of each centre of mass
-    CONTACTS    u32 m, f32 x[m] [m], y[m] [m], nx[m], ny[m], impulse[m] [N s]
+    CONTACTS    u32 m, u32 steps, i32 a[m], b[m]                           rows, -1 is a wall
+                f32 x[m] [m], y[m] [m], nx[m], ny[m], jx[m] [N s], jy[m] [N s]
     FORCES      u32 j, f32 force[j] [N]                                    of each joint
+    PULLS       u32 j, f32 fx[j] [N], fy[j] [N]                            of each joint on body b
     HANDS       u32 h, f32 x[h] [m], y[h] [m], hand x[h] [m], hand y[h] [m]   of each grip
 
 `docs/page_protocol.md` says what a page makes of it.
@@ -27,7 +29,7 @@ import numpy as np
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.snapshot import Contacts, Frame
 
-VERSION = 1
+VERSION = 2
 _HEADER = struct.Struct('<BBHIdfI')
 _COUNT = struct.Struct('<I')
 
@@ -36,8 +38,8 @@ class Show(IntFlag):
     """
     The parts of a frame besides the poses.
 
-    Velocities, contacts and forces are there where a page asks for them, hands while they drag; a
-    ghost is a course of events that was left.
+    Velocities, contacts and forces are there where a page asks for them, pulls with contacts,
+    hands while they drag; a ghost is a course of events that was left.
     """
 
     POSES = 0
@@ -46,6 +48,7 @@ class Show(IntFlag):
     FORCES = 4
     HANDS = 8
     GHOST = 16
+    PULLS = 32
 
 
 def encode_frame(frame: Frame, *, epoch: int, show: Show) -> bytes:
@@ -71,6 +74,9 @@ def encode_frame(frame: Frame, *, epoch: int, show: Show) -> bytes:
         flags |= Show.HANDS
         lines = snapshot.grip_lines.reshape(-1, 4)
         parts += [_COUNT.pack(len(lines)), _columns(lines)]
+    if Show.CONTACTS in flags and len(snapshot.pulls) == len(snapshot.scene.joints):
+        flags |= Show.PULLS
+        parts += [_COUNT.pack(len(snapshot.pulls)), _columns(snapshot.pulls)]
     header = _HEADER.pack(
         VERSION, flags, 0, epoch, snapshot.stamp * 1e-9, frame.speed, len(snapshot.poses)
     )
@@ -78,9 +84,10 @@ def encode_frame(frame: Frame, *, epoch: int, show: Show) -> bytes:
 
 
 def _contacts(contacts: Contacts) -> bytes:
-    impulses = np.hypot(contacts.impulses[:, 0], contacts.impulses[:, 1])
-    rows = np.column_stack((contacts.points, contacts.normals, impulses))
-    return _COUNT.pack(len(rows)) + _columns(rows)
+    rows = np.column_stack((contacts.points, contacts.normals, contacts.impulses))
+    pairs = np.ascontiguousarray(contacts.pairs.T, dtype='<i4').tobytes()
+    counts = _COUNT.pack(len(rows)) + _COUNT.pack(contacts.steps)
+    return counts + pairs + _columns(rows)
 
 
 def _columns(rows: Floats) -> bytes:

@@ -9,6 +9,7 @@ Law: every request passes `Guarded.prepare` before it is answered.
 
 from __future__ import annotations
 
+from html import escape
 from http import HTTPStatus
 from pathlib import Path
 from typing import Any, NoReturn, TYPE_CHECKING
@@ -30,6 +31,22 @@ TYPES = {
     '.wasm': 'application/wasm',
     '.webmanifest': 'application/manifest+json',
 }
+
+
+# What somebody sees who has opened an address that is refused. The page's own style is behind the
+# cookie, and nothing inline is allowed.
+_REFUSAL = """<!doctype html>
+<html lang="en">
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="color-scheme" content="light dark">
+<title>physsim</title>
+<h1>This cannot be opened</h1>
+<p>{reason}.</p>
+<p>The node prints the address of its page when it starts, with a token that is new each time: copy
+that one from the terminal, or ask the person who started it.</p>
+</html>
+"""
 
 
 class Guarded(RequestHandler):
@@ -95,8 +112,14 @@ class Guarded(RequestHandler):
 
     def write_error(self, status_code: int, **_: Any) -> None:
         """Write the reason of a refusal, or the meaning of the status; nothing of the request."""
-        self.set_header('Content-Type', 'text/plain; charset=utf-8')
-        self.finish(f'{self._refusal or HTTPStatus(status_code).phrase}\n')
+        reason = self._refusal or HTTPStatus(status_code).phrase
+        if 'text/html' not in self.request.headers.get('Accept', ''):
+            self.set_header('Content-Type', 'text/plain; charset=utf-8')
+            self.finish(f'{reason}\n')
+            return
+        # Opened in a browser: for the eyes of a person.
+        self.set_header('Content-Type', TYPES['.html'])
+        self.finish(_REFUSAL.format(reason=escape(reason[:1].upper() + reason[1:])))
 
 
 class Login(Guarded):

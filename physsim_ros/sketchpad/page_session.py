@@ -14,12 +14,16 @@ from dataclasses import replace
 import time
 from typing import Any
 
-from physsim_ros.model.errors import Busy, WorldFull
-from physsim_ros.model.requests import KeepHand, LetGo
+from physsim_ros.files import check_world_name, OwnWorlds
+from physsim_ros.model.errors import BadWorldFile, Busy, UnknownJoint, WorldFull
+from physsim_ros.model.names import shown_name
+from physsim_ros.model.requests import Join, KeepHand, LetGo
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.deferred_calls import Wait
+from physsim_ros.simulation.world.joint_requests import drawn_points
 from physsim_ros.sketchpad import messages
 from physsim_ros.sketchpad.answers import asker_key, request_of
+from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.body_past import BodyPasts
 from physsim_ros.sketchpad.page_drawing import PageDrawing
 from physsim_ros.sketchpad.page_requests import PageRequests, Send
@@ -39,7 +43,9 @@ class PageSession:
     :param page: number of the page
     :param send: sends a message to the page
     :param pasts: of bodies, for all pages
-    :param on_save: called when a world was saved
+    :param own_worlds: of the user
+    :param autosave: of the world
+    :param list_worlds: has all pages told which worlds there are
     """
 
     def __init__(
@@ -49,9 +55,13 @@ class PageSession:
         page: int,
         send: Send,
         pasts: BodyPasts,
-        on_save: Callable[[], None],
+        own_worlds: OwnWorlds,
+        autosave: Autosave,
+        list_worlds: Callable[[], None],
     ) -> None:
-        self._on_save = on_save
+        self._own_worlds = own_worlds
+        self._autosave = autosave
+        self._list_worlds = list_worlds
         self._world = world
         self._page = page
         self._requests = PageRequests(world, send)
@@ -68,11 +78,13 @@ class PageSession:
             messages.Copy: drawing.copy_body,
             messages.DrawWith: drawing.choose_material,
             messages.Submit: self._submit,
+            messages.ChangeJoint: self._change_joint,
             messages.UseHand: self._use_hand,
             messages.Watch: self._watch,
             messages.Share: self._share,
             messages.Upload: self._upload,
             messages.Perform: self._perform,
+            messages.ManageWorld: self._manage_world,
             messages.SetSpeed: self._set_speed,
             messages.Seek: self._seek,
             messages.ReturnToCourse: self._return_to_course,
@@ -109,6 +121,27 @@ class PageSession:
     def _submit(self, message: messages.Submit, asker: str) -> None:
         self._requests.submit(message.requests, message.topic, asker)
 
+    def _change_joint(self, message: messages.ChangeJoint, asker: str) -> None:
+        snapshot = self._world.current_snapshot()
+        scene, name = snapshot.scene, message.name
+        joint = next((each for each in scene.joints if each.name == name), None)
+        if joint is None:
+            refusal = UnknownJoint(f'there is no joint {shown_name(name)}', field='name')
+            self._requests.refuse(refusal, '~/join', asker)
+            return
+        rows = {body: row for row, body in enumerate(scene.names)}
+        x_y_yaw = {end: snapshot.poses[rows[end]].tolist() for end in {joint.a, joint.b} & {*rows}}
+        # Where it is drawn now, so that it keeps its seat.
+        request = Join(
+            name=name,
+            kind=joint.kind,
+            points=drawn_points(joint, {end: (x, y, yaw) for end, (x, y, yaw) in x_y_yaw.items()}),
+            a=joint.a,
+            b=joint.b,
+            properties=message.properties,
+        )
+        self._requests.submit((request,), '~/join', asker)
+
     def _use_hand(self, message: messages.UseHand, asker: str) -> None:
         holds = not isinstance(message.request, LetGo)
         self._hand_used = time.monotonic() if holds else None
@@ -141,12 +174,36 @@ class PageSession:
         action, world = message.action, message.world
 
         def perform() -> str:
+            if message.checks_name:
+                self._own_worlds.check_free(check_world_name(world), replace=message.replace)
+                self._own_worlds.keep(world)
             done = self._world.perform(action, world)
             if action == 'save_world':
-                self._on_save()
+                self._autosave.note_saved()
+                self._list_worlds()
             return done
 
         self._requests.submit_action(f'~/{action}', asker, perform, self._world.wait_of(action))
+
+    def _manage_world(self, message: messages.ManageWorld, asker: str) -> None:
+        own, name = self._own_worlds, message.name
+        actions: dict[str, Callable[[], str]] = {
+            'rename': lambda: own.rename(name, message.to),
+            'remove': lambda: own.delete(name),
+            'put_back': lambda: own.put_back(name),
+            'forget': self._autosave.forget_unsaved,
+        }
+
+        def manage() -> str:
+            try:
+                done = actions[message.action]()
+            except OSError as error:
+                reason = error.strerror or error
+                raise BadWorldFile(f'{name}: {reason}', field='name') from error
+            self._list_worlds()
+            return done
+
+        self._requests.perform('page', asker, manage)
 
     def _upload(self, message: messages.Upload, asker: str) -> None:
         def replace_world() -> str:

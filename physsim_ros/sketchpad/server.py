@@ -16,11 +16,12 @@ from contextlib import suppress
 from pathlib import Path
 import threading
 
-from physsim_ros.files import shipped_pictures
+from physsim_ros.files import OwnWorlds, shipped_pictures
 from physsim_ros.model.errors import Busy
 from physsim_ros.model.snapshot import Answer, Frame, Snapshot
 from physsim_ros.sketchpad.access import Access, Role
 from physsim_ros.sketchpad.answers import asker_of
+from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.frame_feed import FrameFeed
 from physsim_ros.sketchpad.gallery import gallery_content
 from physsim_ros.sketchpad.handlers import CookieCheck, Files, Login, Missing, Page
@@ -32,7 +33,7 @@ from physsim_ros.sketchpad.page_requests import Content
 from physsim_ros.sketchpad.page_socket import PageSocket
 from physsim_ros.sketchpad.recording_handlers import recording_routes, Recordings
 from physsim_ros.sketchpad.scene_codec import compact
-from physsim_ros.sketchpad.world_handlers import Download, UploadWorld
+from physsim_ros.sketchpad.world_handlers import Download, Picture, Unsaved, UploadWorld
 from tornado.web import Application
 
 # Of a message of a page, and of an uploaded world [bytes].
@@ -52,6 +53,7 @@ class Server:
     :param address: to listen on
     :param port: to listen on; where it is taken, one of the next; 0 is any
     :param world_dir: directory of the user's worlds
+    :param autosave: of the world
     :param recordings: the viewer
     :param inbox: takes the messages of the pages
     :param wake: called on the server's thread after a message has come
@@ -69,12 +71,15 @@ class Server:
         address: str,
         port: int,
         world_dir: Path,
+        autosave: Autosave,
         recordings: Recordings,
         inbox: Inbox,
         wake: Callable[[], None],
     ) -> None:
         self.page_directory = PAGE
         self.world_dir = world_dir
+        self.own_worlds = OwnWorlds(world_dir)
+        self.autosave = autosave
         self._recordings = recordings
         self._address = address
         self._inbox = inbox
@@ -167,7 +172,7 @@ class Server:
     def add_page(self, page: PageSocket) -> int:
         """Begin to send frames to a page; return its number."""
         number = self.pages.add(page)
-        page.send(compact(gallery_content(self.world_dir)))
+        page.send(compact(gallery_content(self.world_dir, self.own_worlds)))
         self.feed.send_frame()
         self.feed.update_page(page)
         return number
@@ -235,6 +240,8 @@ class Server:
                 ('/gallery/(.*)', Files, own | {'path': shipped_pictures()}),
                 ('/world', UploadWorld, own),
                 (r'/world/([^/]+)\.yaml', Download, own),
+                ('/unsaved', Unsaved, own),
+                (r'/picture/([^/]+)', Picture, own),
             ],
             server=self,
             compress_response=True,
@@ -261,7 +268,7 @@ class Server:
         self.feed.send_frame()
 
     def _send_worlds(self) -> None:
-        self.pages.send(compact(gallery_content(self.world_dir)))
+        self.pages.send(compact(gallery_content(self.world_dir, self.own_worlds)))
 
     def _resolve_replies(self, answers: tuple[Answer, ...]) -> None:
         """Give the answers to those who wait for an upload."""

@@ -11,14 +11,21 @@ time.
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 import time
 from typing import Any
 
+from physsim_ros.files import OwnWorlds
+from physsim_ros.model.errors import Busy
 from physsim_ros.model.snapshot import Answer, Frame
+from physsim_ros.simulation.deferred_calls import Wait
 from physsim_ros.sketchpad.access import Role
+from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.body_past import BodyPasts
+from physsim_ros.sketchpad.frame_codec import VERSION
 from physsim_ros.sketchpad.inbox import Closed, Inbox, Incoming, Opened, SERVER
+from physsim_ros.sketchpad.last_contacts import LastContacts
 from physsim_ros.sketchpad.page_requests import Content
 from physsim_ros.sketchpad.page_session import PageSession
 from physsim_ros.sketchpad.recording_handlers import Recordings
@@ -36,7 +43,7 @@ class Sketchpad:
     The sketchpad of a world.
 
     :param world: that the pages draw in
-    :param welcome: what a page is told first: version, frame, rate
+    :param welcome: what a page is told first: frame, rate
     :param address: to listen on
     :param port: to listen on, or the first free one after it
     :param world_dir: directory of the user's worlds
@@ -61,10 +68,14 @@ class Sketchpad:
         self._recordings = recordings
         self._inbox = Inbox()
         self._timeline = TimelineReport(world.simulation)
+        self._contacts = LastContacts()
+        self._own_worlds = OwnWorlds(world_dir)
+        self._autosave = Autosave(world_dir, lambda longest: world.world_text(longest=longest))
         self._server = Server(
             address=address,
             port=port,
             world_dir=world_dir,
+            autosave=self._autosave,
             recordings=recordings,
             inbox=self._inbox,
             wake=wake,
@@ -92,6 +103,8 @@ class Sketchpad:
         for session in self._sessions.values():
             session.keep_hand(now)
         self._pasts.send_due(now)
+        if self._autosave.is_due(now):
+            self._save_unsaved()
         deadline = now + BUDGET
         while (incoming := self._inbox.take()) is not None:
             self._handle(incoming)
@@ -100,6 +113,8 @@ class Sketchpad:
 
     def show(self, frame: Frame) -> None:
         """Send a frame, its answers and the timeline to all pages; never blocks."""
+        frame = self._contacts.completed(frame)
+        self._autosave.note_frame(frame, drawn=bool(self._sessions))
         if not self._server.has_pages:
             # The first page to come gets this frame.
             self._server.keep(frame)
@@ -131,6 +146,15 @@ class Sketchpad:
                 if session is not None:
                     session.handle(message, request_id)
 
+    def _save_unsaved(self) -> None:
+        def save() -> list[Answer]:
+            self._autosave.save()
+            return []
+
+        # Where too many requests wait, it comes later.
+        with suppress(Busy):
+            self._world.submit_call(save, Wait.FOR_SEEK)
+
     def _open(self, number: int, role: Role) -> None:
         self._sessions[number] = self._session(number)
         settings = self._world.simulation.settings
@@ -139,9 +163,12 @@ class Sketchpad:
             {
                 'type': 'welcome',
                 'client': str(number),
+                'version': VERSION,
+                'physics_rate': self._world.simulation.physics_rate,
                 **self._welcome,
                 'rerun': self._recording_path(),
                 'view_only': role is not Role.DRAW,
+                'unsaved': self._autosave.unsaved_at if role is Role.DRAW else 0.0,
                 'settings': {
                     'density': settings.density,
                     'friction': settings.friction,
@@ -169,5 +196,7 @@ class Sketchpad:
             page=number,
             send=send,
             pasts=self._pasts,
-            on_save=self._server.list_worlds,
+            own_worlds=self._own_worlds,
+            autosave=self._autosave,
+            list_worlds=self._server.list_worlds,
         )

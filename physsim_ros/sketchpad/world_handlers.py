@@ -9,7 +9,7 @@ from __future__ import annotations
 import asyncio
 from typing import Any
 
-from physsim_ros.files import find_world, load_mapping
+from physsim_ros.files import find_world, load_mapping, write_file
 from physsim_ros.model.errors import Busy, Malformed, Refusal
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.sketchpad.access import Role
@@ -20,6 +20,9 @@ from physsim_ros.sketchpad.messages import Upload
 MOST_UPLOADS = 4
 # Until the world begins to take over a file [s].
 TIMEOUT = 60.0
+# Of the picture of a world [bytes].
+MOST_PICTURE = 200_000
+_PNG = b'\x89PNG\r\n\x1a\n'
 
 
 class Download(Guarded):
@@ -35,6 +38,52 @@ class Download(Guarded):
         self.set_header('Content-Type', 'application/yaml; charset=utf-8')
         self.set_header('Content-Disposition', f'attachment; filename="{path.name}"')
         self.finish(content)
+
+
+class Unsaved(Guarded):
+    """The world of the last start that nobody has saved."""
+
+    async def get(self) -> None:
+        """Answer with a file."""
+        if self.role is not Role.DRAW:
+            self.refuse(403, 'this page only shows the world')
+        try:
+            content = self.server.autosave.unsaved_text()
+        except (OSError, UnicodeDecodeError):
+            self.refuse(404, 'there is no unsaved world')
+        self.set_header('Content-Type', 'application/yaml; charset=utf-8')
+        self.finish(content)
+
+
+class Picture(Guarded):
+    """The picture of an own world."""
+
+    async def get(self, name: str) -> None:
+        """Answer with the picture."""
+        try:
+            content = self.server.own_worlds.picture(name).read_bytes()
+        except (Refusal, OSError):
+            self.refuse(404, 'there is no such picture')
+        self.set_header('Content-Type', 'image/png')
+        self.finish(content)
+
+    async def post(self, name: str) -> None:
+        """Keep the picture of a world that has been saved."""
+        self.require_origin()
+        if self.role is not Role.DRAW:
+            self.refuse(403, 'this page only shows the world')
+        content = self.request.body
+        if not content.startswith(_PNG) or len(content) > MOST_PICTURE:
+            self.refuse(400, 'this is no PNG, or a large one')
+        try:
+            path = self.server.own_worlds.picture(name)
+            find_world(name, world_dir=self.server.world_dir, confined=True)
+            path.parent.mkdir(parents=True, exist_ok=True)
+            write_file(path, content)
+        except (Refusal, OSError):
+            self.refuse(404, 'there is no such world')
+        self.finish({'ok': True})
+        self.server.list_worlds()
 
 
 class UploadWorld(Guarded):

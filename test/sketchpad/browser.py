@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from physsim_ros.sketchpad import Role
-from physsim_ros.sketchpad.frame_codec import Show
+from physsim_ros.sketchpad.frame_codec import Show, VERSION
 from physsim_ros.testing import PhysSim
 from tornado.httpclient import AsyncHTTPClient, HTTPRequest, HTTPResponse
 from tornado.websocket import websocket_connect, WebSocketClientConnection
@@ -53,7 +53,7 @@ class Picture(NamedTuple):
 def decoded(message: bytes) -> Picture:
     """Decode a frame as the page's own module does."""
     version, flags, zero, epoch, seconds, speed, count = struct.unpack_from('<BBHIdfI', message)
-    assert (version, zero) == (1, 0)
+    assert (version, zero) == (VERSION, 0)
     return Picture(flags, epoch, seconds, speed, count, np.frombuffer(message[24:], '<f4'))
 
 

@@ -8,8 +8,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 import math
+from pathlib import Path
 import re
 import shutil
+import tempfile
 import time
 from typing import Any
 
@@ -48,17 +50,21 @@ def launched_chromium(playwright: Any, arguments: Sequence[str] = ARGUMENTS) -> 
     return playwright.chromium.launch(executable_path=path, args=list(arguments))
 
 
-def started_world(outside: Outside, **parameters: object) -> tuple[Program, str]:
+def started_world(
+    outside: Outside, *, world: str = WORLD, **parameters: object
+) -> tuple[Program, str]:
     """Start a world with a page, and return it with the address that it prints."""
-    path = outside.directory / 'page.yaml'
-    path.write_text(WORLD)
-    given = {'world_file': path, 'world_dir': outside.directory, 'sketchpad': 'serve'}
-    world = outside.start_world(**given | parameters)
-    line = world.wait_for('/login?token=')
-    world.wait_for('ready')
+    # Of its own: a world that was not saved is offered to the next one in a directory.
+    directory = Path(tempfile.mkdtemp(dir=outside.directory))
+    path = directory / 'page.yaml'
+    path.write_text(world)
+    given = {'world_file': path, 'world_dir': directory, 'sketchpad': 'serve'}
+    program = outside.start_world(**given | parameters)
+    line = program.wait_for('/login?token=')
+    program.wait_for('ready')
     found = re.search(r'http\S+', line)
     assert found
-    return world, found[0]
+    return program, found[0]
 
 
 def circle(x: float, y: float, radius: float) -> list[tuple[float, float]]:

@@ -67,7 +67,7 @@ def test_the_page_is_loaded_again_where_another_version_of_the_server_comes_back
         sockets.append(socket)
         server = socket.connect_to_server()
         if len(sockets) > 1:
-            version = '"version":1', '"version":2'
+            version = '"version":2', '"version":3'
             server.on_message(
                 lambda text: socket.send(text.replace(*version) if isinstance(text, str) else text)
             )

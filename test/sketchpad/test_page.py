@@ -185,13 +185,24 @@ def test_a_body_is_tapped_and_changed_in_its_panel(sheet: Sheet) -> None:
     sheet.press('Hand')
     sheet.page.mouse.click(*sheet.place(0.0, 0.5))
     panel = sheet.page.get_by_role('complementary', name='Body')
-    panel.get_by_label('Bounciness').fill('0.9')
+    panel.get_by_label('Bounciness', exact=True).fill('0.9')
     panel.get_by_label('Anchored').check()
     sheet.page.get_by_text('changed').first.wait_for(state='attached')
     sheet.press('Copy')
     sheet.wait('Object.keys(physsim.bodies).length === 4')
     sheet.press('Delete body')
     sheet.wait('!("ball/0" in physsim.bodies)')
+
+
+def test_a_body_that_is_tapped_has_its_numbers_of_now(sheet: Sheet) -> None:
+    sheet.press('Hand')
+    sheet.page.mouse.click(*sheet.place(0.0, 0.5))
+    numbers = sheet.page.get_by_role('region', name='Numbers')
+    numbers.get_by_text('0.785 kg · at 0, 0.50 m · 0° · 0 m/s · 0 rad/s').wait_for()
+    # m g h of pi / 4 kg in half a metre.
+    numbers.get_by_text('3.85 J').wait_for()
+    with sheet.dragging((0.0, 0.5), (-2.0, 4.5)):
+        numbers.get_by_text('at -2.00, 4.50 m').wait_for()
 
 
 def test_what_is_drawn_next_gets_the_chosen_colour_until_any_will_do(sheet: Sheet) -> None:
@@ -271,6 +282,98 @@ def test_a_stroke_that_is_read_and_then_refused_shows_that_at_its_place(
     sheet.close()
 
 
+def test_keys_work_after_anything_was_clicked(sheet: Sheet) -> None:
+    keyboard = sheet.page.keyboard
+
+    def check_space() -> None:
+        keyboard.press(' ')
+        sheet.wait('physsim.speed === 1')
+        keyboard.press(' ')
+        sheet.wait('physsim.speed === 0')
+
+    for name in ('Pen', 'Hand', 'Frame the world', 'Material', 'Close', 'Show forces'):
+        sheet.press(name)
+        check_space()
+    # The same by the panel of a body, and by the slider of time.
+    sheet.press('Hand')
+    sheet.page.mouse.click(*sheet.place(0.0, 0.5))
+    sheet.page.get_by_label('Anchored').check()
+    check_space()
+    sheet.page.get_by_role('slider', name='Time').click()
+    keyboard.press('p')
+    pen = sheet.page.get_by_role('button', name='Pen', exact=True)
+    assert pen.get_attribute('aria-pressed') == 'true'
+    # A text has all keys, until Esc.
+    before = sheet.page.evaluate('physsim.speed')
+    typed = sheet.page.get_by_label('Friction, typed')
+    typed.click()
+    keyboard.press(' ')
+    keyboard.press('h')
+    assert pen.get_attribute('aria-pressed') == 'true'
+    assert sheet.page.evaluate('physsim.speed') == before
+    keyboard.press('Escape')
+    keyboard.press('h')
+    assert pen.get_attribute('aria-pressed') == 'false'
+
+
+def test_only_tab_shows_that_the_canvas_has_the_keyboard(sheet: Sheet) -> None:
+    outline = """getComputedStyle(document.querySelector('canvas')).outlineStyle"""
+    sheet.press('Pen')
+    sheet.page.keyboard.press('f')
+    assert sheet.page.evaluate(outline) == 'none'
+    sheet.page.evaluate('document.activeElement.blur()')
+    for _ in range(60):
+        sheet.page.keyboard.press('Tab')
+        if sheet.page.evaluate('document.activeElement.id') == 'world':
+            break
+    assert sheet.page.evaluate(outline) != 'none'
+
+
+def test_no_hint_says_that_a_world_stands_still_which_plays(chromium: Any, address: str) -> None:
+    sheet = Sheet(chromium, address)
+    sheet.begin()
+    hint = sheet.page.locator('#hint')
+    hint.get_by_text('it comes to life').wait_for()
+    sheet.press('Play')
+    sheet.wait('physsim.speed === 1')
+    before = sheet.names()
+    sheet.drag(*circle(1.0, 5.0, 0.8))
+    sheet.wait_for_new(before)
+    hint.get_by_text('take the hand').wait_for()
+    sheet.close()
+    # Somebody else new, whose world stands still, is told how to play.
+    sheet = Sheet(chromium, address)
+    sheet.begin()
+    before = sheet.names()
+    sheet.drag(*circle(1.0, 5.0, 0.8))
+    sheet.wait_for_new(before)
+    hint = sheet.page.locator('#hint')
+    hint.get_by_text('Time stands still').wait_for()
+    # By whomever it is played.
+    other = Sheet(chromium, address)
+    other.press('Play')
+    hint.get_by_text('take the hand').wait_for()
+    other.close()
+    sheet.close()
+
+
+def test_gravity_has_a_direction_and_a_number(sheet: Sheet) -> None:
+    sheet.press('Material')
+    gravity = sheet.page.get_by_label('Gravity [m/s²], typed')
+    gravity.fill('5')
+    gravity.press('Enter')
+    dial = sheet.page.get_by_role('slider', name='Direction of gravity')
+    for _ in range(6):
+        dial.press('ArrowRight')
+    sheet.page.keyboard.press('Escape')
+    sheet.press('Material')
+    sheet.until(lambda: gravity.input_value() == '5', 'the strength that was typed')
+    assert dial.get_attribute('aria-valuetext') == '90° from down'
+    # Right is down now: the ball falls there.
+    sheet.press('Play')
+    sheet.wait('physsim.bodies["ball/0"][0] > 1')
+
+
 def test_a_world_is_saved_and_opened_from_the_gallery(sheet: Sheet) -> None:
     sheet.press('Delete')
     sheet.page.mouse.click(*sheet.place(4.0, 0.5))
@@ -280,13 +383,13 @@ def test_a_world_is_saved_and_opened_from_the_gallery(sheet: Sheet) -> None:
     sheet.press('Save world')
     sheet.wait('document.querySelector("[role=status]").textContent.includes("two-bodies")')
     sheet.press('Worlds')
-    sheet.page.get_by_role('button', name='pendulums').click()
+    sheet.page.get_by_role('button', name='Pendulums').click()
     sheet.wait('!("ball/0" in physsim.bodies)')
     sheet.press('Worlds')
-    sheet.page.get_by_role('button', name='two-bodies').click()
+    sheet.page.get_by_role('button', name='two-bodies', exact=True).click()
     sheet.wait('"ball/0" in physsim.bodies && Object.keys(physsim.bodies).length === 2')
     sheet.press('Worlds')
-    sheet.page.get_by_role('button', name='page').click()
+    sheet.page.get_by_role('button', name='page', exact=True).click()
     sheet.wait('Object.keys(physsim.bodies).length === 3')
 
 
@@ -348,11 +451,14 @@ def test_the_velocity_arrow_of_a_body_is_dragged_to_another_velocity(sheet: Shee
     sheet.press('Hand')
     sheet.page.mouse.click(*sheet.place(0.0, 0.5))
     sheet.page.get_by_role('complementary', name='Body').wait_for()
-    scale = sheet.place(1.0, 0.0)[0] - sheet.place(0.0, 0.0)[0]
+    sheet.wait('physsim.scales.speed > 0')
+    scale = sheet.page.evaluate('physsim.scales.speed')
     x, y = sheet.place(0.0, 0.5)
     gap = 22  # px from the centre to the tail
-    with sheet.dragging((gap / scale, 0.5)):
-        sheet.page.mouse.move(x, y - gap - 4.0 * scale, steps=5)
+    sheet.page.mouse.move(x + gap, y)
+    sheet.page.mouse.down()
+    sheet.page.mouse.move(x, y - gap - 4.0 * scale, steps=5)
+    sheet.page.mouse.up()
     sheet.page.get_by_role('status').get_by_text('ball/0').wait_for()
     sheet.press('Play')
     # 4 m/s upwards rise by v^2 / 2 g.

@@ -66,7 +66,7 @@ def test_worlds_have_their_names(sheet: Sheet) -> None:
     sheet.press('Save world')
     said(sheet, 'Saved as mine')
     sheet.press('Worlds')
-    sheet.page.get_by_role('button', name='mine').click()
+    sheet.page.get_by_role('button', name='mine', exact=True).click()
     said(sheet, 'Opened mine')
 
 

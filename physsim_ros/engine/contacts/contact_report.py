@@ -14,6 +14,7 @@ last manifold are repeated.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 from physsim_ros.engine.batch_io import BatchIO, Ids
@@ -121,15 +122,24 @@ class ContactReport:
         if not table.asleep.any():
             return SleepingPairs()
         if self._slots is None:
-            return read_sleeping_pairs(table)
+            return read_sleeping_pairs(table, np.flatnonzero(table.asleep))
         rows, asleep = table.rows_of(self._ids), np.append(table.asleep, False)
         # A sensor that moves wakes nobody: its pairs are listed, until they part.
         awake = table.columns.dynamic & ~asleep
         sleeps = asleep[rows].any(axis=1) & ~awake[rows].any(axis=1)
         sleeps &= ~find_pairs(self._ids, listed)[1]
         ids, last = self._ids[sleeps], self._last
-        same = np.array_equal(last.ids, self._ids)
-        manifolds = last.manifolds[:, sleeps] if same else last.of_pairs(ids)
+        if np.array_equal(last.ids, self._ids):
+            return SleepingPairs(ids, self._impulses[sleeps], last.manifolds[:, sleeps])
+        manifolds = last.of_pairs(ids)
+        # A replay takes no frames: the last ones may be as old as the first touch.
+        before, slept = find_pairs(ids, self._sleeping.ids)
+        manifolds[:, slept] = self._sleeping.manifolds[:, before[slept]]
+        fallen = np.unique(rows[sleeps][~slept])
+        read = read_sleeping_pairs(table, fallen[asleep[fallen]])
+        found, known = find_pairs(ids, read.ids)
+        known &= ~slept
+        manifolds[:, known] = read.manifolds[:, found[known]]
         return SleepingPairs(ids, self._impulses[sleeps], manifolds)
 
     def _add_impulses(self, impulses: Floats) -> None:
@@ -229,10 +239,10 @@ class ContactReport:
         """
         if self._steps == 0:
             return NO_CONTACTS
+        steps, self._steps = self._steps, 0
         if not (len(self._ids) or self._parted):
             self._last.end_frame(NO_PAIRS, NO_MANIFOLDS)
-            self._steps = 0
-            return NO_CONTACTS
+            return replace(NO_CONTACTS, steps=steps)
         parted, parted_sums = self._merge_parted()
         touching, sums, manifolds = self._ids, self._sums, self._read_manifolds()
         if len(parted):
@@ -243,9 +253,8 @@ class ContactReport:
             manifolds = np.concatenate((manifolds, self._last.of_pairs(parted)), axis=1)
         self._last.end_frame(self._ids, manifolds[:, : len(self._ids)])
         self._sums = np.zeros(self._sums.shape)
-        self._steps = 0
         if len(table.bodies) == 0 or len(touching) == 0:
-            return NO_CONTACTS
+            return replace(NO_CONTACTS, steps=steps)
         if self._listing is None or not self._listing.is_of(touching, table):
             self._listing = list_pairs(touching, table)
         contacts, pointless = self._listing.merge_contacts(manifolds, sums, len(self._ids))
@@ -253,7 +262,7 @@ class ContactReport:
             with_wall, places = contacts.pairs[:, 1] < 0, centers()
             set_overlap_manifolds(contacts, np.flatnonzero(pointless & ~with_wall), places)
             set_wall_manifolds(contacts, np.flatnonzero(pointless & with_wall), places, table)
-        return contacts
+        return replace(contacts, steps=steps)
 
     def _read_manifolds(self) -> Floats:
         """

@@ -13,7 +13,7 @@ from physsim_ros.engine.body_table import BodyTable
 from physsim_ros.engine.contacts.contact import read_contact
 from physsim_ros.engine.contacts.manifolds import manifold_of, NO_MANIFOLDS
 from physsim_ros.engine.contacts.pair_ids import NO_PAIRS
-from physsim_ros.model.arrays import Floats
+from physsim_ros.model.arrays import Floats, Ints
 import pymunk
 
 
@@ -36,8 +36,12 @@ class SleepingPairs(NamedTuple):
         return SleepingPairs(self.ids[stays], self.impulses[stays], self.manifolds[:, stays])
 
 
-def read_sleeping_pairs(table: BodyTable) -> SleepingPairs:
-    """Return the sleeping pairs as the engine keeps them, shape by shape."""
+def read_sleeping_pairs(table: BodyTable, rows: Ints) -> SleepingPairs:
+    """
+    Return the sleeping pairs as the engine keeps them, shape by shape.
+
+    :param rows: of sleeping bodies; the pairs of other ones are left out
+    """
     found: dict[object, tuple[tuple[int, int], tuple[float, float], tuple[float, ...]]] = {}
 
     def add_arbiter(arbiter: pymunk.Arbiter) -> None:
@@ -48,7 +52,7 @@ def read_sleeping_pairs(table: BodyTable) -> SleepingPairs:
         key = arbiter._arbiter  # noqa: SLF001 - identifies a pair of shapes
         found[key] = (min(a, b), max(a, b)), (impulse.x, impulse.y), manifold
 
-    for row in np.flatnonzero(table.asleep).tolist():
+    for row in rows.tolist():
         table.bodies[row].engine.each_arbiter(add_arbiter)
     if not found:
         return SleepingPairs()

@@ -25,6 +25,7 @@ from physsim_ros.engine.joints.joint_solver import JointSolver
 from physsim_ros.engine.joints.joint_table import JointTable
 from physsim_ros.engine.joints.kind import EngineJoint
 from physsim_ros.engine.joints.kinds import build_joint
+from physsim_ros.engine.joints.pull import impulse_on_b
 from physsim_ros.engine.memory import impulse_places, NUMBERS
 from physsim_ros.engine.step_context import StepContext
 from physsim_ros.model.arrays import Flags, Floats
@@ -151,6 +152,11 @@ class JointSet:
         return (
             np.array([engine_joint.impulse for engine_joint in self.by_name.values()]) / self._dt
         )
+
+    def pulls(self) -> Floats:
+        """Return (j, 2) float64: force of each joint on its body b in the last step [N]."""
+        pulls = [impulse_on_b(engine_joint) for engine_joint in self.by_name.values()]
+        return np.array(pulls).reshape(-1, 2) / self._dt
 
     def compressed(self) -> Flags:
         """Return (j,) bool: whether each joint pushed its bodies apart in the last step."""

@@ -14,6 +14,7 @@ from dataclasses import replace
 import hashlib
 import math
 
+import numpy as np
 from physsim_ros.engine.checkpoint import checkpoint_of, saved_state
 from physsim_ros.engine.observation import digest_parts, observe_bodies
 from physsim_ros.engine.space import Space
@@ -116,6 +117,7 @@ class World:
             compressed=self._space.joints.compressed(),
             springs=self._space.joints.springs(),
             grips=self.grips,
+            pulls=self._space.joints.pulls() if self.watching else np.empty((0, 2)),
         )
 
     def contacts(self, snapshot: Snapshot) -> Contacts:

@@ -17,14 +17,16 @@ from __future__ import annotations
 
 from physsim_ros.model.checks import check_key, shown
 from physsim_ros.model.errors import Malformed
-from physsim_ros.sketchpad.messages import bodies, drawing, watching, worlds
+from physsim_ros.sketchpad.messages import bodies, drawing, joints, watching, worlds
 from physsim_ros.sketchpad.messages.bodies import Copy, Submit
 from physsim_ros.sketchpad.messages.drawing import Click, DrawWith, Drop, Instead, Stroke, UseHand
 from physsim_ros.sketchpad.messages.envelope import Envelope, read_envelope
 from physsim_ros.sketchpad.messages.fields import Readers
+from physsim_ros.sketchpad.messages.joints import ChangeJoint
 from physsim_ros.sketchpad.messages.watching import ShowParts, Watch
 from physsim_ros.sketchpad.messages.worlds import (
     ACTIONS,
+    ManageWorld,
     Perform,
     ReturnToCourse,
     Seek,
@@ -36,12 +38,14 @@ from physsim_ros.sketchpad.messages.worlds import (
 __all__ = [
     'ACTIONS',
     'OF_VIEWERS',
+    'ChangeJoint',
     'Click',
     'Copy',
     'DrawWith',
     'Drop',
     'Envelope',
     'Instead',
+    'ManageWorld',
     'Message',
     'Perform',
     'ReturnToCourse',
@@ -67,10 +71,12 @@ Message = (
     | UseHand
     | DrawWith
     | Copy
+    | ChangeJoint
     | Watch
     | Share
     | Upload
     | Perform
+    | ManageWorld
     | SetSpeed
     | Seek
     | ReturnToCourse
@@ -82,6 +88,7 @@ OF_VIEWERS = (ShowParts, Watch)
 _READERS: Readers = {
     **drawing.READERS,
     **bodies.READERS,
+    **joints.READERS,
     **worlds.READERS,
     **watching.READERS,
 }

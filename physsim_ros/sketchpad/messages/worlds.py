@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from physsim_ros.model.checks import LONGEST, number, shown, Whole, Within
+from physsim_ros.model.checks import flag, LONGEST, number, shown, Whole, Within
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.sketchpad.messages.fields import Fields, Readers, text_of
 
@@ -38,10 +38,29 @@ class Perform:
 
     :param action: one of `ACTIONS`
     :param world: name of the world to save or load; '' is the one of parameter `world_file`
+    :param checks_name: whether a name that is taken is refused when it is saved
+    :param replace: whether an own world of that name may be written over then
     """
 
     action: str
     world: str = ''
+    checks_name: bool = False
+    replace: bool = False
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ManageWorld:
+    """
+    Rename, delete or put back an own world, or forget the unsaved one.
+
+    :param action: `rename`, `remove`, `put_back` or `forget`
+    :param name: of the world; '' of the unsaved one
+    :param to: its new name
+    """
+
+    action: str
+    name: str = ''
+    to: str = ''
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -107,7 +126,9 @@ def _course(fields: Fields) -> ReturnToCourse:
 
 
 def _save(fields: Fields) -> Perform:
-    return Perform(action='save_world', world=_world_name(fields))
+    replace = flag(fields.get('replace', False), 'replace')
+    name = _world_name(fields)
+    return Perform(action='save_world', world=name, checks_name=True, replace=replace)
 
 
 def _open(fields: Fields) -> Perform:
@@ -126,7 +147,22 @@ READERS: Readers = {
     'speed': (['speed'], lambda fields: SetSpeed(speed=number(fields.get('speed'), 'speed'))),
     'seek': (['time'], _seek),
     'course': (['course'], _course),
-    'save': (['name'], _save),
+    'save': (['name', 'replace'], _save),
     'open': (['name'], _open),
+    'rename': (
+        ['name', 'to'],
+        lambda fields: ManageWorld(
+            action='rename', name=_world_name(fields), to=text_of(fields.get('to'), 'to')
+        ),
+    ),
+    'remove': (
+        ['name'],
+        lambda fields: ManageWorld(action='remove', name=_world_name(fields)),
+    ),
+    'put_back': (
+        ['name'],
+        lambda fields: ManageWorld(action='put_back', name=_world_name(fields)),
+    ),
+    'forget': ([], lambda _: ManageWorld(action='forget')),
     'share': ([], lambda _: Share()),
 }

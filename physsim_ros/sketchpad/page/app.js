@@ -5,6 +5,7 @@
  * Start reading here; each part is a file. The world moves on the server alone (world_state.js).
  */
 
+import {Arrows} from './arrows.js';
 import {BodyPanel} from './body_panel.js';
 import {Camera} from './camera.js';
 import {Connection} from './connection.js';
@@ -12,12 +13,14 @@ import {createElement, elementOf} from './dom.js';
 import {Gallery} from './gallery.js';
 import {Hints} from './hints.js';
 import {Cursor, Keyboard} from './keyboard.js';
+import {JointPanel} from './joint_panel.js';
 import {Notes} from './notes.js';
 import {Pointers} from './pointer.js';
 import {Readings} from './readings.js';
 import {Refusals} from './refusals.js';
 import {SceneView} from './scene_view.js';
 import {Selection} from './selection.js';
+import {EmptyCard} from './strokes.js';
 import {TimeBar} from './time_bar.js';
 import {Tips} from './tips.js';
 import {Toolbar} from './toolbar.js';
@@ -38,11 +41,12 @@ export class App {
   constructor() {
     this.viewOnly = new URLSearchParams(location.search).has('view');
     document.body.classList.toggle('view', this.viewOnly);
-    /** @type {Record<string, any>} properties of the next drawings */
-    this.material = {density: 1, friction: 0.5, elasticity: 0.5};
-    this.arrows = {velocities: false, contacts: false, forces: true};
+    /** @type {Record<string, any>} properties of the next drawings that this page has chosen; others are the world's */
+    this.material = {};
     /** @type {number | undefined} of the server's protocol */
     this.version = undefined;
+    /** @type {?string | number[]} of the next drawings, where this page chose none */
+    this.color = null;
     this.framed = false;
     this.bounds = ''; // of the world that was framed: another one, as in the past, is framed anew
 
@@ -53,11 +57,13 @@ export class App {
     this.selection = new Selection(this);
     this.view.overlays.push((view) => this.tool.draw(view));
     this.cursor = new Cursor(this);
+    this.arrows = new Arrows(this);
     this.words = new Words(this.connection);
     this.notes = new Notes(this);
     this.refusals = new Refusals(this);
     this.readings = new Readings(this);
     this.panel = new BodyPanel(this);
+    this.joints = new JointPanel(this);
     this.arrow = new VelocityArrow(this);
     this.time = new TimeBar(this);
     this.gallery = new Gallery(this);
@@ -69,6 +75,7 @@ export class App {
     this.keyboard = new Keyboard(this);
     this.topBar = new TopBar(this);
     this.tips = new Tips(this.camera);
+    this.card = new EmptyCard(this);
     this.#listen();
     this.connection.connect();
     setInterval(() => this.#listBodies(), LIST_EVERY);
@@ -82,7 +89,9 @@ export class App {
       if (version !== (this.version ??= version)) location.reload();
       this.viewOnly ||= Boolean(viewOnly);
       document.body.classList.toggle('view', this.viewOnly);
-      Object.assign(this.material, settings, {color: settings.draw_color ?? null});
+      this.color = settings.draw_color ?? null;
+      // To the server this is another page.
+      if (Object.keys(this.material).length && !this.viewOnly) this.connection.send('draw_with', this.material);
       this.askForParts();
     });
     connection.on('open', () => {
@@ -117,10 +126,10 @@ export class App {
 
   /** Ask for the parts of frames that are shown. */
   askForParts() {
-    const {velocities} = this.arrows;
-    this.view.velocities = velocities;
+    const {velocities, forces} = this.arrows;
     this.view.dirty = true;
-    this.connection.send('show', {...this.arrows, velocities: velocities || this.panel.name !== ''});
+    // The drag of the air follows from velocities.
+    this.connection.send('show', {velocities: velocities || forces || this.panel.name !== '', contacts: forces, forces: true});
   }
 
   /** Frame the world. */
@@ -169,6 +178,10 @@ Object.assign(window, {physsim: {
   toWorld: (/** @type {number} */ px, /** @type {number} */ py) => app.camera.toWorld(px, py),
   get time() { return app.world.frame.time; },
   get speed() { return app.world.frame.speed; },
+  /** Forces as they are drawn. */
+  get forces() { return app.arrows.drawn; },
+  /** Lengths of arrows [px] to a newton and to a metre a second. */
+  get scales() { return {newton: app.arrows.newtons.length(1), speed: app.arrows.speeds.length(1)}; },
   get bodies() {
     const {frame, scene, count} = app.world;
     return Object.fromEntries(scene.bodies.slice(0, count).map(({name}, row) =>

@@ -2,6 +2,7 @@
 /** The panel of the selected bodies: properties of a body, its plots. */
 
 import {createElement, elementOf, iconButton, textButton} from './dom.js';
+import {Numbers} from './numbers.js';
 import {Plots} from './plots.js';
 import {isDrawn} from './words.js';
 
@@ -10,6 +11,9 @@ import {isDrawn} from './words.js';
 /** Key, label, least, most, step. @type {[string, string, number, number, number][]} */
 const RANGES = [['density', 'Density [kg/m²]', 0.1, 10, 0.1], ['friction', 'Friction', 0, 2, 0.05],
   ['elasticity', 'Bounciness', 0, 1, 0.05]];
+/** Gravity [m/s²]. @type {[string, number][]} */
+const PLACES = [['Earth', 9.81], ['Moon', 1.62], ['Mars', 3.71], ['None', 0]];
+const STEP_OF_DIAL = Math.PI / 12; // rad
 const COVERED = 80; // px: nearer to the edge of the panel, or beneath it, a body is covered
 const BESIDE = 0.5; // m: where a copy is put
 
@@ -19,12 +23,16 @@ export class BodyPanel {
     this.app = app;
     this.element = elementOf('panel', HTMLElement);
     this.plots = new Plots(app);
+    this.numbers = new Numbers(app);
     this.name = '';
+    this.shown = ''; // what of the scene
+    this.turn = 0; // of gravity from down, counter-clockwise [rad]
     app.connection.on('scene', () => this.#follow());
   }
 
   close() {
     this.element.hidden = true;
+    this.app.card?.update();
     if (this.app.camera.fitted) this.app.frame();
     this.name = '';
     this.plots.watch('');
@@ -40,7 +48,8 @@ export class BodyPanel {
     const anchored = createElement('input', {type: 'checkbox', checked: body.anchored,
       onchange: () => change({anchored: anchored.checked})});
     this.shown = JSON.stringify(body);
-    this.#show(this.app.words.title(name), [
+    this.show(this.app.words.title(name), [
+      this.numbers.element,
       ...fields(body, change),
       createElement('label', {}, 'Anchored', anchored),
       createElement('div', {className: 'row'},
@@ -70,7 +79,7 @@ export class BodyPanel {
   showMany(names) {
     this.name = '';
     this.plots.watch('');
-    this.#show(`${names.length} bodies`, [
+    this.show(`${names.length} bodies`, [
       createElement('p', {textContent: 'Drag them with the lasso.'}),
       createElement('div', {className: 'row'},
         textButton('Delete bodies', () => this.app.selection.deleteBodies(), 'danger'))]);
@@ -79,25 +88,45 @@ export class BodyPanel {
   /** Show the material of the next drawings, and gravity. */
   showMaterial() {
     this.app.selection.select([]);
-    const {app} = this, {gravity} = app.world.scene, strength = Math.hypot(...gravity);
-    const pull = range('Gravity [m/s²]', 0, 25, 0.1, strength, (value) => {
-      const [x, y] = strength ? gravity.map((each) => each / strength) : [0, -1];
-      app.connection.send('gravity', {gravity: [x * value, y * value]});
-    });
+    const {app} = this, {scene} = app.world, {gravity: [gx, gy]} = scene, strength = Math.hypot(gx, gy);
+    // As it was set last: the panel stays as it is while somebody works in it.
+    let size = strength;
+    if (strength) this.turn = Math.atan2(gx, -gy);
+    const pull = () => {
+      // Without the last digits of sines, where they are those of zero.
+      app.connection.send('gravity', {gravity: [Math.sin(this.turn) * size, -Math.cos(this.turn) * size].map((each) => Number(each.toFixed(9)))});
+    };
+    const setSize = (/** @type {number} */ value) => {
+      size = value;
+      pull();
+    };
     const change = (/** @type {any} */ properties) => {
       Object.assign(app.material, properties);
       app.connection.send('draw_with', properties);
     };
-    const color = app.material.color || [0.3, 0.47, 0.66];
-    const any = createElement('input', {type: 'checkbox', checked: !app.material.color,
+    const chosen = app.material.color ?? app.color, color = chosen || [0.3, 0.47, 0.66];
+    const any = createElement('input', {type: 'checkbox', checked: !chosen,
       onchange: () => change({color: any.checked ? '' : hexOf(color)})});
-    this.#show('Material of new bodies', [
-      ...fields({...app.material, color}, (properties) => {
+    this.show('Material of new bodies', [
+      ...fields({...scene, ...app.material, color}, (properties) => {
         if (properties.color) any.checked = false;
         change(properties);
       }),
       createElement('label', {}, 'Each body another colour', any),
-      createElement('h3', {textContent: 'World'}), pull]);
+      createElement('h3', {textContent: 'Gravity'}),
+      range('Gravity [m/s²]', 0, 25, 0.01, strength, setSize),
+      createElement('div', {className: 'row'}, ...PLACES.map(([name, value]) => textButton(name, () => setSize(value)))),
+      createElement('label', {}, 'Direction', dial(this.turn, (angle) => {
+        this.turn = angle;
+        pull();
+      }))]);
+    this.shown = this.#worldKey();
+  }
+
+  /** @returns {string} what the panel of the world shows */
+  #worldKey() {
+    const {gravity, density, friction, elasticity} = this.app.world.scene;
+    return JSON.stringify([gravity, density, friction, elasticity]);
   }
 
   copy() {
@@ -111,16 +140,23 @@ export class BodyPanel {
    * @param {Node[]} content
    * @param {string} name of the body, where that is not the title
    */
-  #show(title, content, name = '') {
+  show(title, content, name = '') {
     this.element.replaceChildren(createElement('header', {},
       createElement('h2', {}, `${title} `, createElement('small', {textContent: name})),
       iconButton('Close', 'close', () => this.app.selection.select([]))), ...content);
     this.element.hidden = false;
+    this.app.card?.update();
   }
 
   /** Follow a scene in which the body was changed or deleted, by whomever. */
   #follow() {
-    if (!this.name) return;
+    if (!this.name) {
+      const shows = !this.element.hidden && !this.app.selection.names.size && !this.app.selection.joint;
+      if (shows && this.shown !== this.#worldKey() && !this.element.contains(document.activeElement)) {
+        queueMicrotask(() => this.showMaterial());
+      }
+      return;
+    }
     const body = this.app.world.scene.bodies.find(({name}) => name === this.name);
     if (!body) this.app.selection.select([]);
     else if (JSON.stringify(body) !== this.shown && !this.element.contains(document.activeElement)) {
@@ -160,10 +196,59 @@ function hexOf(color) {
  * @param {number} value
  * @param {(value: number) => void} change when it is let go
  */
-function range(label, min, max, step, value, change) {
-  const output = createElement('span', {textContent: String(Number(value.toPrecision(3)))});
-  const input = createElement('input', {type: 'range', min, max: Math.max(max, value), step, value,
-    oninput: () => { output.textContent = input.value; },
+export function range(label, min, max, step, value, change) {
+  const typed = createElement('input', {type: 'number', min, step: 'any', value: Number(value.toPrecision(6)), 'aria-label': `${label}, typed`,
+    onchange: () => typed.value !== '' && change(Number(typed.value))});
+  const input = createElement('input', {type: 'range', min, max: Math.max(max, value), step, value, 'aria-label': label,
+    oninput: () => { typed.value = input.value; },
     onchange: () => change(Number(input.value))});
-  return createElement('label', {}, label, output, input);
+  return createElement('div', {className: 'field'}, createElement('span', {textContent: label}), typed, input);
+}
+
+/**
+ * A compass that is dragged, or turned by arrow keys.
+ * @param {number} turn from down, counter-clockwise [rad]
+ * @param {(turn: number) => void} change
+ */
+function dial(turn, change) {
+  const canvas = createElement('canvas', {className: 'dial', width: 144, height: 144, tabIndex: 0, role: 'slider', 'aria-label': 'Direction of gravity',
+    'aria-valuemin': -180, 'aria-valuemax': 180});
+  const ctx = /** @type {CanvasRenderingContext2D} */ (canvas.getContext('2d'));
+  const show = () => {
+    const degrees = Math.round(turn * 180 / Math.PI), x = Math.sin(turn), y = Math.cos(turn);
+    canvas.setAttribute('aria-valuenow', String(degrees));
+    canvas.setAttribute('aria-valuetext', degrees ? `${degrees}° from down` : 'down');
+    ctx.setTransform(1, 0, 0, 1, 72, 72);
+    ctx.clearRect(-72, -72, 144, 144);
+    ctx.lineWidth = 6;
+    ctx.lineCap = 'round';
+    ctx.strokeStyle = getComputedStyle(document.documentElement).getPropertyValue('--weight');
+    ctx.beginPath();
+    for (const [along, across] of [[-50, 0], [50, 0], [28, 18], [50, 0], [28, -18]]) ctx.lineTo(x * along + y * across, y * along - x * across);
+    ctx.stroke();
+  };
+  const point = (/** @type {PointerEvent} */ {clientX, clientY, buttons}) => {
+    if (!buttons) return;
+    const {left, top, width} = canvas.getBoundingClientRect();
+    const angle = Math.atan2(clientX - left - width / 2, clientY - top - width / 2);
+    turn = Math.round(angle / STEP_OF_DIAL) * STEP_OF_DIAL;
+    show();
+  };
+  canvas.onpointerdown = (event) => {
+    canvas.setPointerCapture(event.pointerId);
+    point(event);
+  };
+  canvas.onpointermove = point;
+  canvas.onpointerup = () => change(turn);
+  canvas.onkeydown = (event) => {
+    const by = {ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1}[event.key];
+    if (!by) return;
+    event.preventDefault();
+    event.stopPropagation();
+    turn += by * STEP_OF_DIAL;
+    show();
+    change(turn);
+  };
+  show();
+  return canvas;
 }

@@ -121,7 +121,7 @@ export function inside(outline, x, y) {
  * @param {number} x
  * @param {number} y
  */
-function distanceTo(points, x, y) {
+export function distanceTo(points, x, y) {
   const [px, py] = nearestOn(points, x, y);
   return Math.hypot(x - px, y - py);
 }

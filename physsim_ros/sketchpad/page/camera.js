@@ -4,7 +4,7 @@
 /** @import {Point} from './types.js' */
 
 const LEAST_SCALE = 0.5, GREATEST_SCALE = 5000; // px/m
-const NARROW = 700; // px: a page of that width or less has its tools below, as in style.css
+const NARROW = matchMedia('(max-width: 700px) and (min-height: 501px), (max-width: 639px)'); // as in style.css: tools below
 const LEAST_SPAN = 4; // m; nothing smaller fills the page at first
 
 export class Camera {
@@ -17,7 +17,7 @@ export class Camera {
 
   /** @returns {boolean} whether tools and panel lie below */
   get narrow() {
-    return this.width <= NARROW;
+    return NARROW.matches;
   }
 
   /**

@@ -5,7 +5,8 @@
 
 const SHORTEST_PAUSE = 250, LONGEST_PAUSE = 3000; // ms between attempts to connect
 const HEADER = 24; // bytes of a frame
-const VELOCITIES = 1, CONTACTS = 2, FORCES = 4, HANDS = 8, GHOST = 16; // flags of its parts
+const VERSION = 2;
+const VELOCITIES = 1, CONTACTS = 2, FORCES = 4, HANDS = 8, GHOST = 16, PULLS = 32; // flags of its parts
 
 export class Connection {
   constructor() {
@@ -104,7 +105,7 @@ export class Connection {
  */
 function decodeFrame(buffer) {
   const view = new DataView(buffer);
-  if (view.getUint8(0) !== 1) throw new RangeError('another version of frames: load the page again');
+  if (view.getUint8(0) !== VERSION) throw new RangeError('another version of frames: load the page again');
   const flags = view.getUint8(1);
   let at = HEADER, count = view.getUint32(20, true);
   const column = () => {
@@ -126,7 +127,11 @@ function decodeFrame(buffer) {
   if (flags & VELOCITIES) frame.velocities = {x: column(), y: column(), spin: column()};
   if (flags & CONTACTS) {
     readCount();
-    frame.contacts = {x: column(), y: column(), nx: column(), ny: column(), impulse: column()};
+    const steps = view.getUint32(at, true);
+    at += 4;
+    const rows = () => new Int32Array(buffer, (at += 4 * count) - 4 * count, count);
+    frame.contacts = {steps, a: rows(), b: rows(), x: column(), y: column(), nx: column(), ny: column(),
+      jx: column(), jy: column()};
   }
   if (flags & FORCES) {
     readCount();
@@ -135,6 +140,10 @@ function decodeFrame(buffer) {
   if (flags & HANDS) {
     readCount();
     frame.hands = {x: column(), y: column(), toX: column(), toY: column()};
+  }
+  if (flags & PULLS) {
+    readCount();
+    frame.pulls = {x: column(), y: column()};
   }
   return frame;
 }

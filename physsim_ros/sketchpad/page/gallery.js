@@ -2,9 +2,12 @@
 /** Worlds: a gallery to open from, saving by name, files, a link that holds the world, a picture. */
 
 import {createElement, download, elementOf, icon, iconButton, textButton} from './dom.js';
+import {capital} from './words.js';
 
 /** @import {App} from './types.js' */
 
+const NAME = '[^\\/\\\\.]*[^\\/\\\\.\\s][^\\/\\\\.]*'; // of a world
+const EMPTY = 'format: 1\ngravity: [0, -9.81]\ndamping: 0\nbounds: [-10, 0, 10, 9]\ndensity: 1\nfriction: 0.5\nelasticity: 0.5\nbodies: []\n';
 const LONGEST_LINK = 16000; // characters
 const LARGEST = 1 << 20; // bytes; no larger world is unpacked from a link
 
@@ -19,7 +22,12 @@ export class Gallery {
       if (event.target === this.dialog) this.dialog.close();
     });
     app.connection.on('worlds', ({worlds}) => { this.worlds = worlds; });
-    app.connection.on('welcome', () => this.#offerLink());
+    this.offered = 0; // [s since 1970] the unsaved world that was offered
+    this.name = ''; // of the own world that is open
+    app.connection.on('welcome', ({unsaved}) => {
+      this.#offerLink();
+      this.#offerUnsaved(unsaved);
+    });
   }
 
   /**
@@ -36,50 +44,178 @@ export class Gallery {
   }
 
   showWorlds() {
-    const cards = this.worlds.map(({name, title, picture}) => createElement('button',
-      {type: 'button', className: 'card', onclick: () => this.#open(name)},
-      picture ? createElement('img', {src: picture, alt: '', loading: 'lazy'}) : createElement('span', {className: 'blank'}, icon('pen')),
-      createElement('strong', {textContent: name.replaceAll('_', ' ')}),
-      createElement('small', {textContent: title === name ? 'Yours' : title})));
+    const own = this.worlds.filter(({shipped}) => !shipped), shipped = this.worlds.filter((each) => each.shipped);
+    const cards = (/** @type {typeof own} */ worlds) =>
+      createElement('div', {className: 'cards'}, ...worlds.map((world) => this.#card(world)));
     const file = createElement('input', {type: 'file', accept: '.yaml,.yml',
       onchange: async () => file.files?.[0] && this.#upload(await file.files[0].text())});
     this.show('Worlds', createElement('div', {className: 'row'},
-      textButton('Empty world', () => {
-        this.app.time.callService('clear');
-        this.dialog.close();
+      textButton('Empty world', () => this.#upload(EMPTY)),
+      createElement('label', {className: 'file'}, 'Open a file', file)),
+    ...own.length ? [createElement('h3', {textContent: 'Yours'}), cards(own), createElement('h3', {textContent: 'To explore, the simplest first'})] : [],
+    cards(shipped));
+  }
+
+  /** @param {typeof this.worlds[0]} world */
+  #card({name, title, picture, shipped}) {
+    const card = createElement('button', {type: 'button', className: 'card', onclick: () => this.#open(name)},
+      picture ? createElement('img', {src: picture, alt: '', loading: 'lazy'}) : createElement('span', {className: 'blank'}, icon('pen')),
+      createElement('strong', {textContent: shipped ? capital(name.replaceAll('_', ' ')) : name}),
+      ...shipped ? [createElement('small', {textContent: title})] : []);
+    if (shipped) return card;
+    return createElement('div', {className: 'own'}, card, createElement('div', {className: 'row'},
+      textButton('Rename', () => this.#askName(`Rename ${name}`, name, 'Rename', (to) => this.#rename(name, to))),
+      textButton('Delete', () => this.#delete(name), 'danger')));
+  }
+
+  /**
+   * @param {string} name
+   * @param {string} to
+   */
+  async #rename(name, to) {
+    if (!(await this.app.connection.ask('rename', {name, to})).ok) return;
+    this.app.notes.offer(`Renamed to ${to}`, 'Undo', () => this.app.connection.send('rename', {name: to, to: name}));
+  }
+
+  /** @param {string} name */
+  async #delete(name) {
+    this.dialog.close();
+    if (!(await this.app.connection.ask('remove', {name})).ok) return;
+    this.app.notes.offer(`${name} is deleted`, 'Undo', () => this.app.connection.send('put_back', {name}));
+  }
+
+  /**
+   * @param {string} title
+   * @param {string} value
+   * @param {string} label of the button
+   * @param {(name: string) => void} done
+   * @returns {HTMLFormElement} that asks for the name of a world
+   */
+  #nameForm(title, value, label, done) {
+    const name = createElement('input', {value, required: true, maxLength: 64, autocomplete: 'off', 'aria-label': title,
+      pattern: NAME, title: 'Letters, digits, spaces, - and _; without / and .'});
+    const form = createElement('form', {className: 'row', onsubmit: (/** @type {Event} */ event) => {
+      event.preventDefault();
+      this.dialog.close();
+      done(name.value.trim());
+    }}, name, createElement('button', {textContent: label}));
+    queueMicrotask(() => name.select());
+    return form;
+  }
+
+  /**
+   * @param {string} title
+   * @param {string} value
+   * @param {string} label of the button
+   * @param {(name: string) => void} done
+   */
+  #askName(title, value, label, done) {
+    this.show(title, this.#nameForm('New name', value, label, done));
+  }
+
+  /**
+   * @param {string} name
+   * @returns {string} that name, with a number where it is taken
+   */
+  #freeName(name) {
+    const taken = new Set(this.worlds.map((each) => each.name)), stem = name.replace(/ \d+$/, '');
+    for (let number = 1; ; number++) {
+      const free = number > 1 ? `${stem} ${number}` : stem;
+      if (!taken.has(free)) return free;
+    }
+  }
+
+  /**
+   * Save, and ask once where the name is taken.
+   * @param {string} name
+   * @param {boolean} replace
+   */
+  async #save(name, replace = false) {
+    const {ok, code} = await this.app.connection.ask('save', {name, replace});
+    if (ok) {
+      this.name = name;
+      this.#sendPicture(name);
+      if (replace) this.app.notes.offer(`${name} is replaced`, 'Undo', () => this.app.connection.send('put_back', {name}));
+      return;
+    }
+    if (code !== 'exists') return;
+    const free = this.#freeName(name), own = this.worlds.some((each) => each.name === name && !each.shipped);
+    const choices = [textButton(`Save as ${free}`, () => {
+      this.dialog.close();
+      this.#save(free);
+    })];
+    if (own) choices.push(textButton(`Replace ${name}`, () => {
+      this.dialog.close();
+      this.#save(name, true);
+    }, 'danger'));
+    this.show(own ? `There is a world ${name} already` : `${name} is a world that ships with physsim`, createElement('div', {className: 'row'}, ...choices));
+  }
+
+  /** @param {string} name of the world that is shown */
+  #sendPicture(name) {
+    const {view: {canvas, insets, ratio}} = this.app, width = canvas.width - (insets.left + insets.right) * ratio;
+    const height = canvas.height - (insets.top + insets.bottom) * ratio;
+    const small = createElement('canvas', {width: 480, height: 200}), scale = Math.min(480 / width, 200 / height);
+    const ctx = small.getContext('2d');
+    if (!ctx || !(scale > 0)) return;
+    ctx.fillStyle = this.app.view.palette.paper;
+    ctx.fillRect(0, 0, 480, 200);
+    ctx.drawImage(canvas, insets.left * ratio, insets.top * ratio, width, height,
+      240 - width * scale / 2, 100 - height * scale / 2, width * scale, height * scale);
+    small.toBlob((body) => body && fetch(`/picture/${encodeURIComponent(name)}`, {method: 'POST', body}));
+  }
+
+  /** @param {number} saved when a world was kept that nobody has saved [s since 1970]; 0 is none */
+  #offerUnsaved(saved) {
+    if (!saved || this.app.viewOnly || this.offered === saved) return;
+    this.offered = saved;
+    const time = new Date(saved * 1000).toLocaleString([], {dateStyle: 'medium', timeStyle: 'short'});
+    const remove = this.app.notes.pin(() => null, [`The world of ${time} was not saved.`,
+      textButton('Open it', async () => {
+        remove();
+        const text = await fetch('/unsaved').then((response) => response.ok ? response.text() : null, () => null);
+        if (text !== null && await this.#upload(text)) this.app.connection.send('forget');
       }),
-      createElement('label', {className: 'file'}, 'Open a file', file)), createElement('div', {className: 'cards'}, ...cards));
+      textButton('Forget it', () => {
+        remove();
+        this.app.connection.send('forget');
+      })], {kind: 'docked', shown: 0});
   }
 
   showSave() {
-    const name = createElement('input', {value: 'my-world', required: true, maxLength: 64, autocomplete: 'off',
-      'aria-label': 'Name of the world'});
-    const form = createElement('form', {className: 'row', onsubmit: (/** @type {Event} */ event) => {
-      event.preventDefault();
-      this.app.connection.send('save', {name: name.value});
-      this.dialog.close();
-    }}, name, createElement('button', {textContent: 'Save world'}));
-    this.show('Save', form, createElement('div', {className: 'row'},
+    this.show('Save', this.#nameForm('Name of the world', this.name || this.#freeName('my world'), 'Save world', (name) => this.#save(name)), createElement('div', {className: 'row'},
       textButton('Download file', () => this.#download()),
       textButton('Copy link', () => this.#copyLink()),
       textButton('Picture (PNG)', () => this.app.view.canvas.toBlob((png) => png && download('world.png', png)))));
-    name.select();
   }
 
   /** @param {string} name */
   async #open(name) {
     this.dialog.close();
-    if ((await this.app.connection.ask('open', {name})).ok) this.app.frameNext();
+    if (!(await this.app.connection.ask('open', {name})).ok) return;
+    this.app.frameNext();
+    this.name = this.worlds.some((each) => each.name === name && !each.shipped) ? name : '';
   }
 
-  /** @param {string} text of a world file */
+  /**
+   * @param {string} text of a world file
+   * @returns {Promise<boolean>} whether it is open
+   */
   async #upload(text) {
     this.dialog.close();
+    if (new Blob([text]).size > LARGEST) {
+      this.app.notes.showMessage('This file is too large: a world has at most 1 MiB here.', {ok: false});
+      return false;
+    }
     const {ok, message} = await fetch('/world', {method: 'POST', body: text, headers: {'Content-Type': 'application/yaml'}})
-      .then((response) => response.json().catch(() => ({ok: false, message: response.statusText})),
+      .then((response) => response.json().catch(() => ({ok: false, message: 'The server refused this file'})),
         () => ({ok: false, message: 'Not done: the server is gone'}));
     this.app.notes.showMessage(this.app.words.tell({message}), {ok});
-    if (ok) this.app.frameNext();
+    if (ok) {
+      this.name = '';
+      this.app.frameNext();
+    }
+    return ok;
   }
 
   /** @returns {Promise<?string>} the world as a file; null where it is refused, as too large */
@@ -103,6 +239,7 @@ export class Gallery {
     const text = createElement('input', {value: link, readOnly: true, 'aria-label': 'Link'});
     this.show('A link that holds this world', text);
     text.select();
+    this.app.notes.showMessage('A link that holds this world');
     await navigator.clipboard?.writeText(link).catch(() => {});
   }
 
@@ -118,7 +255,10 @@ export class Gallery {
   /** @param {string} packed */
   async #openLink(packed) {
     const text = await unpackText(packed).catch(() => null);
-    if (text !== null) return this.#upload(text);
+    if (text !== null) {
+      await this.#upload(text);
+      return;
+    }
     this.dialog.close();
     this.app.notes.showMessage('This link is broken, or its world is too large.', {ok: false});
   }

@@ -55,7 +55,7 @@ export function drawGrid(ctx, camera, palette, insets) {
   ctx.textAlign = 'center';
   for (const value of multiplesOf(step, left, right)) {
     const x = pixelX(value);
-    if (x > insets.left + 40 && x < camera.width - 20) ctx.fillText(value.toFixed(digits), x, low - 6);
+    if (x > insets.left + 40 && x < camera.width - 20) ctx.fillText(`${value.toFixed(digits)} m`, x, low - 6);
   }
   ctx.textAlign = 'left';
   for (const value of multiplesOf(step, bottom, top)) {

@@ -2,6 +2,7 @@
 /** The help: keys, and where there are fingers, gestures and tools first. */
 
 import {createElement, icon} from './dom.js';
+import {noteSeen, strokeCard} from './strokes.js';
 import {EDIT, TIME} from './time_bar.js';
 import {TOOLS} from './toolbar.js';
 
@@ -26,8 +27,10 @@ export function showHelp(app) {
   const keys = [...TOOLS.flat().map(([, name, letter]) => [key(letter.toUpperCase()), name]),
     ...[...TIME, ...EDIT].map(([name, , letter]) => [key(letter), name]), ...MOVING.map(([name, does]) => [key(name), does])];
   const tools = TOOLS.flat().map(([id, name, , hint]) => [icon(id), `${name}: ${hint}`]);
-  const parts = [section('Keys', keys)];
-  if (TOUCHED.matches) parts.unshift(section('Gestures', GESTURES), section('Tools', tools));
+  const strokes = [createElement('h3', {textContent: 'What the pen understands'}), strokeCard()];
+  noteSeen();
+  const parts = [strokes, section('Keys', keys)];
+  if (TOUCHED.matches) parts.splice(1, 0, section('Gestures', GESTURES), section('Tools', tools));
   app.gallery.show('Help', ...parts.flat());
 }
 

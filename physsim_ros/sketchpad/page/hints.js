@@ -6,16 +6,16 @@
 
 import {elementOf} from './dom.js';
 
-/** @import {App} from './types.js' */
+/** @import {App, WorldState} from './types.js' */
 
-/** Id, text, and the button that is pointed at. @type {[string, string, string][]} */
+/** Id, text, the button that is pointed at, and when it is true. @type {[string, string, string, ((world: WorldState) => boolean)?][]} */
 const STEPS = [
   ['draw', 'Draw a circle, a box, a line: it comes to life.', ''],
-  ['play', 'Time stands still: press play.', 'Play'],
+  ['play', 'Time stands still: press play.', 'Play', ({paused}) => paused],
   ['throw', 'A small circle over two bodies is an axle. Or take the hand, and throw one.', 'Hand'],
   ['rewind', 'Nothing is lost: rewind, or drag the time line.', 'Rewind'],
-  ['change', 'This is the past. Draw or move something here, and it goes otherwise.', ''],
-  ['ghost', 'Dashed: how it went before. The ring on the time line goes back there.', 'Play'],
+  ['change', 'This is the past. Draw or move something here, and it goes otherwise.', '', ({timeline: {newest, now}}) => now < newest],
+  ['ghost', 'Dashed: how it went before. The ring on the time line goes back there.', 'Play', ({timeline}) => Boolean(timeline.courses?.length)],
 ];
 const KEY = 'physsim-hints';
 const TOOL_SHOWN = 5000, LAST_SHOWN = 12000; // ms: how a tool is used, the last step
@@ -27,18 +27,20 @@ export class Hints {
     this.line = elementOf('hint', HTMLElement);
     this.step = Number(localStorage.getItem(KEY) ?? 0);
     this.timer = 0;
+    this.shown = ''; // id of the step whose text is shown
     const {connection} = app;
     connection.on('reading', ({built}) => built && this.completeStep('draw'));
     connection.on('answer', ({request, ok, topic, subject}) => {
       if (request && ok && topic === 'clicked_point' && subject) this.completeStep('draw');
     });
     // What others do to the world teaches nobody here.
-    connection.on('sent', ({type, name}) => {
+    connection.on('sent', ({type, name, time}) => {
       if (type === 'speed' || name === 'play' && this.#isDone('draw')) this.completeStep('play');
-      if (type === 'seek' || name === 'rewind') this.completeStep('rewind');
+      if (type === 'seek' && time < app.world.frame.time || name === 'rewind') this.completeStep('rewind');
     });
     connection.on('timeline', ({courses = []}) => {
       if (courses.length && this.#isDone('rewind')) this.completeStep('change');
+      if (this.shown !== 'tool' && this.#step()?.[0] !== this.shown) this.#showStep();
     });
     this.#showStep();
   }
@@ -56,16 +58,25 @@ export class Hints {
     return placeOf(id) < this.step;
   }
 
+  /** @returns {typeof STEPS[0] | undefined} the next one that is true now */
+  #step() {
+    const step = STEPS[this.step], holds = !step?.[3] || step[3](this.app.world);
+    // A world that plays needs no telling how.
+    return holds ? step : step[0] === 'play' ? STEPS[this.step + 1] : undefined;
+  }
+
   /** @param {string} text how the tool in hand is used */
   showTool(text) {
     this.app.notes.hide();
     this.#show(text);
+    this.shown = 'tool';
     this.timer = setTimeout(() => this.#showStep(), TOOL_SHOWN);
   }
 
   #showStep() {
-    const [id, text, button] = STEPS[this.step] ?? ['', '', ''];
+    const [id, text, button] = this.#step() ?? ['', '', ''];
     this.#show(text);
+    this.shown = id;
     for (const each of document.querySelectorAll('.next')) each.classList.remove('next');
     if (button) document.querySelector(`button[aria-label="${button}"]`)?.classList.add('next');
     if (id === 'ghost') this.timer = setTimeout(() => this.completeStep('ghost'), LAST_SHOWN);

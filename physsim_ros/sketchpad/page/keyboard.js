@@ -9,6 +9,8 @@ import {TOOLS} from './toolbar.js';
 const TURN = Math.PI / 12; // rad a press of R
 const ZOOM = 1.25;
 const STEP = 16, FINE = 2; // px, of the cursor
+const TEXTS = 'input:not([type=range], [type=checkbox], [type=color], [type=file])'; // own all keys
+const MOVES_RANGE = /^(Arrow|Page|Home|End)/;
 const TAP = 300; // ms: a shorter press of the space bar plays or pauses
 /** @type {Record<string, [number, number]>} */
 const ARROWS = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]};
@@ -18,8 +20,14 @@ export class Keyboard {
   constructor(app) {
     this.app = app;
     this.since = 0;
+    /** @type {?EventTarget} of the last press of a pointer */
+    this.pressed = null;
     document.addEventListener('keydown', (event) => this.#down(event));
     document.addEventListener('keyup', (event) => this.#up(event));
+    document.addEventListener('pointerdown', ({target}) => { this.pressed = target; }, true);
+    // Before the click, which may open a dialog that gives the focus back where it was.
+    document.addEventListener('pointerup', () => this.#takeBack(), true);
+    app.view.canvas.addEventListener('blur', () => app.view.canvas.classList.remove('reached'));
     addEventListener('blur', () => { app.pointers.space = false; });
     const callService = (/** @type {string} */ name) => () => app.time.callService(name);
     /** @type {Record<string, () => void>} */
@@ -35,18 +43,32 @@ export class Keyboard {
     for (const [id, , key] of TOOLS.flat()) this.keys[key] = () => app.toolbar.selectTool(id);
   }
 
+  /** The keyboard goes back to the canvas from what a pointer has worked; texts keep it, and dialogs. */
+  #takeBack() {
+    const {pressed, app: {view: {canvas}, gallery: {dialog}}} = this;
+    if (!(pressed instanceof Element) || dialog.open || pressed === canvas) return;
+    if (pressed.closest('button, a, label, input') && !pressed.closest(TEXTS)) canvas.focus({preventScroll: true});
+  }
+
   /** @param {KeyboardEvent} event */
   #down(event) {
     const {app} = this, {key, target} = event;
-    const typing = target instanceof HTMLInputElement && target.type !== 'checkbox';
-    if (typing || app.gallery.dialog.open || app.viewOnly || event.altKey) return;
+    // Only Tab shows the frame of the canvas.
+    app.view.canvas.classList.toggle('reached', key === 'Tab');
+    if (target instanceof Element && target.matches(TEXTS)) {
+      if (key === 'Escape' && !app.gallery.dialog.open) app.view.canvas.focus({preventScroll: true});
+      return;
+    }
+    if (app.gallery.dialog.open || app.viewOnly || event.altKey) return;
+    if (target instanceof HTMLInputElement && target.type === 'range' && MOVES_RANGE.test(key)) return;
     if (event.ctrlKey || event.metaKey) {
       const undo = key === 'z' && !event.shiftKey, redo = key === 'y' || key.toLowerCase() === 'z';
       if (undo || redo) app.time.callService(undo ? 'undo' : 'redo');
       if (undo || redo) event.preventDefault();
       return;
     }
-    const button = target instanceof HTMLButtonElement || target instanceof HTMLInputElement;
+    const button = target instanceof HTMLButtonElement || target instanceof HTMLAnchorElement ||
+      target instanceof HTMLInputElement && target.type !== 'range';
     if (key === ' ' && !button) {
       if (!event.repeat) this.since = event.timeStamp;
       app.pointers.space = true;

@@ -7,8 +7,8 @@ import {createElement, elementOf} from './dom.js';
 
 const SCENE_LATER = 250; // ms: the scene of what was added comes no later than that after the answer
 /** The clock shows the time, and the hand what it holds. */
-const SILENT = /^at [\d.]+ s$|^grabbed |^let go of | holds no body$/;
-const SHOWN = 2500, REFUSED = 5000, READ = 6000; // ms: an answer, a refusal, a note
+const SILENT = /^at [\d.]+ s$|^grabbed |^let go of | holds no body$|^the world as text$/;
+const SHOWN = 2500, REFUSED = 5000, READ = 6000, OFFERED = 10000; // ms: an answer, a refusal, a note, a button
 
 export class Notes {
   /** @param {App} app */
@@ -16,6 +16,8 @@ export class Notes {
     this.app = app;
     this.status = elementOf('status', HTMLElement);
     this.places = elementOf('places', HTMLElement);
+    this.dock = elementOf('dock', HTMLElement); // of notes without a place
+    this.dismissOffer = () => {};
     /** @type {Map<HTMLElement, () => ?Point>} */
     this.pinned = new Map();
     this.timer = 0;
@@ -31,8 +33,9 @@ export class Notes {
 
   /** @param {Answer} answer */
   #tell(answer) {
-    const {request, ok, message} = answer, own = request !== '';
-    if (SILENT.test(message) || !own && performance.now() < this.until) return;
+    const {request, ok, code, message} = answer, own = request !== '';
+    // What a page may do about a name that is taken, it is asked in a dialog.
+    if (SILENT.test(message) || own && code === 'exists' || !own && performance.now() < this.until) return;
     const tell = () => this.showMessage(this.app.words.tell(answer), {ok, quiet: !own});
     this.expected = () => {};
     if (this.app.words.knows(answer.subject)) tell();
@@ -55,6 +58,21 @@ export class Notes {
     this.timer = setTimeout(() => this.hide(), shown);
   }
 
+  /**
+   * Say what was done, and offer a button for a while.
+   * @param {string} message
+   * @param {string} label
+   * @param {() => void} done
+   */
+  offer(message, label, done) {
+    this.hide();
+    this.dismissOffer();
+    this.dismissOffer = this.pin(() => null, [message, createElement('button', {type: 'button', textContent: label, onclick: () => {
+      this.dismissOffer();
+      done();
+    }})], {kind: 'docked', shown: OFFERED});
+  }
+
   /** Hide the last answer. */
   hide() {
     this.status.classList.remove('shown');
@@ -72,9 +90,12 @@ export class Notes {
       note.remove();
       this.pinned.delete(note);
     };
-    this.places.append(note);
-    this.pinned.set(note, at);
-    this.#place();
+    if (kind === 'docked') this.dock.append(note);
+    else {
+      this.places.append(note);
+      this.pinned.set(note, at);
+      this.#place();
+    }
     if (shown) setTimeout(remove, shown);
     return remove;
   }

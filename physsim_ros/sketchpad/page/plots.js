@@ -22,6 +22,7 @@ export class Plots {
     /** @type {Sample[]} in the order of time */
     this.samples = [];
     this.course = 0;
+    this.began = 0; // [s] when this world was opened
     this.canvases = ['Height [m]', 'Speed [m/s]', 'Energy [J]'].map((label) =>
       createElement('canvas', {role: 'img', 'aria-label': label, width: 2 * WIDTH, height: 2 * HEIGHT}));
     this.element = createElement('section', {className: 'plots', 'aria-label': 'Plots'}, ...this.canvases,
@@ -33,6 +34,12 @@ export class Plots {
       this.course = course;
     });
     app.connection.on('body', (body) => this.#addPast(body));
+    // A body of the same name in the world before is another one.
+    app.connection.on('answer', ({ok, topic}) => {
+      if (!ok || topic !== '~/load_world' && topic !== '~/clear') return;
+      this.began = app.world.frame.time;
+      this.samples = [];
+    });
   }
 
   /** @param {string} name of a body; '' for none */
@@ -50,7 +57,7 @@ export class Plots {
     const first = this.samples[0]?.time ?? Infinity;
     const past = time.map((/** @type {number} */ at, /** @type {number} */ i) =>
       ({time: at, x: x[i], y: y[i], vx: vx[i], vy: vy[i], spin: w[i]}));
-    this.samples.unshift(...past.filter((/** @type {Sample} */ each) => each.time < first));
+    this.samples.unshift(...past.filter((/** @type {Sample} */ {time}) => time < first && time >= this.began));
   }
 
   #record() {

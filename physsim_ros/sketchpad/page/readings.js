@@ -51,8 +51,10 @@ export class Readings {
       this.#forget(request);
       const other = runner_up && runner_up_confidence > LIKELY ?
         [this.#guessButton(`or ${meaningWord(runner_up)}`, request, '')] : [];
+      // What runs is not to be covered.
+      const kind = this.app.world.paused ? '' : 'docked';
       this.dismiss = this.app.notes.pin(() => at, [labelOf(meaning, confidence), ...other],
-        other.length ? {} : {shown: GLANCED});
+        other.length ? {kind} : {kind, shown: GLANCED});
       return;
     }
     const choices = guesses.map(([guess, sure]) => this.#guessButton(labelOf(guess, sure), request, guess));

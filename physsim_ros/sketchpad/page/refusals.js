@@ -26,7 +26,7 @@ export class Refusals {
     });
     connection.on('answer', ({request, ok, code, message, subject, values}) => {
       const place = this.places.get(request) ?? {point: null, names: []};
-      if (ok || code === 'not_recognised' || request === '') return;
+      if (ok || code === 'not_recognised' || code === 'exists' || request === '') return;
       const name = values.body ?? subject;
       this.#show(app.words.tell({message}), name ? {...place, names: [name]} : place);
     });

@@ -8,7 +8,6 @@ import {readPalette, watchTheme} from './theme.js';
 
 /** @import {Body, Camera, Frame, Point, WorldState} from './types.js' */
 
-const NEWTONS = 10; // of a contact's arrow of one metre
 const HEAD = 9; // px: of an arrow
 const DASHED = 9; // px: half of the size from which on the outline of a ghost is dashed
 
@@ -28,7 +27,6 @@ export class SceneView {
     /** @type {((view: SceneView) => void)[]} */
     this.overlays = [];
     this.insets = {left: 0, top: 0, right: 0, bottom: 0}; // covered by bars [px]
-    this.velocities = false; // whether they are shown; frames have them for plots too
     this.ratio = 1;
     this.dirty = true;
     this.drawn = -1; // version of the world
@@ -70,7 +68,7 @@ export class SceneView {
     if (world.ghost) this.#drawGhost(world.ghost, world.ghostScene.bodies);
     this.#toPixels();
     if (world.count) new JointView(ctx, world, camera, palette).draw();
-    this.#drawArrows();
+    this.#drawHands();
     for (const overlay of this.overlays) overlay(this);
   }
 
@@ -115,21 +113,8 @@ export class SceneView {
     this.#toPixels();
   }
 
-  #drawArrows() {
-    const {palette, world} = this, {frame, scene} = world, {velocities, contacts, hands} = frame;
-    for (let row = 0; this.velocities && velocities && row < world.count; row++) {
-      if (scene.bodies[row].anchored) continue;
-      const from = world.place(row, scene.bodies[row].centroid);
-      this.arrow(from, [from[0] + velocities.x[row], from[1] + velocities.y[row]], palette.accent);
-    }
-    const [gx, gy] = scene.gravity;
-    for (let i = 0; contacts && i < contacts.x.length; i++) {
-      // Of action and reaction, the one that bears.
-      const bears = contacts.nx[i] * gx + contacts.ny[i] * gy > 0 ? -1 : 1;
-      const length = bears * contacts.impulse[i] * world.rate / NEWTONS;
-      this.arrow([contacts.x[i], contacts.y[i]], [contacts.x[i] + contacts.nx[i] * length,
-        contacts.y[i] + contacts.ny[i] * length], palette.force);
-    }
+  #drawHands() {
+    const {palette, world} = this, {hands} = world.frame;
     for (let i = 0; hands && i < hands.x.length; i++) {
       this.line([[hands.x[i], hands.y[i]], [hands.toX[i], hands.toY[i]]], palette.accent, [2, 4]);
       this.ring([hands.x[i], hands.y[i]], 4, palette.accent);
@@ -189,6 +174,24 @@ export class SceneView {
     ctx.lineTo(qx - dx - dy / 2, qy - dy + dx / 2);
     ctx.lineTo(qx - dx + dy / 2, qy - dy - dx / 2);
     ctx.fill();
+  }
+
+  /**
+   * @param {string} text on a rim of paper
+   * @param {Point} at its begin, or its middle [px]
+   * @param {string} color
+   * @param {CanvasTextAlign} align
+   */
+  write(text, [x, y], color, align = 'left') {
+    const {ctx} = this;
+    ctx.font = '13px system-ui, sans-serif';
+    ctx.textAlign = align;
+    ctx.lineJoin = 'round';
+    ctx.lineWidth = 4;
+    ctx.strokeStyle = this.palette.paper;
+    ctx.strokeText(text, x, y);
+    ctx.fillStyle = color;
+    ctx.fillText(text, x, y);
   }
 
   /**

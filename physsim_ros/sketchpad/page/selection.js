@@ -5,12 +5,15 @@ import {shorten} from './words.js';
 
 /** @import {App, Body, Point, SceneView, Touch} from './types.js' */
 
+const NEAR = 8; // px: a tap that far from a joint means it
+
 export class Selection {
   /** @param {App} app */
   constructor(app) {
     this.app = app;
     /** @type {Set<string>} of bodies */
     this.names = new Set();
+    this.joint = ''; // name of the selected one
     this.hovered = ''; // name of a body
     /** @type {Point | undefined} [px] */
     this.hoveredAt = undefined;
@@ -24,6 +27,8 @@ export class Selection {
   /** @param {string[]} names of bodies */
   select(names) {
     const {app} = this;
+    this.joint = '';
+    app.joints.show('');
     this.names = new Set(names);
     if (names.length === 1) app.panel.showBody(names[0]);
     else if (names.length) app.panel.showMany(names);
@@ -34,12 +39,22 @@ export class Selection {
 
   /** @param {Touch} touch */
   selectAt({at, slop}) {
-    const {world} = this.app, row = world.bodyAt(at, slop);
-    this.select(row < 0 ? [] : [world.scene.bodies[row].name]);
+    const {world, camera} = this.app, row = world.bodyAt(at, slop);
+    const name = world.jointAt(at, slop + NEAR / camera.scale, row >= 0);
+    // What is tapped once more is the body below.
+    const joint = name === this.joint ? '' : name;
+    this.select(row < 0 || joint ? [] : [world.scene.bodies[row].name]);
+    if (!joint) return;
+    this.joint = joint;
+    this.app.joints.show(joint);
   }
 
-  /** Delete the selected bodies. */
+  /** Delete the selected bodies, or the joint. */
   deleteBodies() {
+    if (this.joint) {
+      this.app.joints.delete();
+      return;
+    }
     if (this.names.size) this.app.connection.send('delete', {names: [...this.names]});
     this.select([]);
   }
@@ -56,7 +71,7 @@ export class Selection {
 
   /** @param {SceneView} view */
   #draw(view) {
-    const {ctx, palette} = view, {world, tool} = this.app;
+    const {palette} = view, {world, tool} = this.app;
     for (const name of this.names) {
       const row = world.row(name);
       if (row >= 0) view.outline(row, palette.accent);
@@ -64,13 +79,7 @@ export class Selection {
     const row = this.hovered ? world.row(this.hovered) : -1;
     if (row < 0 || !this.hoveredAt) return;
     if (tool.aims) view.outline(row, palette[tool.aims]);
-    const [x, y] = this.hoveredAt, text = shorten(this.hovered);
-    ctx.font = '13px system-ui, sans-serif';
-    ctx.textAlign = 'left';
-    ctx.lineWidth = 4;
-    ctx.strokeStyle = palette.paper;
-    ctx.strokeText(text, x + 16, y - 10);
-    ctx.fillStyle = palette.ink;
-    ctx.fillText(text, x + 16, y - 10);
+    const [x, y] = this.hoveredAt;
+    view.write(shorten(this.hovered), [x + 16, y - 10], palette.ink);
   }
 }

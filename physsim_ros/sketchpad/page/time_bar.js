@@ -16,6 +16,8 @@ export const EDIT = [['Undo', 'undo', 'Ctrl+Z'], ['Redo', 'redo', 'Ctrl+Y'], ['R
 /** What a name alone does not say. */
 const MORE = new Map([['step', ': one frame on'], ['reset', ': back to the beginning']]);
 const SPEEDS = [1, 0.5, 0.25, 0.1];
+const WATCHED = 1500; // ms over which the pace is measured
+const SLOW = 0.9; // share of the speed asked for below which the pace is told
 
 export class TimeBar {
   /** @param {App} app */
@@ -35,7 +37,9 @@ export class TimeBar {
       }
     }
     this.on = ''; // the button that is pressed
-    this.shown = NaN; // speed
+    this.shown = ''; // speed
+    /** @type {[number, number, number][]} wall time [ms], simulation time [s] and speed of the last frames */
+    this.paces = [];
     this.rate = 1; // of playing, as this page has chosen it
     this.held = false; // by a finger or the mouse
     this.busy = false; // a seek is on its way
@@ -46,6 +50,7 @@ export class TimeBar {
     this.slider.addEventListener('change', () => { this.held = false; });
     this.speed.addEventListener('click', () => this.#changeSpeed());
     app.connection.on('timeline', () => this.#showTimeline());
+    app.connection.on('frame', ({ghost}) => ghost || this.#measurePace());
     app.connection.on('open', () => { this.busy = false; });
     app.view.overlays.push(() => this.#showTime());
   }
@@ -92,10 +97,32 @@ export class TimeBar {
     else this.#showSpeed(this.rate);
   }
 
+  #measurePace() {
+    const {time, speed} = this.app.world.frame, now = performance.now();
+    const last = this.paces.at(-1);
+    if (last && (last[2] !== speed || time < last[1] || now - last[0] > WATCHED)) this.paces = [];
+    this.paces.push([now, time, speed]);
+    while (this.paces.length > 2 && now - this.paces[1][0] > WATCHED) this.paces.shift();
+  }
+
+  /** @returns {number} seconds of simulation a second, where that is known and less than asked for; else 0 */
+  get #slowPace() {
+    const [first] = this.paces, last = this.paces.at(-1);
+    if (!first || !last || !(last[2] > 0) || last[0] - first[0] < WATCHED / 2) return 0;
+    const pace = (last[1] - first[1]) / (last[0] - first[0]) * 1000;
+    return pace < SLOW * last[2] ? pace : 0;
+  }
+
   /** @param {number} speed */
   #showSpeed(speed) {
-    this.speed.textContent = `${Number(speed.toFixed(2))}×`.replace('-', '−');
-    this.speed.setAttribute('aria-label', `Speed ${this.speed.textContent}`);
+    const pace = this.#slowPace, {bodies} = this.app.world.scene;
+    const text = `${Number((pace || speed).toFixed(2))}×`.replace('-', '−');
+    if (text === this.shown) return;
+    this.shown = text;
+    this.speed.textContent = text;
+    this.speed.classList.toggle('slow', pace > 0);
+    this.speed.setAttribute('aria-label', pace ? `Speed ${text}, slower than ${speed}×` : `Speed ${text}`);
+    this.speed.title = pace ? `Slower than ${speed}×: ${bodies.length} bodies are as much as this machine can do` : 'Speed of playing';
   }
 
   #showTime() {
@@ -109,13 +136,12 @@ export class TimeBar {
     const {speed} = frame;
     const on = speed === 0 ? 'pause' : speed > 1 ? 'fast_forward' : speed > 0 ? 'play' :
       speed < -1 ? 'fast_rewind' : 'rewind';
-    if (on === this.on && speed === this.shown) return;
+    this.#showSpeed(speed || this.rate);
+    if (on === this.on) return;
     this.on = on;
-    this.shown = speed;
     for (const [, service] of TIME.slice(0, 5)) {
       this.buttons.get(service)?.setAttribute('aria-pressed', String(service === on));
     }
-    this.#showSpeed(speed || this.rate);
   }
 
   #showTimeline() {

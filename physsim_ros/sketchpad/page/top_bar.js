@@ -17,8 +17,8 @@ export class TopBar {
       iconButton('Worlds', 'worlds', () => app.gallery.showWorlds(), 'Worlds to open'),
       iconButton('Save', 'save', () => app.gallery.showSave(), 'Save, link, picture'));
     elementOf('looks', HTMLElement).append(
-      this.#toggle('velocities', 'Show velocities', 'velocities', 'Velocities as arrows: 1 m is 1 m/s'),
-      this.#toggle('contacts', 'Show forces', 'forces', 'Forces of contact as arrows: 1 m is 10 N'),
+      this.#toggle('velocities', 'Show velocities', 'velocities', 'Velocities as arrows, in m/s'),
+      this.#toggle('forces', 'Show forces', 'forces', 'Forces as arrows, in newtons; on a body that you tap, all'),
       iconButton('Material', 'material', () => app.panel.showMaterial(), 'Material of new bodies; gravity'),
       iconButton('Frame the world', 'fit', () => app.frame(), 'Frame the world (F)'),
       iconButton('Light or dark', 'theme', switchTheme),
@@ -29,7 +29,7 @@ export class TopBar {
   }
 
   /**
-   * @param {'velocities' | 'contacts'} part of frames
+   * @param {'velocities' | 'forces'} part of frames
    * @param {string} name
    * @param {string} id of its icon
    * @param {string} title
@@ -41,6 +41,9 @@ export class TopBar {
       button.setAttribute('aria-pressed', String(shown));
       if (shown) app.notes.showMessage(title);
       app.askForParts();
+      // The frame that is shown has no contacts, as nobody watched: it is made once more.
+      const {paused, frame} = app.world;
+      if (part === 'forces' && shown && paused && !app.viewOnly) app.connection.send('seek', {time: frame.time});
     }, title);
     button.setAttribute('aria-pressed', 'false');
     return button;

@@ -56,6 +56,12 @@ export interface Joint {
   lower?: number;
   upper?: number;
   rate?: number;
+  max_torque?: number;
+  stiffness?: number;
+  damping?: number;
+  length?: number;
+  ratio?: number;
+  break_force?: number;
 }
 
 export interface Scene {
@@ -65,6 +71,9 @@ export interface Scene {
   gravity: Point;
   bounds: number[];
   damping: number;
+  density: number;
+  friction: number;
+  elasticity: number;
 }
 
 /** The state of the world after a step, a column for each quantity; rows as in the scene. */
@@ -77,9 +86,26 @@ export interface Frame {
   y: Float32Array;
   yaw: Float32Array;
   velocities?: {x: Float32Array, y: Float32Array, spin: Float32Array};
-  contacts?: {x: Float32Array, y: Float32Array, nx: Float32Array, ny: Float32Array, impulse: Float32Array};
+  /** Rows a and b of the pairs, -1 is a wall; impulses on b [N s], summed over steps. */
+  contacts?: {steps: number, a: Int32Array, b: Int32Array, x: Float32Array, y: Float32Array,
+    nx: Float32Array, ny: Float32Array, jx: Float32Array, jy: Float32Array};
   forces?: Float32Array;
   hands?: {x: Float32Array, y: Float32Array, toX: Float32Array, toY: Float32Array};
+  /** Of each joint on its body b [N]. */
+  pulls?: {x: Float32Array, y: Float32Array};
+}
+
+/** On the body of a row. */
+export interface Force {
+  kind: 'weight' | 'normal' | 'friction' | 'joint' | 'air' | 'sum';
+  row: number;
+  /** [m] */
+  at: Point;
+  /** [N] */
+  x: number;
+  y: number;
+  /** Whether its reaction acts on a body that moves, too. */
+  mutual: boolean;
 }
 
 /** A course that was left, from .. to [s]. */
@@ -133,6 +159,10 @@ export interface Palette {
   accent: string;
   force: string;
   warn: string;
+  weight: string;
+  friction: string;
+  joint: string;
+  air: string;
 }
 
 /** A pointer on the canvas. */

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The velocity of the selected body as an arrow; dragging the ring at its tip changes it, with any tool. */
 
+import {threeDigits} from './arrows.js';
+
 /** @import {App, Point, SceneView, Touch} from './types.js' */
 
 const GRIP = 14; // px around the tip
@@ -27,6 +29,7 @@ export class VelocityArrow {
 
   /** @param {Touch} touch */
   down({page}) {
+    this.app.arrows.frozen = true;
     this.dragged = page;
   }
 
@@ -38,15 +41,24 @@ export class VelocityArrow {
   /** @param {Touch} touch */
   up({page}) {
     const ends = this.#ends(), {app} = this;
-    this.dragged = null;
-    if (!ends) return;
-    const dx = page[0] - ends.center[0], dy = page[1] - ends.center[1], length = Math.hypot(dx, dy);
-    const share = Math.max(length - GAP, 0) / (length || 1) / app.camera.scale;
-    app.connection.send('change', {name: app.panel.name, properties: {velocity: [dx * share, -dy * share]}});
+    this.cancel();
+    if (ends) app.connection.send('change', {name: app.panel.name, properties: {velocity: this.#velocityAt(ends.center, page)}});
   }
 
   cancel() {
     this.dragged = null;
+    this.app.arrows.frozen = false;
+  }
+
+  /**
+   * @param {Point} center of the body [px]
+   * @param {Point} tip [px]
+   * @returns {Point} [m/s]
+   */
+  #velocityAt(center, tip) {
+    const dx = tip[0] - center[0], dy = tip[1] - center[1], length = Math.hypot(dx, dy);
+    const share = Math.max(length - GAP, 0) / (length || 1) / this.app.arrows.speeds.length(1);
+    return [dx * share, -dy * share];
   }
 
   /** @returns {?{center: Point, tip: Point}} [px]; null where no single body is selected that may move */
@@ -55,7 +67,7 @@ export class VelocityArrow {
     const velocities = world.frame.velocities;
     if (row < 0 || !velocities || world.scene.bodies[row].anchored) return null;
     const center = camera.toPage(...world.place(row, world.scene.bodies[row].centroid));
-    const vx = velocities.x[row] * camera.scale, vy = -velocities.y[row] * camera.scale;
+    const pixels = this.app.arrows.speeds.length(1), vx = velocities.x[row] * pixels, vy = -velocities.y[row] * pixels;
     const length = Math.hypot(vx, vy), [ux, uy] = length > 1 ? [vx / length, vy / length] : [1, 0];
     return {center, tip: [center[0] + vx + GAP * ux, center[1] + vy + GAP * uy]};
   }
@@ -64,8 +76,10 @@ export class VelocityArrow {
   #draw(view) {
     const ends = this.#ends();
     if (!ends) return;
-    const {camera} = this.app, tip = camera.toWorld(...this.dragged ?? ends.tip);
+    const {camera} = this.app, page = this.dragged ?? ends.tip, tip = camera.toWorld(...page);
     view.arrow(camera.toWorld(...ends.center), tip, view.palette.accent);
     view.ring(tip, RING, view.palette.accent);
+    const speed = Math.hypot(...this.#velocityAt(ends.center, page));
+    if (speed) view.write(`${threeDigits(speed)} m/s`, [page[0] + RING + 6, page[1] - RING], view.palette.accent);
   }
 }

@@ -11,7 +11,8 @@ const VERBS = new Map([['spawned', 'added'], ['changed', 'changed'], ['moved', '
   ['anchored', 'anchored'], ['released', 'free again']]);
 /** Whole sentences, and what is said instead. @type {[RegExp, string][]} */
 const SENTENCES = [
-  [/^saved .* to (.+)\.yaml(.*)/, 'Saved as $1$2'], [/^loaded .* from (.+)\.yaml/, 'Opened $1'],
+  [/^saved .* to (.+)\.yaml(.*)/, 'Saved as $1$2'], [/^loaded .* from (.+)\.yaml/, 'Opened $1'], [/^loaded 0 bodies$/, 'An empty world'],
+  [/^deleted the world (.+)/, 'World $1 deleted'], [/^put back the world (.+)/, 'World $1 is back'], [/^renamed .* to (.+)/, 'Renamed to $1'], [/^set gravity$/, 'Gravity set'],
   [/^on course \d+, at .*/, 'Back on the other course'],
   [/^course \d+ begins at .*/, 'From here on it goes otherwise'], [/^speed (.+)/, 'Speed $1×'], [/^.*; next: /, 'Next: '],
   [/^undid (.+?)(, back at .*)?$/, 'Undone: $1'], [/^redid .*/, 'Done again'], [/^(back )?at the beginning, .*/, 'Back at the beginning'],
@@ -50,11 +51,14 @@ export class Words {
   }
 
   /**
-   * @param {{message: string, subject?: string}} answer
+   * @param {{message: string, subject?: string, topic?: string, ok?: boolean}} answer
    * @returns {string} what it says
    */
-  tell({message, subject = ''}) {
+  tell({message, subject = '', topic = '', ok = true}) {
+    if (topic === '~/clear' && ok) return 'All bodies deleted';
     const verb = subject ? message.slice(0, Math.max(message.indexOf(subject), 0)).trimEnd() : '';
+    const joint = /^changed (axle|pin|spring|rod|rope|motor|slider|gear) /.exec(message)?.[1];
+    if (joint) return `${capital(joint)} changed`;
     if (verb.startsWith('joined')) return capital(`${/ by (\w+) /.exec(message)?.[1] ?? 'joint'} added`);
     const done = VERBS.get(verb);
     if (done) return `${this.title(subject)} ${done}`;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The world as the server told it last: scene, frame, timeline. Nothing here is guessed. */
 
-import {boundsOf, containsPoint, nearestWithin, unionOf} from './body_path.js';
+import {boundsOf, containsPoint, distanceTo, nearestWithin, unionOf} from './body_path.js';
 
 /** @import {Body, Connection, Frame, Point, Scene, Timeline} from './types.js' */
 
@@ -9,7 +9,8 @@ export class WorldState {
   /** @param {Connection} connection */
   constructor(connection) {
     /** @type {Scene} */
-    this.scene = {epoch: -1, bodies: [], joints: [], gravity: [0, -9.81], bounds: [], damping: 0};
+    this.scene = {epoch: -1, bodies: [], joints: [], gravity: [0, -9.81], bounds: [], damping: 0,
+      density: 1, friction: 0.5, elasticity: 0.5};
     /** @type {Frame} */
     this.frame = {epoch: -1, time: 0, speed: 0, ghost: false,
       x: new Float32Array(), y: new Float32Array(), yaw: new Float32Array()};
@@ -21,8 +22,12 @@ export class WorldState {
     /** @type {{epoch: number, bodies: Body[]}} */
     this.ghostScene = {epoch: 0, bodies: []};
     this.rate = 60; // frames a second of simulation
+    this.physicsRate = 240; // steps a second of simulation
     this.version = 0; // of all that is drawn
-    connection.on('welcome', (welcome) => { this.rate = welcome.rate; });
+    connection.on('welcome', (welcome) => {
+      this.rate = welcome.rate;
+      this.physicsRate = welcome.physics_rate;
+    });
     connection.on('open', () => {
       // Another server counts anew.
       this.ghostScene = {epoch: 0, bodies: []};
@@ -103,6 +108,22 @@ export class WorldState {
       }
     }
     return -1;
+  }
+
+  /**
+   * @param {Point} point [m]
+   * @param {number} reach how near it counts [m]
+   * @param {boolean} onBody whether a body is there, which comes before lines
+   * @returns {string} the name of the joint there; '' where there is none
+   */
+  jointAt(point, reach, onBody) {
+    const near = this.scene.joints.filter(({kind, a, b, points}) => {
+      const p = this.place(a, points[0]);
+      if (['axle', 'motor', 'pin'].includes(kind)) return Math.hypot(p[0] - point[0], p[1] - point[1]) <= reach;
+      if (onBody || kind === 'gear') return false;
+      return distanceTo([p, this.place(b, points[1])], ...point) <= reach;
+    });
+    return near.at(-1)?.name ?? '';
   }
 
   /**

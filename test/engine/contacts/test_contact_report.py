@@ -10,7 +10,7 @@ import math
 import numpy as np
 from physsim_ros.model.requests import Command, Configure, Delete, Request
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Box, Compound, Disc
+from physsim_ros.model.shapes import Box, Compound, Disc, Polygon
 from physsim_ros.model.snapshot import Contacts
 from physsim_ros.simulation.world import World
 import pytest
@@ -503,3 +503,36 @@ def test_the_normal_of_a_slanted_contact_is_that_of_the_slope() -> None:
     # It sticks: normal force and friction together carry its weight.
     weight = G * FRAME * DT
     assert contacts.impulses[0] == pytest.approx((0.0, weight), abs=0.01 * weight)
+
+
+def test_a_body_that_falls_asleep_in_a_replay_has_the_contact_on_which_it_rests() -> None:
+    world = watched(YARD)
+    slope = Polygon(outline=((0.0, 0.0), (8.0, 0.0), (0.0, 4.6188)))
+    spawn(world, 'slope/0', slope, (-10.0, 0.0, 0.0), anchored=True, friction=1.0)
+    pose = -8.2336, 4.0031, -0.5236
+    spawn(world, 'a/0', Box(width=0.9, height=0.7), pose, friction=1.0)
+
+    # A replay begins at a checkpoint, where they touch, and takes the contacts of its last frame.
+    world.step(FRAME)
+    world.resume(world.renew())
+    world.step(480)
+    world.clear_contacts()
+    contacts = frame(world)
+
+    assert world.snapshot().twists[1].tolist() == [0.0, 0.0, 0.0]
+    (row,) = np.flatnonzero((contacts.pairs == (0, 1)).all(axis=1))
+    assert contacts.normals[row] == pytest.approx((0.5, math.sqrt(0.75)), abs=1e-3)
+
+
+def test_impulses_say_over_how_many_steps_they_are_summed() -> None:
+    world = resting()
+
+    assert [frame(world, steps).steps for steps in (1, 4, 16)] == [1, 4, 16]
+    # 1 kg rests: its weight, at any number of steps.
+    weights = [
+        contacts.impulses[0, 1] / (contacts.steps * DT)
+        for contacts in (frame(world, steps) for steps in (1, 4, 16))
+    ]
+    assert weights == pytest.approx([-G] * 3, rel=1e-6)
+    # Without a step there is nothing to report.
+    assert world.contacts(world.snapshot()).steps == 0

@@ -4,6 +4,8 @@
  * edge, a side and then its distance. The unfinished shape follows the pointer.
  */
 
+import {threeDigits} from '../arrows.js';
+
 /** @import {App, Point, SceneView, Touch} from '../types.js' */
 
 const DRAG = 6; // px: farther than that, letting go is a click too
@@ -111,5 +113,30 @@ export class ClickTool {
     } else if (ARROWS.includes(this.id)) view.arrow(p, q, color);
     else view.line(points, color);
     if (this.id === 'polygon') view.ring(p, CLOSE, color);
+    const [x, y] = this.last.page, size = this.#sizeOf(points);
+    if (size) view.write(size, [x + 14, y - 14], color);
+  }
+
+  /**
+   * @param {Point[]} points [m]
+   * @returns {string} what the gesture measures up to now
+   */
+  #sizeOf(points) {
+    const [p, q, r] = points, [a, b] = points.slice(-2);
+    const side = Math.hypot(q[0] - p[0], q[1] - p[1]), length = Math.hypot(b[0] - a[0], b[1] - a[1]);
+    if (!length) return '';
+    const degrees = Math.round(Math.atan2(b[1] - a[1], b[0] - a[0]) * 180 / Math.PI);
+    switch (this.id) {
+      case 'circle': return `radius ${threeDigits(length)} m`;
+      case 'circle_diameter': return `diameter ${threeDigits(length)} m`;
+      case 'velocity': return `${threeDigits(length)} m/s, ${degrees}°`;
+      case 'gravity': return `${degrees}°`;
+      case 'rectangle': if (r && side) {
+        const across = Math.abs((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])) / side;
+        return `${threeDigits(side)} × ${threeDigits(across)} m`;
+      }
+      // falls through: one side of a rectangle is a line
+      default: return `${threeDigits(length)} m, ${degrees}°`;
+    }
   }
 }

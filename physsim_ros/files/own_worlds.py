@@ -1,0 +1,121 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+The user's own worlds by plain names: whether one is there, renaming, deleting, putting back.
+
+Law: what is deleted or written over is kept, one file of each name, and can be put back.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from physsim_ros.files.resources import is_plain
+from physsim_ros.files.world_file import shipped_worlds
+from physsim_ros.model.errors import BadWorldFile, Exists
+
+# Length of a name [characters].
+LONGEST_NAME = 64
+# Directories below that of the worlds: files that were deleted or written over, and pictures.
+_KEPT, _PICTURES = '.kept', '.pictures'
+
+
+def check_world_name(name: str) -> str:
+    """
+    Return the name of an own world.
+
+    :raises BadWorldFile: it is empty, too long, hidden, or has a directory or a suffix
+    """
+    if not name.strip():
+        raise BadWorldFile('a world needs a name', field='name')
+    if len(name) > LONGEST_NAME:
+        raise BadWorldFile(f'a name has at most {LONGEST_NAME} characters', field='name')
+    if not is_plain(name) or '.' in name or '\\' in name or not name.isprintable():
+        raise BadWorldFile(f'{name!r} cannot be a name: it has no "/" and no "."', field='name')
+    return name
+
+
+class OwnWorlds:
+    """
+    The worlds in the user's directory.
+
+    :param directory: of the worlds
+    """
+
+    def __init__(self, directory: Path) -> None:
+        self._directory = directory
+
+    def check_free(self, name: str, *, replace: bool = False) -> None:
+        """
+        Refuse a name that is taken.
+
+        :param replace: whether an own world may have it
+        :raises Exists: an own world has it, or a shipped one
+        """
+        if (shipped_worlds() / f'{name}.yaml').is_file():
+            raise Exists(f'{name} is the name of a world that ships with physsim', field='name')
+        if not replace and self._path(name).exists():
+            raise Exists(f'there is a world {name} already', field='name')
+
+    def keep(self, name: str) -> None:
+        """Keep a copy of a world that is to be written over."""
+        path = self._path(name)
+        if path.is_file():
+            kept = self._kept(name)
+            kept.unlink(missing_ok=True)
+            # Files are written anew and never changed, so that both names may share one.
+            kept.hardlink_to(path)
+
+    def rename(self, name: str, to: str) -> str:
+        """
+        Give a world another name, and return a message about it.
+
+        :raises Refusal: there is no such world, or the name is taken
+        """
+        check_world_name(to)
+        self.check_free(to)
+        self._existing(name).rename(self._path(to))
+        picture = self.picture(name)
+        if picture.is_file():
+            picture.rename(self.picture(to))
+        return f'renamed {name} to {to}'
+
+    def delete(self, name: str) -> str:
+        """
+        Delete a world, and return a message about it.
+
+        :raises BadWorldFile: there is no such world
+        """
+        self._existing(name).replace(self._kept(name))
+        return f'deleted the world {name}'
+
+    def put_back(self, name: str) -> str:
+        """
+        Put back the file that was deleted or written over last, and return a message about it.
+
+        :raises BadWorldFile: none is kept
+        """
+        kept, path = self._kept(name), self._path(name)
+        if not kept.is_file():
+            raise BadWorldFile(f'nothing of {name} is kept', field='name')
+        kept.replace(path)
+        return f'put back the world {name}'
+
+    def picture(self, name: str) -> Path:
+        """Return the path of a world's picture, which may not be there."""
+        return self._directory / _PICTURES / f'{check_world_name(name)}.png'
+
+    def _existing(self, name: str) -> Path:
+        path = self._path(name)
+        if not path.is_file():
+            raise BadWorldFile(f'there is no world {name} of your own', field='name')
+        return path
+
+    def _path(self, name: str) -> Path:
+        return self._directory / f'{check_world_name(name)}.yaml'
+
+    def _kept(self, name: str) -> Path:
+        directory = self._directory / _KEPT
+        directory.mkdir(parents=True, exist_ok=True)
+        return directory / self._path(name).name

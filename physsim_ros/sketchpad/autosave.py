@@ -1,0 +1,101 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+Autosave: the world that pages draw in, kept beside the saved worlds, offered at the next start.
+
+Law: it takes at most a hundredth of the world's time and one file; a world that is too large for
+it, or a disk that is full, stops nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
+import time
+
+from physsim_ros.files import write_file
+from physsim_ros.model.errors import WorldFull
+from physsim_ros.model.scene import Scene
+from physsim_ros.model.snapshot import Frame
+
+# Least time from one autosave to the next [s], and that time by the time that it took.
+PERIOD, SHARE = 10.0, 100.0
+# Length of the text of a world that is kept [characters].
+LONGEST = 2**20
+_NOW, _BEFORE = '.autosave.yaml', '.unsaved.yaml'
+
+
+class Autosave:
+    """
+    The file of unsaved changes.
+
+    :param directory: of the user's worlds
+    :param text: returns the world as text; raises WorldFull beyond a length [characters]
+    """
+
+    def __init__(self, directory: Path, text: Callable[[int], str]) -> None:
+        self._file, self._unsaved = directory / _NOW, directory / _BEFORE
+        self._text = text
+        self._scene: Scene | None = None
+        self._changed = False
+        self._due = 0.0
+        with suppress(OSError):
+            self._file.replace(self._unsaved)
+
+    @property
+    def unsaved_at(self) -> float:
+        """Return when the unsaved world of the last start was kept [s since 1970]; 0 is none."""
+        try:
+            return self._unsaved.stat().st_mtime
+        except OSError:
+            return 0.0
+
+    def unsaved_text(self) -> str:
+        """
+        Return the unsaved world of the last start.
+
+        :raises OSError: there is none
+        """
+        return self._unsaved.read_text()
+
+    def forget_unsaved(self) -> str:
+        """Delete the unsaved world of the last start, and return a message about it."""
+        self._unsaved.unlink(missing_ok=True)
+        return 'the unsaved world is forgotten'
+
+    def note_frame(self, frame: Frame, *, drawn: bool) -> None:
+        """
+        Note what is shown.
+
+        :param drawn: whether pages are open that may have changed it
+        """
+        scene = frame.snapshot.scene
+        changed, self._scene = self._scene is not scene, scene
+        self._changed |= changed and drawn and not frame.past and frame.speed >= 0.0
+
+    def note_saved(self) -> None:
+        """Note that somebody has saved the world: nothing is unsaved."""
+        self._changed = False
+        with suppress(OSError):
+            self._file.unlink(missing_ok=True)
+
+    def is_due(self, now: float) -> bool:
+        """
+        Return whether it is to be saved.
+
+        :param now: steady time [s]
+        """
+        return self._changed and now >= self._due
+
+    def save(self) -> None:
+        """Save the world."""
+        began = time.thread_time()
+        self._changed = False
+        with suppress(OSError, WorldFull):
+            text = self._text(LONGEST)
+            self._file.parent.mkdir(parents=True, exist_ok=True)
+            write_file(self._file, text.encode())
+        took = time.thread_time() - began
+        self._due = time.monotonic() + max(PERIOD, SHARE * took)

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: Apache-2.0
+/**
+ * Arrows of forces and velocities, with their numbers and a scale that fits the view and is told in it.
+ *
+ * Of selected bodies all forces are shown; where none is selected, those of all bodies, and of a force between
+ * two that move the one that bears.
+ */
+
+import {bearing, forcesOf, sumsOf} from './forces.js';
+
+/** @import {App, Force, Palette, Point, SceneView} from './types.js' */
+
+/** @typedef {{text: string, color: string, x: number, y: number, ux: number, uy: number}} Label at the tip of an arrow */
+
+const BAR = 60; // px: of the bar that a scale is told by
+const ROOM = 0.3; // share of the view that the longest arrow may take
+const SHORT = 0.12; // share of that room below which the scale becomes finer
+const SETTLED = 400; // ms for which an arrow is too long or too short before the scale follows
+const CUT = 1.3; // times the room: longer arrows, of impacts, are cut
+const HEAD = 9, BETWEEN = 6, LEGEND = 17; // px: head, from a tip to its number, from line to line
+const LOW = 500; // px: on a lower page the legend is one line
+const LEAST = 4; // px: of an arrow
+const LEAST_SPEED = 5; // m/s: that there is always room for
+const FONT = '13px system-ui, sans-serif';
+/** Kinds of forces, and what they are called. @type {Record<Force['kind'], string>} */
+const NAMES = {weight: 'weight', normal: 'normal force', friction: 'friction', joint: 'joint', air: 'air', sum: 'sum'};
+
+/** How many units are a bar's length: 1, 2 or 5 times a power of ten. */
+export class ArrowScale {
+  constructor() {
+    this.unit = 0;
+    this.since = 0; // [ms] since when it does not fit
+  }
+
+  /**
+   * @param {number} most that is shown [unit]
+   * @param {number} room for it [px]
+   * @param {boolean} atOnce whether nothing moves
+   */
+  fit(most, room, atOnce) {
+    const length = this.length(most), now = performance.now();
+    if (length <= room && length >= SHORT * room || !(most > 0) && this.unit) {
+      this.since = 0;
+      return;
+    }
+    this.since ||= now;
+    if (this.unit && !atOnce && now - this.since < SETTLED) return;
+    this.since = 0;
+    this.unit = roundUp((most || 1) * BAR / room);
+  }
+
+  /** @param {number} value */
+  length(value) {
+    return value * BAR / this.unit;
+  }
+}
+
+export class Arrows {
+  /** @param {App} app */
+  constructor(app) {
+    this.app = app;
+    this.velocities = this.forces = false; // whether they are shown
+    this.newtons = new ArrowScale();
+    this.speeds = new ArrowScale();
+    this.frozen = false; // the scale of velocities, while one is dragged
+    /** @type {{name: string, kind: string, force: Point, size: string, from: Point, to: Point}[]} */
+    this.drawn = []; // forces, as they are drawn
+    app.view.overlays.push((view) => this.#draw(view));
+  }
+
+  /** @param {SceneView} view */
+  #draw(view) {
+    const {world, camera} = this.app;
+    const room = ROOM * Math.max(Math.min(camera.width - view.insets.left - view.insets.right,
+      camera.height - view.insets.top - view.insets.bottom), 2 * BAR);
+    /** @type {Label[]} */
+    const labels = [];
+    /** @type {[string, string, string][]} */
+    const legend = [];
+    this.drawn = [];
+    this.#fitSpeeds(room);
+    if (this.velocities && world.frame.velocities) {
+      this.#drawVelocities(view, labels, CUT * room);
+      legend.push([`${this.speeds.unit} m/s`, view.palette.accent, 'velocity']);
+    }
+    if (this.forces && world.count) {
+      const kinds = this.#drawForces(view, labels, room);
+      legend.push([`${this.newtons.unit} N`, view.palette.ink, 'forces'],
+        ...kinds.map((kind) => /** @type {[string, string, string]} */ (['', colorOf(kind, view.palette), NAMES[kind]])));
+    }
+    drawLabels(view, labels);
+    if (legend.length) drawLegend(view, legend);
+  }
+
+  /** @param {number} room [px] */
+  #fitSpeeds(room) {
+    const {world, selection} = this.app, {velocities} = world.frame;
+    if (!velocities || this.frozen) return;
+    let most = LEAST_SPEED;
+    world.scene.bodies.forEach(({name, anchored}, row) => {
+      if (row < world.count && !anchored && (this.velocities || selection.names.has(name))) {
+        most = Math.max(most, Math.hypot(velocities.x[row], velocities.y[row]) || 0);
+      }
+    });
+    this.speeds.fit(most, room, world.paused);
+  }
+
+  /**
+   * @param {SceneView} view
+   * @param {Label[]} labels
+   * @param {number} most [px]
+   */
+  #drawVelocities(view, labels, most) {
+    const {world, camera, panel} = this.app, {velocities} = world.frame;
+    for (let row = 0; velocities && row < world.count; row++) {
+      const body = world.scene.bodies[row], x = velocities.x[row], y = velocities.y[row];
+      // The arrow of the selected body has a ring, and stands beside its centre.
+      if (body.anchored || body.name === panel.name) continue;
+      const from = camera.toPage(...world.place(row, body.centroid));
+      drawArrow(view, from, x, y, this.speeds, most, view.palette.accent, `${threeDigits(Math.hypot(x, y))} m/s`, labels);
+    }
+  }
+
+  /**
+   * @param {SceneView} view
+   * @param {Label[]} labels
+   * @param {number} room [px]
+   * @returns {Force['kind'][]} that are shown
+   */
+  #drawForces(view, labels, room) {
+    const {world, camera, selection} = this.app, all = forcesOf(world);
+    const chosen = (/** @type {Force} */ {row}) => selection.names.has(world.scene.bodies[row].name);
+    const some = all.filter(chosen), sums = sumsOf(world, all);
+    const forces = some.length ? [...some, ...sums.filter(chosen)] : [...bearing(all, world.scene.gravity), ...sums];
+    this.newtons.fit(Math.max(...forces.map(({x, y}) => Math.hypot(x, y)), 0), room, world.paused);
+    for (const {kind, row, at, x, y} of forces) {
+      const size = `${threeDigits(Math.hypot(x, y))} N`, from = camera.toPage(...at);
+      const text = some.length ? `${NAMES[kind]} ${size}` : size;
+      const to = drawArrow(view, from, x, y, this.newtons, CUT * room, colorOf(kind, view.palette), text, labels, kind === 'sum' ? 4 : 2.5);
+      if (!to && kind === 'sum' && some.length) labels.push({text: 'sum 0 N', color: view.palette.ink, x: from[0], y: from[1] - BAR / 2, ux: 0, uy: -1});
+      this.drawn.push({name: world.scene.bodies[row].name, kind, force: [x, y], size, from, to: to ?? from});
+    }
+    return /** @type {Force['kind'][]} */ (Object.keys(NAMES)).filter((kind) => forces.some((force) => force.kind === kind));
+  }
+}
+
+/**
+ * @param {Force['kind']} kind
+ * @param {Palette} palette
+ */
+function colorOf(kind, palette) {
+  return kind === 'sum' ? palette.ink : kind === 'normal' ? palette.force : palette[kind];
+}
+
+/**
+ * @param {number} value
+ * @returns {number} the least number of 1, 2 or 5 times a power of ten that is not below
+ */
+function roundUp(value) {
+  const power = 10 ** Math.floor(Math.log10(value)), share = value / power * (1 - 1e-9);
+  return Number(((share > 5 ? 10 : share > 2 ? 5 : share > 1 ? 2 : 1) * power).toPrecision(1));
+}
+
+/** @param {number} value */
+export function threeDigits(value) {
+  return value < 1e4 ? String(Number(value.toPrecision(3))) : value.toExponential(2);
+}
+
+/**
+ * @param {SceneView} view
+ * @param {Point} from [px]
+ * @param {number} x in units, y up
+ * @param {number} y
+ * @param {ArrowScale} scale
+ * @param {number} most length [px]
+ * @param {string} color
+ * @param {string} text its number
+ * @param {Label[]} labels that the number is added to
+ * @param {number} width [px]
+ * @returns {?Point} its tip [px]; null where it is too short to be seen
+ */
+function drawArrow({ctx, palette}, from, x, y, scale, most, color, text, labels, width = 2.5) {
+  const size = Math.hypot(x, y), whole = scale.length(size);
+  if (!(whole >= LEAST)) return null;
+  const length = Math.min(whole, most), ux = x / size, uy = -y / size;
+  const [px, py] = from, tip = /** @type {Point} */ ([px + ux * length, py + uy * length]);
+  const head = Math.min(HEAD + width, length);
+  const at = (/** @type {number} */ along, /** @type {number} */ across) =>
+    /** @type {Point} */ ([px + ux * along - uy * across, py + uy * along + ux * across]);
+  ctx.lineCap = 'butt';
+  // On a rim of paper, it is seen on bodies of any colour.
+  for (const [stroke, broad] of /** @type {[string, number][]} */ ([[palette.paper, width + 3], [color, width]])) {
+    ctx.strokeStyle = ctx.fillStyle = stroke;
+    ctx.lineWidth = broad;
+    ctx.beginPath();
+    ctx.moveTo(px, py);
+    ctx.lineTo(...at(length - head / 2, 0));
+    ctx.stroke();
+    const rim = (broad - width) / 2;
+    ctx.beginPath();
+    for (const point of [at(length + rim, 0), at(length - head - rim, head * 0.45 + rim), at(length - head - rim, -head * 0.45 - rim)]) ctx.lineTo(...point);
+    ctx.fill();
+  }
+  if (whole > most) {
+    // Cut, as in drawings of long parts.
+    ctx.strokeStyle = palette.paper;
+    ctx.lineWidth = 3;
+    for (const along of [0.45, 0.52]) {
+      ctx.beginPath();
+      ctx.moveTo(...at(along * length - 3, -6));
+      ctx.lineTo(...at(along * length + 3, 6));
+      ctx.stroke();
+    }
+  }
+  labels.push({text, color, x: tip[0], y: tip[1], ux, uy});
+  return tip;
+}
+
+/**
+ * Numbers beyond the tips, where none covers one before.
+ * @param {SceneView} view
+ * @param {Label[]} labels
+ */
+function drawLabels(view, labels) {
+  /** @type {number[][]} left, top, right, bottom */
+  const taken = [];
+  view.ctx.font = FONT;
+  for (const {text, color, x, y, ux, uy} of labels) {
+    const half = view.ctx.measureText(text).width / 2, {left: least} = view.insets;
+    const cx = Math.min(Math.max(x + ux * (BETWEEN + half), least + half + 4), view.camera.width - half - 4);
+    const cy = y + uy * (BETWEEN + 8);
+    const box = [cx - half, cy - 8, cx + half, cy + 8];
+    if (taken.some(([left, top, right, bottom]) => box[0] < right && left < box[2] && box[1] < bottom && top < box[3])) continue;
+    taken.push(box);
+    view.write(text, [cx, cy + 4], color, 'center');
+  }
+}
+
+/**
+ * The scales, as bars of their lengths, and the colours.
+ * @param {SceneView} view
+ * @param {[string, string, string][]} lines length of a bar, '' for a line of colour alone; colour; word
+ */
+function drawLegend(view, lines) {
+  const {ctx, palette, insets, camera} = view, low = camera.height < LOW;
+  let left = insets.left + 56, y = insets.top + (low ? 28 : 40);
+  for (const [length, color, word] of lines) {
+    const width = length ? BAR : 18, text = length ? `${length}  ${word}` : word;
+    for (const [stroke, broad] of /** @type {[string, number][]} */ ([[palette.paper, 5.5], [color, 2.5]])) {
+      ctx.strokeStyle = stroke;
+      ctx.lineWidth = broad;
+      ctx.beginPath();
+      ctx.moveTo(left, y);
+      ctx.lineTo(left + width, y);
+      if (length) for (const x of [left, left + BAR]) {
+        ctx.moveTo(x, y - 4);
+        ctx.lineTo(x, y + 4);
+      }
+      ctx.stroke();
+    }
+    view.write(text, [left + width + 8, y + 4], color);
+    if (low) left += width + ctx.measureText(text).width + 24;
+    else y += LEGEND;
+  }
+}

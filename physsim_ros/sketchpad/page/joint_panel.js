@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The panel of a joint that was tapped: its constants, its force now, and deletion. */
+
+import {threeDigits} from './arrows.js';
+import {range} from './body_panel.js';
+import {createElement, textButton} from './dom.js';
+import {capital, isDrawn} from './words.js';
+
+/** @import {App, Joint, SceneView} from './types.js' */
+
+/**
+ * Property, label, greatest and step of its slider, and its value where none was set.
+ * @type {Record<string, [keyof Joint, string, number, number, number][]>}
+ */
+const CONSTANTS = {
+  spring: [['stiffness', 'Spring constant [N/m]', 500, 1, 100], ['rest_length', 'Rest length [m]', 5, 0.01, 0],
+    ['damping', 'Damping [N s/m]', 20, 0.1, 0]],
+  rope: [['length', 'Length [m]', 10, 0.01, 0]],
+  motor: [['rate', 'Rate [rad/s]', 20, 0.1, 1], ['max_torque', 'Greatest torque [N m]', 1000, 1, 1000]],
+  gear: [['ratio', 'Ratio', 5, 0.1, 1]],
+};
+const LIMITS = ['axle', 'motor', 'slider'];
+
+export class JointPanel {
+  /** @param {App} app */
+  constructor(app) {
+    this.app = app;
+    this.name = '';
+    this.shown = ''; // the joint, as it is shown
+    this.force = createElement('p');
+    app.connection.on('scene', () => this.#follow());
+    app.view.overlays.push((view) => this.#draw(view));
+  }
+
+  /** @returns {number} of the joint in the scene; -1 where it is gone */
+  get #number() {
+    return this.app.world.scene.joints.findIndex(({name}) => name === this.name);
+  }
+
+  /** @param {string} name of a joint; '' for none */
+  show(name) {
+    this.name = name;
+    const joint = this.app.world.scene.joints[this.#number];
+    if (!joint) return;
+    this.shown = JSON.stringify(joint);
+    const change = (/** @type {Record<string, number>} */ properties) =>
+      this.app.connection.send('change_joint', {name, properties});
+    const unit = joint.kind === 'slider' ? 'm' : 'rad';
+    /** @type {[keyof Joint, string][]} */
+    const typed = [...LIMITS.includes(joint.kind) ? /** @type {[keyof Joint, string][]} */ (
+      [['lower', `Least [${unit}]`], ['upper', `Greatest [${unit}]`]]) : [], ['break_force', 'Breaks at [N]']];
+    this.app.panel.show(capital(joint.kind), [
+      ...(CONSTANTS[joint.kind] ?? []).map(([key, label, most, step, otherwise]) => {
+        const value = Number(key === 'length' ? joint.length ?? joint.rest_length : joint[key] ?? otherwise);
+        return range(label, key === 'rate' || key === 'ratio' ? -most : 0, most, step, value, (now) => change({[key]: now}));
+      }),
+      ...typed.map(([key, label]) => {
+        const input = createElement('input', {type: 'number', step: 'any', placeholder: 'none', value: joint[key] ?? '',
+          onchange: () => input.value !== '' && change({[key]: Number(input.value)})});
+        return createElement('label', {}, label, input);
+      }),
+      this.force,
+      createElement('div', {className: 'row'}, textButton('Delete joint', () => this.delete(), 'danger')),
+    ], isDrawn(name) ? '' : name);
+  }
+
+  delete() {
+    this.app.connection.send('unjoin', {name: this.name});
+    this.app.selection.select([]);
+  }
+
+  /** Follow a scene in which the joint was changed or deleted, by whomever. */
+  #follow() {
+    if (!this.name) return;
+    const joint = this.app.world.scene.joints[this.#number];
+    if (!joint) this.app.selection.select([]);
+    else if (JSON.stringify(joint) !== this.shown && !this.app.panel.element.contains(document.activeElement)) this.show(this.name);
+  }
+
+  /** @param {SceneView} view */
+  #draw(view) {
+    const {world} = this.app, number = this.#number, joint = world.scene.joints[number];
+    if (!this.name || !joint) return;
+    const force = `Force now: ${threeDigits(world.frame.forces?.[number] ?? 0)} N`;
+    if (this.force.textContent !== force) this.force.textContent = force;
+    view.ring(world.place(joint.a, joint.points[0]), 9, view.palette.accent);
+    if (joint.points[1] && joint.kind !== 'slider') view.ring(world.place(joint.b, joint.points[1]), 9, view.palette.accent);
+  }
+}

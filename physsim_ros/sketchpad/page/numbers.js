@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The numbers of the selected body now: mass, place, angle, velocity, and its energies as bars. */
+
+import {threeDigits} from './arrows.js';
+import {createElement} from './dom.js';
+
+/** @import {App, Body} from './types.js' */
+
+/** Words of the energies. */
+const ENERGIES = ['of motion', 'of height'];
+
+export class Numbers {
+  /** @param {App} app */
+  constructor(app) {
+    this.app = app;
+    this.most = 0; // greatest energy that was shown of this body [J]
+    this.name = '';
+    this.line = createElement('p');
+    this.bars = ENERGIES.map((word) => createElement('meter', {min: 0, 'aria-label': `Energy ${word}`}));
+    this.values = ENERGIES.map(() => createElement('span'));
+    this.element = createElement('section', {className: 'numbers', 'aria-label': 'Numbers'}, this.line,
+      ...ENERGIES.flatMap((word, i) => [createElement('span', {textContent: `Energy ${word}`}), this.bars[i], this.values[i]]));
+    app.view.overlays.push(() => this.#update());
+  }
+
+  #update() {
+    const {world, panel} = this.app, row = panel.name ? world.row(panel.name) : -1;
+    if (row < 0) return;
+    const body = world.scene.bodies[row], {frame} = world, [x, y] = world.place(row, body.centroid);
+    const degrees = Math.round(frame.yaw[row] * 180 / Math.PI * 10) / 10;
+    const speeds = frame.velocities && !body.anchored ?
+      [`${number(Math.hypot(frame.velocities.x[row], frame.velocities.y[row]))} m/s`, `${number(frame.velocities.spin[row])} rad/s`] : [];
+    const text = [`${threeDigits(body.mass)} kg`, `at ${number(x)}, ${number(y)} m`, `${degrees}°`, ...speeds].join(' · ');
+    if (this.line.textContent !== text) this.line.textContent = text;
+    this.#showEnergies(body, row);
+  }
+
+  /**
+   * @param {Body} body
+   * @param {number} row
+   */
+  #showEnergies({name, mass, moment, centroid, anchored}, row) {
+    const {world: {frame: {velocities}, scene: {gravity: [gx, gy]}}, world} = this.app;
+    if (name !== this.name) this.most = 0;
+    this.name = name;
+    this.element.classList.toggle('fixed', anchored || !velocities);
+    if (!velocities || anchored) return;
+    const [x, y] = world.place(row, centroid), speed = Math.hypot(velocities.x[row], velocities.y[row]);
+    const energies = [mass * speed ** 2 / 2 + moment * velocities.spin[row] ** 2 / 2, -mass * (gx * x + gy * y)];
+    this.most = Math.max(this.most, ...energies);
+    energies.forEach((energy, i) => {
+      this.bars[i].max = this.most || 1;
+      this.bars[i].value = Math.max(energy, 0);
+      this.values[i].textContent = `${number(energy)} J`;
+    });
+  }
+}
+
+/** @param {number} value */
+function number(value) {
+  return Math.abs(value) < 0.005 ? '0' : value.toFixed(Math.abs(value) < 100 ? 2 : 0);
+}

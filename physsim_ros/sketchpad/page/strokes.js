@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The card of strokes: what the pen understands, each as a small picture that draws itself. */
+
+import {createElement, elementOf, iconButton} from './dom.js';
+
+/** @import {App} from './types.js' */
+
+/**
+ * What it is called, the stroke that is drawn, and what is there before it. In a box of 60 by 40.
+ * @type {[string, string, string?][]}
+ */
+const STROKES = [
+  ['circle', 'M44 20a14 14 0 1 1-1-5'],
+  ['box, polygon', 'M15 9h30v22H15V10'],
+  ['line: wall', 'M8 26 52 22'],
+  ['x: anchor', 'M24 14 36 26 30 20 36 14 24 26', 'M14 9h32v22H14z'],
+  ['small circle: axle', 'M34 20a4 4 0 1 1 0-1', 'M8 14h32v12H8zM22 8h30v24H22z'],
+  ['round arrow: motor', 'M40 20a10 10 0 1 1-4-8M30 8l7 4-6 6', 'M32 20a2 2 0 1 1 0-1M14 4h32v32H14z'],
+  ['small square: weld', 'M27 16h8v8h-8z', 'M8 14h30v12H8zM22 8h30v24H22z'],
+  ['zigzag: spring', 'M9 20h5l4-7 5 14 5-14 5 14 5-14 5 14 3-7h5', 'M4 12h10v16H4zM46 12h10v16H46z'],
+  ['straight: rod', 'M9 20h42', 'M4 12h10v16H4zM46 12h10v16H46z'],
+  ['slack curve: rope', 'M9 12Q30 50 51 12', 'M4 6h10v12H4zM46 6h10v12H46z'],
+  ['arrow: gravity', 'M30 5V34l-7-8 7 8 7-8'],
+  ['arrow from a body: velocity', 'M16 20h36l-8-7 8 7-8 7', 'M6 10h20v20H6z'],
+  ['hatching: heavier', 'M22 26 34 14M26 28 38 16', 'M14 9h32v22H14z'],
+  ['scribble: delete', 'M10 30 20 8 24 32 32 8 37 32 44 8 50 30', 'M16 11h28v18H16z'],
+];
+const SEEN = 'physsim-strokes';
+
+/** The card beside a canvas on which nothing can move yet, until something can or it is closed. */
+export class EmptyCard {
+  /** @param {App} app */
+  constructor(app) {
+    this.app = app;
+    this.closed = false;
+    this.element = elementOf('card', HTMLElement);
+    app.connection.on('scene', () => this.update());
+  }
+
+  update() {
+    const {app, element} = this, {epoch, bodies} = app.world.scene;
+    const empty = epoch >= 0 && bodies.every(({anchored}) => anchored);
+    if (!empty) this.closed = false;
+    const hidden = !empty || this.closed || app.viewOnly || !app.panel.element.hidden;
+    if (hidden === element.hidden) return;
+    element.hidden = hidden;
+    if (hidden) return;
+    element.replaceChildren(createElement('header', {}, createElement('h2', {textContent: 'Draw with the pen'}),
+      iconButton('Close', 'close', () => {
+        this.closed = true;
+        this.update();
+      })), strokeCard());
+    noteSeen();
+  }
+}
+
+/** @returns {HTMLElement} */
+export function strokeCard() {
+  const fresh = !localStorage.getItem(SEEN);
+  return createElement('ul', {className: 'strokes'}, ...STROKES.map(([name, stroke, before]) => {
+    const item = createElement('li', {}, picture(stroke, before), name);
+    // Animated at its first use, and when it is pointed at.
+    item.classList.toggle('fresh', fresh);
+    return item;
+  }));
+}
+
+/** The card has been seen: from now on it draws what is pointed at. */
+export function noteSeen() {
+  localStorage.setItem(SEEN, '1');
+}
+
+/**
+ * @param {string} stroke
+ * @param {string} before
+ */
+function picture(stroke, before = '') {
+  const make = (/** @type {string} */ tag, /** @type {Record<string, string>} */ attributes) => {
+    const element = document.createElementNS('http://www.w3.org/2000/svg', tag);
+    for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
+    return element;
+  };
+  const svg = make('svg', {viewBox: '0 0 60 40', 'aria-hidden': 'true'});
+  if (before) svg.append(make('path', {d: before, class: 'before'}));
+  svg.append(make('path', {d: stroke, class: 'stroke', pathLength: '1'}));
+  return svg;
+}

@@ -1,0 +1,76 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""Autosave: one file, within a budget, offered at the next start."""
+
+from __future__ import annotations
+
+from pathlib import Path
+import time
+
+from physsim_ros.model.errors import WorldFull
+from physsim_ros.simulation.simulation import Simulation
+from physsim_ros.sketchpad.autosave import Autosave, PERIOD, SHARE
+import pytest
+
+from ..building import BOX, spawning
+
+
+def drawn(simulation: Simulation, autosave: Autosave, name: str) -> None:
+    """Add a body by a page, and note the frame that shows it."""
+    simulation.perform(spawning(name, BOX))
+    autosave.note_frame(simulation.advance_frame(), drawn=True)
+
+
+def test_what_was_drawn_is_kept_and_what_was_saved_is_not(tmp_path: Path) -> None:
+    simulation = Simulation()
+    autosave = Autosave(tmp_path, lambda _: ' '.join(simulation.world.snapshot().scene.names))
+    autosave.note_frame(simulation.advance_frame(), drawn=False)
+    assert not autosave.is_due(time.monotonic())
+    drawn(simulation, autosave, 'a/0')
+    assert autosave.is_due(time.monotonic())
+    autosave.save()
+    assert (tmp_path / '.autosave.yaml').read_text() == 'a/0'
+    # Within the period nothing is saved, and without a change nothing later.
+    assert not autosave.is_due(time.monotonic() + 2 * PERIOD)
+    drawn(simulation, autosave, 'a/1')
+    assert not autosave.is_due(time.monotonic())
+    assert autosave.is_due(time.monotonic() + 2 * PERIOD)
+
+    again = Autosave(tmp_path, lambda _: '')
+    assert abs(again.unsaved_at - time.time()) < 3600.0
+    assert again.unsaved_text() == 'a/0'
+    again.forget_unsaved()
+    assert again.unsaved_at == 0.0
+    autosave.save()
+    autosave.note_saved()
+    assert not list(tmp_path.iterdir())
+
+
+def test_it_takes_a_hundredth_of_the_time(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    times = iter((0.0, 2.0))
+    monkeypatch.setattr(time, 'thread_time', lambda: next(times))
+    simulation = Simulation()
+    autosave = Autosave(tmp_path, lambda _: '')
+    drawn(simulation, autosave, 'a/0')
+    autosave.save()
+    drawn(simulation, autosave, 'a/1')
+    now = time.monotonic()
+    assert not autosave.is_due(now + 0.9 * SHARE * 2.0)
+    assert autosave.is_due(now + 1.1 * SHARE * 2.0)
+
+
+def test_a_world_that_is_too_large_and_a_full_disk_stop_nothing(tmp_path: Path) -> None:
+    simulation = Simulation()
+
+    def refuse(_: int) -> str:
+        raise WorldFull('too large', field='world')
+
+    Autosave(tmp_path, refuse).save()
+    assert not list(tmp_path.iterdir())
+    nowhere = tmp_path / 'file'
+    nowhere.write_text('')
+    autosave = Autosave(nowhere, lambda _: 'text')
+    drawn(simulation, autosave, 'a/0')
+    autosave.save()
+    assert autosave.unsaved_at == 0.0

@@ -1,0 +1,106 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""Joints that are tapped on the page: their constants, their force, their end."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from playwright.sync_api import Locator
+import pytest
+
+from .chromium import Sheet, started_world
+from ..outside import Outside
+
+G = 9.81
+WORLD = """
+format: 1
+bounds: [-8, 0, 8, 9]
+gravity: [0, -9.81]
+bodies:
+  - {name: ball/0, circle: {radius: 0.3}, at: [-5, 5], mass: 1}
+  - {name: beam/0, box: {width: 4, height: 0.4}, at: [4, 5], mass: 1}
+joints:
+  - name: spring/0
+    kind: spring
+    a: ball/0
+    points: [[-5, 5], [-5, 8]]
+    stiffness: 100
+    damping: 4
+  - {name: axle/0, kind: axle, a: beam/0, points: [[2.2, 5]]}
+"""
+
+
+@pytest.fixture(scope='module')
+def address(outside: Outside) -> str:
+    """Give the module the address of a world with a spring and an axle."""
+    return started_world(outside, world=WORLD)[1]
+
+
+@pytest.fixture
+def sheet(chromium: Any, address: str) -> Iterator[Sheet]:
+    """Give a test a page with the hand, and the world from its beginning, paused."""
+    sheet = Sheet(chromium, address)
+    sheet.wait('Object.keys(physsim.bodies).length === 2')
+    sheet.press('Pause')
+    sheet.press('Reset')
+    sheet.wait('physsim.time === 0 && physsim.speed === 0')
+    sheet.press('Hand')
+    yield sheet
+    sheet.close()
+
+
+def tapped(sheet: Sheet, x: float, y: float, kind: str) -> Locator:
+    """Tap a joint, and return its panel."""
+    sheet.page.mouse.click(*sheet.place(x, y))
+    panel = sheet.page.get_by_role('complementary', name='Body')
+    panel.get_by_role('heading', name=kind).wait_for()
+    return panel
+
+
+def set_number(sheet: Sheet, panel: Locator, label: str, value: str) -> None:
+    """Type a number into the panel, and wait until it is done."""
+    field = panel.get_by_label(label)
+    field.fill(value)
+    field.press('Enter')
+    sheet.page.get_by_role('status').get_by_text('changed').wait_for()
+
+
+def test_a_spring_has_the_constant_that_is_typed(sheet: Sheet) -> None:
+    panel = tapped(sheet, -5.0, 6.5, 'Spring')
+    assert panel.get_by_label('Spring constant [N/m], typed').input_value() == '100'
+    assert panel.get_by_label('Rest length [m], typed').input_value() == '3'
+    set_number(sheet, panel, 'Spring constant [N/m], typed', '20')
+    # Without another tap.
+    assert panel.get_by_label('Rest length [m], typed').input_value() == '3'
+    sheet.press('Play')
+    sheet.wait('physsim.time > 5')
+    # 1 kg rests where k x = m g.
+    sheet.wait('low => Math.abs(physsim.bodies["ball/0"][1] - low) < 0.002', 5.0 - G / 20.0)
+    panel.get_by_text('Force now: 9.81 N').wait_for()
+
+
+def test_an_axle_has_limits_from_the_pose_in_which_it_was_made(sheet: Sheet) -> None:
+    # The beam has turned before its limits are set.
+    sheet.press('Play')
+    sheet.wait('physsim.bodies["beam/0"][2] < -0.2')
+    sheet.press('Pause')
+    sheet.wait('physsim.speed === 0')
+    panel = tapped(sheet, 2.2, 5.0, 'Axle')
+    set_number(sheet, panel, 'Least [rad]', '-0.6')
+    sheet.press('Play')
+    sheet.wait('physsim.time > 4')
+    sheet.wait('Math.abs(physsim.bodies["beam/0"][2] + 0.6) < 0.01')
+
+
+def test_a_joint_is_deleted_and_a_second_tap_means_the_body_below(sheet: Sheet) -> None:
+    tapped(sheet, 2.2, 5.0, 'Axle')
+    sheet.page.mouse.click(*sheet.place(2.2, 5.0))
+    sheet.page.get_by_role('heading', name='beam/0').wait_for()
+    tapped(sheet, 2.2, 5.0, 'Axle')
+    sheet.press('Delete joint')
+    sheet.press('Play')
+    # It falls.
+    sheet.wait('physsim.bodies["beam/0"][1] < 1')
