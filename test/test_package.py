@@ -165,6 +165,7 @@ def test_pip_is_told_what_rosdep_cannot_bring(distribution):
         'pyarrow',
         'pymunk',
         'pyyaml',
+        'qdldl',
         'rerun-sdk',
         'scipy',
         'svgelements',

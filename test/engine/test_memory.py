@@ -96,7 +96,7 @@ def test_a_body_that_is_pushed_out_by_contacts_is_moved_no_more_once_its_push_is
     _, body = resting()
     (index,) = indices_of([body])
     assert NUMBERS[index + PUSH + 1] > 0.0
-    NUMBERS[index + PUSH : index + PUSH + 3] = 0.0
+    NUMBERS[index + PUSH + np.arange(3)] = 0.0
     body.velocity = (0.0, 0.0)
     before = body.position
     pymunk.Body.update_position(body, DT)

@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""What lies on a bridge of light planks stays on it, however heavy, and presses with its weight."""
+"""What lies on a bridge of light planks stays on it, and presses with its weight."""
 
 import math
 
@@ -102,14 +102,17 @@ def test_a_bridge_is_told_the_weight_that_lies_on_it(report, kind):
     sim, middle = bridge(kind)
     load = put_load(sim, Box(width=0.6, height=0.6), 30.0, middle)
     sim.watch_contacts(True)
-    for _ in range(120):
-        sim.advance_frame()
     pressed = np.zeros(2)
+    for _ in range(120):
+        before = sim.advance_frame().snapshot.twists[load, 1]
     for _ in range(60):
-        contacts = sim.advance_frame().contacts
+        frame = sim.advance_frame()
+        contacts = frame.contacts
         pressed -= contacts.impulses[contacts.pairs[:, 0] == load].sum(axis=0)
         pressed += contacts.impulses[contacts.pairs[:, 1] == load].sum(axis=0)
-    weight = 30.0 * PLANK * G
+    # A load on a straight chain trembles by millimetres: its momentum is part of the balance.
+    mass = 30.0 * PLANK
+    weight = mass * (G + frame.snapshot.twists[load, 1] - before)
     what = f'30 : 1 on planks, {kind}, impulse in 1 s'
     report.check(30, what, pressed[1], weight, 0.01, 'N s', relative=True)
 
@@ -126,8 +129,8 @@ def test_a_disc_rolls_over_a_bridge(report, ratio):
         velocity=(2.0, 0.0),
         spin=-2.0 / radius,
     )
-    for now in steps(sim, 960):
+    for _ in steps(sim, 960):
         report.check(33, f'disc of {ratio:g} : 1 rolls, depth', depth(sim), 0.0, 0.02, 'm')
-    x, y, _ = now.poses[-1]
+    x, y, _ = sim.world.snapshot().poses[-1]
     assert x > 2.0
     assert y > 5.0

@@ -74,8 +74,6 @@ CLOSED = 1e-5
 NEGLIGIBLE = 1e-7
 # ... and at most so many in a step of the engine.
 MOST_STEPS = 16
-# The furthest that a body turns in a Newton step [rad]: rows are linear for small turns only.
-MOST_TURN = 0.25
 # The furthest that a body moves in a Newton step, in sums of all gaps of its island: joints that
 # contradict each other have nearly singular equations, whose solutions are of any size.
 MOST_LEVERAGE = 10.0
@@ -360,11 +358,10 @@ class _Step:
         bias = self._per_row(0.0, contacts.bias, 0.0)
         pushes: Floats = NUMBERS[places] - self._system.momenta(normals, bias) * bodies.inverse
         pushes[~bodies.inverse.any(axis=1)] = 0.0
-        ways: Floats = pushes * self._dt
-        ways[bodies.jointed :] = 0.0
+        jointed = (np.arange(len(pushes)) < bodies.jointed)[:, None]
+        ways: Floats = np.where(jointed, pushes * self._dt, 0.0)
         # The engine moves what has no joints by the others itself, in the next step.
-        pushes[: bodies.jointed] = 0.0
-        NUMBERS[places] = pushes
+        NUMBERS[places] = np.where(jointed, 0.0, pushes)
         return ways
 
     def _trusted(self, changes: Floats, errors: Floats) -> Floats:
@@ -374,12 +371,10 @@ class _Step:
         :param changes: (b, 3) float64: displacements [m, rad]
         :param errors: (b,) float64: sum of gaps and overlaps of each island [m, rad]
         """
-        farthest, most_turn = np.zeros(len(errors)), np.zeros(len(errors))
+        farthest = np.zeros(len(errors))
         np.maximum.at(farthest, self._island, np.hypot(changes[:, 0], changes[:, 1]))
-        np.maximum.at(most_turn, self._island, np.abs(changes[:, 2]))
-        by_turn = MOST_TURN / np.maximum(most_turn, 1e-300)
         by_way = MOST_LEVERAGE * errors / np.maximum(farthest, 1e-300)
-        trusted: Floats = np.minimum(1.0, np.minimum(by_turn, by_way))
+        trusted: Floats = np.minimum(1.0, by_way)
         return trusted
 
     def _remove_velocity(self, moved: Floats, rows: JointRows, impulses: Floats) -> None:

@@ -110,7 +110,7 @@ class SaddlePoint:
         self._masses = np.zeros_like(inverse)
         self._masses[self._moved] = 1.0 / inverse[self._moved]
         values = np.concatenate((self._masses[self._moved].ravel(), np.ones(len(indices))))
-        self._of_rows = values[self._unknowns :]
+        _, self._of_rows = np.split(values, [self._unknowns])
         size = self._unknowns + count
         first = np.arange(self._unknowns + 1)
         self._matrix = csc_array(
@@ -162,15 +162,13 @@ class SaddlePoint:
         :param momenta: (b, 3) float64: J^T λ of the rows that are not [N s, N m s]
         :return: (r,) float64 and (b, 3) float64: changes of velocities
         """
-        right = np.zeros(self._unknowns + len(wanted))
-        right[self._unknowns :] = wanted
-        if momenta is not None:
-            right[: self._unknowns] = momenta[self._moved].ravel()
+        pushes = np.zeros(self._unknowns) if momenta is None else momenta[self._moved].ravel()
         # For `solve` to be called is for `factor` to have been.
-        found = self._factors.solve(right)  # type: ignore[union-attr]
+        found = self._factors.solve(np.concatenate((pushes, wanted)))  # type: ignore[union-attr]
+        moved, impulses = np.split(found, [self._unknowns])
         changes = np.zeros_like(self.inverse)
-        changes[self._moved] = found[: self._unknowns].reshape(-1, 3)
-        return -found[self._unknowns :], changes
+        changes[self._moved] = moved.reshape(-1, 3)
+        return -impulses, changes
 
     def solve(
         self, problem: Problem, sides: Ints, regularisation: Floats, rounds: int = ROUNDS

@@ -1,0 +1,67 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""Law 34: random machines, also with points far off their bodies, gain no energy."""
+
+import random
+
+from physsim_ros.model.errors import Refusal
+from physsim_ros.model.requests import Configure
+from physsim_ros.model.shapes import Box, Disc
+import pytest
+
+from .scenes import energy, G, join, simulation, spawn, steps
+
+KINDS = ('axle', 'pin', 'rod', 'slider', 'rope', 'gear')
+# Bodies may fall from the middle of the bounds to their floor [m].
+FALL = 6.0
+
+
+def random_world(seed):
+    """Return 4 to 20 bodies with 3 to 15 joints, loose or in bounds, at random speeds."""
+    pick, sim = random.Random(seed), simulation()
+    # How far the first point of a joint is from its body [m].
+    far = 8.0 if seed % 2 == 0 else 0.6
+    if seed % 4 < 2:
+        sim.perform(Configure(changes={'bounds': (-FALL, -FALL, FALL, FALL)}))
+    places = []
+    for number in range(pick.randint(4, 20)):
+        places.append((pick.uniform(-5.0, 5.0), pick.uniform(-5.0, 5.0)))
+        if pick.random() < 0.7:
+            shape = Box(width=pick.uniform(0.2, 1.2), height=pick.uniform(0.2, 1.2))
+        else:
+            shape = Disc(radius=pick.uniform(0.1, 0.6))
+        velocity = (pick.uniform(-3.0, 3.0), pick.uniform(-3.0, 3.0))
+        pose = (*places[-1], pick.uniform(-3.0, 3.0))
+        said = {'velocity': velocity, 'spin': pick.uniform(-3.0, 3.0), 'elasticity': 0.0}
+        spawn(sim, f'b/{number}', shape, pose, **said)
+    for number in range(pick.randint(3, 15)):
+        one = pick.randrange(len(places))
+        others = [f'b/{other}' for other in range(len(places)) if other != one]
+        kind, (x, y) = pick.choice(KINDS), places[one]
+        points = [(x + pick.uniform(-far, far), y + pick.uniform(-far, far))]
+        if kind in ('rod', 'slider', 'rope'):
+            points.append((pick.uniform(-5.0, 5.0), pick.uniform(-5.0, 5.0)))
+        said = {}
+        if kind in ('axle', 'slider') and pick.random() < 0.3:
+            said = {'lower': -pick.uniform(0.0, 1.0), 'upper': pick.uniform(0.0, 1.0)}
+        if pick.random() < 0.15:
+            said['max_force'] = 10.0 ** pick.uniform(0.0, 3.0)
+        other = pick.choice([*others, 'world'])
+        try:
+            join(sim, f'j/{number}', kind, points, a=f'b/{one}', b=other, **said)
+        except Refusal:
+            continue
+    return sim
+
+
+@pytest.mark.parametrize('seed', range(30))
+def test_a_random_machine_gains_no_energy(report, seed):
+    sim = random_world(seed)
+    start = sim.world.snapshot()
+    there = start.kinetic_energy + float(start.scene.inertia[:, 0].sum()) * G * FALL
+    most = 0.0
+    for now in steps(sim, 480):
+        assert len(now.poses) == len(start.poses)
+        most = max(most, energy(now) - energy(start))
+    report.check(34, 'random machine, energy gained in 2 s', most / there, 0.0, 0.05, '–')
