@@ -74,6 +74,9 @@ CLOSED = 1e-5
 NEGLIGIBLE = 1e-7
 # ... and at most so many in a step of the engine.
 MOST_STEPS = 16
+# The furthest that a body turns in a Newton step [rad]: rows are linear for small turns only, and
+# points may be metres off.
+MOST_TURN = 0.25
 # The furthest that a body moves in a Newton step, in sums of all gaps of its island: joints that
 # contradict each other have nearly singular equations, whose solutions are of any size.
 MOST_LEVERAGE = 10.0
@@ -154,8 +157,8 @@ class _Step:
         self._of_joints = slice(0, count)
         self._normals = slice(count, count + points)
         self._tangents = slice(count + points, count + 2 * points)
-        self._holding = joints.holding()
-        self._equal = joints.equal & self._holding
+        # Rows of joints that have not reached their greatest force.
+        self._holding = np.ones(count, np.bool_)
         dynamic = bodies.inverse[:, 0] > 0.0
         both = dynamic[self._ends[:, 0]] & dynamic[self._ends[:, 1]]
         # The island of each body, and of each row.
@@ -190,15 +193,16 @@ class _Step:
         joints, contacts, bodies, system = self._joints, self._contacts, self.bodies, self._system
         rows = joints.read(bodies.poses)
         jacobian = np.concatenate((rows.jacobian, contacts.normals, contacts.tangents))
-        given = self._per_row(
-            np.where(self._holding, joints.impulses(rows), 0.0), *contacts.impulses
-        )
+        given = self._per_row(joints.impulses(rows), *contacts.impulses)
         without = -system.momenta(jacobian, given) * bodies.inverse
         targets = self._per_row(0.0, contacts.bounce, -contacts.slide)
         wanted = targets - system.rates(jacobian, bodies.velocities + without)
         lower, upper = self._joint_bounds(rows)
         pressing = Problem(
-            jacobian, wanted, self._per_row(lower, 0.0, 0.0), self._per_row(upper, np.inf, 0.0)
+            jacobian,
+            wanted,
+            self._per_row(np.maximum(lower, -joints.most), 0.0, 0.0),
+            self._per_row(np.minimum(upper, joints.most), np.inf, 0.0),
         )
         even = np.full(len(wanted), VELOCITY_REGULARISATION)
         solution = system.solve(pressing, _first_sides(pressing, given), even)
@@ -209,15 +213,15 @@ class _Step:
         more, bent = self._bend(jacobian, bodies.velocities + without + changes, solution)
         bodies.write_velocities(without + changes + bent)
         impulses = solution.impulses + more
-        joints.write_impulses(rows, impulses[self._of_joints], self._holding)
+        joints.write_impulses(rows, impulses[self._of_joints])
         contacts.write_impulses(impulses[self._normals], impulses[self._tangents])
+        self._holding = joints.holding(joints.equal & (solution.sides[self._of_joints] != 0))
 
     def _joint_bounds(self, rows: JointRows) -> tuple[Floats, Floats]:
         """Return the least and the greatest λ of the rows of joints."""
-        violated = self._holding & ~self._joints.equal
-        above = np.where(self._equal | (violated & (rows.excess > 0.0)), np.inf, 0.0)
-        below = np.where(self._equal | (violated & (rows.excess < 0.0)), np.inf, 0.0)
-        return -above, below
+        above = self._holding & (self._joints.equal | (rows.excess > 0.0))
+        below = self._holding & (self._joints.equal | (rows.excess < 0.0))
+        return np.where(above, -np.inf, 0.0), np.where(below, np.inf, 0.0)
 
     def _solve_friction(
         self, pressing: Problem, pressed: Solution, given: Floats, even: Floats
@@ -229,23 +233,22 @@ class _Step:
         :param pressed: their solution
         :param given: (r,) float64: λ of the engine
         """
-        acts = np.where(pressed.sides == 0, np.inf, 0.0)
+        acts, tangents = pressed.sides == 0, self._tangents
         most = self._contacts.friction * np.maximum(pressed.impulses[self._normals], 0.0)
-        bound = self._per_row(acts[self._of_joints], acts[self._normals], most)
-        cone = Problem(pressing.jacobian, pressing.wanted, -bound, bound)
-        known = self._contacts.friction * given[self._normals]
-        guess = self._per_row(given[self._of_joints], given[self._normals], known)
-        sides = np.where(bound == 0.0, -1, 0)
-        slides = (np.abs(given) >= guess * (1.0 - 1e-9)) & (bound > 0.0)
-        slides[: self._tangents.start] = False
-        sides[slides] = np.where(given[slides] < 0.0, -1, 1)
+        lower = np.where(acts, -np.inf, pressed.impulses)
+        upper = np.where(acts, np.inf, pressed.impulses)
+        lower[tangents], upper[tangents] = -most, most
+        known = self._contacts.friction * given[self._normals] * (1.0 - 1e-9)
+        slides = (np.abs(given[tangents]) >= known) | (most == 0.0)
+        sides = pressed.sides.copy()
+        sides[tangents] = np.where(slides, np.where(given[tangents] < 0.0, -1, 1), 0)
+        cone = Problem(pressing.jacobian, pressing.wanted, lower, upper)
         solution = self._system.solve(cone, sides, even, FRICTION_ROUNDS)
         if not solution.wrong.any():
             return solution
         wrong = solution.wrong.copy()
-        wrong[self._of_joints] = wrong[self._normals] = False
-        bound[wrong] = 0.0
-        cone = Problem(pressing.jacobian, pressing.wanted, -bound, bound)
+        wrong[: tangents.start] = False
+        lower[wrong] = upper[wrong] = 0.0
         sides = np.where(wrong, -1, solution.sides)
         return self._system.solve(cone, sides, even, rounds=1)
 
@@ -263,7 +266,9 @@ class _Step:
         halfway = self._joints.read(self.bodies.poses + velocities * (dt / 2.0)).jacobian
         turned = np.zeros_like(jacobian)
         turned[self._of_joints] = halfway - jacobian[self._of_joints]
-        counts = self._per_row(self._equal.astype(np.float64), 0.0, 0.0) * (solution.sides == 0)
+        counts = self._per_row(self._joints.equal.astype(np.float64), 0.0, 0.0) * (
+            solution.sides == 0
+        )
         impulses, changes = system.solve_active(-system.rates(turned, velocities) * counts)
         # No velocity turns by more than half a step of the fastest spin in its island.
         spins = np.zeros(count)
@@ -371,10 +376,12 @@ class _Step:
         :param changes: (b, 3) float64: displacements [m, rad]
         :param errors: (b,) float64: sum of gaps and overlaps of each island [m, rad]
         """
-        farthest = np.zeros(len(errors))
+        farthest, most_turn = np.zeros(len(errors)), np.zeros(len(errors))
         np.maximum.at(farthest, self._island, np.hypot(changes[:, 0], changes[:, 1]))
+        np.maximum.at(most_turn, self._island, np.abs(changes[:, 2]))
+        by_turn = MOST_TURN / np.maximum(most_turn, 1e-300)
         by_way = MOST_LEVERAGE * errors / np.maximum(farthest, 1e-300)
-        trusted: Floats = np.minimum(1.0, by_way)
+        trusted: Floats = np.minimum(1.0, np.minimum(by_turn, by_way))
         return trusted
 
     def _remove_velocity(self, moved: Floats, rows: JointRows, impulses: Floats) -> None:
@@ -393,7 +400,7 @@ class _Step:
         given = impulses * share[self._of_row] / self._dt
         joints, contacts = self._joints, self._contacts
         before = joints.impulses(rows)
-        joints.write_impulses(rows, before + given[self._of_joints], self._holding)
+        joints.write_impulses(rows, before + given[self._of_joints])
         normal, tangent = contacts.impulses
         contacts.write_impulses(normal + given[self._normals], tangent)
 

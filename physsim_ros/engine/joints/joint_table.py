@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -18,9 +19,6 @@ from physsim_ros.model.arrays import Flags, Floats
 import pymunk
 
 # ruff: noqa: SLF001
-
-# Share of its greatest force that a joint gives where it gives all of it, by rounding.
-_ALL = 1.0 - 1e-9
 
 
 class JointRows(NamedTuple):
@@ -46,6 +44,7 @@ class JointTable:
     :ivar breakable: joints that can break, and the greatest impulse of each [N s]
     :ivar ends: (r, 2) intp: the two bodies of each row, as places among the jointed bodies
     :ivar equal: (r,) bool: rows of equalities; the others are limits
+    :ivar most: (r,) float64: greatest absolute value of λ in a step [N s, N m s]
     """
 
     def __init__(self, joints: Sequence[EngineJoint], background: pymunk.Body, dt: float) -> None:
@@ -57,11 +56,6 @@ class JointTable:
             if (most := each.joint.properties.break_force) is not None
         ]
         exact = [(number, each) for number, each in placed if kind_of(each.joint).rows]
-        self._yielding = [
-            (number, each.limited, most * dt * _ALL)
-            for number, each in exact
-            if (most := each.joint.properties.max_force) is not None
-        ]
         ends = (body for _, each in exact for body in (each.ends.a, each.ends.b))
         self._members = [each for each in dict.fromkeys(ends) if each is not background]
         rows = {body: row for row, body in enumerate((*self._members, background))}
@@ -85,6 +79,9 @@ class JointTable:
         flat = [each for joint in places for each in joint]
         self._places = np.array([place for place, _, _ in flat], np.int64)
         self._signs = np.array([[below, above] for _, below, above in flat]).reshape(-1, 2)
+        forces = (joints[number].joint.properties.max_force for number in self._owners.tolist())
+        limits = np.array([math.inf if force is None else force * dt for force in forces])
+        self.most = limits * np.abs(self._signs[:, 1])
         self._listed: Sequence[RigidBody] = ()
         self._rows: Rows = np.empty(0, np.intp)
 
@@ -114,23 +111,18 @@ class JointTable:
         excess = np.maximum(x - self._upper, 0.0) + np.minimum(x - self._lower, 0.0)
         return JointRows(excess, np.concatenate(jacobians))
 
-    def holding(self) -> Flags:
-        """Return (r,) bool: rows of joints that did not reach their greatest force in the step."""
-        yielded = [
-            number
-            for number, limited, most in self._yielding
-            if any(abs(constraint.impulse) >= most for constraint in limited)
-        ]
-        return ~np.isin(self._owners, yielded)
+    def holding(self, yielded: Flags) -> Flags:
+        """Return (r,) bool: rows of joints of which no row has yielded, (r,) bool."""
+        return ~np.isin(self._owners, self._owners[yielded])
 
     def impulses(self, rows: JointRows) -> Floats:
         """Return (r,) float64: λ of the last step [N s, N m s]."""
         impulses: Floats = NUMBERS[self._places] * self._sign(rows)
         return impulses
 
-    def write_impulses(self, rows: JointRows, impulses: Floats, which: Flags) -> None:
-        """Set λ of some rows, (r,) float64 and (r,) bool [N s, N m s]."""
-        NUMBERS[self._places[which]] = (impulses / self._sign(rows))[which]
+    def write_impulses(self, rows: JointRows, impulses: Floats) -> None:
+        """Set λ, (r,) float64 [N s, N m s]."""
+        NUMBERS[self._places] = impulses / self._sign(rows)
 
     def _sign(self, rows: JointRows) -> Floats:
         """Return (r,) float64: λ by the impulse that the engine stores."""
