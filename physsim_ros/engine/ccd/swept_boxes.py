@@ -100,7 +100,7 @@ class SweptBoxes:
             if not len(rows) or cut == _CUTS - 1:
                 break
             since = self._motions.since[rows]
-            share = np.minimum((BUDGET / cost[rows]) ** 0.25, 0.5)
+            share = np.minimum(np.sqrt(np.sqrt(BUDGET / cost[rows])), 0.5)
             self._horizons[rows] = since + (self._horizons[rows] - since) * share
             self.fit_boxes(rows)
         return first & (cost <= BUDGET)

@@ -103,12 +103,13 @@ def _means(manifolds: Floats, current: Flags, first: NDArray[np.intp]) -> Floats
     means[2] = np.add.reduceat(counts, first)
     means[3:] /= np.maximum(means[2], 1.0)
     length = np.hypot(means[0], means[1])
-    # Opposed normals: that of the greatest angle.
-    angles = np.maximum.reduceat(np.arctan2(manifolds[1], manifolds[0]), first)
+    # Opposed normals: the highest of them, then the rightmost.
+    order = np.lexsort((manifolds[0], manifolds[1], pairs))
+    highest = order[np.append(first[1:], len(pairs)) - 1]
     means[:2] = np.where(
         length > OPPOSED * means[2],
         means[:2] / np.maximum(length, 1e-300),
-        (np.cos(angles), np.sin(angles)),
+        manifolds[:2, highest],
     )
     return means
 

@@ -1,0 +1,53 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+Nothing on the way from a request to a state rounds otherwise on another processor.
+
+OpenBLAS chooses its kernels by processor, NumPy its loops by vectors: products of matrices, and
+functions whose loops for AVX-512 round otherwise than the others.
+"""
+
+import ast
+from pathlib import Path
+
+import pytest
+
+PACKAGE = Path(__file__).parents[2] / 'physsim_ros'
+FOLDERS = ('model', 'engine', 'simulation', 'drawing')
+BLAS = {'dot', 'vdot', 'inner', 'matmul', 'einsum', 'tensordot', 'linalg', 'convolve', 'correlate'}
+# Measured: without AVX-512 these have other bits (NumPy 2.4).
+VECTORS = {'arctan2', 'angle', 'exp', 'log', 'power'}
+# The sparse matrix is a container only; QDLDL factors it.
+ALLOWED = {('saddle_point.py', 'scipy')}
+
+
+def _names(tree):
+    """Yield what a module calls of NumPy and SciPy, with its line."""
+    for node in ast.walk(tree):
+        if isinstance(node, (ast.BinOp, ast.AugAssign)) and isinstance(node.op, ast.MatMult):
+            yield '@', node.lineno
+        elif isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):
+            if node.value.id == 'np' and node.attr in BLAS | VECTORS:
+                yield node.attr, node.lineno
+        elif isinstance(node, ast.ImportFrom) and (node.module or '').startswith('scipy'):
+            yield 'scipy', node.lineno
+
+
+@pytest.mark.linter
+@pytest.mark.parametrize('folder', FOLDERS)
+def test_what_moves_bodies_calls_nothing_that_depends_on_the_processor(folder):
+    found = [
+        f'{path.relative_to(PACKAGE)}:{line}: {name}'
+        for path in sorted((PACKAGE / folder).glob('**/*.py'))
+        for name, line in _names(ast.parse(path.read_text(encoding='utf-8')))
+        if (path.name, name) not in ALLOWED
+    ]
+
+    assert found == []
+
+
+def test_a_product_of_matrices_is_found():
+    source = 'import numpy as np\nx = a @ b\ny = np.linalg.norm(x)\n'
+
+    assert [name for name, _ in _names(ast.parse(source))] == ['@', 'linalg']
