@@ -176,7 +176,7 @@ def test_a_spring_is_as_stiff_as_it_says_or_refused_by_code(
     assert extension == pytest.approx(G / stiffness, rel=0.01)
 
 
-def test_light_planks_stay_joined_where_a_heavy_disc_rolls_over_them(
+def test_light_planks_stay_joined_and_carry_a_heavy_disc_that_rolls_over_them(
     observed_world: ObservedWorld,
 ) -> None:
     with observed_world() as world:
@@ -202,6 +202,8 @@ def test_light_planks_stay_joined_where_a_heavy_disc_rolls_over_them(
         along = np.stack([np.cos(yaw), np.sin(yaw)]) / 2
         left, right = np.stack([x, y]) - along, np.stack([x, y]) + along
         assert np.hypot(*(right[:, :-1] - left[:, 1:])).max() < 0.02
+        # It lies on a row that was straight.
+        assert state.poses[-1, 1] > 5.55
 
 
 @pytest.mark.parametrize('seed', range(3))
