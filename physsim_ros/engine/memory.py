@@ -31,6 +31,8 @@ _POINTERS: Ints = NUMBERS.view(np.int64)
 # Places in `cpBody`, in words: `m_inv`, `i_inv`, `v`, `w`, `v_bias` and `w_bias`, `arbiterList`,
 # `sleeping.idleTime`.
 INVERSE_MASS, INVERSE_MOMENT, VELOCITY, SPIN, PUSH, ARBITERS, IDLE_TIME = 3, 5, 10, 15, 24, 29, 33
+# Place in `cpShape` of `hashid`, by which the engine numbers the shapes of a space.
+SHAPE_NUMBER = 23
 # Places of the accumulated impulses in constraints, and their count.
 ACCUMULATED: dict[type[pymunk.Constraint], tuple[int, int]] = {
     pymunk.PivotJoint: (25, 2),
@@ -63,6 +65,12 @@ def impulse_places(constraint: pymunk.Constraint) -> range:
 def follow(pointers: Ints) -> Ints:
     """Return the indices of the structs that pointers point at; -1 is none."""
     return _POINTERS[pointers] // _WORD - 1
+
+
+def words(places: Ints) -> Ints:
+    """Return (k,) int64: integers at some indices."""
+    found: Ints = _POINTERS[places]
+    return found
 
 
 def vectors(places: Ints) -> Floats:

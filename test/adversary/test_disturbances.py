@@ -13,8 +13,10 @@ from physsim_ros.model.requests import Configure, Delete, Request, Spawn
 from physsim_ros.model.shapes import Disc
 from physsim_ros.simulation.simulation import Simulation
 
-from ..simulation.test_time_machine import requests, spawns
+from ..simulation.histories import request_of, spawn_of
 
+requests = st.randoms().map(request_of)
+spawns = st.randoms().map(spawn_of)
 PERIOD = 1e9 / 60
 # Requests that the engine never sees.
 REFUSED: list[Request] = [
@@ -32,7 +34,7 @@ class Disturbances(RuleBasedStateMachine):
     """
 
     @initialize(
-        several=st.lists(spawns(), min_size=3, max_size=6), spacing=st.sampled_from([0.25, 0.17])
+        several=st.lists(spawns, min_size=3, max_size=6), spacing=st.sampled_from([0.25, 0.17])
     )
     def begin(self, several: list[Spawn], spacing: float) -> None:
         self.straight = Simulation(history=60.0, checkpoints=spacing)

@@ -16,7 +16,15 @@ import numpy as np
 from physsim_ros.engine.body_table import BodyTable
 from physsim_ros.engine.graph_search import Rows
 from physsim_ros.engine.joints.rows import across, along, dot
-from physsim_ros.engine.memory import ARBITERS, follow, integers, NUMBERS, vectors
+from physsim_ros.engine.memory import (
+    ARBITERS,
+    follow,
+    integers,
+    NUMBERS,
+    SHAPE_NUMBER,
+    vectors,
+    words,
+)
 from physsim_ros.model.arrays import Floats, Ints
 from pymunk._chipmunk_cffi import ffi
 
@@ -26,9 +34,20 @@ def _places(struct: str, *names: str) -> list[int]:
     return [ffi.offsetof(struct, name) // 8 for name in names]
 
 
-_FRICTION, _SURFACE, _BODY_A, _BODY_B, _THREAD_A, _THREAD_B, _CONTACTS, _NORMAL = _places(
+(
+    _FRICTION,
+    _SURFACE,
+    _SHAPE_A,
+    _SHAPE_B,
+    _BODY_A,
+    _BODY_B,
+    _THREAD_A,
+    _THREAD_B,
+    _CONTACTS,
+    _NORMAL,
+) = _places(
     'struct cpArbiter',
-    *('u', 'surface_vr', 'body_a', 'body_b', 'thread_a', 'thread_b', 'contacts', 'n'),
+    *('u', 'surface_vr', 'a', 'b', 'body_a', 'body_b', 'thread_a', 'thread_b', 'contacts', 'n'),
 )
 _COUNT = ffi.offsetof('struct cpArbiter', 'count')
 _ARM_A, _ARM_B, _BOUNCE, _ALONG, _ACROSS, _BIAS = _places(
@@ -97,8 +116,9 @@ def read_contacts(table: BodyTable, jointed: Rows) -> ContactRows:
     bodies = [follow(arbiters + body) for body in (_BODY_A, _BODY_B)]
     ends = np.stack([table.rows_in_memory(each) for each in bodies], axis=1)
     arms = vectors(points + _ARM_A), vectors(points + _ARM_B)
-    # By bodies, then by the point on the first.
-    order = np.lexsort((*arms[0].T, *ends.T))
+    # By bodies, shapes and points: a disc can touch two segments of a chain in one point.
+    shapes = [words(follow(arbiters + shape) + SHAPE_NUMBER) for shape in (_SHAPE_A, _SHAPE_B)]
+    order = np.lexsort((*arms[0].T, *shapes, *ends.T))
     arbiters, points, ends = arbiters[order], points[order], ends[order]
     arm_a, arm_b = (arm[order] for arm in arms)
     normal = vectors(arbiters + _NORMAL)
