@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""What lies on a bridge of light planks stays on it, and presses with its weight."""
+"""A load on a bridge of light planks stays on it, and presses with its weight."""
 
 import math
 

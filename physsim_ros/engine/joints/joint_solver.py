@@ -26,7 +26,7 @@ gap that is closed by velocities is energy, where joints and contacts contradict
    Ratcliff, 2007). This is how a straight chain stops what falls on it: its rows have no
    velocity, only a gap of second order. A gap thus never becomes energy.
 
-**Cost.** 0.3 ms a step for one machine; a factorisation of 100 rows takes 10 us.
+**Cost.** 0.2 to 0.5 ms a step for one machine; a factorisation of 100 rows takes 10 us.
 
 Without it laws 14 to 16, 20, 22, 23, 33 and 34 fail. Impulses of the engine stay its first guess,
 those of springs and motors stay as they are, and contacts between bodies without joints too.
@@ -131,7 +131,7 @@ class JointSolver:
         contacts = read_contacts(table, jointed[table.columns.dynamic[jointed]])
         step = _Step(joints, contacts, _bodies_of(table, jointed, contacts.ends), self._dt)
         self._system = step.use_system(self._system)
-        # What swings slowly at its turn would fall asleep. The time of static bodies is infinite.
+        # A slow swing would fall asleep at its turn. The idle time of static bodies is infinite.
         dynamic = step.bodies.inverse.any(axis=1)
         NUMBERS[step.bodies.memory[dynamic] + IDLE_TIME] = 0.0
         step.solve_velocities()
@@ -316,7 +316,7 @@ class _Step:
             gaps = np.where(self._holding, rows.excess, 0.0)
             slop = np.where(joints.equal, 0.0, LIMIT_SLOP)
             gaps = np.sign(gaps) * np.maximum(np.abs(gaps) - slop, 0.0)
-            # What is too wide to be closed now.
+            # Parts of gaps that are too wide to be closed in one step.
             left = gaps - np.clip(gaps, -most, most) if left is None else left
             gaps -= left
             distance = apart + system.rates(normals, bodies.poses - start)[self._normals]
