@@ -9,14 +9,19 @@ The pipeline: one step of the engine, stage by stage in this order.
 3. Mouse joints: the forces of hands are added.
 4. Resting damping: the solver's error is removed from what friction locks in place.
 5. Continuous collision: fast bodies are advanced to where they first touch something.
-6. Tight boxes: the engine's broad phase is told where fast bodies of a crowd will be.
-7. Joints: constraints are put where the step needs them.
-8. Pymunk's step: positions, narrow phase, solver, sleeping. Between narrow phase and solver: first
-   touches, impact propagation, block solver.
-9. Joints: rows of joints and of contacts on jointed bodies are solved together, in velocities
-   and positions.
-10. Half-step velocity: free flight is found, and does not fall asleep.
-11. Contact report: impulses are added up.
+6. Tight boxes: fast bodies keep small boxes in the engine's broad phase, so that only nearby pairs
+   are listed.
+7. Joints: constraints are prepared for the poses of the step.
+8. Pymunk moves bodies, and finds contacts (broad and narrow phase).
+9. First touch: contacts that begin get the normal and the depth of their impact.
+10. Impact propagation: elastic contacts next to a faster impact are left open.
+11. Block solver: points that are hit at once are solved together.
+12. Pymunk solves velocities, and puts islands to sleep.
+13. Joints: rows of joints and of contacts on jointed bodies are solved together, in velocities
+    and positions.
+14. Half-step velocity: bodies in free flight are found.
+15. Sleeping: bodies that fly or swing slowly stay awake.
+16. Contact report: impulses are added up.
 """
 
 from __future__ import annotations

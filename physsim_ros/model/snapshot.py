@@ -31,7 +31,7 @@ class Springs(NamedTuple):
     The springs of a world with the engine's constants.
 
     :ivar numbers: (k,) int64: rows among the joints of those springs that act on a movable body
-    :ivar stiffness: (k,) float64: after the limit that the step sets [N/m]
+    :ivar stiffness: (k,) float64: [N/m]
     :ivar rest: (k,) float64: length without force [m]
     :ivar reach: (k,) float64: extension from which the force is constant [m]
     """

@@ -324,7 +324,7 @@ SCENES = (
     Scene('plough (28)', 'way', 0.02, _plough),
     Scene('bridge', 'm', 2e-3, _bridge),
     Scene('checkpoint (26)', 'm/s', 5e-3, _checkpoint),
-    Scene('at rest', 'bare steps', 0.5, _at_rest),
+    Scene('at rest', 'bare steps', 1.0, _at_rest),
 )
 
 

@@ -57,14 +57,6 @@ def _named_paths(text):
 
 @pytest.mark.linter
 @pytest.mark.parametrize('document', DOCUMENTS, ids=lambda path: path.name)
-def test_every_path_in_a_document_exists(document):
-    named = _named_paths(document.read_text(encoding='utf-8'))
-
-    assert [path for path in sorted(named) if not any((it / path).exists() for it in BASES)] == []
-
-
-@pytest.mark.linter
-@pytest.mark.parametrize('document', DOCUMENTS, ids=lambda path: path.name)
 def test_every_link_of_a_document_to_a_file_leads_somewhere(document):
     targets = re.findall(r'\]\((?!https?://)([^)#\s]+)', document.read_text(encoding='utf-8'))
 

@@ -5,9 +5,9 @@
 Time of impact of pairs of convex shapes in rigid motion, by conservative advancement.
 
 The separation of two shapes, found by separating axes, divided by the greatest speed at which it
-can shrink, is a time in which they cannot meet: both advance by it, again and again, until they
-overlap by the skin or the step ends (Mirtich 1996; `b2TimeOfImpact` in Box2D). All pairs advance
-at once, in arrays.
+can shrink, is a time in which they cannot meet. Both advance by it, again and again, until they
+overlap by the skin or the step ends (B. Mirtich, Impulse-based Dynamic Simulation of Rigid Body
+Systems, 1996, 2.3). All pairs advance at once, in arrays.
 """
 
 from __future__ import annotations

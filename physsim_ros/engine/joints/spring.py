@@ -7,7 +7,7 @@ Spring: pulls or pushes in proportion to its strain, and is damped.
 Pymunk moves bodies first and lets springs pull then (symplectic Euler), which is stable while no
 body swings by more than two radians a step. All springs on a body together keep it below one:
 sum of f k (1/m + r^2/I) <= 1 / dt^2, f = 2 where the other body is dynamic too, since
-(v_a - v_b)^2 <= 2 v_a^2 + 2 v_b^2. A spring beyond that is refused, never made softer.
+(v_a - v_b)^2 <= 2 v_a^2 + 2 v_b^2. `check_stiffness` raises beyond that.
 """
 
 from __future__ import annotations

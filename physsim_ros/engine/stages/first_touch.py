@@ -32,9 +32,10 @@ far sides, though they are apart.
 
 **Cost.** Some 0.25 ms in a step in which contacts begin, and 5 us for each of these.
 
-Without it laws 3 (head-on impacts of squares), 6 (discs part along the normal of their impact) and
-7 (penetration) fail, and `test/engine/stages/test_internal_edges.py`. The first part can go when
-GJK is exact.
+Without part 1 law 3 (head-on impacts of squares) fails; without part 2 laws 6 (discs part along
+the normal of their impact) and 35 (a fast bar hits all discs); without part 3 a body stumbles over
+seams (`test/engine/stages/test_internal_edges.py`); without part 4 law 7 (penetration). Part 1 can
+go when GJK is exact.
 """
 
 from __future__ import annotations

@@ -4,7 +4,7 @@
 """
 A gesture as a phrase, by which undo and redo name it: `spawn ball/0 and 2 more`.
 
-Law: a phrase is a verb and its object, so that it reads well after `undo`, `redo` and `undid`.
+Law: a phrase is a verb and its object, so that it reads well after undo, redo and undid.
 """
 
 from __future__ import annotations
