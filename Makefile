@@ -62,17 +62,17 @@ lint: $(STAMP)  ## check style, types and imports
 	else echo 'Node or TypeScript is not there: the types of the page are not checked.'; fi
 
 bench: $(STAMP)  ## measure times against the bare engine
-	$(BIN)/python -m test.bench $(ARGS)
+	$(BIN)/python -m tools.bench $(ARGS)
 
 ablate: $(STAMP)  ## measure each stage of a step by leaving it out
-	$(BIN)/python -m test.ablation $(ARGS)
+	$(BIN)/python -m tools.ablation $(ARGS)
 
 evaluate: $(STAMP)  ## measure how drawn strokes are read
-	$(BIN)/python -m test.evaluation $(ARGS)
+	$(BIN)/python -m tools.evaluation $(ARGS)
 
 # Draws the pictures of README and docs anew; needs a Vulkan driver (Debian: mesa-vulkan-drivers libvulkan1).
 gallery: $(STAMP)  ## draw the pictures of README and docs anew
-	$(BIN)/python -m test.gallery $(ARGS)
+	$(BIN)/python -m tools.gallery $(ARGS)
 
 # The site, from docs/ and the docstrings; any warning, as a link that leads nowhere, fails.
 docs: $(VENV)/.with-docs  ## build the site, docs/_build/html
@@ -82,7 +82,7 @@ docs: $(VENV)/.with-docs  ## build the site, docs/_build/html
 
 # MINUTES=30 and SEED=0 unless they are given.
 soak: $(STAMP)  ## disturb a world at random for MINUTES=30, with SEED=0
-	MINUTES=$(MINUTES) SEED=$(SEED) $(BIN)/python -m test.adversary $(ARGS)
+	MINUTES=$(MINUTES) SEED=$(SEED) $(BIN)/python -m tools.adversary $(ARGS)
 
 clean:  ## remove .venv and all that was built
 	rm -rf $(VENV) build install log dist docs/_build docs/api *.egg-info .hypothesis .import_linter_cache .mypy_cache .pytest_cache .ruff_cache

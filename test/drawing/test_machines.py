@@ -8,9 +8,9 @@ from __future__ import annotations
 from physsim_ros.files import shipped
 from physsim_ros.model.errors import Refusal
 import pytest
+from tools.evaluation.people import drawn_by, PEOPLE, SEVERAL
 
 from .machines import LAWS, Machine, strokes_of
-from ..evaluation.people import drawn_by, PEOPLE, SEVERAL
 
 # Seconds between two strokes of a ruler.
 PAUSE = 30.0

@@ -28,9 +28,9 @@ from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import Refusal
 from physsim_ros.simulation.world import World
 import pytest
+from tools.evaluation.scenes import faulty_scenes, scenes
 
 from .machines import LAWS, strokes_of
-from ..evaluation.scenes import faulty_scenes, scenes
 
 # Strokes of each kind and of each fault.
 _COUNT = 2

@@ -32,8 +32,8 @@ from physsim_ros.model.shapes.form_cache import MOST_KEPT
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import capacity, World
 import pytest
+from tools.adversary.scenes import crossing_rods, one_pose, sphere_lists
 
-from ..adversary.scenes import crossing_rods, one_pose, sphere_lists
 from ..building import BOX, DISC, ELL, spawn, stack, TRIANGLE
 
 # Of 5 bodies in one place 10 pairs overlap.

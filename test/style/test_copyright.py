@@ -16,7 +16,7 @@ HEAD = re.compile(
 
 @pytest.mark.linter
 def test_every_source_file_begins_with_the_licence():
-    folders = ('physsim_ros', 'test', 'launch')
+    folders = ('physsim_ros', 'test', 'tools', 'launch')
     sources = [
         ROOT / 'setup.py',
         *(path for name in folders for path in ROOT.glob(f'{name}/**/*.py')),

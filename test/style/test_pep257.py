@@ -16,4 +16,4 @@ ROOT = Path(__file__).parents[2]
 def test_ament_pep257_finds_no_errors(monkeypatch):
     monkeypatch.chdir(ROOT)
 
-    assert main(argv=['physsim_ros', 'test', 'setup.py']) == 0
+    assert main(argv=['physsim_ros', 'test', 'tools', 'setup.py']) == 0

@@ -11,10 +11,9 @@ from physsim_ros.drawing.strokes.recogniser import recognise_form
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.arrays import Floats
 import pytest
-
-from ...evaluation import figures
-from ...evaluation.figures import Figure
-from ...evaluation.hands import stroke as drawn_by_anybody
+from tools.evaluation import figures
+from tools.evaluation.figures import Figure
+from tools.evaluation.hands import stroke as drawn_by_anybody
 
 ANGLE = np.linspace(0.0, 2.0 * math.pi, 80)
 CIRCLE = np.column_stack((np.cos(ANGLE), np.sin(ANGLE)))

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections import Counter
 import random
+from test import messages
 import time
 from typing import Any
 
@@ -27,8 +28,6 @@ from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import MultiDOFJointState
 from std_srvs.srv import Trigger
 from visualization_msgs.msg import Marker
-
-from .. import messages
 
 # The longest that a world may leave a service unanswered [s].
 PATIENCE = 60.0

@@ -16,6 +16,7 @@ import math
 import statistics
 import subprocess
 import sys
+from test.outside import own_domain
 import time
 
 import numpy as np
@@ -25,7 +26,6 @@ from rclpy.logging import LoggingSeverity
 from rclpy.parameter import Parameter
 
 from .bodies import fill, SETTLE
-from ..outside import own_domain
 
 # None shows how equal the two worlds are.
 COUNTS = (0, 1, 20)

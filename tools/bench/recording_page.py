@@ -15,6 +15,7 @@ from functools import partial
 import statistics
 import subprocess
 import sys
+from test.outside import own_domain
 import time
 
 from physsim_ros.ros.node import PhysSimNode
@@ -26,7 +27,6 @@ from rclpy.parameter import Parameter
 
 from .bodies import fill, SETTLE
 from .pages import PERIOD
-from ..outside import own_domain
 
 # Before the page is opened, and while it is watched from its first picture on [s].
 LATE, WATCHED = 5.0, 20.0

@@ -12,6 +12,9 @@ from __future__ import annotations
 
 from pathlib import Path
 import tempfile
+from test.pictures import has_vulkan, headless_viewer
+from test.rerun_program import free_port
+from test.worlds.film import simulation
 import threading
 import time
 
@@ -22,9 +25,6 @@ from physsim_ros.view.recording import FrameRecorder
 import rerun as rr
 
 from .bodies import fill
-from ..pictures import has_vulkan, headless_viewer
-from ..rerun_program import free_port
-from ..worlds.film import simulation
 
 BODIES, SECONDS = 1000, 10
 # Before the viewer joins [s].

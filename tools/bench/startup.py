@@ -13,6 +13,7 @@ import signal
 import statistics
 import subprocess
 import sys
+from test.outside import own_domain
 import time
 
 from geometry_msgs.msg import PoseArray
@@ -20,8 +21,6 @@ import rclpy
 from rclpy.experimental import EventsExecutor
 from rclpy.node import Node
 from visualization_msgs.msg import Marker, MarkerArray
-
-from ..outside import own_domain
 
 RUNS = 3
 BODIES = 1000

@@ -3,6 +3,7 @@
 
 """The cost of fast bodies: a crowd of small discs that falls and lands, and crowds of 20 km/s."""
 
+from test.building import spawn
 import time
 
 import numpy as np
@@ -10,8 +11,6 @@ from physsim_ros.model.requests import Configure, Spawn
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Compound, Disc, Shape
 from physsim_ros.simulation.world import World
-
-from ..building import spawn
 
 FRAMES = 100
 STEPS = 5

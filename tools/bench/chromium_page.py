@@ -17,6 +17,8 @@ import random
 import re
 import statistics
 import tempfile
+from test.outside import Outside, own_domain
+from test.sketchpad.chromium import circle, launched_chromium, Sheet
 
 from physsim_ros.files import save_world
 from physsim_ros.model.body_properties import Properties
@@ -25,9 +27,6 @@ from physsim_ros.model.requests import Configure, Spawn
 from physsim_ros.model.shapes import Box, Disc
 from physsim_ros.simulation.world import World
 from playwright.sync_api import sync_playwright
-
-from ..outside import Outside, own_domain
-from ..sketchpad.chromium import circle, launched_chromium, Sheet
 
 # Bodies, and pixels of the screen to one of the page.
 CASES = ((100, 1), (1000, 1), (1000, 2), (3000, 1), (3000, 2))

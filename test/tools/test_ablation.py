@@ -4,9 +4,8 @@
 """All stages together keep each scene within its tolerance, and each stage can be switched off."""
 
 import pytest
-
-from .scenes import error_of, fails, SCENES
-from .stages import STAGES, switched_off
+from tools.ablation.scenes import error_of, fails, SCENES
+from tools.ablation.stages import STAGES, switched_off
 
 # Scenes that take less than half a second; `make ablate` plays all.
 SLOW = {'fast bar (35)', 'pendulum (15)', 'chain of 50 (20)', 'gear train', 'bridge', 'at rest'}

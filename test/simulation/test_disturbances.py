@@ -13,7 +13,7 @@ from physsim_ros.model.requests import Configure, Delete, Request, Spawn
 from physsim_ros.model.shapes import Disc
 from physsim_ros.simulation.simulation import Simulation
 
-from ..simulation.histories import request_of, spawn_of
+from .histories import request_of, spawn_of
 
 requests = st.randoms().map(request_of)
 spawns = st.randoms().map(spawn_of)

@@ -14,15 +14,7 @@ from collections.abc import Callable
 from contextlib import suppress
 import itertools
 import math
-import time
-from typing import Any, NamedTuple
-
-import numpy as np
-from physsim_ros.model.requests import Delete
-from physsim_ros.model.shapes import Box, Disc, Shape
-import pymunk
-
-from ..laws.scenes import (
+from test.laws.scenes import (
     bar_among_discs,
     chain,
     DT,
@@ -36,7 +28,14 @@ from ..laws.scenes import (
     spawn,
     steps,
 )
-from ..worlds import film
+from test.worlds import film
+import time
+from typing import Any, NamedTuple
+
+import numpy as np
+from physsim_ros.model.requests import Delete
+from physsim_ros.model.shapes import Box, Disc, Shape
+import pymunk
 
 # Bodies at rest in the scene of sleeping, how many of them in a column, and steps that are timed.
 LYING, HIGH, TIMED = 1000, 4, 60

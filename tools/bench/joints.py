@@ -4,6 +4,7 @@
 """The cost of joints: a step of a machine, with its joints and without."""
 
 import statistics
+from test.building import net
 import time
 
 from physsim_ros.model.body_properties import Properties
@@ -12,8 +13,6 @@ from physsim_ros.model.requests import Join, Spawn
 from physsim_ros.model.shapes import Box
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
-
-from ..building import net
 
 STEPS = 480
 FRAMES = 180

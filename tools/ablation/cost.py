@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack
+from test.laws.scenes import floor, join, simulation, spawn
 from time import perf_counter
 from typing import Any
 from unittest import mock
@@ -15,7 +16,6 @@ from physsim_ros.model.shapes import Box, Disc
 from physsim_ros.simulation.simulation import Simulation
 
 from .stages import Stage
-from ..laws.scenes import floor, join, simulation, spawn
 
 # A checkpoint is taken in these frames.
 PILE, LINKS, FRAMES = 300, 30, 190

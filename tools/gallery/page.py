@@ -15,12 +15,11 @@ import itertools
 import math
 from pathlib import Path
 import tempfile
+from test.outside import Outside, own_domain
+from test.sketchpad.chromium import launched_chromium, Sheet, started_world
 
 from PIL import Image
 from playwright.sync_api import sync_playwright
-
-from ..outside import Outside, own_domain
-from ..sketchpad.chromium import launched_chromium, Sheet, started_world
 
 Stroke = list[tuple[float, float]]
 WORLD = """

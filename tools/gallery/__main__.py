@@ -10,6 +10,8 @@ from dataclasses import replace
 from pathlib import Path
 import sys
 import tempfile
+from test.pictures import headless_viewer, HeadlessViewer
+from test.worlds.digests import scene, SCENES
 
 from physsim_ros.drawing import DrawingSession, DrawingSettings, Tool
 from physsim_ros.model.snapshot import Frame
@@ -21,8 +23,6 @@ import rerun as rr
 
 from .car_story import car_story
 from .page import draw_page
-from ..pictures import headless_viewer, HeadlessViewer
-from ..worlds.digests import scene, SCENES
 
 DOCS = Path(__file__).parents[2] / 'docs'
 # Window of the pictures [pixels]: the world in it is 16 : 7.

@@ -5,12 +5,12 @@
 
 from __future__ import annotations
 
+from test.worlds.digests import scene
+
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.requests import MoveBodies, Spawn
 from physsim_ros.model.shapes import Box
 from physsim_ros.model.snapshot import Frame
-
-from ..worlds.digests import scene
 
 
 def car_story() -> list[Frame]:

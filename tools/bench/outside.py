@@ -15,6 +15,7 @@ from pathlib import Path
 import subprocess
 import sys
 import tempfile
+from test.outside import own_domain
 import time
 
 from physsim_ros.files import save_world
@@ -29,7 +30,6 @@ from std_srvs.srv import Trigger
 from .bodies import Bare, falling, sparse
 from .frames import LISTENER, TOPICS
 from .startup import executable
-from ..outside import own_domain
 
 COUNT = 1000
 # Simulated time that is measured [s].

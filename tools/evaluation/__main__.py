@@ -13,6 +13,8 @@ from __future__ import annotations
 from collections import Counter, defaultdict
 import statistics
 import sys
+from test.drawing.machines import LAWS, Machine, strokes_of
+from test.drawing.single_stroke import interpret_stroke
 import time
 
 import numpy as np
@@ -25,8 +27,6 @@ from .people import drawn_by, PEOPLE
 from .reliability import Reliability
 from .scenes import faulty_scenes, MEANINGS, Scene, scenes
 from .several import show_several
-from ..drawing.machines import LAWS, Machine, strokes_of
-from ..drawing.single_stroke import interpret_stroke
 
 CLOSED = ('disc', 'rectangle', 'polygon')
 SETTINGS = DrawingSettings()

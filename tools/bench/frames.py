@@ -17,6 +17,7 @@ import statistics
 import subprocess
 import sys
 import tempfile
+from test.outside import own_domain
 import time
 from typing import NamedTuple
 
@@ -29,7 +30,6 @@ from rclpy.logging import LoggingSeverity
 from rclpy.parameter import Parameter
 
 from .bodies import Bare, fill, SETTLE, timed
-from ..outside import own_domain
 
 FRAMES = 200
 # Before them: a checkpoint is among these, the first of so many bodies.

@@ -18,6 +18,7 @@ from pathlib import Path
 import signal
 import sys
 from tempfile import TemporaryDirectory
+from test.outside import Outside, own_domain, Program
 import time
 
 import psutil
@@ -26,7 +27,6 @@ import rclpy
 from . import scenes
 from .driver import Driver, start_driver
 from .monitor import Monitor
-from ..outside import Outside, own_domain, Program
 
 # Disturbances in a round, and how long a world is left alone after them [s].
 ROUND = 25

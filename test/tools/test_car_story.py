@@ -3,7 +3,7 @@
 
 """The animation of the README shows what its caption says."""
 
-from .car_story import car_story
+from tools.gallery.car_story import car_story
 
 
 def test_the_car_passes_below_a_wall_and_ends_at_it_after_a_branch():

@@ -1,0 +1,8 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+Programs that measure, disturb and draw the package; the targets of `make` run them.
+
+They use the helpers of `test/`; tests of them are in `test/tools/`.
+"""
