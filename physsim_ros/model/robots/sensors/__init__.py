@@ -1,0 +1,69 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+Sensors of robots: what is mounted where, and how well it measures; one file a kind.
+
+A sensor is a value. What it reads in a frame is a function in `sensing`, its message an encoder in
+`ros`. A new kind is a file here and a member of `SENSORS`. Start with `sensor`, then `laser`.
+"""
+
+from __future__ import annotations
+
+from physsim_ros.model.checks import check_keys, shown
+from physsim_ros.model.errors import BadProperty
+from physsim_ros.model.robots.sensors.bumper import Bumper
+from physsim_ros.model.robots.sensors.floor_eye import FloorEye
+from physsim_ros.model.robots.sensors.imu import Imu
+from physsim_ros.model.robots.sensors.laser import Laser
+from physsim_ros.model.robots.sensors.range_finder import RangeFinder
+from physsim_ros.model.robots.sensors.sensor import Sensor
+from physsim_ros.model.robots.sensors.wheel_encoders import WheelEncoders
+from physsim_ros.model.texts import nearest_name
+
+# By the word for it.
+SENSORS: dict[str, type[Sensor]] = {
+    each.KIND: each for each in (Laser, RangeFinder, Bumper, Imu, WheelEncoders, FloorEye)
+}
+
+
+def sensor_from(value: object, name: str = 'sensors') -> Sensor:
+    """
+    Return the sensor of a mapping.
+
+    :param name: of the field, for the refusal
+    :raises UnknownProperty: a key is not a property of such a sensor; the nearest one is named
+    :raises Malformed: a number is not finite, or a list has the wrong length
+    :raises BadProperty: there is no such kind, or a value is null, of the wrong kind or out of
+        range
+    """
+    if isinstance(value, Sensor):
+        return value
+    if not isinstance(value, dict):
+        raise BadProperty(f'a sensor must be a mapping, not {shown(value)}', field=name)
+    kind, kinds = value.get('kind'), ', '.join(SENSORS)
+    if kind is None:
+        raise BadProperty(f'a sensor needs a kind: {kinds}', field='kind')
+    if not isinstance(kind, str) or kind not in SENSORS:
+        raise BadProperty(
+            f'there is no kind of sensor {shown(kind)}{nearest_name(str(kind), SENSORS)}; there '
+            f'are {kinds}',
+            field='kind',
+        )
+    sensor = SENSORS[kind]
+    properties = {key: each for key, each in value.items() if key != 'kind'}
+    check_keys(properties, sensor.CHECKS)
+    return sensor(**properties)
+
+
+__all__ = [
+    'SENSORS',
+    'Bumper',
+    'FloorEye',
+    'Imu',
+    'Laser',
+    'RangeFinder',
+    'Sensor',
+    'WheelEncoders',
+    'sensor_from',
+]

@@ -1,0 +1,36 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""An inertial measurement unit: acceleration and turn rate as felt (`sensor_msgs/Imu`)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from physsim_ros.model.checks import Checks, FASTEST, pair, Within
+from physsim_ros.model.robots.sensors.sensor import Sensor
+from physsim_ros.model.transform import Point
+
+_DEVIATION = Within(0.0, FASTEST)
+
+
+def _deviations(value: object, name: str) -> Point:
+    acceleration, turn_rate = pair(value, name)
+    return _DEVIATION(acceleration, name), _DEVIATION(turn_rate, name)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Imu(Sensor):
+    """
+    An inertial measurement unit.
+
+    :param noise: standard deviations of acceleration [m/s²] and turn rate [rad/s]
+    """
+
+    KIND: ClassVar = 'imu'
+    CHECKS: ClassVar[Checks] = {**Sensor.CHECKS, 'noise': _deviations}
+
+    name: str = 'imu'
+    rate: float = 100.0
+    noise: Point = (0.0, 0.0)

@@ -1,0 +1,68 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""A laser scanner: distances along beams at equal angles (`sensor_msgs/LaserScan`)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+import math
+from typing import ClassVar
+
+from physsim_ros.model.checks import Checks, Whole
+from physsim_ros.model.errors import BadProperty
+from physsim_ros.model.robots.sensors.sensor import angles, distances, LENGTH, Sensor
+from physsim_ros.model.transform import Point
+
+# Greatest number of beams: ten times as many as real scanners have; some 3 ms a scan.
+MOST_BEAMS = 10_000
+# Spans that differ from a full turn by less are one [rad]: 6.2832, but not the 6.28 of 360 beams
+# with a gap.
+_FULL = 1e-3
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Laser(Sensor):
+    """
+    A laser scanner.
+
+    :param beams: their number
+    :param angle: of the first and the last beam [rad]; of a full turn the last beam, which would
+        be the first again, is one increment before it
+    :param range: least and greatest distance that it measures [m]
+    :param noise: standard deviation of a distance [m]
+    :raises BadProperty: several beams have one angle
+    """
+
+    KIND: ClassVar = 'laser'
+    CHECKS: ClassVar[Checks] = {
+        **Sensor.CHECKS,
+        'beams': Whole(1, MOST_BEAMS),
+        'angle': angles,
+        'range': distances,
+        'noise': LENGTH,
+    }
+
+    name: str = 'scan'
+    beams: int = 360
+    angle: Point = (0.0, math.tau)
+    range: Point = (0.1, 10.0)
+    noise: float = 0.0
+
+    def __post_init__(self) -> None:
+        # `super()` without arguments has no class there: a dataclass with slots is made anew.
+        Sensor.__post_init__(self)
+        if self.beams > 1 and self.angle[0] == self.angle[1]:
+            raise BadProperty(
+                f'angle is {self.angle[0]:g} only, for {self.beams} beams', field='angle'
+            )
+
+    @property
+    def increment(self) -> float:
+        """Return the angle from a beam to the next [rad]; 0 for a single one."""
+        first, last = self.angle
+        if self.beams == 1:
+            return 0.0
+        if abs(last - first - math.tau) < _FULL:
+            return math.tau / self.beams
+        return (last - first) / (self.beams - 1)

@@ -1,0 +1,122 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""What all sensors have in common: a topic, a place on the body, a rate."""
+
+from __future__ import annotations
+
+from abc import ABC
+from dataclasses import dataclass
+import math
+import re
+from typing import ClassVar
+
+from physsim_ros.model.checks import check_values, Checks, explicit_values, shown, Within
+from physsim_ros.model.errors import BadProperty, Malformed
+from physsim_ros.model.shapes import LARGEST
+from physsim_ros.model.transform import Point, Pose
+
+# Tokens of ROS (https://design.ros2.org/articles/topic_and_service_names.html).
+_TOPIC = re.compile(r'[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*')
+# Characters of the name of a topic below its namespace: topics of ROS have 255 in all.
+_LONGEST = 80
+# A full turn as people write it, 6.2832, is this much more than one at most [rad].
+_TURN_ROUNDING = 1e-4
+# Greatest angle of a beam from the sensor's axis [rad].
+_FARTHEST_ROUND = 2 * math.tau
+
+FULL_TURN = Within(0.0, math.tau + _TURN_ROUNDING, 'rad')
+LENGTH = Within(0.0, LARGEST, 'm')
+_COORDINATE = Within(-LARGEST, LARGEST, 'm')
+_ANGLE = Within(-_FARTHEST_ROUND, _FARTHEST_ROUND, 'rad')
+
+
+def _topic(value: object, name: str) -> str:
+    if not isinstance(value, str):
+        raise BadProperty(f'{name} must be a text, not {shown(value)}', field=name)
+    if len(value) > _LONGEST or not _TOPIC.fullmatch(value):
+        raise BadProperty(
+            f'{name} {shown(value)} is no topic of ROS: letters, digits and _, not a digit first, '
+            f'at most {_LONGEST} characters',
+            field=name,
+        )
+    return value
+
+
+def _mounting(value: object, name: str) -> Pose:
+    if not isinstance(value, list | tuple):
+        raise BadProperty(f'{name} must be a list of numbers, not {shown(value)}', field=name)
+    if len(value) not in (2, 3):
+        raise Malformed(f'{name} must be [x, y] or [x, y, yaw]', field=name)
+    x, y = (_COORDINATE(each, name) for each in value[:2])
+    return x, y, _ANGLE(value[2], name) if len(value) == 3 else 0.0
+
+
+def span(value: object, name: str, limits: Within) -> Point:
+    """
+    Return the lesser and the greater end of a range.
+
+    :param name: of the field, for the refusal
+    :param limits: of both
+    :raises Malformed: there are not two of them, or one is not finite
+    :raises BadProperty: they are out of range or out of order
+    """
+    if not isinstance(value, list | tuple):
+        raise BadProperty(f'{name} must be a list of two numbers, not {shown(value)}', field=name)
+    if len(value) != 2:
+        raise Malformed(f'{name} needs two numbers, not {len(value)}', field=name)
+    low, high = (limits(each, name) for each in value)
+    if low > high:
+        raise BadProperty(f'{name} must be [min, max], not {shown(value)}', field=name)
+    return low, high
+
+
+def distances(value: object, name: str) -> Point:
+    """Return the least and the greatest distance that a sensor measures [m]."""
+    low, high = span(value, name, LENGTH)
+    if low == high:
+        raise BadProperty(f'{name} must be [min, max], min below max', field=name)
+    return low, high
+
+
+def angles(value: object, name: str) -> Point:
+    """Return the first and the last angle of a sensor [rad], at most a full turn apart."""
+    low, high = span(value, name, _ANGLE)
+    if high - low > FULL_TURN.high:
+        raise BadProperty(f'{name} spans more than a full turn: {high - low:g} rad', field=name)
+    return low, high
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Sensor(ABC):
+    """
+    A sensor of a robot.
+
+    :param name: of its topic, below the namespace of the robot
+    :param at: x, y [m], yaw [rad] in the frame of the body
+    :param rate: readings a second of simulation time [Hz]
+    :raises Malformed: a number is not finite, or a list has the wrong length
+    :raises BadProperty: a value is of the wrong kind or out of range
+    """
+
+    KIND: ClassVar[str]
+    CHECKS: ClassVar[Checks] = {
+        'name': _topic,
+        'at': _mounting,
+        'rate': Within(0.01, 1000.0, 'Hz'),
+    }
+
+    name: str
+    at: Pose = (0.0, 0.0, 0.0)
+    rate: float = 10.0
+
+    def __post_init__(self) -> None:
+        check_values(self, self.CHECKS)
+
+    def entry(self) -> dict[str, object]:
+        """Return the mapping that it is made from."""
+        values = explicit_values(self, self.CHECKS)
+        lists = {
+            key: list(each) if isinstance(each, tuple) else each for key, each in values.items()
+        }
+        return {'kind': self.KIND, **lists}
