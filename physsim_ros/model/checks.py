@@ -16,6 +16,7 @@ import reprlib
 from typing import Any
 
 from physsim_ros.model.errors import BadProperty, Malformed, UnknownProperty
+from physsim_ros.model.everyday_words import property_meant
 from physsim_ros.model.texts import nearest_name
 from physsim_ros.model.transform import Point, Pose
 
@@ -236,16 +237,16 @@ def check_pose(pose: Pose, name: str) -> None:
 
 def check_key(key: object, known: list[str]) -> None:
     """
-    Refuse an unknown key, and name the most similar known one, if any is similar.
+    Refuse an unknown key, and name the known one that is meant or similar, if there is one.
 
     :raises UnknownProperty: the key is not one of the known
     """
     if key in known:
         return
-    nearest = nearest_name(str(key).lower(), known)
-    raise UnknownProperty(
-        f'there is no property {shown(str(key))}{nearest}', field=str(key)[:_LONGEST_SHOWN]
-    )
+    word = str(key)
+    meant = property_meant(word, known)
+    hint = f'; use {meant!r}' if meant else nearest_name(word.lower(), known)
+    raise UnknownProperty(f'there is no property {shown(word)}{hint}', field=word[:_LONGEST_SHOWN])
 
 
 def check_keys(mapping: Mapping[Any, Any], checks: Checks) -> None:

@@ -1,0 +1,48 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""Refusals that tell the property which an everyday word means."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+from typing import Any
+
+from physsim_ros.model import everyday_words
+from physsim_ros.model.body_properties import Properties, properties_from
+from physsim_ros.model.errors import UnknownProperty
+from physsim_ros.model.joints import joint_properties_from, JointProperties
+import pytest
+
+PROPERTIES = {each.name for kind in (Properties, JointProperties) for each in fields(kind)}
+
+
+@pytest.mark.parametrize(
+    ('word', 'name'),
+    [('bouncy', 'elasticity'), ('Bounciness', 'elasticity'), ('restitution', 'elasticity'),
+     ('weight', 'mass'), ('speed', 'velocity'), ('angular velocity', 'spin'), ('fixed', 'anchored'),
+     ('static', 'anchored'), ('rough', 'friction'), ('is-trigger', 'sensor'), ('layer', 'group')],
+)  # fmt: skip
+def test_an_everyday_word_for_a_property_of_a_body_is_told_its_name(word: str, name: str) -> None:
+    with pytest.raises(UnknownProperty) as refused:
+        properties_from({word: 1})
+
+    assert str(refused.value) == f"there is no property '{word}'; use '{name}'"
+    assert refused.value.field == word
+
+
+@pytest.mark.parametrize(
+    ('word', 'name'),
+    [('speed', 'rate'), ('rpm', 'rate'), ('k', 'stiffness'), ('min', 'lower'), ('max', 'upper'),
+     ('torque', 'max_torque'), ('natural_length', 'rest_length'), ('breakable', 'break_force')],
+)  # fmt: skip
+def test_an_everyday_word_for_a_property_of_a_joint_is_told_its_name(word: str, name: str) -> None:
+    with pytest.raises(UnknownProperty, match=f"; use '{name}'$"):
+        joint_properties_from({word: 1})
+
+
+def test_every_property_has_everyday_words_and_none_of_them_is_a_property() -> None:
+    table: dict[str, Any] = everyday_words._WORDS  # noqa: SLF001 - a table that is complete
+
+    assert set(table) == PROPERTIES
+    assert not PROPERTIES.intersection(*[set().union(*table.values())])
