@@ -120,6 +120,6 @@ setup(
             'physsim = physsim_ros.ros.programs.physsim:main',
             'physsim_draw = physsim_ros.ros.programs.physsim_draw:main',
         ],
-        'pytest11': ['physsim = physsim_ros.testing'],
+        'pytest11': ['physsim = physsim_ros.testing.plugin'],
     },
 )

@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Everyday words for properties of bodies and joints: a refusal tells the property that is meant."""
+"""Everyday words for properties of bodies and joints, with the property that each means."""
 
 from __future__ import annotations
 

@@ -4,13 +4,16 @@
 """
 The publisher of `/diagnostics`, once a second.
 
-Law: a viewer or recording that has failed is reported whether anybody subscribes or not.
+Law: a viewer or recording that has failed, and a second node of this node's name, are reported as
+events, whether `/diagnostics` has subscribers or not.
 """
 
 from __future__ import annotations
 
 from diagnostic_msgs.msg import DiagnosticArray
+from physsim_ros.model.snapshot import Answer
 from physsim_ros.ros.frame_outputs import FrameOutputs
+from physsim_ros.ros.namesakes import count_nodes, REMEDY
 from physsim_ros.ros.publishers.frame_statistics import Backlog
 from physsim_ros.ros.requests.subscriptions import RequestSubscriptions
 from physsim_ros.simulation.simulation import Simulation
@@ -37,7 +40,10 @@ class DiagnosticsPublisher:
         outputs: FrameOutputs,
         subscriptions: RequestSubscriptions,
     ) -> None:
+        self._node = node
         self._name = node.get_fully_qualified_name()
+        # Nodes of this name at the last count, this one included.
+        self._namesakes = 1
         self._simulation = simulation
         self._outputs = outputs
         self._subscriptions = subscriptions
@@ -55,7 +61,7 @@ class DiagnosticsPublisher:
             return
         self._due = now_ns + _PERIOD
         outputs = self._outputs
-        outputs.report_answers(outputs.viewer.poll())
+        outputs.report_answers((*outputs.viewer.poll(), *self._new_namesakes()))
         if outputs.frame is None or self._publisher.get_subscription_count() == 0:
             return
         simulation, events = self._simulation, outputs.topics.events
@@ -78,3 +84,11 @@ class DiagnosticsPublisher:
                 backlog=backlog,
             )
         )
+
+    def _new_namesakes(self) -> list[Answer]:
+        """Return an event if there are more nodes of this name than at the last count."""
+        before, self._namesakes = self._namesakes, count_nodes(self._name, seen_by=self._node)
+        if self._namesakes <= max(before, 1):
+            return []
+        message = f'{self._namesakes} nodes are named {self._name}, and all do what one is asked'
+        return [Answer(topic='same_name', message=f'{message}: {REMEDY}', code='same_name')]

@@ -87,6 +87,8 @@ class PhysSimNode(NodeWithoutQosEvents):
         self._started = False
         self.message_delay = 0.0
         self._values = parameters.declare(self)
+        # rclpy 7.1 has no public name for the values that it was started with.
+        parameters.check_names(self._parameter_overrides, self)
         self.simulation = Simulation(
             physics_rate=self._values['physics_rate'],
             publish_rate=self._values['publish_rate'],

@@ -4,12 +4,12 @@
 """
 A pytest plugin: a world in the process of a test, which advances its time.
 
-pytest loads it wherever the package is installed (entry point `pytest11`), in other projects too;
-from a source tree alone, `pytest -p physsim_ros.testing` does. The fixture is `physsim`, a
-`PhysSim`; names and types are for `from physsim_ros.testing import PhysSim, Refused`. Start with
-`world`.
+pytest loads `plugin` wherever the package is installed (entry point `pytest11`), in other projects
+too; from a source tree alone, `pytest -p physsim_ros.testing.plugin` does. The fixture is
+`physsim`, a `PhysSim`. This front has the names and types that a test imports:
+`from physsim_ros.testing import PhysSim, Refused`. Start with `world`.
 
-Laws: ROS is not imported before a test names `PhysSim` or requests the fixture; simulation time
+Laws: ROS is not imported before a test uses `PhysSim` or requests the fixture; simulation time
 does not depend on the wall clock, which only bounds the wait for an answer; messages that other
 nodes send in reaction to a frame have arrived before the next frame, so that every run gives the
 same bits; no node of another process hears the world or is heard by it.
@@ -20,7 +20,8 @@ from __future__ import annotations
 from importlib import import_module
 from typing import Any, TYPE_CHECKING
 
-from physsim_ros.testing.plugin import physsim, pytest_runtest_makereport
+from physsim_ros.testing.parameters import Parameters
+from physsim_ros.testing.plugin import physsim
 from physsim_ros.testing.values import Contact, Pose, Refused, Twist, UnknownName
 
 if TYPE_CHECKING:
@@ -36,9 +37,14 @@ else:
             raise AttributeError(f'module {__name__!r} has no attribute {name!r}')
         return getattr(import_module(f'{__name__}.{_WITH_ROS[name]}'), name)
 
+    def __dir__() -> list[str]:
+        """Return all names, those that are imported at their first use too."""
+        return sorted({*globals(), *__all__})
+
 
 __all__ = [
     'Contact',
+    'Parameters',
     'PhysSim',
     'Pose',
     'Refused',
@@ -46,5 +52,6 @@ __all__ = [
     'UnknownName',
     'own_context',
     'physsim',
-    'pytest_runtest_makereport',
 ]
+# `pytest -p physsim_ros.testing` loads the plugin, too.
+pytest_plugins = ['physsim_ros.testing.plugin']

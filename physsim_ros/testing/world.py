@@ -8,13 +8,14 @@ from __future__ import annotations
 from collections.abc import Callable
 import math
 from pathlib import Path
-from typing import Any, Self
+from typing import Any, Self, Unpack
 
 from geometry_msgs.msg import PointStamped
 from physsim_ros.ros.node import PhysSimNode
 from physsim_ros.testing.client import RequestClient
 from physsim_ros.testing.executor import SettlingExecutor
 from physsim_ros.testing.observed_world import ObservedWorld
+from physsim_ros.testing.parameters import Parameters
 from physsim_ros.testing.values import refusals_as_refused, Refused
 from rclpy.context import Context
 from rclpy.node import Node
@@ -29,15 +30,16 @@ class PhysSim(ObservedWorld):
 
     :param context: of ROS
     :param directory: in which `load` looks for files first, as that of the test
-    :param parameters: of the node, as name -> value
+    :param parameters: of the node; its viewer is 'none' by default
+    :raises PhysSimError: a parameter is unknown, or its value is refused
 
     :ivar recording: the file that frames are recorded in; None if they are not
     """
 
     def __init__(
-        self, context: Context, *, directory: Path | None = None, **parameters: Any
+        self, context: Context, *, directory: Path | None = None, **parameters: Unpack[Parameters]
     ) -> None:
-        values = {'viewer': 'none', 'publish_rate': 60.0} | parameters
+        values: dict[str, Any] = {'viewer': 'none', **parameters}
         overrides = [Parameter(name, value=value) for name, value in values.items()]
         super().__init__(PhysSimNode(context=context, parameter_overrides=overrides))
         # `contacts` reads them from the frame, where no message is needed.
@@ -114,6 +116,8 @@ class PhysSim(ObservedWorld):
         :raises TimeoutError: it is not
         :raises ValueError: the timeout is below 0, or not finite
         """
+        # The traceback of a failed test ends at its own line.
+        __tracebackhide__ = True
         for _ in range(self._frames(timeout)):
             if predicate():
                 return

@@ -20,8 +20,10 @@ PROPERTIES = {each.name for kind in (Properties, JointProperties) for each in fi
 @pytest.mark.parametrize(
     ('word', 'name'),
     [('bouncy', 'elasticity'), ('Bounciness', 'elasticity'), ('restitution', 'elasticity'),
-     ('weight', 'mass'), ('speed', 'velocity'), ('angular velocity', 'spin'), ('fixed', 'anchored'),
-     ('static', 'anchored'), ('rough', 'friction'), ('is-trigger', 'sensor'), ('layer', 'group')],
+     ('weight', 'mass'), ('speed', 'velocity'), ('angular velocity', 'spin'),
+     ('fixed', 'anchored'), ('static', 'anchored'), ('rough', 'friction'),
+     ('is-trigger', 'sensor'),
+     ('layer', 'group')],
 )  # fmt: skip
 def test_an_everyday_word_for_a_property_of_a_body_is_told_its_name(word: str, name: str) -> None:
     with pytest.raises(UnknownProperty) as refused:

@@ -12,6 +12,7 @@ import re
 import subprocess
 import sys
 
+from physsim_ros import testing
 from physsim_ros.testing import own_context, PhysSim
 import pytest
 from rerun import chunk
@@ -19,6 +20,7 @@ from rerun import chunk
 from ..messages import disc
 
 pytest_plugins = ['pytester']
+PLUGIN = 'physsim_ros.testing.plugin'
 
 ROBOT = """
 import pytest
@@ -98,7 +100,7 @@ def run_pytest(directory: Path, *words: str, **environment: str) -> str:
     """Run the tests of somebody else's project, and return what was printed."""
     # An installed package brings its plugin by itself, as for everybody.
     found = entry_points(group='pytest11', name='physsim')
-    plugin = [] if found else ['-p', 'physsim_ros.testing']
+    plugin = [] if found else ['-p', PLUGIN]
     # colcon hands its arguments on by this variable, which is inherited.
     inherited = {name: value for name, value in os.environ.items() if name != 'PYTEST_ADDOPTS'}
     done = subprocess.run(
@@ -130,13 +132,19 @@ def test_a_robot_of_others_is_tested_with_the_same_bits_every_time(tmp_path: Pat
 def test_without_the_fixture_nothing_of_ros_is_imported(tmp_path: Path) -> None:
     (tmp_path / 'test_without.py').write_text(WITHOUT)
     # Other plugins of this environment import what they like.
-    printed = run_pytest(tmp_path, '-p', 'physsim_ros.testing', PYTEST_DISABLE_PLUGIN_AUTOLOAD='1')
+    printed = run_pytest(tmp_path, '-p', PLUGIN, PYTEST_DISABLE_PLUGIN_AUTOLOAD='1')
     assert '1 passed' in printed
 
 
 def test_the_plugin_is_installed_with_the_package() -> None:
     (found,) = entry_points(group='pytest11', name='physsim')
-    assert found.value == 'physsim_ros.testing'
+    assert found.value == PLUGIN
+
+
+def test_all_public_names_are_listed() -> None:
+    listed = dir(testing)
+    assert {'PhysSim', 'own_context', *testing.__all__} <= set(listed)
+    assert listed == sorted(listed)
 
 
 FAILS = """
@@ -175,6 +183,9 @@ def test_a_failed_test_tells_where_things_are_and_keeps_its_recording(
     printed = done.stdout.str()
     assert 'not so within 0.5 simulated seconds' in printed
     assert re.search(r'ball/0 +0\.000 +0\.0\d\d ', printed)
+    # The traceback ends at the line of the test.
+    assert 'test_it.py:16: TimeoutError' in printed or 'test_it.py:17: TimeoutError' in printed
+    assert 'testing/world.py' not in printed
     (path,) = re.findall(r'^recording: (.*)$', printed, re.MULTILINE)
     # Only the failed one, from its first frame to its last.
     assert [str(each) for each in pytester.path.rglob('*.rrd')] == [path]

@@ -9,7 +9,7 @@ is a setting of the world or of drawing has its default and range from there (`m
 `drawing.settings`), and only its meaning here. Start with `table`.
 """
 
-from physsim_ros.ros.parameters.declaration import check, declare
+from physsim_ros.ros.parameters.declaration import check, check_names, declare
 from physsim_ros.ros.parameters.settings import (
     drawing_settings,
     is_world_setting,
@@ -25,6 +25,7 @@ __all__ = [
     'SPECS',
     'Spec',
     'check',
+    'check_names',
     'declare',
     'drawing_settings',
     'is_world_setting',

@@ -13,7 +13,9 @@ from collections.abc import Iterable
 import math
 from typing import Any
 
-from physsim_ros.model.errors import BadProperty, Malformed
+from physsim_ros.model.checks import shown
+from physsim_ros.model.errors import BadProperty, Malformed, UnknownProperty
+from physsim_ros.model.texts import nearest_name
 from physsim_ros.ros.parameters.settings import drawing_settings, world_settings
 from physsim_ros.ros.parameters.spec import Spec, Type
 from physsim_ros.ros.parameters.table import SPECS
@@ -47,6 +49,19 @@ def declare(node: Node) -> dict[str, Any]:
     drawing_settings(values)
     node.add_pre_set_parameters_callback(_all_converted)
     return values
+
+
+def check_names(given: Iterable[str], node: Node) -> None:
+    """
+    Refuse values for parameters that a node has not declared, which rclpy ignores.
+
+    :param given: names of the parameters that the command line, a file or the constructor sets
+    :raises UnknownProperty: one is not declared; the most similar parameter is named
+    """
+    for name in given:
+        if not node.has_parameter(name):
+            nearest = nearest_name(name, SPECS)
+            raise UnknownProperty(f'there is no parameter {shown(name)}{nearest}', field=name)
 
 
 def check(parameter: Parameter) -> None:

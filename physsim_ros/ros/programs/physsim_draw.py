@@ -14,7 +14,12 @@ from diagnostic_msgs.msg import DiagnosticStatus
 from physsim_ros.files import BadDrawing, drawings, find_drawing, load_drawing, Pace, shipped
 from physsim_ros.model.arrays import Floats
 from physsim_ros.ros.programs.help_tables import files_table
-from physsim_ros.ros.programs.stroke_publisher import Interrupted, StrokePublisher, Unanswered
+from physsim_ros.ros.programs.stroke_publisher import (
+    Interrupted,
+    SeveralWorlds,
+    StrokePublisher,
+    Unanswered,
+)
 import rclpy
 from rclpy.exceptions import InvalidTopicNameException
 from rclpy.signals import SignalHandlerOptions
@@ -31,7 +36,7 @@ def main() -> None:
         sys.exit(f'physsim_draw: {error}')
     try:
         _draw_drawing(options)
-    except (BadDrawing, Unanswered) as error:
+    except (BadDrawing, SeveralWorlds, Unanswered) as error:
         sys.exit(f'physsim_draw: {error}')
     except InvalidTopicNameException as error:
         # The lines below the first one mark the invalid character.

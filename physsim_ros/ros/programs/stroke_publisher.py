@@ -22,6 +22,7 @@ from nav_msgs.msg import Path
 import numpy as np
 from physsim_ros.drawing import DRAWING_RANGES
 from physsim_ros.model.arrays import Floats
+from physsim_ros.ros.namesakes import count_nodes, REMEDY
 from physsim_ros.ros.qos_safe_node import LOSSLESS, NodeWithoutQosEvents
 from rclpy.experimental import EventsExecutor
 from rclpy.task import Future
@@ -30,10 +31,17 @@ from std_srvs.srv import Trigger
 
 # Time between two strokes by their stamps [s]: no world reads strokes so far apart together.
 _PAUSE = 1.0 + DRAWING_RANGES['regroup'].high
+# Wait for a second world after the first was discovered [s]: discovery of two nodes on one machine
+# was 0.2 s apart. Nodes that come later are found before the next stroke.
+_DISCOVERY = 0.5
 
 
 class Unanswered(Exception):
     """There is no world, or it does not answer."""
+
+
+class SeveralWorlds(Exception):
+    """More than one node has the name of the world: all of them would draw a stroke."""
 
 
 class Interrupted(Exception):
@@ -55,6 +63,7 @@ class StrokePublisher(NodeWithoutQosEvents):
         # The least stamp of the next stroke [ns].
         self._next_stamp = 0
         self._strokes = self.create_publisher(Path, f'{world}/stroke', LOSSLESS)
+        self._world = self._strokes.topic_name.rpartition('/')[0]
         self._events = self.create_subscription(
             DiagnosticStatus, f'{world}/events', self._receive, LOSSLESS
         )
@@ -76,8 +85,9 @@ class StrokePublisher(NodeWithoutQosEvents):
         events, strokes = self._events, self._strokes
         self._spin_until(
             lambda: strokes.get_subscription_count() and events.get_publisher_count(),
-            f'there is no world at {strokes.topic_name.rpartition("/")[0]}',
+            f'there is no world at {self._world}',
         )
+        self._spin_for(_DISCOVERY)
 
     def draw_stroke(
         self, stroke: Floats, *, frame_id: str, at_once: bool
@@ -88,11 +98,14 @@ class StrokePublisher(NodeWithoutQosEvents):
         :param stroke: (n, 3) float64: x, y [m], time [s]
         :param frame_id: of the stroke; '' is the world frame
         :param at_once: whether to publish without that duration
+        :raises SeveralWorlds: there is more than one world of that name
         :raises Unanswered: the world does not answer
         """
         if not at_once:
-            lifted = time.monotonic() + float(stroke[-1, 2])
-            self._spin_until(lambda: time.monotonic() >= lifted, '', math.inf)
+            self._spin_for(float(stroke[-1, 2]))
+        worlds = count_nodes(self._world, seen_by=self)
+        if worlds > 1:
+            raise SeveralWorlds(f'{worlds} worlds are named {self._world}: {REMEDY}')
         self._answers.clear()
         self._strokes.publish(self._message(stroke, frame_id))
         self._spin_until(lambda: self._answers, 'the world does not answer')
@@ -145,6 +158,11 @@ class StrokePublisher(NodeWithoutQosEvents):
     def _receive(self, status: DiagnosticStatus) -> None:
         if status.name == '~/stroke':
             self._answers.append(status)
+
+    def _spin_for(self, duration: float) -> None:
+        """Spin for a duration [s]."""
+        ended = time.monotonic() + duration
+        self._spin_until(lambda: time.monotonic() >= ended, '', math.inf)
 
     def _spin_until(
         self, predicate: Callable[[], object], otherwise: str, patience: float | None = None

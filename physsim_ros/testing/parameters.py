@@ -1,0 +1,77 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+The parameters of a world by name and type, so that an editor completes them and mypy checks them.
+
+A test compares this class with the table of the node (`ros.parameters.table`), which has meaning,
+default and range of each.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Literal, TypedDict
+
+Tool = Literal[
+    'none',
+    'circle',
+    'circle_diameter',
+    'rectangle',
+    'polygon',
+    'wall',
+    'anchor',
+    'release',
+    'pin',
+    'axle',
+    'delete',
+    'spring',
+    'rod',
+    'rope',
+    'velocity',
+    'gravity',
+]
+
+
+class Parameters(TypedDict, total=False):
+    """Parameters of `PhysSim`; those that are left out have their defaults."""
+
+    frame_id: str
+    world_file: str
+    world_dir: str
+    physics_rate: float
+    publish_rate: float
+    speed: float
+    fast_speed: float
+    tool: Tool
+    history: float
+    history_memory: float
+    publish_clock: bool
+    publish_tf: bool
+    viewer: Literal['auto', 'connect', 'none', 'spawn', 'web']
+    trace: str
+    viewer_url: str
+    record_file: str
+    sketchpad: Literal['none', 'serve']
+    sketchpad_address: str
+    sketchpad_port: int
+    iterations: int
+    gravity: Sequence[float]
+    damping: float
+    bounds: Sequence[float]
+    density: float
+    friction: float
+    elasticity: float
+    draw_velocity: Sequence[float]
+    draw_color: str
+    snap: float
+    sketch_confidence: float
+    regroup: float
+    beautify: float
+    wall_thickness: float
+    drag_force: float
+    command_timeout: float
+    max_bodies: int
+    max_shapes: int
+    max_overlaps: int
+    max_joints: int
