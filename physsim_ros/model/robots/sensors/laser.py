@@ -46,7 +46,7 @@ class Laser(Sensor):
     name: str = 'scan'
     beams: int = 360
     angle: Point = (0.0, math.tau)
-    range: Point = (0.1, 10.0)
+    range: Point = (0.1, 10.0)  # noqa: A003 - a word of the interface
     noise: float = 0.0
 
     def __post_init__(self) -> None:

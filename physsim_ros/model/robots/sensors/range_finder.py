@@ -59,5 +59,5 @@ class RangeFinder(Sensor):
     radiation: Radiation = Radiation.INFRARED
     cone: float = 0.2
     rays: int = 15
-    range: Point = (0.02, 1.0)
+    range: Point = (0.02, 1.0)  # noqa: A003 - a word of the interface
     noise: float = 0.0
