@@ -1,4 +1,118 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""An interactive two-dimensional physics world on ROS 2."""
+"""
+An interactive two-dimensional physics world on ROS 2, and its front for Python without ROS.
+
+`from physsim_ros import Disc, Simulation, Spawn`: a world takes requests and returns frames.
+docs/python.md has an example of each. The node is `ros`, the fixture of tests `testing`.
+
+Law: this module imports a name when it is first used (PEP 562), since every program of the
+package, and every run of pytest, imports it; NumPy and Pymunk take 0.3 s.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import Any, TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from physsim_ros.files import find_world, load_world, save_world
+    from physsim_ros.model.body_properties import Properties
+    from physsim_ros.model.errors import PhysSimError, Refusal
+    from physsim_ros.model.joints import JointKind, JointProperties
+    from physsim_ros.model.requests import (
+        Anchor,
+        Axle,
+        ChangeBody,
+        Command,
+        Configure,
+        Delete,
+        DeleteAll,
+        Grab,
+        Join,
+        LetGo,
+        MoveBodies,
+        MoveHand,
+        Pin,
+        Release,
+        Request,
+        Spawn,
+        Unjoin,
+        UnjoinAll,
+    )
+    from physsim_ros.model.settings import WorldSettings
+    from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon, Shape, Triangles
+    from physsim_ros.model.snapshot import Answer, Contacts, Frame, Snapshot
+    from physsim_ros.simulation.simulation import Simulation
+
+__all__ = [
+    'Anchor',
+    'Answer',
+    'Axle',
+    'Box',
+    'Chain',
+    'ChangeBody',
+    'Command',
+    'Compound',
+    'Configure',
+    'Contacts',
+    'Delete',
+    'DeleteAll',
+    'Disc',
+    'Frame',
+    'Grab',
+    'Join',
+    'JointKind',
+    'JointProperties',
+    'LetGo',
+    'MoveBodies',
+    'MoveHand',
+    'PhysSimError',
+    'Pin',
+    'Polygon',
+    'Properties',
+    'Refusal',
+    'Release',
+    'Request',
+    'Shape',
+    'Simulation',
+    'Snapshot',
+    'Spawn',
+    'Triangles',
+    'Unjoin',
+    'UnjoinAll',
+    'WorldSettings',
+    'find_world',
+    'load_world',
+    'save_world',
+]
+# The module of each of them.
+_NAMES = {
+    'files': ('find_world', 'load_world', 'save_world'),
+    'model.body_properties': ('Properties',),
+    'model.errors': ('PhysSimError', 'Refusal'),
+    'model.joints': ('JointKind', 'JointProperties'),
+    'model.requests': (
+        *('Anchor', 'Axle', 'ChangeBody', 'Command', 'Configure', 'Delete', 'DeleteAll', 'Grab'),
+        *('Join', 'LetGo', 'MoveBodies', 'MoveHand', 'Pin', 'Release', 'Request', 'Spawn'),
+        *('Unjoin', 'UnjoinAll'),
+    ),
+    'model.settings': ('WorldSettings',),
+    'model.shapes': ('Box', 'Chain', 'Compound', 'Disc', 'Polygon', 'Shape', 'Triangles'),
+    'model.snapshot': ('Answer', 'Contacts', 'Frame', 'Snapshot'),
+    'simulation.simulation': ('Simulation',),
+}
+_MODULES = {name: f'{__name__}.{module}' for module, names in _NAMES.items() for name in names}
+
+
+def __getattr__(name: str) -> Any:
+    """Import a name of the front."""
+    if name not in _MODULES:
+        raise AttributeError(f'module {__name__!r} has no attribute {name!r}')
+    return getattr(import_module(_MODULES[name]), name)
+
+
+def __dir__() -> list[str]:
+    """Return all names, those that are not yet imported too."""
+    return sorted({*globals(), *__all__})

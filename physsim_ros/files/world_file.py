@@ -56,17 +56,18 @@ def shipped_worlds() -> Path:
     return shipped('worlds')
 
 
-def find_world(name: str, *, world_dir: Path, confined: bool) -> Path:
+def find_world(name: str, *, world_dir: Path | None = None, confined: bool = False) -> Path:
     """
     Return the file of a name or path.
 
     :param name: a path, absolute or below the world directory, or a world's plain name
-    :param world_dir: directory of the user's worlds
+    :param world_dir: directory of the user's worlds; None is `user_worlds`
     :param confined: whether only that directory and the shipped worlds may be read
     :raises BadWorldFile: there is no such file, or it lies elsewhere
     """
     if not name:
         raise BadWorldFile('parameter world_file names no file', field='world_file')
+    world_dir = world_dir or user_worlds()
     file = f'{name}{_SUFFIX}' if is_plain(name) else name
     paths = [world_dir / file]
     if Path(file).name == file:
@@ -108,15 +109,15 @@ def worlds_in(directory: Path) -> dict[str, Path]:
 def load_world(
     path: Path,
     *,
-    settings: WorldSettings,
-    physics_rate: float,
+    settings: WorldSettings | None = None,
+    physics_rate: float = 240.0,
     progress: Callable[[int, int], object] | None = None,
 ) -> WorldState:
     """
     Read a world.
 
     :param path: of the file
-    :param settings: those that the file does not set
+    :param settings: those that the file does not set; None is the default ones
     :param physics_rate: of the world that continues from it [Hz]
     :param progress: called with the number of bodies that are read, and of all
     :raises BadWorldFile: it cannot be read, or its content is refused; the message names the body
@@ -128,7 +129,8 @@ def load_world(
     except (OSError, UnicodeDecodeError) as error:
         raise _unreadable(path.name, error) from error
     try:
-        return state_from(load_entries(text, field=path.name), settings, physics_rate, progress)
+        entries = load_entries(text, field=path.name)
+        return state_from(entries, settings or WorldSettings(), physics_rate, progress)
     except OSError as error:
         raise _unreadable(path.name, error) from error
     except Malformed as error:

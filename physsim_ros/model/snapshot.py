@@ -15,11 +15,12 @@ from typing import NamedTuple
 
 import numpy as np
 from physsim_ros.model.arrays import Flags, Floats, Ints
-from physsim_ros.model.errors import Refusal
+from physsim_ros.model.errors import Refusal, UnknownBody
 from physsim_ros.model.grips import Grip
 from physsim_ros.model.names import shown_name
 from physsim_ros.model.preview import NO_PREVIEW, Preview
 from physsim_ros.model.scene import Scene
+from physsim_ros.model.texts import nearest_name
 from physsim_ros.model.transform import turned
 
 # The field that every request with a point or pose has besides the one it consists of.
@@ -86,6 +87,17 @@ class Snapshot:
     springs: Springs = NO_SPRINGS
     grips: tuple[Grip, ...] = ()
     pulls: Floats = field(default_factory=lambda: np.empty((0, 2)))
+
+    def row(self, name: str) -> int:
+        """
+        Return the row of a body in `poses` and `twists`.
+
+        :raises UnknownBody: no body has that name; the most similar name is told
+        """
+        names = self.scene.names
+        if name not in names:
+            raise UnknownBody(f'there is no body {shown_name(name)!r}{nearest_name(name, names)}')
+        return names.index(name)
 
     @property
     def nbytes(self) -> int:

@@ -1,0 +1,80 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""The package for Python without ROS: its names, and the page that shows them, which runs."""
+
+from __future__ import annotations
+
+import ast
+from pathlib import Path
+import re
+import subprocess
+import sys
+
+import physsim_ros
+import pytest
+
+ROOT = Path(__file__).parents[1]
+PAGE = (ROOT / 'docs' / 'python.md').read_text(encoding='utf-8')
+# Says which libraries a program has imported.
+IMPORTED = """
+import sys
+heads = {name.partition('.')[0] for name in sys.modules}
+print('IMPORTED', sorted(heads & {'numpy', 'pymunk', 'rclpy', 'rerun', 'tornado', 'yaml'}))
+"""
+
+
+def run(code: str) -> str:
+    done = subprocess.run(
+        [sys.executable, '-c', code],
+        cwd=ROOT,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        timeout=100,
+        check=False,
+    )
+    assert done.returncode == 0, done.stdout
+    return done.stdout
+
+
+def test_the_page_prints_what_it_says_and_imports_no_ros() -> None:
+    programs = re.findall(r'^```python\n(.*?)^```', PAGE, re.MULTILINE | re.DOTALL)
+    printed = re.findall(r'^```text\n(.*?)^```', PAGE, re.MULTILINE | re.DOTALL)
+    assert len(programs) == len(printed)
+
+    told, imported = run('\n'.join(programs) + IMPORTED).split('IMPORTED ')
+    assert told == ''.join(printed)
+    assert ast.literal_eval(imported) == ['numpy', 'pymunk', 'yaml']
+
+
+def test_the_page_names_all_names() -> None:
+    table = {name for row in re.findall(r'^\| (`.*?) \|', PAGE, re.MULTILINE)
+             for name in re.findall(r'`(\w+)`', row)}  # fmt: skip
+    assert sorted({*table, 'Request', 'Shape'}) == sorted(physsim_ros.__all__)
+
+
+def test_the_package_imports_nothing_before_a_name_is_used() -> None:
+    assert run('import physsim_ros; dir(physsim_ros)' + IMPORTED) == 'IMPORTED []\n'
+
+
+def test_all_names_are_listed_and_found_and_typed_as_they_are_imported() -> None:
+    tree = ast.parse((ROOT / 'physsim_ros' / '__init__.py').read_text(encoding='utf-8'))
+    (typed,) = (each for each in tree.body if isinstance(each, ast.If))
+    homes = {
+        name.name: each.module
+        for each in typed.body
+        if isinstance(each, ast.ImportFrom)
+        for name in each.names
+    }
+
+    assert homes == physsim_ros._MODULES  # noqa: SLF001 - which is right where types are
+    assert sorted(physsim_ros.__all__) == sorted(homes)
+    assert {*physsim_ros.__all__} <= {*dir(physsim_ros)}
+    for name in physsim_ros.__all__:
+        assert getattr(physsim_ros, name) is not None
+
+
+def test_a_name_that_there_is_not_is_an_attribute_error() -> None:
+    with pytest.raises(AttributeError, match="no attribute 'Circle'"):
+        physsim_ros.Circle  # noqa: B018 - asked for
