@@ -130,7 +130,7 @@ def names(world: World) -> tuple[str, ...]:
 
 def body_at(world: World, point: Point) -> str | None:
     """Return the topmost body that covers a point of the world [m]."""
-    bodies = world._space.bodies  # noqa: SLF001 - as a click finds them, without changing any
+    bodies = world.space.bodies
     return next(iter(bodies.at(point)), None)
 
 

@@ -63,6 +63,11 @@ class Space:
         self.configure(settings)
 
     @property
+    def settings(self) -> WorldSettings:
+        """Return the settings of the world."""
+        return self._settings
+
+    @property
     def age(self) -> int:
         """Return how many steps were made in it."""
         return self._age
@@ -104,9 +109,10 @@ class Space:
 
     # Bodies
 
-    def add(self, body: Body, serial: int, pose: Pose, twist: Pose) -> RigidBody:
-        """Add a new body."""
-        rigid = rigid_body.build(body, serial)
+    def add(self, body: Body, pose: Pose, twist: Pose) -> RigidBody:
+        """Add a new body, the topmost one."""
+        last = next(reversed(self.bodies.by_name.values()), None)
+        rigid = rigid_body.build(body, 0 if last is None else last.serial + 1)
         self._insert(rigid, pose, twist)
         return rigid
 

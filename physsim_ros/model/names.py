@@ -5,6 +5,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from physsim_ros.model.errors import Malformed
 from physsim_ros.model.texts import abbreviated, is_printable, LONGEST_WORD
 
@@ -89,3 +91,8 @@ def split_name(name: str) -> tuple[str, int]:
         return '', 0
     # One spelling of a number: '7', not '07' or '+7', as in the name of its marker.
     return (namespace, number) if str(number) == id_ else ('', 0)
+
+
+def names_in(names: Iterable[str], namespace: str | None) -> list[str]:
+    """Return those of some names that are in a namespace; None is all."""
+    return [name for name in names if namespace is None or split_name(name)[0] == namespace]

@@ -60,11 +60,18 @@ class Hands:
         hand = self._dragging.get(request.hand)
         return gesture if hand is None or isinstance(request, Grab) else hand.gesture
 
-    def note_request(self, request: HandRequest, gesture: int) -> None:
-        """Note that a request of a hand was carried out."""
+    def note_request(self, request: HandRequest, gesture: int, grips: Iterable[Grip]) -> None:
+        """
+        Note that a request of a hand was carried out.
+
+        :param grips: of the world now; a grab drops the hands without one, whose bodies are gone
+        """
         match request:
             case Grab(hand=hand):
                 self._dragging[hand] = _Hand(gesture)
+                with_grip = {grip.hand for grip in grips}
+                for name in self._dragging.keys() - with_grip:
+                    del self._dragging[name]
             case MoveHand(hand=hand) | KeepHand(hand=hand):
                 self._dragging[hand].silent_since = None
             case LetGo(hand=hand):
@@ -82,11 +89,6 @@ class Hands:
                 hand.silent_since = now_ns
             elif now_ns - hand.silent_since > LONGEST_SILENCE:
                 del self._dragging[name]
-
-    def drop_without_grip(self, grips: Iterable[Grip]) -> None:
-        """Drop the hands whose bodies are gone: they have none of the grips."""
-        with_grip = {grip.hand for grip in grips}
-        self._dragging = {name: hand for name, hand in self._dragging.items() if name in with_grip}
 
     def clear(self) -> None:
         """Drop all hands: another moment is shown than the one at which they grabbed."""

@@ -10,7 +10,7 @@ requests have one each; answers keep the order of requests.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.requests import Grab, HandRequest, KeepHand, LetGo, MoveHand, Request
@@ -20,6 +20,7 @@ from physsim_ros.simulation.past.past import Past
 from physsim_ros.simulation.playback import Playback
 from physsim_ros.simulation.queue_entries import Amend, Call, Seek, Waiting
 from physsim_ros.simulation.request_queue import RequestQueue
+from physsim_ros.simulation.world import Done
 
 
 class RequestHandler:
@@ -54,38 +55,57 @@ class RequestHandler:
         """Apply the requests that wait, but those behind a seek, which wait for its end."""
         self._apply(self._queue.take(lambda: self._playback.is_there))
 
-    def _apply(self, requests: Iterator[Waiting]) -> None:
-        for waiting in requests:
-            request = waiting.request
-            if isinstance(request, Answer):
-                self.answers.append(request)
-                continue
-            if isinstance(request, Call):
-                self.answers += request.call()
-                continue
-            if isinstance(request, Amend):
-                self.answers += self._amend(request, waiting)
-                continue
-            # A seek that is refused shows nothing new.
-            self._playback.changed |= not isinstance(request, Seek)
-            answer = self._answer(request, waiting)
-            if answer.code or not isinstance(request, MoveHand | KeepHand):
-                self.answers.append(answer)
+    def _apply(self, entries: Iterator[Waiting]) -> None:
+        for waiting in entries:
+            try:
+                self.answers += self._carry_out(waiting)
+            except Refusal as refusal:
+                self.answers.append(_refused(refusal, waiting, waiting.subject))
 
-    def apply(self, request: Request, gesture: int) -> tuple[str, str]:
+    def _carry_out(self, waiting: Waiting) -> Iterable[Answer]:
+        """Carry out what has waited, and return its answers."""
+        match waiting.request:
+            case Answer() as answer:
+                return [answer]
+            case Refusal() as refusal:
+                self._playback.changed = True
+                raise refusal
+            case Call(call=call):
+                return call()
+            case Amend(gestures=gestures, requests=requests):
+                self._playback.seek_shown()
+                results = self._past.amend(gestures, requests)
+                self._playback.note_jump()
+                return [_answer(result, waiting) for result in results]
+            case Seek(stamp=stamp):
+                return [_answer(Done('', self.seek(stamp)), waiting)]
+            case request:
+                self._playback.changed = True
+                done = self.apply(request, waiting.gesture)
+                # Moves come at the rate of the display.
+                told = not isinstance(request, MoveHand | KeepHand)
+                return [_answer(done, waiting)] if told else []
+
+    def apply(self, request: Request, gesture: int) -> Done:
         """
         Apply a request now.
 
         :param gesture: that it is part of; a drag has one of its own
-        :return: the body or joint concerned, or '', and a sentence that says what was done
         :raises Refusal: and nothing is changed
         """
         timeline = self._past.timeline
         before = timeline.moment
         if isinstance(request, HandRequest):
-            done = self._drag(request, gesture)
-        else:
-            done = self._apply_to_world(request, gesture)
+            if request.hand not in self.hands and not isinstance(request, Grab):
+                # A grip of the past that is shown belongs to no hand of now.
+                return Done('', f'{request.hand} holds no body')
+            if self._playback.speed == 0.0:
+                request = placing(request)
+            gesture = self.hands.gesture_of(request, gesture)
+        self._playback.seek_shown()
+        done = self._past.apply(request, gesture)
+        if isinstance(request, HandRequest):
+            self.hands.note_request(request, gesture, timeline.world.grips)
         if timeline.moment != before:
             # On a new course, grips without a hand are removed.
             self.release_grips()
@@ -110,7 +130,7 @@ class RequestHandler:
             if grip.hand not in self.hands:
                 # Undone together with the request before.
                 gesture = timeline.history.node(timeline.serial).gesture or self._queue.gesture
-                self._apply_to_world(LetGo(hand=grip.hand), gesture)
+                self._past.apply(LetGo(hand=grip.hand), gesture)
                 message = f'{grip.hand} is silent and has let go of {grip.body}'
                 self.answers.append(
                     Answer(topic='~/drag/feedback', subject=grip.body, message=message)
@@ -127,47 +147,20 @@ class RequestHandler:
         message = f'{self._playback.time} is the oldest that is kept{more}'
         self.answers.append(Answer(topic='history', message=message))
 
-    def _answer(self, request: Request | Seek | Refusal, waiting: Waiting) -> Answer:
-        """Apply a request that waited, and return its answer."""
-        topic, subject, asker = waiting.topic, waiting.subject, waiting.asker
-        try:
-            if isinstance(request, Refusal):
-                raise request
-            if isinstance(request, Seek):
-                message = self.seek(request.stamp)
-            else:
-                subject, message = self.apply(request, waiting.gesture)
-        except Refusal as refusal:
-            return Answer.refused(
-                refusal, topic=topic, subject=subject, field=waiting.field, asker=asker
-            )
-        return Answer(topic=topic, subject=subject, message=message, asker=asker)
 
-    def _amend(self, amend: Amend, waiting: Waiting) -> Iterator[Answer]:
-        """Replace the requests of earlier gestures, and yield the answers to the new ones."""
-        self._playback.seek_shown()
-        done = self._past.amend(amend.gestures, amend.requests)
-        self._playback.note_jump()
-        topic, field, asker = waiting.topic, waiting.field, waiting.asker
-        for each in done:
-            if isinstance(each, Refusal):
-                yield Answer.refused(each, topic=topic, field=field, asker=asker)
-            else:
-                yield Answer(topic=topic, subject=each[0], message=each[1], asker=asker)
+def _answer(result: Done | Refusal, waiting: Waiting) -> Answer:
+    """Return the answer to a request that waited, with its result."""
+    if isinstance(result, Refusal):
+        return _refused(result, waiting, subject='')
+    return Answer(
+        topic=waiting.topic,
+        subject=result.subject,
+        message=result.message,
+        asker=waiting.asker,
+    )
 
-    def _drag(self, request: HandRequest, gesture: int) -> tuple[str, str]:
-        if request.hand not in self.hands and not isinstance(request, Grab):
-            # A grip of the past that is shown belongs to no hand of now.
-            return '', f'{request.hand} holds no body'
-        if self._playback.speed == 0.0:
-            request = placing(request)
-        gesture = self.hands.gesture_of(request, gesture)
-        done = self._apply_to_world(request, gesture)
-        self.hands.note_request(request, gesture)
-        if isinstance(request, Grab):
-            self.hands.drop_without_grip(self._past.timeline.world.grips)
-        return done
 
-    def _apply_to_world(self, request: Request, gesture: int) -> tuple[str, str]:
-        self._playback.seek_shown()
-        return self._past.apply(request, gesture)
+def _refused(refusal: Refusal, waiting: Waiting, subject: str) -> Answer:
+    return Answer.refused(
+        refusal, topic=waiting.topic, subject=subject, field=waiting.field, asker=waiting.asker
+    )

@@ -152,7 +152,7 @@ class Simulation:
         :raises Refusal: and nothing is changed
         """
         self._handler.apply_waiting()
-        message = self._handler.apply(request, self.requests.begin_gesture())[1]
+        message = self._handler.apply(request, self.requests.begin_gesture()).message
         self._playback.changed = True
         return message
 

@@ -30,7 +30,7 @@ def table_of(count: int) -> BodyTable:
             'sensor': number % 6 == 3,
         }
         spawn(world, f'body/{number}', shapes[number % 8], (9.0 * number, 0.0, 0.0), **kinds)
-    return world._space.table  # noqa: SLF001 - velocities of all bodies at once
+    return world.space.table
 
 
 def twists_about_the_limits(count: int) -> Iterator[Floats]:

@@ -4,6 +4,7 @@
 """The world carries out requests: bodies come, last and go; snapshots show them."""
 
 import math
+from typing import get_args
 
 import numpy as np
 from physsim_ros.model.colors import color_of
@@ -16,11 +17,13 @@ from physsim_ros.model.requests import (
     Configure,
     Delete,
     DeleteAll,
+    Request,
 )
 from physsim_ros.model.scene import Body
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Shape
 from physsim_ros.simulation.world import World
+from physsim_ros.simulation.world.world import HANDLERS
 import pytest
 
 from ..building import (
@@ -38,6 +41,13 @@ from ..building import (
     TRIANGLE,
     twist,
 )
+
+# Dispatch
+
+
+def test_every_request_has_a_handler() -> None:
+    assert set(get_args(Request)) == HANDLERS.keys()
+
 
 # Spawn
 

@@ -7,7 +7,8 @@ Requests: everything that can be asked of a world, as frozen values.
 A constructor checks the values of its request alone; the world checks them against its bodies when
 it applies the request. Poses are (x, y, yaw) in metres and radians, in the world or, where `frame`
 names a body, relative to that body as it is when the request is applied. Start with `bodies`. A
-new request is a class here, a member of a union below, and a method of `simulation.world`.
+new request is a class here, a member of `Request`, and a line in the table of handlers in
+`simulation.world.world`.
 """
 
 from physsim_ros.model.requests.at_point import Anchor, AtPoint, Axle, Pin, Release
@@ -31,7 +32,8 @@ from physsim_ros.model.requests.hands import (
 from physsim_ros.model.requests.joints import Join, join_from, joined_from, Unjoin, UnjoinAll
 from physsim_ros.model.requests.world import Configure, Restore
 
-BodyRequest = (
+HandRequest = Grab | GrabToPlace | MoveHand | PlaceHand | KeepHand | LetGo
+Request = (
     Spawn
     | ChangeBody
     | MoveBodies
@@ -41,16 +43,20 @@ BodyRequest = (
     | Delete
     | DeleteBodies
     | DeleteAll
+    | Join
+    | Unjoin
+    | UnjoinAll
+    | Pin
+    | Axle
+    | HandRequest
+    | Configure
+    | Restore
 )
-JointRequest = Join | Unjoin | UnjoinAll | Pin | Axle
-HandRequest = Grab | MoveHand | KeepHand | LetGo
-Request = BodyRequest | JointRequest | HandRequest | Configure | Restore
 
 __all__ = [
     'Anchor',
     'AtPoint',
     'Axle',
-    'BodyRequest',
     'ChangeBody',
     'Command',
     'Configure',
@@ -61,7 +67,6 @@ __all__ = [
     'GrabToPlace',
     'HandRequest',
     'Join',
-    'JointRequest',
     'KeepHand',
     'LetGo',
     'MoveBodies',

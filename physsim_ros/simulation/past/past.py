@@ -27,6 +27,7 @@ from physsim_ros.simulation.past.history_memory import HistoryMemory
 from physsim_ros.simulation.past.lines import Line, Lines, MOST_COURSES
 from physsim_ros.simulation.past.timeline import Timeline
 from physsim_ros.simulation.past.tree import Moment, Node, Tree
+from physsim_ros.simulation.world import Done
 
 
 class Past:
@@ -203,12 +204,11 @@ class Past:
 
     # Requests
 
-    def apply(self, request: Request, gesture: int) -> tuple[str, str]:
+    def apply(self, request: Request, gesture: int) -> Done:
         """
         Apply a request to the world; in the past it begins a course.
 
         :param gesture: that it is part of
-        :return: the body or joint concerned, or '', and a sentence that says what was done
         :raises Refusal: and nothing is changed
         """
         timeline = self.timeline
@@ -220,7 +220,7 @@ class Past:
             self._lines.clear_undone(self._era)
         return done
 
-    def _branch(self, request: Request, gesture: int) -> tuple[str, str]:
+    def _branch(self, request: Request, gesture: int) -> Done:
         """Apply a request to the world, and keep what lay ahead, if it changes anything."""
         timeline = self.timeline
         left = self._lines.hold(self._line())
@@ -240,9 +240,7 @@ class Past:
         self._answers.append(Answer(topic='branch', message=f'{message}; {left.course} is kept'))
         return done
 
-    def amend(
-        self, gestures: Sequence[int], requests: Sequence[Request]
-    ) -> list[tuple[str, str] | Refusal]:
+    def amend(self, gestures: Sequence[int], requests: Sequence[Request]) -> list[Done | Refusal]:
         """
         Replace the requests of earlier gestures, and simulate again up to this moment.
 

@@ -18,7 +18,7 @@ from physsim_ros.model.requests import Request, Restore
 from physsim_ros.simulation.past.history import History
 from physsim_ros.simulation.past.seekable_replay import SeekableReplay
 from physsim_ros.simulation.past.tree import Node
-from physsim_ros.simulation.world import World
+from physsim_ros.simulation.world import Done, World
 
 # The share of the time between two checkpoints in which the bodies for the next one are made
 # ready, so that no frame makes them all.
@@ -62,11 +62,10 @@ class Timeline(SeekableReplay):
         """Record contacts from now on, or not."""
         self._world.watching = watching
 
-    def apply(self, request: Request, gesture: int) -> tuple[str, str]:
+    def apply(self, request: Request, gesture: int) -> Done:
         """
         Carry out a request; where it changes anything, it is the new tip.
 
-        :return: the body concerned, or '', and a sentence that says what was done
         :raises Refusal: and nothing is changed
         """
         self.continue_seek()
@@ -74,7 +73,7 @@ class Timeline(SeekableReplay):
         self._enter_checkpoint()
         done = self.world.apply(request)
         if self.world.changed:
-            self.history.add_request(self.moment, request, gesture=gesture, subject=done[0])
+            self.history.add_request(self.moment, request, gesture=gesture, subject=done.subject)
             self.serial += 1
             if self.history.is_log_long:
                 # A paused world, too, can drop what is old.
@@ -149,7 +148,7 @@ class Timeline(SeekableReplay):
 
     def amend(
         self, gestures: Sequence[int], requests: Sequence[Request]
-    ) -> tuple[int, list[tuple[str, str] | Refusal]]:
+    ) -> tuple[int, list[Done | Refusal]]:
         """
         Replace the requests of earlier gestures, and simulate again up to this moment.
 
@@ -178,7 +177,7 @@ class Timeline(SeekableReplay):
         self.world.clear_contacts()
         return step, done
 
-    def _try_apply(self, request: Request, gesture: int) -> tuple[str, str] | Refusal:
+    def _try_apply(self, request: Request, gesture: int) -> Done | Refusal:
         try:
             return self.apply(request, gesture)
         except Refusal as refusal:

@@ -4,10 +4,13 @@
 """
 A world: requests go in, steps are made, snapshots come out; it knows the present alone.
 
-Not here: when a request comes, and what was before (`past`). Start with `world`, then
-`body_requests`, `joint_requests` and `hand_requests`. Other folders import the names below.
+Not here: when a request comes, and what was before (`past`). Start with the table of
+handlers in `world`; they are in `body_requests`, `joint_requests`, `hand_requests` and
+`world_requests`. Other folders import the names below.
 """
 
-from physsim_ros.simulation.world.world import steps_in, World
+from physsim_ros.simulation.world.live_space import steps_in
+from physsim_ros.simulation.world.lookup import Done
+from physsim_ros.simulation.world.world import World
 
-__all__ = ['World', 'steps_in']
+__all__ = ['Done', 'World', 'steps_in']

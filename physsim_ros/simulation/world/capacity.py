@@ -22,7 +22,6 @@ from collections.abc import Sequence
 import numpy as np
 from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.ccd.broad_phase import boxes_overlap
-from physsim_ros.engine.joints.joint_set import JointSet
 from physsim_ros.engine.overlaps import (
     core_boxes,
     core_boxes_of,
@@ -50,21 +49,16 @@ _PIECE = 100
 
 class Capacity:
     """
-    The capacity of a world.
+    The capacity of a space.
 
-    :param settings: of the world
+    :param space: with the limits in its settings
 
-    :ivar settings: with the limits, up to date
     :ivar checking: whether anything is refused; not while requests are replayed
     """
 
-    def __init__(self, settings: WorldSettings) -> None:
-        self.settings = settings
+    def __init__(self, space: Space) -> None:
         self.checking = True
-        self.forget()
-
-    def forget(self) -> None:
-        """Drop the count of overlaps: the world is another."""
+        self._space = space
         # At most as many overlaps as there are; None is unknown.
         self._bound: int | None = None
         # Steps that the engine had made at the last count, and pieces of requests since then.
@@ -74,9 +68,7 @@ class Capacity:
         self._boxes: Floats = np.empty((0, 4))
         self._changes = -1
 
-    def check_body(
-        self, space: Space, body: Body, pose: Pose, *, old: RigidBody | None = None
-    ) -> None:
+    def check_body(self, body: Body, pose: Pose, *, old: RigidBody | None = None) -> None:
         """
         Refuse a body for which there is no place.
 
@@ -84,23 +76,9 @@ class Capacity:
         :param old: the same body as it is now; None if it is new
         :raises WorldFull: there is none
         """
-        self.check_bodies(space, [(body, pose, old)])
+        self.check_bodies([(body, pose, old)])
 
-    def check_poses(
-        self, space: Space, rigids: Sequence[RigidBody], poses: Sequence[Pose]
-    ) -> None:
-        """
-        Refuse poses of bodies that would overlap too much.
-
-        :raises WorldFull: they would
-        """
-        if poses:
-            moved = zip(rigids, poses, strict=True)
-            self.check_bodies(space, [(rigid.body, pose, rigid) for rigid, pose in moved])
-
-    def check_bodies(
-        self, space: Space, placed: Sequence[tuple[Body, Pose, RigidBody | None]]
-    ) -> None:
+    def check_bodies(self, placed: Sequence[tuple[Body, Pose, RigidBody | None]]) -> None:
         """
         Refuse bodies for which there is no place.
 
@@ -109,19 +87,20 @@ class Capacity:
         """
         if not self.checking:
             return
-        most = self.settings.max_overlaps
+        space, settings = self._space, self._space.settings
+        most = settings.max_overlaps
         if new_bodies := sum(old is None for _, _, old in placed):
-            check_count(len(space.bodies.by_name) + new_bodies, self.settings)
+            check_count(len(space.bodies.by_name) + new_bodies, settings)
         added, shapes = 0, len(space.shapes)
         for body, pose, old in placed:
             pieces = len(body.shape.form.pieces)
             shapes += pieces - (0 if old is None else len(old.body.shape.form.pieces))
-            added += self._count_near(space, body, pose, old) + _inside(body)
+            added += self._count_near(body, pose, old) + _inside(body)
             self._since += pieces
-        _check_shapes(shapes, self.settings.max_shapes)
+        _check_shapes(shapes, settings.max_shapes)
         new = [(body, pose) for body, pose, _ in placed]
         if len(new) > 1:
-            added += self._count(new)
+            added += _count(new, most)
         if self._bound is not None and self._bound + added <= most:
             self._bound += added
             return
@@ -130,8 +109,8 @@ class Capacity:
         if before is None or self._age != space.age or self._since * _PIECE > shapes + before:
             names = {body.name for body, _ in new}
             others = _poses(space, names)
-            before = self._count(others)
-            added = self._count([*others, *new], first=names)
+            before = _count(others, most)
+            added = _count([*others, *new], most, first=names)
             added += sum(_inside(body) for body, _ in new)
             self._age, self._since = space.age, 0
             if not names & space.bodies.by_name.keys():
@@ -140,27 +119,27 @@ class Capacity:
             raise _too_many(before + added, most)
         self._bound = before + added
 
-    def check_joint(self, joints: JointSet, joint: Joint) -> None:
+    def check_joint(self, joint: Joint) -> None:
         """
         Refuse a joint for which there is no place, unless it replaces one of its name.
 
-        :param joints: of the world
         :raises WorldFull: there is none
         """
         if not self.checking:
             return
+        joints = self._space.joints
         if joint.name not in joints.by_name:
-            _check_joints(len(joints.by_name) + 1, self.settings.max_joints)
+            _check_joints(len(joints.by_name) + 1, self._space.settings.max_joints)
         for body in (joint.a, joint.b):
             _check_on_body(joints.count_on(body, joint), body)
 
-    def check_hand(self, space: Space, hand: str) -> None:
+    def check_hand(self, hand: str) -> None:
         """
         Refuse the grip of a hand for which there is no place, unless it replaces one of that hand.
 
         :raises WorldFull: there is none
         """
-        grips = space.pipeline.mouse_joints
+        grips = self._space.pipeline.mouse_joints
         if self.checking and grips.grip_of(hand) is None and len(grips.grips()) >= MOST_HANDS:
             raise WorldFull(f'{MOST_HANDS} hands drag a body; there may be no more')
 
@@ -182,13 +161,13 @@ class Capacity:
         for body, count in ends.items():
             _check_on_body(count, body)
         most = state.settings.max_overlaps
-        count = self._count([(each.body, each.pose) for each in state.bodies], most=most)
+        count = _count([(each.body, each.pose) for each in state.bodies], most)
         if count > most:
             raise _too_many(count, most)
 
-    def _count_near(self, space: Space, body: Body, pose: Pose, old: RigidBody | None) -> int:
+    def _count_near(self, body: Body, pose: Pose, old: RigidBody | None) -> int:
         """Count the pieces that those of a body may overlap, which are too many; see above."""
-        boxes, most = core_boxes(body.shape, pose), self.settings.max_overlaps
+        space, boxes = self._space, core_boxes(body.shape, pose)
         is_counted = self._age == space.age and self._changes == space.changes
         if is_counted and old is None and not body.anchored and len(boxes) == 1:
             return int(boxes_overlap(self._boxes, np.array(boxes)).sum())
@@ -196,30 +175,7 @@ class Capacity:
             boxes,
             without=None if old is None else old.engine,
             moving_only=body.anchored,
-            most=most,
-        )
-
-    def _count(
-        self,
-        placed: Sequence[tuple[Body, Pose]],
-        *,
-        first: set[str] | None = None,
-        most: int | None = None,
-    ) -> int:
-        """
-        Count the overlaps of bodies; of some of them with all, or of all.
-
-        :param first: names of these; None is all, with those between the pieces of each
-        :param most: the count ends when it is greater; None is the limit of the settings
-        """
-        bodies = [body for body, _ in placed]
-        shapes, poses = _columns(placed)
-        some = [first is None or body.name in first for body in bodies]
-        fixed = np.array([body.anchored for body in bodies], np.bool_)
-        most = self.settings.max_overlaps if most is None else most
-        count = sum(map(_inside, bodies)) if first is None else 0
-        return count + count_overlaps(
-            laid_out(shapes, poses), np.array(some, np.bool_), fixed, most=most
+            most=space.settings.max_overlaps,
         )
 
 
@@ -234,6 +190,25 @@ def check_count(count: int, settings: WorldSettings) -> None:
         raise WorldFull(
             f'the world would hold {count} bodies; max_bodies is {settings.max_bodies}'
         )
+
+
+def _count(
+    placed: Sequence[tuple[Body, Pose]], most: int, *, first: set[str] | None = None
+) -> int:
+    """
+    Count the overlaps of bodies; of some of them with all, or of all.
+
+    :param most: the count ends when it is greater
+    :param first: names of these; None is all, with those between the pieces of each
+    """
+    bodies = [body for body, _ in placed]
+    shapes, poses = _columns(placed)
+    some = [first is None or body.name in first for body in bodies]
+    fixed = np.array([body.anchored for body in bodies], np.bool_)
+    count = sum(map(_inside, bodies)) if first is None else 0
+    return count + count_overlaps(
+        laid_out(shapes, poses), np.array(some, np.bool_), fixed, most=most
+    )
 
 
 def _poses(space: Space, without: set[str]) -> list[tuple[Body, Pose]]:

@@ -17,13 +17,13 @@ import math
 from physsim_ros.engine.space import Space
 from physsim_ros.model.errors import Anchored, BadProperty, NothingThere, UnknownJoint
 from physsim_ros.model.joints import JointKind, JointProperties
-from physsim_ros.model.names import split_name, WORLD
-from physsim_ros.model.requests import Axle, Join, JointRequest, Pin, Unjoin, UnjoinAll
+from physsim_ros.model.names import names_in, WORLD
+from physsim_ros.model.requests import Axle, Join, Pin, Unjoin, UnjoinAll
 from physsim_ros.model.scene import Joint, Seat
 from physsim_ros.model.texts import nearest_name
 from physsim_ros.model.transform import Point, Pose, rotated
-from physsim_ros.simulation.world.capacity import Capacity
-from physsim_ros.simulation.world.lookup import body_of_name, points_in_world
+from physsim_ros.simulation.world.live_space import LiveSpace
+from physsim_ros.simulation.world.lookup import body_of_name, Done, points_in_world
 
 # Points that lie so near to where a joint is drawn are where it is [m]: what is drawn comes back
 # in the digits of a double, and from a person's hand never.
@@ -37,38 +37,10 @@ BACKGROUND = (0.0, 0.0, 0.0)
 _STRAIGHT = {JointKind.SPRING, JointKind.ROD, JointKind.ROPE}
 
 
-def apply_joint_request(
-    space: Space, request: JointRequest, capacity: Capacity
-) -> tuple[str, str]:
-    """
-    Carry out a request for joints.
-
-    :return: the joint concerned, or '', and a sentence that says what was done
-    :raises Refusal: and nothing is changed
-    """
-    match request:
-        case Join(points=points, frame=frame):
-            return join(space, request, points_in_world(space, points, frame), capacity)
-        case Unjoin(name=name):
-            return unjoin(space, name)
-        case UnjoinAll(namespace=namespace):
-            return '', unjoin_all(space, namespace)
-        case Pin(point=point, frame=frame) | Axle(point=point, frame=frame):
-            kind = JointKind.PIN if isinstance(request, Pin) else JointKind.AXLE
-            (point,) = points_in_world(space, (point,), frame)
-            return pin(space, kind, point, capacity)
-
-
-def join(
-    space: Space, request: Join, points: tuple[Point, ...], capacity: Capacity
-) -> tuple[str, str]:
-    """
-    Make a joint, or change the one of that name.
-
-    :param points: in the world [m]
-    :return: its name, and a sentence that says what was done
-    :raises Refusal: and nothing is changed
-    """
+def join(live: LiveSpace, request: Join) -> Done:
+    """Make a joint, or change the one of that name."""
+    space = live.space
+    points = points_in_world(space, request.points, request.frame)
     old = space.joints.by_name.get(request.name)
     a, b, points = _members(space, request, points)
     _check_members(space, request.kind, a, b)
@@ -85,56 +57,46 @@ def join(
         seat = _seat(request.kind, points, _pose(space, a), _pose(space, b), phase)
     joint = Joint(name=request.name, kind=request.kind, a=a, b=b, seat=seat, properties=said)
     if old is None or old.joint != joint:
-        capacity.check_joint(space.joints, joint)
+        live.capacity.check_joint(joint)
         space.joints.check_springs({}, joint)
         # A rebuilt joint has no cached impulses; bodies on it would lose their warm start.
         space.join(joint)
     other = 'the background' if b == WORLD else b
     which = f'{request.kind} {request.name}'
     if old is not None:
-        return request.name, f'changed {which} of {a} and {other}'
-    return request.name, f'joined {a} to {other} by {which}'
+        return Done(request.name, f'changed {which} of {a} and {other}')
+    return Done(request.name, f'joined {a} to {other} by {which}')
 
 
-def pin(space: Space, kind: JointKind, point: Point, capacity: Capacity) -> tuple[str, str]:
-    """
-    Join the two topmost bodies under a point, or the only one and the background.
-
-    :param point: in the world [m]
-    :return: the name of the joint, and a sentence that says what was done
-    :raises NothingThere: there is no body
-    :raises Anchored: forces move neither of them
-    """
+def pin(live: LiveSpace, request: Pin | Axle) -> Done:
+    """Join the two topmost bodies at a point, or the only one and the background."""
+    kind = JointKind.PIN if isinstance(request, Pin) else JointKind.AXLE
     number = 0
-    while f'{kind}/{number}' in space.joints.by_name:
+    while f'{kind}/{number}' in live.space.joints.by_name:
         number += 1
-    request = Join(name=f'{kind}/{number}', kind=kind, points=(point,))
-    return join(space, request, (point,), capacity)
+    name, points = f'{kind}/{number}', (request.point,)
+    return join(live, Join(name=name, kind=kind, points=points, frame=request.frame))
 
 
-def unjoin(space: Space, name: str) -> tuple[str, str]:
+def unjoin(live: LiveSpace, request: Unjoin) -> Done:
     """
     Remove a joint.
 
     :raises UnknownJoint: there is none of that name
     """
-    if name not in space.joints.by_name:
-        nearest = nearest_name(name, space.joints.by_name)
-        raise UnknownJoint(f'there is no joint {name!r}{nearest}', field='name')
-    space.unjoin(name)
-    return name, f'deleted joint {name}'
+    name, joints = request.name, live.space.joints.by_name
+    if name not in joints:
+        raise UnknownJoint(f'there is no joint {name!r}{nearest_name(name, joints)}', field='name')
+    live.space.unjoin(name)
+    return Done(name, f'deleted joint {name}')
 
 
-def unjoin_all(space: Space, namespace: str | None) -> str:
-    """Remove all joints, or all of a namespace, and say how many."""
-    names = [
-        name
-        for name in space.joints.by_name
-        if namespace is None or split_name(name)[0] == namespace
-    ]
+def unjoin_all(live: LiveSpace, request: UnjoinAll) -> Done:
+    """Remove all joints, or all of a namespace."""
+    names = names_in(live.space.joints.by_name, request.namespace)
     for name in names:
-        space.unjoin(name)
-    return f'deleted {len(names)} joint{"" if len(names) == 1 else "s"}'
+        live.space.unjoin(name)
+    return Done('', f'deleted {len(names)} joint{"" if len(names) == 1 else "s"}')
 
 
 def loosen(space: Space, body: str, point: Point) -> list[str]:

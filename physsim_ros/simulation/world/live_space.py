@@ -4,105 +4,133 @@
 """
 The space that a world steps, and the spaces that replace it at checkpoints.
 
-Law: a world that goes on from its checkpoint and one that resumes it later make the same bits. The
-engine has a past that cannot be read, as the order in which it has found contacts; a space that is
-built from a checkpoint has none. So the world itself goes on in a space built from each of them.
+Law: a world that continues from its checkpoint and one that resumes it later make the same bits.
+The engine has a state that cannot be read, such as the order in which it found contacts; a space
+that is built from a checkpoint has no such state. So at each checkpoint the world itself moves
+into a space that is built from it.
 """
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 from physsim_ros.engine.body_pool import BodyPool
-from physsim_ros.engine.checkpoint import restore_checkpoint, take_checkpoint
+from physsim_ros.engine.checkpoint import checkpoint_of, restore_checkpoint, take_checkpoint
 from physsim_ros.engine.space import Space
-from physsim_ros.model.checkpoint import Checkpoint
+from physsim_ros.model.checkpoint import Checkpoint, WorldState
 from physsim_ros.model.settings import WorldSettings
+from physsim_ros.simulation.world.capacity import Capacity
 
 
 class LiveSpace:
     """
-    The space that a world steps.
+    The space that a world steps, and the number of its steps.
 
     :param settings: of the world
-    :param dt: of a step [s]
+    :param physics_rate: steps a second of simulation time [Hz]
 
-    :ivar space: the present one
+    :ivar dt: duration of a step [s]
+    :ivar step_count: number of steps since the world began
+    :ivar space: the present space
+    :ivar capacity: checks what is added to that space
     """
 
-    def __init__(self, settings: WorldSettings, dt: float) -> None:
-        self.space = Space(settings, dt)
-        self._dt = dt
-        self._pool = BodyPool()
-        # Of the present space, if it was built from a checkpoint just now.
-        self._fresh: _Fresh | None = None
+    def __init__(self, settings: WorldSettings, physics_rate: float) -> None:
+        self.physics_rate = physics_rate
+        self.dt = 1.0 / physics_rate
+        self.step_count = 0
+        self._replace(Space(settings, self.dt), BodyPool())
 
-    def renew(self, step: int) -> Checkpoint:
-        """
-        Replace the space by one that is built from its checkpoint, and return that.
+    @property
+    def settings(self) -> WorldSettings:
+        """Return the settings of the world."""
+        return self.space.settings
 
-        :param step: steps that the world has made
+    def step_after(self, seconds: float) -> int | None:
+        """Return the step at which a time from now on has passed [s]; None for 0: never."""
+        if seconds <= 0.0:
+            return None
+        return self.step_count + steps_in(seconds, self.physics_rate)
+
+    def renew(self) -> Checkpoint:
         """
-        if self._fresh is not None and self._fresh.suits(self.space, step):
-            return self._fresh.key
-        key = take_checkpoint(self.space, step)
-        space = restore_checkpoint(key, self._dt, pool=self._pool.bodies)
+        Move into a space that is built from a checkpoint of this moment; return that checkpoint.
+
+        A world that resumes it later continues with the same bits.
+        """
+        if self._fresh is not None and self._fresh.is_unchanged(self.space, self.step_count):
+            return self._fresh.checkpoint
+        checkpoint = take_checkpoint(self.space, self.step_count)
+        space = restore_checkpoint(checkpoint, self.dt, pool=self._pool.bodies)
         _copy_reports(self.space, space)
         self._replace(space, BodyPool(self.space))
-        return key
+        return checkpoint
 
-    def resume(self, key: Checkpoint, *, going_over: bool) -> None:
+    def resume(self, checkpoint: Checkpoint, *, going_over: bool = False) -> None:
         """
-        Replace the space by one that is built from a checkpoint.
+        Go back, or forward, to a checkpoint.
 
-        :param going_over: whether the world is at that moment now, with the same bodies; then
-            the contacts of the frame so far are kept
+        :param going_over: whether the world is at that moment now, with the same bodies; the
+            contacts of the unfinished frame are kept then
         """
-        space = restore_checkpoint(key, self._dt)
+        space = restore_checkpoint(checkpoint, self.dt)
         if going_over:
             _copy_reports(self.space, space)
         self._replace(space, BodyPool())
+        self.step_count = checkpoint.step
 
-    def begin(self, key: Checkpoint) -> None:
+    def begin(self, state: WorldState) -> None:
         """
-        Replace the space by one that begins with a checkpoint, made of a saved state.
+        Replace the space by one that begins with a saved state; time goes on.
 
         :raises BadProperty: springs are too stiff for the steps; nothing is changed
         """
-        space = restore_checkpoint(key, self._dt)
+        checkpoint = checkpoint_of(state, self.step_count, self.dt)
+        space = restore_checkpoint(checkpoint, self.dt)
         space.joints.check_springs(
             {name: rigid.body for name, rigid in space.bodies.by_name.items()}
         )
-        self._replace(space, BodyPool())
-        self._fresh = _Fresh(key, space, space.changes)
+        self._replace(space, BodyPool(), _Fresh(checkpoint, space, space.changes))
 
     def build_bodies(self, count: int) -> None:
         """Build a number of bodies for the next `renew`."""
         self._pool.build_bodies(self.space.table.scene, count)
 
-    def _replace(self, space: Space, pool: BodyPool) -> None:
-        self.space, self._pool, self._fresh = space, pool, None
+    def _replace(self, space: Space, pool: BodyPool, fresh: _Fresh | None = None) -> None:
+        self.space, self.capacity = space, Capacity(space)
+        self._pool, self._fresh = pool, fresh
 
 
 class _Fresh(NamedTuple):
     """
-    A checkpoint, and the space that was built from it.
+    A checkpoint of a loaded state, and the space that was built from it.
 
-    :ivar changes: of the space then
+    :ivar changes: count of changes of that space when it was built
     """
 
-    key: Checkpoint
+    checkpoint: Checkpoint
     space: Space
     changes: int
 
-    def suits(self, space: Space, step: int) -> bool:
-        """Return whether a space is still as it was built, at a step."""
+    def is_unchanged(self, space: Space, step: int) -> bool:
+        """Return whether a space at a step is this one, unchanged."""
         as_built = self.space is space and space.age == 0 and space.changes == self.changes
-        return as_built and self.key.step == step
+        return as_built and self.checkpoint.step == step
 
 
 def _copy_reports(old: Space, new: Space) -> None:
-    """Copy what an older space of the same bodies has reported of the frame so far."""
+    """Copy the reports of the unfinished frame from an older space of the same bodies."""
     report = new.pipeline.contact_report
     report.copy_sums(old.pipeline.contact_report, old.table.ids, new.table.ids)
     new.broken = old.broken
+
+
+def steps_in(seconds: float, physics_rate: float) -> int:
+    """
+    Return the number of steps that cover a time [s], at least one.
+
+    :param physics_rate: of the world [Hz]
+    """
+    # Subtract a tolerance, so that 0.1 s at 240 Hz gives 24 steps, not 25.
+    return max(1, math.ceil(seconds * physics_rate * (1.0 - 1e-15) - 1e-9))

@@ -1,11 +1,12 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Names, points and poses of requests, looked up in a space."""
+"""What handlers share: bodies, poses and points of a request, found in a space; and the result."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import NamedTuple
 
 from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.space import Space
@@ -13,6 +14,18 @@ from physsim_ros.model.checks import check_pose
 from physsim_ros.model.errors import UnknownBody, UnknownFrame
 from physsim_ros.model.texts import nearest_name
 from physsim_ros.model.transform import Point, Pose, rotated
+
+
+class Done(NamedTuple):
+    """
+    The result of a request.
+
+    :ivar subject: name of the body or joint concerned; '' for several or none
+    :ivar message: sentence that says what was done
+    """
+
+    subject: str
+    message: str
 
 
 def body_of_name(space: Space, name: str, field: str = 'name') -> RigidBody:

@@ -261,7 +261,7 @@ def test_what_hung_on_a_joint_once_bounces_as_if_it_never_had():
     for hung in (False, True):
         world = World(settings=WorldSettings(bounds=(-1.0, 0.0, 1.0, 9.0), elasticity=0.9))
         world.apply(Spawn(name='body/0', shape=Disc(radius=0.2), pose=(0.0, 2.0, 0.0)))
-        bodies = world._space.bodies.by_name  # noqa: SLF001 - what the engine keeps
+        bodies = world.space.bodies.by_name
         engine = bodies['body/0'].engine
         # The body lists its joint for as long as this refers to it.
         joint = hung and pymunk.PinJoint(engine, pymunk.Body())

@@ -23,7 +23,7 @@ SECOND = 1_000_000_000
 
 def sleepers(world: World) -> list[str]:
     """Return the names of the bodies that sleep."""
-    table = world._space.table  # noqa: SLF001 - sleeping is not seen from outside
+    table = world.space.table
     assert table.state is not None
     return [table.scene.names[row] for row in np.flatnonzero(table.asleep)]
 
