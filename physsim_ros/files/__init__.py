@@ -12,6 +12,7 @@ from physsim_ros.files.drawing_file import BadDrawing, drawings, find_drawing, l
 from physsim_ros.files.own_worlds import check_world_name, OwnWorlds
 from physsim_ros.files.regular_file import write_file
 from physsim_ros.files.resources import shipped, shipped_pictures, title_of
+from physsim_ros.files.robots import shipped_robot, shipped_robots, with_shipped_robot
 from physsim_ros.files.user_directories import user_directory
 from physsim_ros.files.world_file import (
     find_world,
@@ -23,12 +24,13 @@ from physsim_ros.files.world_file import (
     worlds_in,
 )
 from physsim_ros.files.world_reader import spawn_from, state_from
-from physsim_ros.files.world_schema import PARAMETERS, SETTINGS
+from physsim_ros.files.world_schema import PARAMETERS, PROPERTIES, SETTINGS
 from physsim_ros.files.world_writer import text_of
 from physsim_ros.files.yaml12 import load_mapping
 
 __all__ = [
     'PARAMETERS',
+    'PROPERTIES',
     'SETTINGS',
     'BadDrawing',
     'OwnWorlds',
@@ -44,6 +46,8 @@ __all__ = [
     'save_world',
     'shipped',
     'shipped_pictures',
+    'shipped_robot',
+    'shipped_robots',
     'shipped_worlds',
     'spawn_from',
     'state_from',
@@ -51,6 +55,7 @@ __all__ = [
     'title_of',
     'user_directory',
     'user_worlds',
+    'with_shipped_robot',
     'worlds_in',
     'write_file',
 ]

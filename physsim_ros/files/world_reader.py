@@ -21,6 +21,7 @@ from physsim_ros.engine.body_table import LOST
 from physsim_ros.files.entries import count_from, entries_of, naming, ROUNDING
 from physsim_ros.files.impulse_cache import cache_from
 from physsim_ros.files.joint_reader import joints_from
+from physsim_ros.files.robots import with_shipped_robot
 from physsim_ros.files.world_schema import (
     BODY_KEYS,
     FORMAT,
@@ -154,6 +155,7 @@ def spawn_from(entry: Mapping[Any, Any]) -> Spawn:
     """
     for key in entry:
         check_key(key, BODY_KEYS)
+    entry = with_shipped_robot(entry, BODY_KEYS)
     name = entry.get('name')
     if not isinstance(name, str):
         raise BadProperty('a body needs a name', field='name')

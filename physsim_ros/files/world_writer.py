@@ -90,6 +90,10 @@ def _entry(state: BodyState, physics_rate: float) -> dict[str, object]:
     for flag in ('anchored', 'kinematic', 'sensor'):
         if getattr(body, flag):
             entry[flag] = True
+    if any(body.surface_velocity):
+        entry['surface_velocity'] = list(body.surface_velocity)
+    if body.robot is not None:
+        entry['robot'] = body.robot.entry()
     if body.group:
         entry['group'] = body.group
     if body.expires is not None:

@@ -27,6 +27,7 @@ from physsim_ros.model.checks import (
     Within,
 )
 from physsim_ros.model.errors import BadProperty
+from physsim_ros.model.robots import Robot, robot_from
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -44,6 +45,9 @@ class Properties:
     :param kinematic: moves at its commanded velocity, unaffected by contacts and joints
     :param group: bodies of the same non-zero group do not collide with each other
     :param sensor: its contacts are reported and have no effect
+    :param surface_velocity: of the surface of a conveyor, which is a sensor, in the body's axes
+        [m/s]
+    :param robot: what makes it a robot, or a mapping of that
     :raises Malformed: a number is not finite or an array has the wrong length
     :raises BadProperty: a value is of the wrong kind or out of range
     """
@@ -58,6 +62,8 @@ class Properties:
     kinematic: bool | None = None
     group: int | None = None
     sensor: bool | None = None
+    surface_velocity: tuple[float, float] | None = None
+    robot: Robot | None = None
 
     def __post_init__(self) -> None:
         check_values(self, _CHECKS)
@@ -101,4 +107,6 @@ _CHECKS: Checks = {
     'kinematic': flag,
     'group': _group,
     'sensor': flag,
+    'surface_velocity': velocity,
+    'robot': robot_from,
 }

@@ -9,7 +9,7 @@ Law: everything here is immutable, and constant while the world steps.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import NamedTuple
 
@@ -18,6 +18,7 @@ from physsim_ros.model.arrays import Floats, Ints
 from physsim_ros.model.colors import Color
 from physsim_ros.model.joints import JointKind, JointProperties, PROPERTIES
 from physsim_ros.model.names import WORLD
+from physsim_ros.model.robots import Robot
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Shape
 
@@ -39,6 +40,9 @@ class Body:
     :param group: bodies of the same non-zero group do not collide with each other
     :param sensor: its contacts are reported and have no effect
     :param expires: step at whose end the body is removed; None is never
+    :param surface_velocity: of the surface of a conveyor, which is a sensor, in the body's axes
+        [m/s]
+    :param robot: what makes it a robot; None is no robot
     """
 
     name: str
@@ -53,6 +57,9 @@ class Body:
     group: int
     sensor: bool
     expires: int | None
+    # Not part of the text, so that digests of worlds without a floor are those of ever.
+    surface_velocity: tuple[float, float] = field(default=(0.0, 0.0), repr=False)
+    robot: Robot | None = field(default=None, repr=False)
 
     @property
     def total_mass(self) -> float:
@@ -160,7 +167,13 @@ class Scene:
     @cached_property
     def key(self) -> bytes:
         """Its content as bytes, for digests; names of classes and fields are part of them."""
-        return repr((self.bodies, self.settings, self.joints)).encode()
+        parts = repr((self.bodies, self.settings, self.joints))
+        floor = [
+            (body.name, body.surface_velocity, body.robot)
+            for body in self.bodies
+            if body.robot is not None or any(body.surface_velocity)
+        ]
+        return (parts + repr(floor) if floor else parts).encode()
 
     @cached_property
     def names(self) -> tuple[str, ...]:

@@ -18,6 +18,7 @@ from physsim_ros.model.checks import HEAVIEST, LIGHTEST
 from physsim_ros.model.colors import color_of
 from physsim_ros.model.errors import Anchored, BadProperty
 from physsim_ros.model.requests import Spawn
+from physsim_ros.model.robots import check_namespace
 from physsim_ros.model.scene import Body
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.transform import Pose
@@ -55,7 +56,7 @@ def changed_body(old: Body, changes: dict[str, Any], properties: Properties) -> 
     Return a body with other properties.
 
     :param changes: fields of the body that are no properties, by name
-    :raises BadProperty: it would be too light or too heavy
+    :raises BadProperty: it would be too light or too heavy, or a robot or conveyor that cannot be
     """
     said = properties.explicit()
     for motion in ('velocity', 'spin'):
@@ -73,7 +74,27 @@ def changed_body(old: Body, changes: dict[str, Any], properties: Properties) -> 
             'simulated',
             field=field,
         )
+    _check_role(body)
     return body
+
+
+def _check_role(body: Body) -> None:
+    """
+    Refuse a robot or a conveyor that cannot be.
+
+    :raises BadProperty: the body has another role, or the robot no namespace that ROS allows
+    """
+    if any(body.surface_velocity) and not body.sensor:
+        raise BadProperty(
+            f'{body.name} is no sensor; only the surface of a sensor moves, as that of a conveyor',
+            field='surface_velocity',
+        )
+    if body.robot is None:
+        return
+    for role in ('anchored', 'kinematic', 'sensor'):
+        if getattr(body, role):
+            raise BadProperty(f'{body.name} is a robot; it cannot be {role}', field=role)
+    check_namespace(body.robot.namespace_of(body.name), 'namespace')
 
 
 def changed_twist(body: Body, twist: Pose, properties: Properties) -> Pose:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from physsim_ros.files import spawn_from
+from physsim_ros.files import spawn_from, with_shipped_robot
 from physsim_ros.model.body_properties import properties_from
 from physsim_ros.model.checks import pair
 from physsim_ros.model.errors import BadProperty
@@ -65,7 +65,7 @@ def _change(fields: Fields) -> Submit:
     properties = {key: value for key, value in given.items() if key not in ('color', 'at')}
     request = ChangeBody(
         name=name,
-        properties=properties_from(properties),
+        properties=properties_from(with_shipped_robot(properties, ['robot'])),
         color=color_of(given['color']) if 'color' in given else None,
         pose=pose_of(given['at']) if 'at' in given else None,
     )

@@ -1,0 +1,52 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+Drives: by which wheels a robot moves, one file a kind.
+
+A drive says where it aims at for a command, and how fast the rims of its wheels are. The engine
+needs no more, so that a new drive is a file here and a member of `DRIVES`. Start with `drive`,
+then `differential`.
+"""
+
+from __future__ import annotations
+
+from physsim_ros.model.checks import check_keys, shown
+from physsim_ros.model.errors import BadProperty
+from physsim_ros.model.robots.drives.car import Car
+from physsim_ros.model.robots.drives.differential import Differential
+from physsim_ros.model.robots.drives.drive import Drive
+from physsim_ros.model.robots.drives.omni import Omni
+
+# By the word for it.
+DRIVES: dict[str, type[Drive]] = {each.KIND: each for each in (Differential, Omni, Car)}
+
+
+def drive_from(value: object, name: str) -> Drive:
+    """
+    Return the drive of a mapping.
+
+    :param name: of the field, for the refusal
+    :raises UnknownProperty: a key is not a property of such a drive; the nearest one is named
+    :raises Malformed: a number is not finite
+    :raises BadProperty: there is no such kind, or a value is null, of the wrong kind or out of
+        range
+    """
+    if isinstance(value, Drive):
+        return value
+    if not isinstance(value, dict):
+        raise BadProperty(f'{name} must be a mapping, not {shown(value)}', field=name)
+    kind, kinds = value.get('kind'), ', '.join(DRIVES)
+    if not isinstance(kind, str) or kind not in DRIVES:
+        if kind is None:
+            raise BadProperty(f'a drive needs a kind: {kinds}', field='kind')
+        raise BadProperty(
+            f'there is no kind of drive {shown(kind)}; there are {kinds}', field='kind'
+        )
+    drive = DRIVES[kind]
+    properties = {key: each for key, each in value.items() if key != 'kind'}
+    check_keys(properties, drive.CHECKS)
+    return drive(**properties)
+
+
+__all__ = ['DRIVES', 'Car', 'Differential', 'Drive', 'Omni', 'drive_from']

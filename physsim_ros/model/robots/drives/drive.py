@@ -1,0 +1,102 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+What all drives have in common: limits of motion, and their wheels.
+
+Velocities of a drive are those of the floor under its wheels, as seen from the robot: vx forward,
+vy to the left [m/s], turn counter-clockwise [rad/s], at the origin of the body (REP 103).
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+import math
+from typing import ClassVar
+
+from physsim_ros.model.checks import check_values, Checks, explicit_values, FASTEST, Within
+from physsim_ros.model.shapes import LARGEST, SMALLEST
+from physsim_ros.model.transform import Pose
+
+# Greatest acceleration of wheels [m/s²]: 0.4 m/s in a step.
+_STRONGEST = 1e2
+# Longest time for which a command counts [s].
+_LONGEST = 1e6
+
+LENGTH = Within(SMALLEST, LARGEST, 'm')
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Drive(ABC):
+    """
+    A drive of a robot.
+
+    :param max_speed: greatest speed [m/s]
+    :param max_turn: greatest turn rate [rad/s]
+    :param acceleration: greatest acceleration of the rim of a wheel [m/s²]
+    :param traction: coefficient of friction between wheels and floor
+    :param timeout: simulation time after which it stops without another command [s]
+    :param track: distance of its wheels from left to right [m]
+    :param wheel_radius: [m]
+    :raises Malformed: a number is not finite
+    :raises BadProperty: a value is of the wrong kind or out of range
+    """
+
+    KIND: ClassVar[str]
+    CHECKS: ClassVar[Checks] = {
+        'max_speed': Within(0.0, FASTEST, 'm/s'),
+        'max_turn': Within(0.0, FASTEST, 'rad/s'),
+        'acceleration': Within(0.0, _STRONGEST, 'm/s²'),
+        'traction': Within(0.0, 10.0),
+        'timeout': Within(0.0, _LONGEST, 's'),
+        'track': LENGTH,
+        'wheel_radius': LENGTH,
+    }
+
+    max_speed: float = 0.5
+    max_turn: float = 2.0
+    acceleration: float = 2.0
+    traction: float = 0.8
+    timeout: float = 0.5
+    track: float = 0.2
+    wheel_radius: float = 0.03
+
+    def __post_init__(self) -> None:
+        check_values(self, self.CHECKS)
+
+    def entry(self) -> dict[str, object]:
+        """Return the mapping that it is made from."""
+        return {'kind': self.KIND, **explicit_values(self, self.CHECKS)}
+
+    @property
+    @abstractmethod
+    def wheels(self) -> dict[str, Pose]:
+        """
+        Return the wheels that drive, by the name of their joint.
+
+        The speed of a rim is a sum of the velocity's vx, vy and turn, by these factors.
+        """
+
+    @property
+    @abstractmethod
+    def lever(self) -> float:
+        """Return the mean distance of its wheels from their middle [m]."""
+
+    @property
+    def most_curved(self) -> float:
+        """Return the greatest curvature of its way [1/m]."""
+        return math.inf
+
+    @abstractmethod
+    def aim(self, command: Pose) -> Pose:
+        """
+        Return the velocity that it can have and that is nearest to a commanded one.
+
+        :param command: finite vx, vy [m/s], turn [rad/s]
+        """
+
+
+def within(value: float, most: float) -> float:
+    """Return a number cut off at -most and most."""
+    return max(-most, min(most, value))

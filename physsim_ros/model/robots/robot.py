@@ -1,0 +1,127 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+A robot: a drive, odometry, sensors, and the namespace of its topics.
+
+Law: the topics of a robot have different names, which ROS allows.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+import re
+
+from physsim_ros.model.checks import check_keys, check_values, Checks, shown
+from physsim_ros.model.errors import BadProperty
+from physsim_ros.model.robots.drives import Drive, drive_from
+from physsim_ros.model.robots.odometry import Odometry, odometry_from
+from physsim_ros.model.robots.sensors import Sensor, sensor_from
+
+# Names of topics that every robot has.
+OWN_TOPICS = ('cmd_vel', 'odom', 'ground_truth')
+# Greatest number of sensors of a robot.
+MOST_SENSORS = 64
+# Characters of a namespace: topics of ROS have 255 at most.
+_LONGEST = 150
+# Tokens of ROS (https://design.ros2.org/articles/topic_and_service_names.html).
+_NAMESPACE = re.compile(r'([A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*)?')
+
+
+def check_namespace(value: object, name: str) -> str:
+    """
+    Return a namespace without a slash at its beginning; it may be empty.
+
+    :param name: of the field, for the refusal
+    :raises BadProperty: ROS does not allow it
+    """
+    if not isinstance(value, str):
+        raise BadProperty(f'{name} must be a text, not {shown(value)}', field=name)
+    namespace = value.removeprefix('/')
+    if len(namespace) > _LONGEST or not _NAMESPACE.fullmatch(namespace):
+        raise BadProperty(
+            f'{name} {shown(value)} is none of ROS: letters, digits and _, parted by /, no part '
+            f'begins with a digit, at most {_LONGEST} characters',
+            field=name,
+        )
+    return namespace
+
+
+def _sensors(value: object, name: str) -> tuple[Sensor, ...]:
+    if not isinstance(value, Sequence) or isinstance(value, str):
+        raise BadProperty(f'{name} must be a list of mappings, not {shown(value)}', field=name)
+    if len(value) > MOST_SENSORS:
+        raise BadProperty(f'a robot has at most {MOST_SENSORS} {name}', field=name)
+    return tuple(each if isinstance(each, Sensor) else sensor_from(each) for each in value)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Robot:
+    """
+    That what makes a body a robot.
+
+    :param drive: of which kind it is, and how fast it may be
+    :param odometry: how often, and how exact
+    :param sensors: on the body, each on a topic of its own
+    :param namespace: of its topics, without a slash at its beginning; None is by the name of the
+        body
+    :raises Malformed: a number is not finite
+    :raises BadProperty: a value is of the wrong kind or out of range, or two topics have one name
+    """
+
+    drive: Drive
+    odometry: Odometry = field(default_factory=Odometry)
+    sensors: tuple[Sensor, ...] = ()
+    namespace: str | None = None
+
+    def __post_init__(self) -> None:
+        check_values(self, _CHECKS)
+        topics = [*OWN_TOPICS, *(sensor.name for sensor in self.sensors)]
+        for topic in topics:
+            if topics.count(topic) > 1:
+                raise BadProperty(f'a robot has two topics {topic}', field='sensors')
+
+    def namespace_of(self, body: str) -> str:
+        """
+        Return the namespace of its topics, without a slash at its beginning.
+
+        :param body: name of the body
+        """
+        return body.replace('/', '_') if self.namespace is None else self.namespace
+
+    def entry(self) -> dict[str, object]:
+        """Return the mapping that it is made from."""
+        entry: dict[str, object] = {} if self.namespace is None else {'namespace': self.namespace}
+        entry |= {'drive': self.drive.entry(), 'odometry': self.odometry.entry()}
+        if self.sensors:
+            entry['sensors'] = [sensor.entry() for sensor in self.sensors]
+        return entry
+
+
+_CHECKS: Checks = {
+    'namespace': check_namespace,
+    'drive': drive_from,
+    'odometry': odometry_from,
+    'sensors': _sensors,
+}
+
+
+def robot_from(value: object, name: str = 'robot') -> Robot:
+    """
+    Return the robot of a mapping.
+
+    :param value: the mapping; a shipped name is looked up before (`files.robots`)
+    :param name: of the field, for the refusal
+    :raises UnknownProperty: a key is not a property; the nearest one is named
+    :raises Malformed: a number is not finite
+    :raises BadProperty: a value is null, of the wrong kind or out of range, or there is no drive
+    """
+    if isinstance(value, Robot):
+        return value
+    if not isinstance(value, dict):
+        raise BadProperty(f'{name} must be a mapping, not {shown(value)}', field=name)
+    check_keys(value, _CHECKS)
+    if 'drive' not in value:
+        raise BadProperty(f'a {name} needs a drive', field='drive')
+    return Robot(**value)
