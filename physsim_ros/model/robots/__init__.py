@@ -1,4 +1,30 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Robots: bodies that drive and sense; values only, checked as they are made."""
+"""
+Robots: bodies that drive, by a mapping below the key `robot` of a body.
+
+A robot is a drive, odometry, sensors and the namespace of its topics; values only, checked as they
+are made. Shipped robots are files (`files.robots`), the floor that drives act on is in the engine
+(`engine.stages.floor`). Start with `robot`; a new drive is a file in `drives` and a line there,
+a new sensor one in `sensors`.
+"""
+
+from physsim_ros.model.robots.drives import Car, Differential, Drive, DRIVES, Omni
+from physsim_ros.model.robots.odometry import Odometry
+from physsim_ros.model.robots.robot import check_namespace, Robot, robot_from
+from physsim_ros.model.robots.sensors import Sensor, sensor_from
+
+__all__ = [
+    'DRIVES',
+    'Car',
+    'Differential',
+    'Drive',
+    'Odometry',
+    'Omni',
+    'Robot',
+    'Sensor',
+    'check_namespace',
+    'robot_from',
+    'sensor_from',
+]

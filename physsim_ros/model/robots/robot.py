@@ -53,7 +53,7 @@ def _sensors(value: object, name: str) -> tuple[Sensor, ...]:
         raise BadProperty(f'{name} must be a list of mappings, not {shown(value)}', field=name)
     if len(value) > MOST_SENSORS:
         raise BadProperty(f'a robot has at most {MOST_SENSORS} {name}', field=name)
-    return tuple(each if isinstance(each, Sensor) else sensor_from(each) for each in value)
+    return tuple(sensor_from(each, name) for each in value)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
