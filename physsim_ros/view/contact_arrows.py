@@ -12,12 +12,12 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+from physsim_ros.appearance import nice_number
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Contacts
 from physsim_ros.view.arrows import arrow_columns, sampling_period
 from physsim_ros.view.frame_batch import FrameBatch
-from physsim_ros.view.round_numbers import nice_number
 import rerun as rr
 
 PATH = 'world/contacts'

@@ -7,11 +7,11 @@ from __future__ import annotations
 
 import math
 
+from physsim_ros.appearance import nice_number
 from physsim_ros.model.settings import Bounds
 from physsim_ros.view.blueprint import WIDTH
 from physsim_ros.view.camera import PIXELS
 from physsim_ros.view.colors import INK
-from physsim_ros.view.round_numbers import nice_number
 import rerun as rr
 
 LINES, LABELS = 'world/grid', 'world/grid/metres'

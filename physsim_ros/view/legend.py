@@ -8,11 +8,11 @@ from __future__ import annotations
 import itertools
 
 import numpy as np
+from physsim_ros.appearance import full_scale_force, PULL, PUSH, SLATE
 from physsim_ros.view.camera import PIXELS
 from physsim_ros.view.colors import INK
 from physsim_ros.view.contact_arrows import COLOR, ForceScale, LONGEST
 from physsim_ros.view.frame_batch import FrameBatch
-from physsim_ros.view.joints.joint_colors import full_scale_force, PULL, PUSH, SLATE
 import rerun as rr
 
 # In pixels of the image of the camera, so that they stay when the camera moves.

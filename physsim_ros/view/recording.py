@@ -25,8 +25,7 @@ from physsim_ros.view.event_log import send_events
 from physsim_ros.view.frame_batch import FrameBatch, RecordedClock, Times
 from physsim_ros.view.frame_context import FrameContext
 from physsim_ros.view.hand_lines import HandLines
-from physsim_ros.view.joints.joint_geometry import JointGeometry
-from physsim_ros.view.joints.joint_track import JointTrack
+from physsim_ros.view.joints import JointTrack
 from physsim_ros.view.legend import Legend
 from physsim_ros.view.meshes.body_geometry import BodyGeometry, DEPTH
 from physsim_ros.view.meshes.mesh_track import MeshTrack
@@ -158,9 +157,7 @@ class FrameRecorder:
             extent = BodyGeometry(scene, unit, before).extent(batch.poses[0])
             self._camera.show_bodies(extent, batch.frames[0].snapshot.ends)
         unit = self._camera.unit
-        joints = JointGeometry(scene, unit, _JOINTS * unit) if scene.joints else None
-        self._joints.change_scene(joints)
-        symbols = {} if joints is None else joints.body_symbols
+        symbols = self._joints.change_scene(scene, unit, _JOINTS * unit)
         self._geometry = BodyGeometry(scene, unit, before, symbols)
         return self._geometry
 

@@ -15,6 +15,13 @@ from dataclasses import dataclass
 import struct
 
 import numpy as np
+from physsim_ros.appearance import (
+    joint_strips,
+    JointColors,
+    JointLines,
+    segment_corners,
+    symbol_sizes,
+)
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.scene import Body, Joint, Scene
@@ -30,13 +37,6 @@ from physsim_ros.ros.encoders.marker_symbols import (
     wall_symbol,
 )
 from physsim_ros.ros.encoders.scene_encoder import POSE_COLUMNS, pose_columns
-from physsim_ros.view import (
-    joint_strips,
-    JointColors,
-    JointLines,
-    segment_corners,
-    symbol_size,
-)
 from visualization_msgs.msg import Marker
 
 # A marker from its pose on: pose, scale, color, lifetime, frame_locked, number of points.
@@ -154,14 +154,10 @@ class MarkersEncoder:
 
     def _joint_markers(self, scene: Scene) -> list[tuple[_MarkerBytes, _MarkerBytes]]:
         """Return the markers of each joint: its points, and its lines."""
-        if not scene.joints:
-            self._joints = {}
-            return []
-        bodies = dict(zip(scene.names, scene.bodies, strict=True))
         joints = {}
-        for joint in scene.joints:
+        sizes = symbol_sizes(scene) if scene.joints else ()
+        for joint, size in zip(scene.joints, sizes, strict=True):
             known = self._joints.get(joint.name)
-            size = symbol_size(joint, bodies)
             if known is None or known[0] != (joint, size):
                 strips = joint_strips(joint, size)
                 corners = len(segment_corners([len(strip) for strip in strips]))
@@ -213,7 +209,8 @@ class _JointColumns:
     """
 
     def __init__(self, scene: Scene, starts: Sequence[int]) -> None:
-        self._lines = JointLines(scene)
+        glyphs = map(joint_strips, scene.joints, symbol_sizes(scene))
+        self._lines = JointLines(scene, list(glyphs))
         self._colors = JointColors(scene)
         self._corners = segment_corners(self._lines.lengths.tolist())
         counts = np.bincount(self._lines.owner, 2 * self._lines.lengths - 2)

@@ -23,7 +23,7 @@ from physsim_ros.model.shapes import Box, Disc
 from physsim_ros.model.transform import turned
 from physsim_ros.view.meshes.body_mesh import body_mesh, opacity
 from physsim_ros.view.meshes.mesh import Strips
-from physsim_ros.view.meshes.mesh_group import MeshGroup, Path
+from physsim_ros.view.meshes.mesh_track import MeshGroup, Path
 
 ROOT = 'world/bodies'
 # Depth over which later bodies lie above earlier ones [units]: enough for the renderer's depth

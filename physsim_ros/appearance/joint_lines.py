@@ -4,59 +4,42 @@
 """
 The line strips of all joints of a scene, as arrays.
 
-Law: the corners of the strips are computed once a scene, relative to the two points of a joint;
-their positions follow from the poses by array operations.
+Law: the corners of the strips are computed once for a scene, relative to the two points of each
+joint; array operations place them by the poses of a frame.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
+from physsim_ros.appearance.joint_glyphs import Strip
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.transform import turned
-from physsim_ros.view.joints.joint_glyphs import Corner, joint_strips, SMALL, Strip, symbol_size
 
 
 class JointLines:
     """
-    The line strips of all joints of a scene.
+    Line strips of the joints of a scene.
 
     :param scene: with the joints
-    :param least: half the size of the smallest symbol [m]
-    :param chosen: tells which strips; those of all others are left out
+    :param glyphs: the strips of each joint
 
     :ivar seats: (j, 2, 2) float64: points of the joints in the frames of a and b [m]
     :ivar owner: (s,) intp: index of the joint of each strip
     :ivar lengths: (s,) intp: number of corners of each strip
     """
 
-    def __init__(
-        self,
-        scene: Scene,
-        *,
-        least: float = SMALL,
-        chosen: Callable[[Strip], bool] = lambda _: True,
-    ) -> None:
+    def __init__(self, scene: Scene, glyphs: Sequence[Sequence[Strip]]) -> None:
         self._scene = scene
-        bodies = dict(zip(scene.names, scene.bodies, strict=True))
-        corners: list[Corner] = []
-        joints: list[int] = []
-        owner: list[int] = []
-        lengths: list[int] = []
-        for number, joint in enumerate(scene.joints):
-            for strip in joint_strips(joint, symbol_size(joint, bodies, least=least)):
-                if not chosen(strip):
-                    continue
-                corners += strip
-                joints += [number] * len(strip)
-                owner.append(number)
-                lengths.append(len(strip))
+        owned = [(number, strip) for number, strips in enumerate(glyphs) for strip in strips]
+        corners = [corner for _, strip in owned for corner in strip]
+        owner, lengths = [number for number, _ in owned], [len(strip) for _, strip in owned]
         self.owner, self.lengths = np.array(owner, np.intp), np.array(lengths, np.intp)
-        self._joints = np.array(joints, np.intp)
+        self._joints = np.repeat(self.owner, self.lengths)
         self._along = np.array([each.along for each in corners], np.float64)[:, None]
         self._across = np.array([each.across for each in corners], np.float64)[:, None]
         self._sag = np.array([each.sag for each in corners], np.float64)[:, None]
@@ -106,7 +89,7 @@ class JointLines:
 
 
 def _drawn_seats(scene: Scene) -> Floats:
-    """Return the points of joints in body frames, (j, 2, 2) float64 [m]; of gears, centroids."""
+    """Return the points of joints in body frames, (j, 2, 2) float64 [m]; a gear has centroids."""
     seats = scene.seats[:, :4].reshape(-1, 2, 2).copy()
     for number, joint in enumerate(scene.joints):
         if joint.kind is JointKind.GEAR:
@@ -117,7 +100,11 @@ def _drawn_seats(scene: Scene) -> Floats:
 
 
 def segment_corners(lengths: Sequence[int]) -> NDArray[np.intp]:
-    """Return the two corners of each segment, of strips of so many corners each, (2 s,) intp."""
+    """
+    Return the indices of the two corners of each segment, (2 s,) intp.
+
+    :param lengths: number of corners of each strip
+    """
     pairs: list[int] = []
     first = 0
     for length in lengths:

@@ -4,8 +4,9 @@
 """
 The colours of joints by their forces.
 
-The colour is slate at no force; red where the force pulls, blue where it pushes, amber where it
-does neither along a line, at `break_force` or at twice the weight of the heaviest body.
+A joint without force is slate. With a growing force it becomes red where the force pulls, blue
+where it pushes, and amber where the joint has no line along which to pull or push. The colour is
+full at `break_force`, or at twice the weight of the heaviest body.
 """
 
 from __future__ import annotations
@@ -17,7 +18,6 @@ from numpy.typing import NDArray
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Snapshot
-from physsim_ros.view.round_numbers import nice_number
 
 # Colours at no force, and at the full-scale force: red, green, blue.
 SLATE, PULL, PUSH = (0.25, 0.3, 0.38), (0.84, 0.1, 0.12), (0.1, 0.35, 0.9)
@@ -74,3 +74,11 @@ def full_scale_force(scene: Scene) -> float:
     gravity = math.hypot(*scene.settings.gravity) or _WEIGHT
     greatest = _FULL_SCALE * gravity * float(scene.inertia[:, 0].max(initial=0.0))
     return nice_number(max(greatest, _LEAST))
+
+
+def nice_number(value: float) -> float:
+    """Return the least of 1, 2 and 5 times a power of ten that is at least a value > 0."""
+    power = 10.0 ** math.floor(math.log10(value))
+    return next(
+        step * power for step in (1.0, 2.0, 5.0, 10.0) if step * power >= value * (1 - 1e-9)
+    )

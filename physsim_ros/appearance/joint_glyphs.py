@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The glyphs of joints by kind: coils, rods, ropes, axles, motors, tracks, toothed wheels.
+The glyph of each kind of joint: coil, rod, rope, axle, motor, track, toothed wheels.
 
-A glyph is some line strips, whose corners are relative to the two points of a joint.
+A glyph is a list of line strips. Their corners are relative to the two points of the joint, so
+that a glyph is computed once for a scene, and placed in each frame.
 """
 
 from __future__ import annotations
@@ -15,11 +16,10 @@ import math
 
 import numpy as np
 from physsim_ros.model.joints import JointKind
-from physsim_ros.model.names import WORLD
-from physsim_ros.model.scene import Body, Joint
+from physsim_ros.model.scene import Joint, Scene
 
 # The smallest and the largest half size of a symbol [m].
-SMALL, _LARGE = 0.03, 0.15
+_SMALL, _LARGE = 0.03, 0.15
 # Turns of a coil; corners of a turn of it, of a circle, of a rope.
 _COILS, _COIL_STEPS, _CIRCLE, _ROPE = 7, 8, 16, 12
 _TEETH = 8
@@ -58,10 +58,17 @@ def is_rigid(strip: Strip) -> bool:
     )
 
 
-def symbol_size(joint: Joint, bodies: dict[str, Body], *, least: float = SMALL) -> float:
-    """Return half the size of a joint's symbol [m], in proportion to the smaller of its bodies."""
-    forms = [bodies[name].shape.form for name in (joint.a, joint.b) if name != WORLD]
-    return max(min(min(form.inner for form in forms) / 3, _LARGE), least)
+def symbol_sizes(scene: Scene, *, least: float = _SMALL) -> list[float]:
+    """
+    Return half the size of the symbol of each joint [m], a third of the smaller of its bodies.
+
+    :param least: half the size of the smallest symbol [m]
+    """
+    inner = [body.shape.form.inner for body in scene.bodies]
+    return [
+        max(min(min(inner[row] for row in rows if row >= 0) / 3, _LARGE), least)
+        for rows in scene.joint_rows.tolist()
+    ]
 
 
 def joint_strips(joint: Joint, size: float) -> list[Strip]:
