@@ -10,10 +10,11 @@ a user's pan and zoom persist.
 
 from __future__ import annotations
 
-from physsim_ros.view import event_log, name_labels, plots, time_tracks, traces, velocities
-from physsim_ros.view.colors import PAPER
+from physsim_ros.view import arrows, event_log, name_labels, plots, styles, time_tracks, traces
 from physsim_ros.view.frame_batch import RECORDED
+import rerun as rr
 import rerun.blueprint as rrb
+import rerun_bindings as bindings
 
 # Size of the view of the world [pixels]: of the shape that it has in a window of 16 : 9.
 WIDTH, HEIGHT = 1600, 640
@@ -32,7 +33,7 @@ def blueprint(*, paced: bool, traced: bool) -> rrb.Blueprint:
         origin='world/camera',
         contents='world/**',
         name='World',
-        background=PAPER,
+        background=styles.PAPER,
         visual_bounds=rrb.VisualBounds2D(x_range=(0, WIDTH), y_range=(0, HEIGHT)),
         overrides={
             traces.PATH: [
@@ -44,7 +45,7 @@ def blueprint(*, paced: bool, traced: bool) -> rrb.Blueprint:
             ],
             # Shown by a click on the eye in the panel of the blueprint.
             name_labels.PATH: [rrb.EntityBehavior(visible=False)],
-            velocities.PATH: [rrb.EntityBehavior(visible=False)],
+            arrows.VELOCITIES: [rrb.EntityBehavior(visible=False)],
         },
     )
     log = rrb.Horizontal(
@@ -64,3 +65,27 @@ def blueprint(*, paced: bool, traced: bool) -> rrb.Blueprint:
         rrb.SelectionPanel(state='collapsed'),
         rrb.TimePanel(state='collapsed', timeline=RECORDED, play_state='following'),
     )
+
+
+def send_blueprint(recording: rr.RecordingStream, blueprint: rrb.Blueprint) -> None:
+    """
+    Make a blueprint the active one of a recording, and the default one.
+
+    `RecordingStream.send_blueprint` of Rerun (0.41) leaks: it makes a recording with a memory
+    sink, and both keep each other, with two threads, until the process ends. This function can go
+    when they do not any more.
+    """
+    stream = rr.RecordingStream._from_native(  # noqa: SLF001  as Rerun does it
+        bindings.new_blueprint(
+            application_id=rr.get_application_id(recording) or '',
+            make_default=False,
+            make_thread_default=False,
+            default_enabled=True,
+        )
+    )
+    stream.set_time('blueprint', sequence=0)
+    blueprint._log_to_stream(stream)  # noqa: SLF001  the same
+    storage = stream.memory_recording().storage
+    bindings.send_blueprint(storage, True, True, recording=recording.to_native())
+    # Without its sink nothing keeps the recording.
+    stream.disconnect()

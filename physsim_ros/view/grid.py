@@ -9,9 +9,9 @@ import math
 
 from physsim_ros.appearance import nice_number
 from physsim_ros.model.settings import Bounds
+from physsim_ros.view import styles
 from physsim_ros.view.blueprint import WIDTH
 from physsim_ros.view.camera import PIXELS
-from physsim_ros.view.colors import INK
 import rerun as rr
 
 LINES, LABELS = 'world/grid', 'world/grid/metres'
@@ -75,8 +75,7 @@ def grid_columns(
 
 def send_style(recording: rr.RecordingStream) -> None:
     """Log the style of the labels."""
-    style = rr.Points3D.from_fields(colors=[INK], radii=rr.Radius.ui_points(0.0), show_labels=True)
-    recording.log(LABELS, style, static=True)
+    recording.log(LABELS, styles.LABELS, static=True)
 
 
 def _multiples(low: float, high: float, spacing: float) -> range:

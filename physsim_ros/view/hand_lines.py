@@ -6,12 +6,11 @@
 from __future__ import annotations
 
 import numpy as np
-from physsim_ros.view import columns
+from physsim_ros.view import columns, styles
 from physsim_ros.view.frame_batch import FrameBatch
 import rerun as rr
 
 LINES, HANDS = 'world/hands/lines', 'world/hands'
-_COLOR = (230, 51, 128)
 
 
 class HandLines:
@@ -24,9 +23,9 @@ class HandLines:
     def __init__(self, recording: rr.RecordingStream) -> None:
         self._recording = recording
         self._shown = False
-        lines = rr.LineStrips3D.from_fields(radii=rr.Radius.ui_points(1.5), colors=[_COLOR])
+        lines = rr.LineStrips3D.from_fields(radii=rr.Radius.ui_points(1.5), colors=[styles.PEN])
         hands = rr.Points3D.from_fields(
-            radii=rr.Radius.ui_points(5.0), colors=[_COLOR], point_shading='flat'
+            radii=rr.Radius.ui_points(5.0), colors=[styles.PEN], point_shading='flat'
         )
         recording.log(LINES, lines, static=True)
         recording.log(HANDS, hands, static=True)

@@ -9,9 +9,9 @@ import itertools
 
 import numpy as np
 from physsim_ros.appearance import full_scale_force, PULL, PUSH, SLATE
+from physsim_ros.view import styles
+from physsim_ros.view.arrows import CONTACT_COLOR, ForceScale, LONGEST
 from physsim_ros.view.camera import PIXELS
-from physsim_ros.view.colors import INK
-from physsim_ros.view.contact_arrows import COLOR, ForceScale, LONGEST
 from physsim_ros.view.frame_batch import FrameBatch
 import rerun as rr
 
@@ -34,11 +34,8 @@ class Legend:
 
     def __init__(self, recording: rr.RecordingStream) -> None:
         self._recording = recording
-        style = rr.Points2D.from_fields(
-            colors=[INK], radii=rr.Radius.ui_points(0.0), show_labels=True
-        )
-        recording.log(_LABELS, style, static=True)
-        arrow = rr.Arrows2D.from_fields(colors=[COLOR], radii=rr.Radius.ui_points(1.2))
+        recording.log(_LABELS, styles.IMAGE_LABELS, static=True)
+        arrow = rr.Arrows2D.from_fields(colors=[CONTACT_COLOR], radii=rr.Radius.ui_points(1.2))
         recording.log(_ARROW, arrow, static=True)
         edges = np.linspace(-_HALF, _HALF, _COLORS + 1) + _BAR_AT[0]
         strips = [

@@ -12,9 +12,8 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from physsim_ros.view import columns
+from physsim_ros.view import columns, styles
 from physsim_ros.view.arrows import sampling_period
-from physsim_ros.view.colors import INK
 from physsim_ros.view.frame_batch import FrameBatch
 import rerun as rr
 
@@ -32,10 +31,7 @@ class NameLabels:
 
     def __init__(self, recording: rr.RecordingStream) -> None:
         self._recording = recording
-        style = rr.Points3D.from_fields(
-            colors=[INK], radii=rr.Radius.ui_points(0.0), show_labels=True
-        )
-        recording.log(PATH, style, static=True)
+        recording.log(PATH, styles.LABELS, static=True)
 
     def send_names(self, batch: FrameBatch) -> None:
         """Send the names of a scene, at the first frame of a batch."""

@@ -11,14 +11,13 @@ import numpy as np
 from physsim_ros.model.arrays import Singles
 from physsim_ros.model.preview import NO_PREVIEW
 from physsim_ros.model.transform import Point
-from physsim_ros.view.colors import INK
+from physsim_ros.view import styles
 from physsim_ros.view.frame_batch import FrameBatch
 import rerun as rr
 
 LINES, POINTS, LABEL = (f'world/preview/{name}' for name in ('lines', 'points', 'label'))
 # Duration of the preview of a stroke [frames].
 LINGER = 180
-_COLOR = (230, 51, 128)
 # Distance of the label, which hangs below its point, from the highest point [units].
 _ABOVE = 0.7
 
@@ -35,14 +34,11 @@ class PreviewLines:
         # The preview in the recording; that of the last frame, and the frame in which it began.
         self._sent = self._current = NO_PREVIEW
         self._since = 0
-        lines = rr.LineStrips3D.from_fields(radii=rr.Radius.ui_points(1.5), colors=[_COLOR])
-        points = rr.Points3D.from_fields(radii=rr.Radius.ui_points(3.0), colors=[_COLOR])
-        label = rr.Points3D.from_fields(
-            radii=rr.Radius.ui_points(0.0), colors=[INK], show_labels=True
-        )
+        lines = rr.LineStrips3D.from_fields(radii=rr.Radius.ui_points(1.5), colors=[styles.PEN])
+        points = rr.Points3D.from_fields(radii=rr.Radius.ui_points(3.0), colors=[styles.PEN])
         recording.log(LINES, lines, static=True)
         recording.log(POINTS, points, static=True)
-        recording.log(LABEL, label, static=True)
+        recording.log(LABEL, styles.LABELS, static=True)
 
     def send(self, batch: FrameBatch, *, unit: float, height: float, repeat: int) -> None:
         """

@@ -4,8 +4,9 @@
 """
 The recording of frames: the world, the words in it, the plots and the log, as columns in Rerun.
 
-Law: components that change only with the scene are sent when it changes, and every `REPEAT`
-frames; positions are sent for many frames at once, in one entity for all bodies that look alike.
+Laws: constant components are static, since a server never drops those. Components that change
+only with the scene are sent when it changes, and every `REPEAT` frames. Positions are sent for
+many frames at once, in one entity for all bodies that look alike.
 """
 
 from __future__ import annotations
@@ -16,11 +17,10 @@ import numpy as np
 from physsim_ros.model.arrays import Floats, Singles
 from physsim_ros.model.settings import Bounds
 from physsim_ros.model.snapshot import Frame
-from physsim_ros.view import contact_arrows, grid, velocities
-from physsim_ros.view.blueprint import blueprint
-from physsim_ros.view.blueprint_stream import send_blueprint
+from physsim_ros.view import grid
+from physsim_ros.view.arrows import ContactArrows, force_scale, VelocityArrows
+from physsim_ros.view.blueprint import blueprint, send_blueprint
 from physsim_ros.view.camera import Camera, pinhole
-from physsim_ros.view.contact_arrows import ContactArrows
 from physsim_ros.view.event_log import send_events
 from physsim_ros.view.frame_batch import FrameBatch, RecordedClock, Times
 from physsim_ros.view.frame_context import FrameContext
@@ -35,7 +35,6 @@ from physsim_ros.view.preview_lines import PreviewLines
 from physsim_ros.view.status import Status
 from physsim_ros.view.time_tracks import TimeTracks
 from physsim_ros.view.traces import Traces
-from physsim_ros.view.velocities import send_velocities
 import rerun as rr
 
 # Period of sending geometry again [frames]: a server at its memory limit drops old rows.
@@ -67,11 +66,14 @@ class FrameRecorder:
         self._poses: Floats = np.empty((0, 3))
         # Whether there is a real-time factor, and whether bodies are traced, in the layout.
         self._layout: tuple[bool, bool] | None = None
-        self._send_styles()
+        recording.log('world/camera', pinhole(), static=True)
+        recording.log(WALLS, rr.Mesh3D.from_fields(albedo_factor=WALL), static=True)
+        grid.send_style(recording)
         self._bodies = MeshTrack(recording)
         self._names = NameLabels(recording)
         self._joints = JointTrack(recording)
         self._contacts = ContactArrows(recording)
+        self._velocities = VelocityArrows(recording)
         self._traces = Traces(recording)
         self._hands = HandLines(recording)
         self._previews = PreviewLines(recording)
@@ -138,7 +140,7 @@ class FrameRecorder:
         self._names.send_places(batch, moved, _NAMES * unit)
         self._joints.send(batch, moved)
         self._contacts.send(batch, height=_ARROWS * unit)
-        send_velocities(self._recording, batch, _ARROWS * unit)
+        self._velocities.send(batch, height=_ARROWS * unit)
         self._traces.send(batch, context.traced, _JOINTS * unit)
         self._hands.send(batch, _PREVIEW * unit)
         self._previews.send(batch, unit=unit, height=_PREVIEW * unit, repeat=REPEAT)
@@ -161,22 +163,6 @@ class FrameRecorder:
         self._geometry = BodyGeometry(scene, unit, before, symbols)
         return self._geometry
 
-    def _send_styles(self) -> None:
-        """Log the constant components as static, which a server never drops."""
-        styles: dict[str, rr.AsComponents] = {
-            'world/camera': pinhole(),
-            WALLS: rr.Mesh3D.from_fields(albedo_factor=WALL),
-            contact_arrows.PATH: rr.Arrows3D.from_fields(
-                radii=rr.Radius.ui_points(1.2), colors=[contact_arrows.COLOR]
-            ),
-            velocities.PATH: rr.Arrows3D.from_fields(
-                radii=rr.Radius.ui_points(1.2), colors=[velocities.COLOR]
-            ),
-        }
-        for path, style in styles.items():
-            self._recording.log(path, style, static=True)
-        grid.send_style(self._recording)
-
     def _send_geometry(self, batch: FrameBatch, bodies: BodyGeometry, *, everything: bool) -> None:
         """Send the components that change only with the scene."""
         times = batch.times_at([0])
@@ -188,7 +174,7 @@ class FrameRecorder:
         lines, labels = grid.grid_columns(self._camera.area, bodies.unit)
         self._recording.send_columns(grid.LINES, times, lines)
         self._recording.send_columns(grid.LABELS, times, labels)
-        forces = contact_arrows.force_scale(batch.scene, bodies.unit)
+        forces = force_scale(batch.scene, bodies.unit)
         self._contacts.change_scale(forces)
         self._legend.send(batch, forces, bodies.unit)
 

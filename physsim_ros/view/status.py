@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 from physsim_ros.model.snapshot import Frame
-from physsim_ros.view.colors import INK
+from physsim_ros.view import styles
 from physsim_ros.view.frame_batch import FrameBatch
 import rerun as rr
 
@@ -28,10 +28,8 @@ class Status:
     def __init__(self, recording: rr.RecordingStream) -> None:
         self._recording = recording
         self._words = ''
-        style = rr.Points2D.from_fields(
-            positions=[_AT], colors=[INK], radii=rr.Radius.ui_points(0.0), show_labels=True
-        )
-        recording.log(PATH, style, static=True)
+        recording.log(PATH, styles.IMAGE_LABELS, static=True)
+        recording.log(PATH, rr.Points2D.from_fields(positions=[_AT]), static=True)
 
     def send(self, batch: FrameBatch) -> None:
         """Send the words of every `SAMPLE`-th frame, and where the run state changes."""

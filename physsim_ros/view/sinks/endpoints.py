@@ -20,7 +20,6 @@ import time
 from urllib.parse import quote, urlsplit
 
 from physsim_ros.view.sinks.child_process import end_child, start_child
-from physsim_ros.view.sinks.rerun_sink import RerunSink
 from physsim_ros.view.sinks.sink import Endpoint, Report, Sink
 from physsim_ros.view.sinks.sink_worker import FLUSH_TIMEOUT
 
@@ -50,7 +49,7 @@ class ClientEndpoint(Endpoint):
         except (RuntimeError, ValueError) as error:
             raise ConnectionError(error) from error
         # Without a server, GrpcSink (Rerun 0.41) waits 5 s and then keeps all data in memory.
-        return RerunSink(sink) if _is_open(host, port) else None
+        return Sink(sink) if _is_open(host, port) else None
 
 
 class ServerEndpoint(Endpoint):
@@ -77,14 +76,14 @@ class ServerEndpoint(Endpoint):
 
         with self._lock:
             self._end_program()
-        sink = rr.GrpcServerSink('127.0.0.1', _free_port(), server_memory_limit=SERVER_MEMORY)
-        rerun_sink = RerunSink(sink)
-        self._uri = sink.uri
+        server = rr.GrpcServerSink('127.0.0.1', _free_port(), server_memory_limit=SERVER_MEMORY)
+        sink = Sink(server)
+        self._uri = server.uri
         if self.kind == 'spawn' and not has_display():
             self._fall_back('there is no display')
         else:
             self._start_program()
-        return rerun_sink
+        return sink
 
     def check(self) -> None:
         """Restart or report a program that has ended."""

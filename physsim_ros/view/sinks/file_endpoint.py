@@ -11,7 +11,6 @@ import os
 from pathlib import Path
 import sys
 
-from physsim_ros.view.sinks.rerun_sink import RerunSink
 from physsim_ros.view.sinks.sink import Endpoint, Sink
 
 # What `.rrd` files begin with, before the digit of their version (Rerun 0.41: RRF2).
@@ -54,7 +53,7 @@ class FileEndpoint(Endpoint):
         except OSError as error:
             raise ConnectionError(error.strerror) from error
         # A footer would list all chunks, and grow in memory with the recording: 5 MB a minute.
-        return RerunSink(rr.FileSink(self._path, write_footer=False))
+        return Sink(rr.FileSink(self._path, write_footer=False))
 
     def check(self) -> None:
         """Look whether the file is still there: a deleted one would be written on."""

@@ -17,7 +17,6 @@ from collections.abc import Callable, Sequence
 
 from physsim_ros.model.snapshot import Frame
 from physsim_ros.view.frame_context import FrameContext
-from physsim_ros.view.sinks.rerun_sink import RerunSink
 from physsim_ros.view.sinks.sink import Endpoint, Sink
 
 # Takes a batch as bytes of an `.rrd` file, and the time of its last frame on the timeline
@@ -63,7 +62,7 @@ class PageEndpoint(Endpoint):
         self._send(batch, recorded)
 
 
-class _PageSink(RerunSink):
+class _PageSink(Sink):
     """A recording in memory, of which each batch is sent as soon as it is logged."""
 
     def __init__(self, send: Send) -> None:
