@@ -11,9 +11,8 @@ recognised in `drawing`. Start with `world_file`, then `world_reader` and `world
 from physsim_ros.files.drawing_file import BadDrawing, drawings, find_drawing, load_drawing, Pace
 from physsim_ros.files.own_worlds import check_world_name, OwnWorlds
 from physsim_ros.files.regular_file import write_file
-from physsim_ros.files.resources import shipped, shipped_pictures, title_of
+from physsim_ros.files.resources import shipped, shipped_pictures, title_of, user_directory
 from physsim_ros.files.robots import shipped_robot, shipped_robots, with_shipped_robot
-from physsim_ros.files.user_directories import user_directory
 from physsim_ros.files.world_file import (
     find_world,
     hides_shipped,

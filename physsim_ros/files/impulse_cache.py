@@ -2,24 +2,31 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The impulse cache in world files, under the key `memory`.
+The impulse cache in world files, under the key `memory`: arrays as compressed base64 text.
 
-Law: it is loaded as it was saved, to the bit; or not at all, where shapes have been added or
-removed since.
+Law: the cache is loaded as it was saved, to the bit. It is not loaded where shapes have been added
+or removed since, and refused where a text is not that of an array.
 """
 
 from __future__ import annotations
 
+import base64
+import binascii
 from dataclasses import fields
+from typing import Any
+import zlib
 
 import numpy as np
+from numpy.typing import DTypeLike, NDArray
 from physsim_ros.engine.boundary import wall_count
-from physsim_ros.files.base64_array import pack, unpack
 from physsim_ros.files.entries import count_from
 from physsim_ros.model.checkpoint import ImpulseCache, WorldState
 from physsim_ros.model.checks import known_mapping
 from physsim_ros.model.errors import BadProperty
 
+# Greatest size of an array [bytes], far more than any world needs: a few lines of compressed text
+# can expand to all the memory.
+MOST_BYTES = 64 * 2**20
 _KEYS = [each.name for each in fields(ImpulseCache)]
 
 
@@ -71,3 +78,34 @@ def cache_from(entry: object, state: WorldState) -> ImpulseCache | None:
         impulses=impulses,
         joints=joints,
     )
+
+
+def pack(array: NDArray[Any]) -> str:
+    """Return the numbers of an array as text, little-endian, without type and shape."""
+    little = array.astype(array.dtype.newbyteorder('<'))
+    return base64.b64encode(zlib.compress(little.tobytes())).decode()
+
+
+def unpack(text: object, name: str, dtype: DTypeLike, width: int = 1) -> NDArray[Any]:
+    """
+    Return the (n,) or (n, width) array of a text.
+
+    :param name: of the field, for the refusal
+    :param dtype: of the numbers
+    :param width: numbers in a row
+    :raises BadProperty: the text is not that of such an array
+    """
+    kind = np.dtype(dtype)
+    if not isinstance(text, str):
+        raise BadProperty(f'{name} is not what was saved: it is no text', field=name)
+    try:
+        packed = base64.b64decode(text.encode('ascii'), validate=True)
+        inflater = zlib.decompressobj()
+        data = inflater.decompress(packed, MOST_BYTES)
+        array = np.frombuffer(data, dtype=kind.newbyteorder('<')).astype(kind)
+        array = array if width == 1 else array.reshape(-1, width)
+    except (ValueError, binascii.Error, zlib.error) as error:
+        raise BadProperty(f'{name} is not what was saved: {error}', field=name) from error
+    if not inflater.eof:
+        raise BadProperty(f'{name} is not what was saved: it has no end', field=name)
+    return array

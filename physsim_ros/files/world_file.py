@@ -18,8 +18,7 @@ import textwrap
 
 from physsim_ros.files.entry_lines import load_entries
 from physsim_ros.files.regular_file import read_file, write_file
-from physsim_ros.files.resources import files_by_name, is_plain, shipped
-from physsim_ros.files.user_directories import user_directory
+from physsim_ros.files.resources import files_by_name, is_plain, shipped, user_directory
 from physsim_ros.files.world_reader import state_from
 from physsim_ros.files.world_schema import FORMAT
 from physsim_ros.files.world_writer import text_of

@@ -5,8 +5,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 import re
+from types import MappingProxyType
 from typing import Any, ClassVar
 
 from physsim_ros.model.errors import Malformed
@@ -35,10 +36,11 @@ class Located(dict[Any, Any]):
     A mapping of a text.
 
     :param line: of the text where it begins, from 1
+    :param entries: that it has
     """
 
-    def __init__(self, line: int) -> None:
-        super().__init__()
+    def __init__(self, line: int, entries: Mapping[Any, Any] = MappingProxyType({})) -> None:
+        super().__init__(entries)
         self.line = line
 
 
@@ -133,9 +135,7 @@ for _tag, _pattern, _first in (
     Loader.add_implicit_resolver(_TAG + _tag, re.compile(f'^(?:{_pattern})$'), _first)
 
 
-def load_mapping(
-    text: str, *, field: str, loader: Callable[[str], Loader] = Loader
-) -> dict[Any, Any]:
+def load_mapping(text: str, *, field: str, loader: type[Loader] = Loader) -> dict[Any, Any]:
     """
     Return the mapping of a YAML text; of an empty text an empty one.
 
@@ -146,7 +146,7 @@ def load_mapping(
     :raises Malformed: it is no mapping
     """
     try:
-        value = yaml.load(text, Loader=loader)  # type: ignore[arg-type]  # noqa: S506 - safe
+        value = yaml.load(text, Loader=loader)  # noqa: S506 - safe
     except (yaml.YAMLError, ValueError, RecursionError) as error:
         # The text of PyYAML's errors spans lines and quotes the input; their `problem` does not.
         said = getattr(error, 'problem', None) or str(error) or type(error).__name__
