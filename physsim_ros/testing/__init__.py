@@ -7,7 +7,7 @@ A pytest plugin: a world in the process of a test, which advances its time.
 pytest loads `plugin` wherever the package is installed (entry point `pytest11`), in other projects
 too; from a source tree alone, `pytest -p physsim_ros.testing.plugin` does. The fixture is
 `physsim`, a `PhysSim`. This front has the names and types that a test imports:
-`from physsim_ros.testing import PhysSim, Refused`. Start with `world`.
+`from physsim_ros.testing import disc, PhysSim, Refused`. Start with `world`.
 
 Laws: ROS is not imported before a test uses `PhysSim` or requests the fixture; simulation time
 does not depend on the wall clock, which only bounds the wait for an answer; messages that other
@@ -26,10 +26,36 @@ from physsim_ros.testing.values import Contact, Pose, Refused, Twist, UnknownNam
 
 if TYPE_CHECKING:
     from physsim_ros.testing.context import own_context
+    from physsim_ros.testing.messages import (
+        box,
+        chain,
+        command,
+        delete,
+        delete_all,
+        disc,
+        joint,
+        marker,
+        point,
+        polygon,
+    )
     from physsim_ros.testing.world import PhysSim
 else:
     # The modules that import ROS, by the name that each is imported for.
-    _WITH_ROS = {'PhysSim': 'world', 'own_context': 'context'}
+    _BUILDERS = (
+        'box',
+        'chain',
+        'command',
+        'delete',
+        'delete_all',
+        'disc',
+        'joint',
+        'marker',
+        'point',
+        'polygon',
+    )
+    _WITH_ROS = {'PhysSim': 'world', 'own_context': 'context'} | dict.fromkeys(
+        _BUILDERS, 'messages'
+    )
 
     def __getattr__(name: str) -> Any:
         """Import a name when it is first used (PEP 562)."""
@@ -50,8 +76,18 @@ __all__ = [
     'Refused',
     'Twist',
     'UnknownName',
+    'box',
+    'chain',
+    'command',
+    'delete',
+    'delete_all',
+    'disc',
+    'joint',
+    'marker',
     'own_context',
     'physsim',
+    'point',
+    'polygon',
 ]
 # `pytest -p physsim_ros.testing` loads the plugin, too.
 pytest_plugins = ['physsim_ros.testing.plugin']

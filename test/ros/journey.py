@@ -10,14 +10,14 @@ import random
 import struct
 from typing import Any
 
-from physsim_ros.testing import PhysSim
+from physsim_ros.testing import box, command, delete, disc, PhysSim, point, polygon
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import MultiDOFJointState
 from std_srvs.srv import Trigger
 from visualization_msgs.msg import MarkerArray
 
+from ..building import ELL
 from ..client import Client, Event, set_parameter
-from ..messages import box, command, delete, disc, ELL, point, polygon
 
 # A frame at speed 1 [ns]; stamps are whole nanoseconds.
 PERIOD = 1e9 / 60.0
@@ -112,7 +112,10 @@ class Journey:
             case 'box':
                 publish('~/spawn', box(f'box/{number}', at=at, lifetime=chance.choice((0, 0.5))))
             case 'array':
-                more = (box(f'a/{number}', at=at), polygon(f'b/{number}', outline=ELL, at=at))
+                more = (
+                    box(f'a/{number}', at=at),
+                    polygon(f'b/{number}', outline=ELL.outline, at=at),
+                )
                 publish('~/spawn_array', MarkerArray(markers=more))
             case 'gravity':
                 value = [chance.uniform(-3.0, 3.0), chance.uniform(-12.0, -5.0)]

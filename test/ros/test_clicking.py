@@ -9,13 +9,12 @@ import math
 from typing import Any
 
 from geometry_msgs.msg import PointStamped
-from physsim_ros.testing import PhysSim
+from physsim_ros.testing import box, delete_all, disc, PhysSim, point
 import pytest
 from rclpy.parameter import Parameter
 from visualization_msgs.msg import Marker, MarkerArray
 
 from ..client import Client, Event, KEPT
-from ..messages import box, delete_all, disc, point
 
 UP = math.pi / 2
 

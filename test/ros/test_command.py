@@ -7,11 +7,11 @@ from __future__ import annotations
 
 import math
 
-from physsim_ros.testing import PhysSim, Refused
+from physsim_ros.testing import box, command, disc, PhysSim, polygon, Refused
 import pytest
 
+from ..building import ELL
 from ..client import Client, Event, set_parameter
-from ..messages import box, command, disc, ELL, polygon
 
 G = 9.81
 
@@ -49,7 +49,7 @@ def test_a_pose_is_taken_and_motion_kept(physsim: PhysSim) -> None:
 
 
 def test_a_pose_is_that_of_the_origin_not_of_the_centre_of_mass(physsim: PhysSim) -> None:
-    physsim.spawn(polygon('a/0', outline=ELL, at=(1.0, 1.0)))
+    physsim.spawn(polygon('a/0', outline=ELL.outline, at=(1.0, 1.0)))
     physsim.command(command('a/0', poses=[(5.0, 6.0, 0.7)]))
     assert physsim.pose('a/0') == pytest.approx((5.0, 6.0, 0.7))
 
@@ -64,7 +64,7 @@ def test_a_pose_may_be_relative_to_another_body(physsim: PhysSim) -> None:
 
 
 def test_a_twist_is_taken_in_the_worlds_axes_whatever_the_frame(weightless: PhysSim) -> None:
-    weightless.spawn(polygon('a/0', outline=ELL, at=(1.0, 1.0, 2.0)))
+    weightless.spawn(polygon('a/0', outline=ELL.outline, at=(1.0, 1.0, 2.0)))
     weightless.spawn(box('b/0', at=(9.0, 9.0, 1.0)))
     weightless.command(command('a/0', twists=[(3.0, -1.0, 0.5)], frame='b/0'))
     assert weightless.twist('a/0') == pytest.approx((3.0, -1.0, 0.5))
@@ -95,7 +95,7 @@ def test_a_command_without_arrays_changes_nothing(physsim: PhysSim) -> None:
 
 
 def test_a_wrench_acts_at_the_centre_of_mass(weightless: PhysSim) -> None:
-    weightless.spawn(polygon('a/0', outline=ELL, text='{mass: 4}'))
+    weightless.spawn(polygon('a/0', outline=ELL.outline, text='{mass: 4}'))
     weightless.command(command('a/0', wrenches=[(8.0, -4.0, 0.0)]))
     weightless.run(0.5)
     # m/s: F t / m, and no turning

@@ -12,11 +12,10 @@ from hypothesis import strategies as st
 from physsim_ros.model.errors import Malformed
 from physsim_ros.ros.requests.cdr_reader import Truncated
 from physsim_ros.ros.requests.command_reader import command_from, CommandMessage
+from physsim_ros.testing import command
 import pytest
 from rclpy.serialization import deserialize_message, serialize_message
 from sensor_msgs.msg import MultiDOFJointState
-
-from ..messages import command
 
 ROWS = [(1.5, -2.0, 0.5), (0.0, 1e300, -0.25), (7.0, 8.0, 9.0)]
 

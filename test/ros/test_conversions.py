@@ -36,12 +36,13 @@ from physsim_ros.ros.requests.conversions import (
     name_of,
     point_request,
 )
+from physsim_ros.testing import box, command, delete, delete_all, marker, point, polygon
 import pytest
 from rclpy.serialization import serialize_message
 from sensor_msgs.msg import MultiDOFJointState
 from visualization_msgs.msg import Marker
 
-from ..messages import box, command, delete, delete_all, ELL, marker, point, polygon
+from ..building import ELL
 
 NAN, INF = math.nan, math.inf
 SQUARE = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))
@@ -253,20 +254,22 @@ def test_an_oval_is_refused(kind: int) -> None:
 
 
 def test_a_line_strip_that_ends_where_it_began_is_solid() -> None:
-    shape = spawn_of(polygon(outline=ELL)).shape
+    shape = spawn_of(polygon(outline=ELL.outline)).shape
     assert isinstance(shape, Polygon)
-    assert shape.outline == ELL[:-1]
+    assert shape.outline == ELL.outline
     # m²
     assert shape.form.area == pytest.approx(3.0)
 
 
 def test_a_line_strip_that_does_not_is_a_chain() -> None:
-    message = marker(Marker.LINE_STRIP, points=ELL[:-1], scale=(0.2, 9.0, 9.0))
-    assert spawn_of(message).shape == Chain(points=ELL[:-1], thickness=0.2)
+    message = marker(Marker.LINE_STRIP, points=ELL.outline, scale=(0.2, 9.0, 9.0))
+    assert spawn_of(message).shape == Chain(points=ELL.outline, thickness=0.2)
 
 
 def test_the_thickness_of_a_solid_outline_does_not_count() -> None:
-    message = marker(Marker.LINE_STRIP, points=ELL, scale=(0.0, 0.0, 0.0))
+    message = marker(
+        Marker.LINE_STRIP, points=(*ELL.outline, ELL.outline[0]), scale=(0.0, 0.0, 0.0)
+    )
     assert isinstance(spawn_of(message).shape, Polygon)
 
 

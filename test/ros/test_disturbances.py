@@ -10,12 +10,10 @@ import random
 
 from diagnostic_msgs.msg import DiagnosticStatus
 from physsim_ros.ros.qos_safe_node import NodeWithoutQosEvents
-from physsim_ros.testing import Refused
+from physsim_ros.testing import messages, Refused
 import pytest
 from rclpy.parameter import Parameter
 from sensor_msgs.msg import MultiDOFJointState
-
-from .. import messages
 
 psutil = pytest.importorskip('psutil')
 

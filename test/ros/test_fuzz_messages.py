@@ -30,12 +30,12 @@ from physsim_ros.ros import encoders
 from physsim_ros.ros.requests import conversions
 from physsim_ros.ros.requests.command_reader import command_from, CommandMessage
 from physsim_ros.simulation.simulation import Simulation
+from physsim_ros.testing import box, disc
+from physsim_ros.testing.messages import rotation
 from rclpy.serialization import serialize_message
 from sensor_msgs.msg import MultiDOFJointState
 from std_msgs.msg import ColorRGBA, Header
 from visualization_msgs.msg import Marker
-
-from ..messages import box, disc, rotation
 
 NASTY_FLOATS = [
     0.0, -0.0, 5e-324, 1e-320, 1e-200, 1e-9, 1e-3, 0.002, 0.5, 1.0, -1.0, 1e3, 1e5, 1e7, 1e8, 1e12,

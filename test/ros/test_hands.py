@@ -9,13 +9,12 @@ import math
 
 from geometry_msgs.msg import Point, Pose
 from physsim_ros.model.settings import MOST_HANDS
-from physsim_ros.testing import PhysSim
+from physsim_ros.testing import box, disc, PhysSim
 import pytest
 from std_msgs.msg import Header
 from visualization_msgs.msg import InteractiveMarkerFeedback, Marker, MarkerArray
 
 from ..client import Client, Event, KEPT
-from ..messages import box, disc
 
 TOPIC = '~/drag/feedback'
 DOWN, MOVE, UP = (

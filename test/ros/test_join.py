@@ -7,14 +7,13 @@ from __future__ import annotations
 
 from typing import Any
 
-from physsim_ros.testing import PhysSim, Refused
+from physsim_ros.testing import box, disc, marker, PhysSim, point, Refused
 import pytest
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from visualization_msgs.msg import Marker, MarkerArray
 
 from ..client import Client, Event
-from ..messages import box, disc, marker, point
 
 PICTURE = QoSProfile(
     depth=1, reliability=ReliabilityPolicy.RELIABLE, durability=DurabilityPolicy.TRANSIENT_LOCAL

@@ -18,13 +18,13 @@ import random
 from typing import NamedTuple
 
 import numpy as np
-from physsim_ros.testing import own_context, PhysSim
+from physsim_ros.testing import box, disc, marker, own_context, PhysSim
+from physsim_ros.testing.messages import yaw_of
 import pytest
 from sensor_msgs.msg import MultiDOFJointState
 from visualization_msgs.msg import Marker, MarkerArray
 
 from ..client import Client
-from ..messages import box, disc, marker, yaw_of
 
 G = 9.81
 RATE = 240.0

@@ -9,9 +9,8 @@ from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.errors import BadProperty, Malformed, Refusal, UnknownProperty
 from physsim_ros.model.requests import Spawn
 from physsim_ros.ros.requests.conversions import body_request, LONGEST_TEXT
+from physsim_ros.testing import box
 import pytest
-
-from ..messages import box
 
 
 def properties_of(text: str) -> Properties:

@@ -12,14 +12,13 @@ from typing import Any
 
 from physsim_ros.model.errors import Busy
 from physsim_ros.ros.requests import message_queue
-from physsim_ros.testing import PhysSim
+from physsim_ros.testing import messages, PhysSim
 import pytest
 from rcl_interfaces.srv import SetParameters, SetParametersAtomically
 from rclpy.parameter import Parameter
 from std_srvs.srv import Trigger
 from visualization_msgs.msg import Marker, MarkerArray
 
-from .. import messages
 from ..client import Client
 
 

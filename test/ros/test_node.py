@@ -10,7 +10,7 @@ from typing import Any
 
 from geometry_msgs.msg import PoseArray
 from physsim_ros.ros.node import PhysSimNode
-from physsim_ros.testing import PhysSim
+from physsim_ros.testing import box, delete, disc, PhysSim
 import pytest
 import rclpy
 from rclpy.context import Context
@@ -21,7 +21,6 @@ from sensor_msgs.msg import MultiDOFJointState
 from visualization_msgs.msg import MarkerArray
 
 from ..client import Client
-from ..messages import box, delete, disc
 from ..outside import Outside
 
 G = 9.81

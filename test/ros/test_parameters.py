@@ -15,7 +15,7 @@ from physsim_ros.model.errors import BadProperty, Malformed, PhysSimError
 from physsim_ros.ros import parameters
 from physsim_ros.ros.node import PhysSimNode
 from physsim_ros.sketchpad import listening
-from physsim_ros.testing import own_context, PhysSim
+from physsim_ros.testing import box, disc, own_context, PhysSim
 import pytest
 from rcl_interfaces.msg import Parameter as ParameterMessage
 from rcl_interfaces.msg import ParameterType, ParameterValue, SetParametersResult
@@ -26,7 +26,6 @@ from rclpy.parameter import Parameter
 from rosgraph_msgs.msg import Clock
 
 from ..client import Client, Event
-from ..messages import box, disc
 
 # The contract's table, as far as it is built: default, and whether it is fixed once running.
 CONTRACT: dict[str, tuple[Any, str]] = {

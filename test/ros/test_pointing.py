@@ -8,12 +8,12 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from physsim_ros.testing import PhysSim, Refused
+from physsim_ros.testing import box, command, disc, marker, PhysSim, point, polygon, Refused
 import pytest
 from visualization_msgs.msg import Marker, MarkerArray
 
+from ..building import ELL
 from ..client import Client, Event
-from ..messages import box, command, disc, ELL, marker, point, polygon
 
 # Just inside and just outside of an edge [m].
 JUST = 1e-6
@@ -92,7 +92,7 @@ def test_a_disc_is_hit_just_inside_of_its_rim(physsim: PhysSim, angle: float) ->
 @pytest.mark.parametrize(
     ('message', 'inside', 'outside'),
     [
-        (polygon(outline=ELL, at=AT), [(0.5, 1.5), (1.5, 0.5), (0.9, 0.9)], [(1.1, 1.1)]),
+        (polygon(outline=ELL.outline, at=AT), [(0.5, 1.5), (1.5, 0.5), (0.9, 0.9)], [(1.1, 1.1)]),
         (
             marker(Marker.LINE_STRIP, points=[(0, 0), (2, 0), (2, 2)], scale=(0.2,), at=AT),
             [(1.0, 0.099), (2.099, 1.0), (-0.099, 0.0)],

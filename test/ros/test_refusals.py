@@ -9,14 +9,13 @@ import math
 from typing import Any
 
 from geometry_msgs.msg import Quaternion
-from physsim_ros.testing import PhysSim
+from physsim_ros.testing import box, command, delete, disc, marker, PhysSim, point, polygon
 import pytest
 from rclpy.parameter import Parameter
 from std_msgs.msg import Float64
 from visualization_msgs.msg import Marker, MarkerArray
 
 from ..client import Client, Event
-from ..messages import box, command, delete, disc, marker, point, polygon
 
 NAN = math.nan
 BOWTIE = [(0, 0), (1, 1), (1, 0), (0, 1), (0, 0)]

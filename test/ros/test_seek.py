@@ -9,6 +9,7 @@ import math
 import random
 from typing import Any
 
+from physsim_ros.testing import delete, disc
 import pytest
 from std_msgs.msg import Float64
 
@@ -23,7 +24,6 @@ from .journey import (
     succeeded,
 )
 from ..client import Event, set_parameter
-from ..messages import delete, disc
 
 # Seek
 

@@ -8,15 +8,15 @@ from __future__ import annotations
 from itertools import pairwise
 from pathlib import Path
 
-from physsim_ros.testing import PhysSim
+from physsim_ros.testing import box, command, delete, disc, marker, PhysSim, polygon
 import pytest
 from rcl_interfaces.srv import SetParameters
 from rclpy.parameter import Parameter
 from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
 
+from ..building import ELL
 from ..client import Client, Event, set_parameter
-from ..messages import box, command, delete, disc, ELL, marker, polygon
 
 # One frame at speed 1 [ns]
 PERIOD = 1e9 / 60.0
@@ -72,7 +72,7 @@ def fill(physsim: PhysSim) -> None:
         text = f'{{velocity: [{0.3 * number}, 0], elasticity: 0.{number}, friction: 0.{number}}}'
         physsim.spawn(disc(f'a/{number}', at=(0.1 * number, 1.0 + number), text=text))
         physsim.spawn(box(f'b/{number}', at=(3.0 + 0.1 * number, 1.0 + number, 0.3 * number)))
-    physsim.spawn(polygon('c/0', outline=ELL, at=(-3.0, 2.0, 0.7), lifetime=30.0))
+    physsim.spawn(polygon('c/0', outline=ELL.outline, at=(-3.0, 2.0, 0.7), lifetime=30.0))
     physsim.spawn(marker(4, 'c/1', points=[(0, 0), (1, 0), (2, 1)], scale=(0.2,), at=(6.0, 3.0)))
     physsim.spawn(marker(11, 'c/2', points=[(0, 0), (1, 0), (0, 1)], at=(-6.0, 3.0)))
     physsim.spawn(marker(7, 'c/3', points=[(0, 0), (2, 0)], at=(-6.0, 6.0)))

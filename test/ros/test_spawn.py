@@ -8,13 +8,13 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon, Triangles
-from physsim_ros.testing import PhysSim
+from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Triangles
+from physsim_ros.testing import box, command, delete, delete_all, disc, marker, PhysSim, polygon
 import pytest
 from visualization_msgs.msg import Marker, MarkerArray
 
+from ..building import ELL
 from ..client import Client, Event, set_parameter
-from ..messages import box, command, delete, delete_all, disc, ELL, marker, polygon
 
 # Depth to which a resting body sinks in [m]: the engine's slop of 5 mm, more while it is pressed.
 SINKS = 0.007
@@ -28,7 +28,7 @@ BODIES: dict[str, tuple[int, tuple[float, ...], Any, Any, float]] = {
     'cube': (Marker.CUBE, (2.0, 1.0), (), Box(width=2.0, height=1.0), 0.5),
     'sphere': (Marker.SPHERE, (0.6, 0.6), (), Disc(radius=0.3), 0.3),
     'cylinder': (Marker.CYLINDER, (0.6, 0.6), (), Disc(radius=0.3), 0.3),
-    'closed strip': (Marker.LINE_STRIP, (0.0,), ELL, Polygon(outline=ELL[:-1]), 0.0),
+    'closed strip': (Marker.LINE_STRIP, (0.0,), (*ELL.outline, ELL.outline[0]), ELL, 0.0),
     'open strip': (Marker.LINE_STRIP, (0.2,), TERRAIN, Chain(points=TERRAIN, thickness=0.2), 0.1),
     'triangles': (
         Marker.TRIANGLE_LIST,
@@ -296,7 +296,7 @@ def test_a_body_may_be_moved_relative_to_itself(physsim: PhysSim) -> None:
 
 
 def test_the_frame_of_a_body_is_its_origin_not_its_centre_of_mass(physsim: PhysSim) -> None:
-    physsim.spawn(polygon('a/0', outline=ELL, at=(1.0, 2.0), text='{anchored: true}'))
+    physsim.spawn(polygon('a/0', outline=ELL.outline, at=(1.0, 2.0), text='{anchored: true}'))
     physsim.spawn(box('a/1', at=(0.25, 0.5), frame='a/0'))
     assert physsim.pose('a/1') == pytest.approx((1.25, 2.5, 0.0), abs=1e-12)
 
@@ -370,7 +370,7 @@ def test_elasticity_decides_how_high_a_ball_bounces(physsim: PhysSim, elasticity
 def test_velocity_and_spin_are_those_of_the_centre_of_mass(physsim: PhysSim) -> None:
     set_parameter(physsim, 'gravity', [0.0, 0.0])
     text = '{velocity: [3, -1], spin: 2}'
-    physsim.spawn(polygon('a/0', outline=ELL, text=text, at=(1.0, 2.0, 0.3)))
+    physsim.spawn(polygon('a/0', outline=ELL.outline, text=text, at=(1.0, 2.0, 0.3)))
     body = physsim.node.simulation.world.snapshot()
     before = body.centers[0]
     physsim.run(1.0)

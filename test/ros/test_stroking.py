@@ -11,13 +11,12 @@ import math
 
 from geometry_msgs.msg import PoseStamped
 from nav_msgs.msg import Path
-from physsim_ros.testing import PhysSim
+from physsim_ros.testing import disc, PhysSim
 import pytest
 from rclpy.parameter import Parameter
 from visualization_msgs.msg import Marker, MarkerArray
 
 from ..client import Client, KEPT
-from ..messages import disc
 
 Points = Sequence[tuple[float, float]]
 

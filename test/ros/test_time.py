@@ -9,7 +9,7 @@ from itertools import pairwise
 import random
 from typing import Any
 
-from physsim_ros.testing import PhysSim, Refused
+from physsim_ros.testing import command, disc, PhysSim, Refused
 import pytest
 from rclpy.node import Node
 from std_msgs.msg import Float64
@@ -26,7 +26,6 @@ from .journey import (
     succeeded,
 )
 from ..client import set_parameter
-from ..messages import command, disc
 from ..outside import Outside
 
 # Back, and on again

@@ -8,10 +8,9 @@ from __future__ import annotations
 from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticStatus
-from physsim_ros.testing import PhysSim
+from physsim_ros.testing import command, delete, disc, PhysSim
 
 from ..client import Client, KEPT
-from ..messages import command, delete, disc
 
 
 def told(message: Any) -> dict[str, str]:

@@ -11,7 +11,7 @@ from typing import Any
 from nav_msgs.msg import Path
 from physsim_ros.model.settings import MOST_SAMPLES
 from physsim_ros.ros.requests import cdr_reader, subscriptions
-from physsim_ros.testing import PhysSim
+from physsim_ros.testing import disc, PhysSim
 import pytest
 from rcl_interfaces.msg import Parameter as ParameterMessage
 from rcl_interfaces.msg import ParameterType, ParameterValue
@@ -22,7 +22,6 @@ from std_msgs.msg import Float64
 from visualization_msgs.msg import Marker, MarkerArray
 
 from ..client import Client, Event
-from ..messages import disc
 from ..outside import Outside
 
 

@@ -12,11 +12,9 @@ from types import SimpleNamespace
 
 from geometry_msgs.msg import PoseArray
 from physsim_ros.model.errors import BadProperty
-from physsim_ros.testing import own_context, PhysSim
+from physsim_ros.testing import box, delete, disc, own_context, PhysSim
 import pytest
 from rclpy.node import Node
-
-from ..messages import box, delete, disc
 
 idl = pytest.importorskip('cyclonedds.idl', reason='cyclonedds reads the messages')
 cyclone = pytest.importorskip('test.elsewhere.cyclone')

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from physsim_ros.testing import Refused
+from physsim_ros.testing import box, command, delete, disc, Refused
 import pytest
 from visualization_msgs.msg import MarkerArray
 
@@ -20,7 +20,6 @@ from .journey import (
     succeeded,
 )
 from ..client import set_parameter
-from ..messages import box, command, delete, disc
 from ..outside import Outside
 
 # Undo, redo

@@ -7,13 +7,11 @@ from __future__ import annotations
 
 from typing import Any
 
-from physsim_ros.testing import PhysSim, Refused
+from physsim_ros.testing import box, command, delete, disc, PhysSim, point, Refused
 import pytest
 from rclpy.node import Node
 from sensor_msgs.msg import MultiDOFJointState
 from visualization_msgs.msg import MarkerArray
-
-from ..messages import box, command, delete, disc, point
 
 
 def test_requests_return_the_name_of_the_body(physsim: PhysSim) -> None:

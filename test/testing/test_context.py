@@ -10,11 +10,10 @@ from pathlib import Path
 import subprocess
 import sys
 
-from physsim_ros.testing import own_context, PhysSim
+from physsim_ros.testing import box, own_context, PhysSim
 import pytest
 
 from ..client import Client
-from ..messages import box
 
 
 def test_no_other_process_hears_a_world_or_is_heard_by_it(

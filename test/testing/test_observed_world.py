@@ -7,10 +7,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from physsim_ros.testing import PhysSim, UnknownName
+from physsim_ros.testing import box, disc, PhysSim, UnknownName
 import pytest
-
-from ..messages import box, disc
 
 G = 9.81
 

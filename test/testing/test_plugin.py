@@ -13,11 +13,9 @@ import subprocess
 import sys
 
 from physsim_ros import testing
-from physsim_ros.testing import own_context, PhysSim
+from physsim_ros.testing import disc, own_context, PhysSim
 import pytest
 from rerun import chunk
-
-from ..messages import disc
 
 pytest_plugins = ['pytester']
 PLUGIN = 'physsim_ros.testing.plugin'

@@ -9,14 +9,12 @@ import math
 from pathlib import Path
 from typing import Any
 
-from physsim_ros.testing import own_context, PhysSim, Refused
+from physsim_ros.testing import box, command, delete, disc, own_context, PhysSim, Refused
 import pytest
 from rclpy.node import Node
 from rclpy.time import Time
 from sensor_msgs.msg import MultiDOFJointState
 from std_msgs.msg import Float64
-
-from ..messages import box, command, delete, disc
 
 G = 9.81
 

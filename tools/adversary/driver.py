@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections import Counter
 import random
-from test import messages
 import time
 from typing import Any
 
@@ -18,6 +17,7 @@ from physsim_ros.model.requests import Spawn
 from physsim_ros.model.shapes import Box, Compound, Disc
 from physsim_ros.ros.qos_safe_node import NodeWithoutQosEvents
 from physsim_ros.sketchpad.messages import ACTIONS
+from physsim_ros.testing import messages
 from rcl_interfaces.msg import Parameter as ParameterMessage
 from rcl_interfaces.srv import SetParameters
 import rclpy
