@@ -41,10 +41,12 @@ class OwnWorlds:
     The worlds in the user's directory.
 
     :param directory: of the worlds
+
+    :ivar directory: of the worlds
     """
 
     def __init__(self, directory: Path) -> None:
-        self._directory = directory
+        self.directory = directory
 
     def check_free(self, name: str, *, replace: bool = False) -> None:
         """
@@ -104,7 +106,7 @@ class OwnWorlds:
 
     def picture(self, name: str) -> Path:
         """Return the path of a world's picture, which may not be there."""
-        return self._directory / _PICTURES / f'{check_world_name(name)}.png'
+        return self.directory / _PICTURES / f'{check_world_name(name)}.png'
 
     def _existing(self, name: str) -> Path:
         path = self._path(name)
@@ -113,9 +115,9 @@ class OwnWorlds:
         return path
 
     def _path(self, name: str) -> Path:
-        return self._directory / f'{check_world_name(name)}.yaml'
+        return self.directory / f'{check_world_name(name)}.yaml'
 
     def _kept(self, name: str) -> Path:
-        directory = self._directory / _KEPT
+        directory = self.directory / _KEPT
         directory.mkdir(parents=True, exist_ok=True)
         return directory / self._path(name).name

@@ -9,11 +9,10 @@ Law: an answer that a frame carries is published with it, every other one by `re
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
-import sys
 import time
 from typing import Any
 
@@ -21,10 +20,9 @@ from physsim_ros.drawing import DrawingSession
 from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.model.timeline import TimelineStatus
 from physsim_ros.ros import parameters
-from physsim_ros.ros.page_control import PageControl
 from physsim_ros.ros.publishers.frame_statistics import FrameStatistics
 from physsim_ros.ros.publishers.publishers import Publishers
-from physsim_ros.sketchpad import Role, Sketchpad
+from physsim_ros.sketchpad import Sketchpad
 from physsim_ros.view import FrameContext, Viewer, ViewerMode
 from rclpy.node import Node
 
@@ -116,48 +114,11 @@ class FrameOutputs:
         """Open the viewer of parameter `viewer`, in place of the one before."""
         self.viewer.open_viewer(ViewerMode(self._values['viewer']), self._values['viewer_url'])
 
-    def open_sketchpad(
-        self, control: PageControl, *, world_dir: Path, wake: Callable[[], None]
-    ) -> None:
-        """
-        Serve the sketchpad.
-
-        :param control: of the node, for its pages
-        :param world_dir: directory of the user's worlds
-        :param wake: called on another thread when a message of a page has come
-        :raises PhysSimError: it cannot listen there
-        """
-        self.sketchpad = Sketchpad(
-            control,
-            welcome={
-                'frame_id': self._values['frame_id'],
-                'rate': self._values['publish_rate'],
-            },
-            recordings=self.viewer,
-            address=self._values['sketchpad_address'],
-            port=self._values['sketchpad_port'],
-            world_dir=world_dir,
-            wake=wake,
-        )
-        if self.frame is not None:
-            self.sketchpad.show(replace(self.frame, answers=()))
-
     def close_sketchpad(self) -> None:
         """Close the sketchpad, if it is served."""
         if self.sketchpad is not None:
             self.sketchpad.close()
             self.sketchpad = None
-
-    def print_addresses(self) -> None:
-        """Print the addresses of the page, for the person at the terminal."""
-        if self.sketchpad is not None:
-            sys.stdout.write(
-                '\n'
-                '  The page is at\n\n'
-                f'      {self.sketchpad.url()}\n\n'
-                f'  and for those who only watch: {self.sketchpad.url(Role.VIEW)}\n\n'
-            )
-            sys.stdout.flush()
 
     def close(self) -> None:
         """Close the sketchpad and the viewer."""

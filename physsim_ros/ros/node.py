@@ -11,18 +11,18 @@ happens then by the simulation.
 from __future__ import annotations
 
 from contextlib import ExitStack
+from functools import partial
 from pathlib import Path
 import time
 
 from physsim_ros.drawing import DrawingSession, Tool
-from physsim_ros.model.errors import Refusal
+from physsim_ros.model.errors import PhysSimError, Refusal
 from physsim_ros.model.requests import DeleteAll
 from physsim_ros.model.snapshot import Answer, Frame, Snapshot
 from physsim_ros.ros import parameters
 from physsim_ros.ros.diagnostics_publisher import DiagnosticsPublisher
 from physsim_ros.ros.frame_outputs import FrameOutputs
 from physsim_ros.ros.live_parameters import LiveParameters
-from physsim_ros.ros.page_control import PageControl
 from physsim_ros.ros.pages import Pages
 from physsim_ros.ros.qos_safe_node import NodeWithoutQosEvents
 from physsim_ros.ros.requests.drawing_topics import DrawingTopics
@@ -35,6 +35,7 @@ from physsim_ros.ros.time_control import TimeControl
 from physsim_ros.ros.world_files import WorldFiles
 from physsim_ros.simulation.deferred_calls import DeferredCalls, Wait
 from physsim_ros.simulation.simulation import Simulation
+from physsim_ros.sketchpad import WorldControl
 from rclpy.context import Context
 from rclpy.parameter import Parameter
 
@@ -167,28 +168,45 @@ class PhysSimNode(NodeWithoutQosEvents):
         calls = ServiceCalls(self.requests.queue, deferred_calls, self._reply_pacer)
         create_services(self, services, calls, on_success=self._note_change)
         self._parameter_services = ParameterServices(self, calls)
-        control = PageControl(
+        control = WorldControl(
             simulation=simulation,
-            values=self._values,
-            time_control=self._time_control,
-            services=services,
-            submit_call=deferred_calls.submit,
-            set_parameters=self.set_parameters,
+            drawing_settings=lambda: parameters.drawing_settings(self._values),
             current_snapshot=self._current_snapshot,
+            submit_call=deferred_calls.submit,
+            services=services,
+            load_world=partial(self._perform_on, services['load_world']),
+            save_world=partial(self._perform_on, services['save_world']),
+            set_speed=self._time_control.set_speed,
+            seek=self._time_control.seek,
         )
         self._pages = Pages(
             self,
             self.outputs,
+            self._values,
             control,
             world_dir=self.world_files.directory,
             apply_requests=self.apply_requests,
             is_started=lambda: self._started,
         )
 
+    def _perform_on(self, service: Service, world: str) -> str:
+        """
+        Perform a service on the world file of a name; where that is refused, nothing has changed.
+
+        :raises PhysSimError: it is refused
+        """
+        before = self._values['world_file']
+        self.set_parameters([Parameter('world_file', value=world)])
+        try:
+            return service.perform()
+        except PhysSimError:
+            self.set_parameters([Parameter('world_file', value=before)])
+            raise
+
     def start(self) -> None:
         """Start the viewer and the diagnostics; `tick` advances time from now on."""
         self._started = self._reply_pacer.paced = True
-        self.outputs.print_addresses()
+        self._pages.print_addresses()
         # A viewer that is opened begins a recording anew that has failed.
         self._open_viewer()
         if self._values['record_file']:
@@ -238,8 +256,7 @@ class PhysSimNode(NodeWithoutQosEvents):
         self._reply_pacer.flush()
         if self._started:
             self._diagnostics.publish_due(now_ns, message_delay=self.message_delay)
-        self._update_contact_recording()
-        self._pages.handle_messages()
+        self._handle_pages()
         frames = self.simulation.advance(
             now_ns, is_overdue=lambda: time.perf_counter_ns() - began > MOST_TICK_NS
         )
@@ -263,8 +280,7 @@ class PhysSimNode(NodeWithoutQosEvents):
 
     def advance_frame(self) -> None:
         """Advance the world by one publish period, at any time, and publish the frame."""
-        self._update_contact_recording()
-        self._pages.handle_messages()
+        self._handle_pages()
         self.publish_frame(self.simulation.advance_frame())
 
     def publish_frame(self, frame: Frame) -> None:
@@ -283,12 +299,15 @@ class PhysSimNode(NodeWithoutQosEvents):
         self.outputs.topics.flush_answers()
         return answers
 
-    def _update_contact_recording(self) -> None:
-        """
-        Record contacts while there is a subscriber, a viewer or a page that shows them.
+    def _handle_pages(self) -> None:
+        """Carry out the messages of pages."""
+        # Before them: a page that begins to show contacts seeks next.
+        self._update_contact_recording()
+        if self.outputs.sketchpad is not None:
+            self.outputs.sketchpad.handle_messages()
 
-        This comes before messages of pages: one that begins to show contacts seeks next.
-        """
+    def _update_contact_recording(self) -> None:
+        """Record contacts while there is a subscriber, a viewer or a page that shows them."""
         self.simulation.watch_contacts(self.outputs.wants_contacts)
 
     def _apply_up_to_seek(self) -> bool:

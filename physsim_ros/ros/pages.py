@@ -2,19 +2,22 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The pages of the node: served as parameter `sketchpad` says.
+The pages of the node: the sketchpad is served while parameter `sketchpad` says so.
 
 Law: a value of the parameter that cannot have its effect is refused before it is set.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from dataclasses import replace
 from pathlib import Path
+import sys
+from typing import Any
 
 from physsim_ros.model.errors import BadProperty, PhysSimError
 from physsim_ros.ros.frame_outputs import FrameOutputs
-from physsim_ros.ros.page_control import PageControl
+from physsim_ros.sketchpad import Role, Sketchpad, WorldControl
 from rclpy.node import Node
 
 
@@ -23,8 +26,9 @@ class Pages:
     The pages of a node.
 
     :param node: whose executor handles their messages before the node has started
-    :param outputs: of the node, with the sketchpad
-    :param control: of the node, for its pages
+    :param outputs: of the node; they have the sketchpad while it is served
+    :param values: of the parameters of the node, by name, always up to date
+    :param control: the actions of the node that pages use
     :param world_dir: directory of the user's worlds
     :param apply_requests: applies the waiting requests, and publishes what they changed
     :param is_started: returns whether the node has started: its ticks handle the messages then
@@ -34,7 +38,8 @@ class Pages:
         self,
         node: Node,
         outputs: FrameOutputs,
-        control: PageControl,
+        values: Mapping[str, Any],
+        control: WorldControl,
         *,
         world_dir: Path,
         apply_requests: Callable[[], object],
@@ -42,6 +47,7 @@ class Pages:
     ) -> None:
         self._node = node
         self._outputs = outputs
+        self._values = values
         self._control = control
         self._world_dir = world_dir
         self._apply_requests = apply_requests
@@ -49,18 +55,30 @@ class Pages:
 
     def open_for(self, value: str) -> None:
         """
-        Open the sketchpad if a value of its parameter, which is not yet set, asks for it.
+        Serve the sketchpad if a value of its parameter, which is not set yet, asks for it.
 
         :raises BadProperty: it cannot listen
         """
         if value != 'serve' or self._outputs.sketchpad is not None:
             return
+        values = self._values
         try:
-            self._outputs.open_sketchpad(self._control, world_dir=self._world_dir, wake=self._wake)
+            sketchpad = Sketchpad(
+                self._control,
+                welcome={'frame_id': values['frame_id'], 'rate': values['publish_rate']},
+                recordings=self._outputs.viewer,
+                address=values['sketchpad_address'],
+                port=values['sketchpad_port'],
+                world_dir=self._world_dir,
+                wake=self._wake,
+            )
         except PhysSimError as error:
             raise BadProperty(str(error), field='sketchpad') from error
+        self._outputs.sketchpad = sketchpad
+        if self._outputs.frame is not None:
+            sketchpad.show(replace(self._outputs.frame, answers=()))
         if self._is_started():
-            self._outputs.print_addresses()
+            self.print_addresses()
 
     def update(self, value: str) -> None:
         """Close the sketchpad, or show the world on it, as its parameter says."""
@@ -70,10 +88,16 @@ class Pages:
             # A page shows the world before its time has begun.
             self._apply_requests()
 
-    def handle_messages(self) -> None:
-        """Handle the messages of pages."""
-        if self._outputs.sketchpad is not None:
-            self._outputs.sketchpad.handle_messages()
+    def print_addresses(self) -> None:
+        """Print the addresses of the page, for the person at the terminal."""
+        if (sketchpad := self._outputs.sketchpad) is not None:
+            sys.stdout.write(
+                '\n'
+                '  The page is at\n\n'
+                f'      {sketchpad.url()}\n\n'
+                f'  and for those who only watch: {sketchpad.url(Role.VIEW)}\n\n'
+            )
+            sys.stdout.flush()
 
     def _wake(self) -> None:
         """Queue the handling of messages; called on the thread of the sketchpad."""
@@ -83,5 +107,6 @@ class Pages:
             executor.create_task(self._handle_now)
 
     def _handle_now(self) -> None:
-        self.handle_messages()
+        if self._outputs.sketchpad is not None:
+            self._outputs.sketchpad.handle_messages()
         self._apply_requests()

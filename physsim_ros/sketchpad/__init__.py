@@ -4,10 +4,10 @@
 """
 The sketchpad: a page in the browser that shows the world and draws in it.
 
-Not here: ROS (`ros` adapts its node to `WorldControl`), the reading of strokes (`drawing`). The
-server runs on a thread of its own. Start with `sketchpad`, then `server` and `page_session`;
-`messages`, `frame_codec` and `scene_codec` are the wire, `page/` is what a browser runs. Other
-folders import the names below.
+Not here: ROS (`ros` fills in `WorldControl`), the reading of strokes (`drawing`). The server runs
+on a thread of its own. Start with `sketchpad`, then `page_socket`, `message` and `page_session`,
+the path of a message; `server` and `frame_feed` are the way back, `page/` is what a browser runs.
+Other folders import the names below.
 """
 
 from physsim_ros.sketchpad.access import Role

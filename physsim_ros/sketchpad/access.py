@@ -4,9 +4,11 @@
 """
 Access to the page: tokens, cookies, hosts and origins, and the headers of every answer.
 
-Laws: nothing is served to a request without a valid cookie, but the login. A request that names a
+Laws: nothing but the login is served to a request without a valid cookie. A request that names a
 host by a foreign domain is refused (DNS rebinding), and so is a socket or an upload that another
-origin opens. No page of this server runs a script, or calls a host, that is not its own.
+origin opens. No page of this server runs a script, or calls a host, that is not its own. A page
+that was logged in is still logged in after a restart of the node, by the key that signs cookies;
+tokens are not kept.
 """
 
 from __future__ import annotations
@@ -14,24 +16,30 @@ from __future__ import annotations
 from enum import Enum
 import hmac
 from ipaddress import ip_address
+import os
+from pathlib import Path
 import secrets
 import socket
+import stat
 from urllib.parse import urlsplit
 
-from physsim_ros.sketchpad.cookie_key import cookie_key
+from physsim_ros.files import user_directory, write_file
 from tornado.web import create_signed_value, decode_signed_value
 
 # Random bytes of a token: not to be guessed.
 _TOKEN_BYTES = 24
 # Greatest age of a cookie [days]: a class of one day need not type the address again.
 _COOKIE_AGE = 1.0
-# Of every answer. The sources of `connect-src` are those of this server; browsers before 2022 do
-# not count web sockets as such.
+# Policy of every answer. Browsers before 2022 do not count web sockets to this server as 'self'.
 _POLICY = (
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; "
     "font-src 'self'; manifest-src 'self'; connect-src 'self' ws://{host} wss://{host}; "
     "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
 )
+# Length of the key that signs cookies [bytes]: that of the digest of SHA-256, by which tornado
+# signs.
+_KEY_BYTES = 32
+_KEY_FILE = 'cookie_key'
 
 
 class Role(Enum):
@@ -116,3 +124,42 @@ def headers_for(host: str) -> dict[str, str]:
         'Cross-Origin-Resource-Policy': 'same-origin',
         'Cache-Control': 'no-cache',
     }
+
+
+def cookie_key() -> bytes:
+    """Return the key of the user, made at first; one for this run where it cannot be kept."""
+    directory = user_directory('XDG_STATE_HOME', '.local', 'state')
+    try:
+        directory.mkdir(mode=0o700, parents=True, exist_ok=True)
+        return _read_key(directory / _KEY_FILE) or _make_key(directory / _KEY_FILE)
+    except OSError:
+        # Without the file, pages log in again after a restart.
+        return secrets.token_bytes(_KEY_BYTES)
+
+
+def _read_key(path: Path) -> bytes:
+    """
+    Return the key of a file; empty where another user could know it, or the length is wrong.
+
+    :raises OSError: it cannot be read
+    """
+    try:
+        descriptor = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC)
+    except FileNotFoundError:
+        return b''
+    with os.fdopen(descriptor, 'rb') as file:
+        status = os.fstat(file.fileno())
+        private = status.st_uid == os.getuid() and not stat.S_IMODE(status.st_mode) & 0o077
+        key = file.read(_KEY_BYTES + 1) if stat.S_ISREG(status.st_mode) and private else b''
+    return key if len(key) == _KEY_BYTES else b''
+
+
+def _make_key(path: Path) -> bytes:
+    """
+    Write a new key, whole or not at all, in place of what is there.
+
+    :raises OSError: it cannot be written
+    """
+    key = secrets.token_bytes(_KEY_BYTES)
+    write_file(path, key, mode=0o600)
+    return key

@@ -21,7 +21,7 @@ from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.transform import turned
 from physsim_ros.simulation.simulation import Simulation
-from physsim_ros.sketchpad.page_requests import Content
+from physsim_ros.sketchpad.answers import Content
 
 # Frames that a page gets of the past: a minute at 60 Hz.
 MOST_FRAMES = 3600

@@ -2,30 +2,26 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The newest frame on its way to the pages.
+The newest frame on its way to the pages, on the server's thread.
 
-Laws: a frame is encoded once for all pages that show the same; a page gets the newest frame only,
-after its scene, and none while it is busy.
+Laws: a frame is encoded once for all pages that show the same parts; a page gets the newest frame
+only, after its scene, and no frame while it is busy.
 """
 
 from __future__ import annotations
 
+from asyncio import AbstractEventLoop
 from dataclasses import replace
 import time
-from typing import TYPE_CHECKING
 
 from physsim_ros.model.snapshot import Frame, Snapshot
 from physsim_ros.sketchpad.frame_codec import encode_frame, Show
+from physsim_ros.sketchpad.open_pages import OpenPage, OpenPages
 from physsim_ros.sketchpad.scene_codec import compact, SceneCodec
+from tornado.websocket import WebSocketHandler
 
-if TYPE_CHECKING:
-    from asyncio import AbstractEventLoop
-
-    from physsim_ros.sketchpad.open_pages import OpenPages
-    from physsim_ros.sketchpad.page_socket import PageSocket
-
-# Bytes a second that new scenes may take, for all pages together. Where bodies come and go in each
-# frame, a scene of many bodies is sent less often than the frames are due.
+# Rate of new scenes for all pages together [bytes/s]. Where bodies come and go in each frame, a
+# scene of many bodies is sent less often than the frames are due.
 SCENE_RATE = 20e6
 # The message of the end of a ghost.
 NO_GHOST = compact({'type': 'ghost', 'epoch': 0, 'bodies': []})
@@ -33,16 +29,16 @@ NO_GHOST = compact({'type': 'ghost', 'epoch': 0, 'bodies': []})
 
 class FrameFeed:
     """
-    The newest frame, and what of it is encoded already.
+    The newest frame, and its parts that are encoded already.
 
-    :param pages: that are open
     :param loop: of the server's thread
 
+    :ivar pages: that are open
     :ivar newest: frame, and ghost beside it; the world's thread sets it
     """
 
-    def __init__(self, pages: OpenPages, loop: AbstractEventLoop) -> None:
-        self._pages = pages
+    def __init__(self, loop: AbstractEventLoop) -> None:
+        self.pages = OpenPages()
         self._loop = loop
         self.newest: tuple[Frame, Snapshot | None] | None = None
         self._codec = SceneCodec()
@@ -54,6 +50,20 @@ class FrameFeed:
         self._ghost_text = ''
         self._ghost_frame = b''
         self._scene_due = 0.0
+
+    def add_page(self, socket: WebSocketHandler) -> OpenPage:
+        """Begin to send frames to the page of a socket."""
+        page = self.pages.add(socket, self.update_page)
+        self.send_frame()
+        self.update_page(page)
+        return page
+
+    def show_parts(self, page: OpenPage, show: Show) -> None:
+        """Send a page the newest frame again, and later ones, with other parts."""
+        page.show = show
+        self.pages.note_parts()
+        page.frame = 0
+        self.update_page(page)
 
     def send_frame(self) -> None:
         """Send the newest frame to the pages that are not busy; the others get it later."""
@@ -67,13 +77,13 @@ class FrameFeed:
                 self._loop.call_later(wait, self.send_frame)
                 return
             self._scene_text = self._codec.encode(frame.snapshot.scene)
-            cost = len(self._scene_text) * len(self._pages) / SCENE_RATE
+            cost = len(self._scene_text) * len(self.pages) / SCENE_RATE
             self._scene_due = time.monotonic() + cost
         self._frame = frame
         self._number += 1
         self._encoded.clear()
         self._encode_ghost(frame, ghost)
-        for page in self._pages:
+        for page in self.pages:
             self.update_page(page)
 
     def _encode_ghost(self, frame: Frame, ghost: Snapshot | None) -> None:
@@ -86,7 +96,7 @@ class FrameFeed:
         shown = replace(frame, snapshot=ghost, contacts=None, answers=())
         self._ghost_frame = encode_frame(shown, epoch=codec.epoch, show=Show.GHOST)
 
-    def update_page(self, page: PageSocket) -> None:
+    def update_page(self, page: OpenPage) -> None:
         """Send the newest frame, and its scene, to a page that has not got it and is not busy."""
         if page.is_busy or self._frame is None or page.frame == self._number:
             return

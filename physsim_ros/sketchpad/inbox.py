@@ -4,24 +4,26 @@
 """
 The inbox: messages of all pages on their way to the world's thread.
 
-Laws: its length is bounded for each page, and a page that sends much does not delay the others:
-the pages take turns.
+Laws: the number of waiting messages is bounded for each page; the pages take turns, so that a page
+that sends much does not delay the others.
 """
 
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from threading import Lock
-from typing import NamedTuple
+from typing import Any
 
+from physsim_ros.model.snapshot import Answer
 from physsim_ros.sketchpad.access import Role
-from physsim_ros.sketchpad.messages import Message
+from physsim_ros.sketchpad.message import Message
 
-# Messages of one page that wait: a second of a moving hand at 60 Hz.
+# Waiting messages of one page: a second of a moving hand at 60 Hz.
 CAPACITY = 64
-# Number of the server itself among the pages.
-SERVER = 0
+# Number among the pages of those who upload worlds.
+UPLOADERS = 0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -36,55 +38,73 @@ class Closed:
     """A page has been closed."""
 
 
-class Incoming(NamedTuple):
+class Upload:
     """
-    A message, and the page that sent it.
+    Replace the world by that of a file.
 
-    :ivar page: number of the page
-    :ivar request: identifier of the message; '' for the server's own
-    :ivar message: of the page, checked
+    The content can be taken once: by the world's thread, which then replaces the world, or by the
+    server's thread, which then has waited too long.
+
+    :param content: of the world file
+    :param reply: receives the answer, on the world's thread
     """
 
-    page: int
-    request: str
-    message: Message | Opened | Closed
+    def __init__(self, content: Mapping[Any, Any], reply: Callable[[Answer], None]) -> None:
+        self.reply = reply
+        # A deque's `pop` is atomic.
+        self._content = deque((content,))
+
+    def take(self) -> Mapping[Any, Any] | None:
+        """Return the content at the first call, None at the second."""
+        try:
+            return self._content.pop()
+        except IndexError:
+            return None
+
+
+Entry = Message | Opened | Closed | Upload
 
 
 class Inbox:
-    """A queue for each page, filled by the server's thread, emptied by the world's."""
+    """
+    A queue for each page, filled by the server's thread and emptied by the world's thread.
 
-    def __init__(self) -> None:
+    :param wake: called on the server's thread after an entry has come
+    """
+
+    def __init__(self, wake: Callable[[], None]) -> None:
+        self._wake = wake
         self._lock = Lock()
-        self._queues: dict[int, deque[Incoming]] = {}
-        # The pages with messages, the next one first.
+        self._queues: dict[int, deque[Entry]] = {}
+        # The pages with entries, the next one first.
         self._turns: deque[int] = deque()
 
-    def put(self, incoming: Incoming) -> bool:
+    def put(self, page: int, entry: Entry) -> bool:
         """
-        Queue a message; return whether there was room for it.
+        Queue an entry of a page; return whether there was room for it.
 
-        A page that is opened or closed is always told.
+        There is always room for the opening and closing of a page.
         """
         with self._lock:
-            queue = self._queues.setdefault(incoming.page, deque())
-            own = isinstance(incoming.message, Opened | Closed)
-            if len(queue) >= CAPACITY and not own:
+            queue = self._queues.setdefault(page, deque())
+            if len(queue) >= CAPACITY and not isinstance(entry, Opened | Closed):
                 return False
             if not queue:
-                self._turns.append(incoming.page)
-            queue.append(incoming)
-            return True
+                self._turns.append(page)
+            queue.append(entry)
+        self._wake()
+        return True
 
-    def take(self) -> Incoming | None:
-        """Return the next message, of each page in turn; None where none waits."""
+    def take(self) -> tuple[int, Entry] | None:
+        """Return the next entry with the number of its page; None where there is no entry."""
         with self._lock:
             if not self._turns:
                 return None
             page = self._turns.popleft()
             queue = self._queues[page]
-            incoming = queue.popleft()
+            entry = queue.popleft()
             if queue:
                 self._turns.append(page)
-            elif isinstance(incoming.message, Closed):
+            elif isinstance(entry, Closed):
                 del self._queues[page]
-            return incoming
+            return page, entry

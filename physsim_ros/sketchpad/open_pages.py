@@ -2,87 +2,151 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The open pages of a server, and the messages that go to one of them, or to all.
+The open pages on the server's thread, and the messages to one page or to all.
 
-Law: a page gets every answer to its own messages; of those to others, the first of each frame.
+Laws: a page that does not read is skipped, never waited for; a page gets every answer to its own
+messages, and of those to others the first ones of each frame.
 """
 
 from __future__ import annotations
 
+from asyncio import Future
 from collections import Counter
-from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Iterator, Sequence
 
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.sketchpad.answers import answer_content, asker_of
 from physsim_ros.sketchpad.frame_codec import Show
+from physsim_ros.sketchpad.guarded import TOO_BIG
 from physsim_ros.sketchpad.scene_codec import compact
-
-if TYPE_CHECKING:
-    from physsim_ros.sketchpad.page_socket import PageSocket
+from tornado.websocket import WebSocketClosedError, WebSocketHandler
 
 # Pages at once.
 MOST_PAGES = 64
 # Answers of a frame, from its first on, that go to pages which did not ask; the rest is counted.
 MOST_ANSWERS_TO_OTHERS = 20
+# Unread messages of a page that is not closed yet [bytes]: tens of thousands of answers. The
+# newest frame and its scenes, which have the size of the world, do not count.
+MOST_UNREAD = 16 * 2**20
+
+
+class OpenPage:
+    """
+    An open page, as the server sends to it.
+
+    :param socket: of the page
+    :param number: of the page, never used again
+    :param on_read: called with the page when it has read all that it was sent
+
+    :ivar show: the parts of a frame that it gets
+    :ivar epoch: of the scene that was sent last; 0 before the first
+    :ivar ghost_epoch: of the ghost's scene that was sent last; 0 where there is no ghost
+    :ivar frame: number of the frame that was sent last; 0 before the first
+    """
+
+    def __init__(
+        self, socket: WebSocketHandler, number: int, on_read: Callable[[OpenPage], None]
+    ) -> None:
+        self.number = number
+        self.show = Show.POSES
+        self.epoch = self.ghost_epoch = self.frame = 0
+        self._socket = socket
+        self._on_read = on_read
+        # Messages on their way to the page, and the size of those that count [bytes].
+        self._under_way = self._unread = 0
+
+    @property
+    def is_busy(self) -> bool:
+        """Whether messages are on their way to the page."""
+        return self._under_way > 0
+
+    def send(self, text: str) -> None:
+        """Send a message; a page that has left too much unread is closed instead."""
+        size = len(text)
+        if self._unread + size > MOST_UNREAD:
+            self._socket.close(TOO_BIG, 'too much left unread')
+        else:
+            self._write(text, counting=size)
+
+    def send_part(self, part: str | bytes) -> None:
+        """Send a frame or a scene, of any size; a busy page gets none."""
+        self._write(part, counting=0)
+
+    def close(self, code: int, reason: str) -> None:
+        """Close the page."""
+        self._socket.close(code, reason)
+
+    def _write(self, message: str | bytes, *, counting: int) -> None:
+        try:
+            sent = self._socket.write_message(message, binary=isinstance(message, bytes))
+        except WebSocketClosedError:
+            return
+        self._under_way += 1
+        self._unread += counting
+
+        def done(future: Future[None]) -> None:
+            self._under_way -= 1
+            self._unread -= counting
+            if future.cancelled() or future.exception() is not None:
+                # The page is being closed.
+                return
+            if not self.is_busy:
+                self._on_read(self)
+
+        sent.add_done_callback(done)
 
 
 class OpenPages:
     """
-    The open pages, by their numbers, on the server's thread.
+    The open pages by their numbers.
 
-    :ivar wants_contacts: whether a page asks for contacts
+    :ivar wants_contacts: whether a page shows contacts; read by the world's thread
     """
 
     def __init__(self) -> None:
         self.wants_contacts = False
-        self._pages: dict[int, PageSocket] = {}
+        self._pages: dict[int, OpenPage] = {}
         self._last_number = 0
 
     def __len__(self) -> int:
         return len(self._pages)
 
-    def __iter__(self) -> Iterator[PageSocket]:
-        # A page that does not read is closed, and removed, when it is sent something.
+    def __iter__(self) -> Iterator[OpenPage]:
+        # A page that does not read is closed, and removed, while it is sent something.
         return iter(list(self._pages.values()))
 
-    @property
-    def is_full(self) -> bool:
-        """Whether there are as many pages as there may be."""
-        return len(self._pages) >= MOST_PAGES
-
-    def add(self, page: PageSocket) -> int:
-        """Add a page, and return its number."""
+    def add(self, socket: WebSocketHandler, on_read: Callable[[OpenPage], None]) -> OpenPage:
+        """Add the page of a socket."""
         self._last_number += 1
-        self._pages[self._last_number] = page
-        return self._last_number
+        page = OpenPage(socket, self._last_number, on_read)
+        self._pages[page.number] = page
+        return page
 
-    def remove(self, page: PageSocket) -> None:
-        """Send nothing more to a page."""
+    def remove(self, page: OpenPage) -> None:
+        """Remove a page that is closed."""
         self._pages.pop(page.number, None)
         self.note_parts()
 
     def note_parts(self) -> None:
-        """Note which parts of a frame the pages ask for."""
-        self.wants_contacts = any(Show.CONTACTS in page.show for page in self._pages.values())
+        """Note which parts of a frame the pages get."""
+        self.wants_contacts = any(Show.CONTACTS in page.show for page in self)
 
-    def send(self, text: str, *, page: int | None = None) -> None:
+    def send(self, text: str, number: int | None = None) -> None:
         """
         Send a message.
 
-        :param page: number of the page, which may be closed; None is all of them
+        :param number: of the page, which may be closed; None is all pages
         """
-        receivers = self if page is None else filter(None, [self._pages.get(page)])
-        for each in receivers:
-            each.send(text)
+        for page in self if number is None else filter(None, [self._pages.get(number)]):
+            page.send(text)
 
     def send_answers(self, answers: Sequence[Answer]) -> None:
         """Send each answer of a frame to the page that asked, and the first ones to all others."""
-        # Of the answers after the first ones, by the page that asked.
+        # Answers after the first ones, by the page that asked.
         own: Counter[int] = Counter()
         for index, answer in enumerate(answers):
-            asker, id_ = asker_of(answer.asker)
-            self.send(compact(answer_content(answer, id_)), page=asker)
+            asker, request = asker_of(answer.asker)
+            self.send(compact(answer_content(answer, request)), asker)
             if index >= MOST_ANSWERS_TO_OTHERS:
                 own[asker] += 1
                 continue

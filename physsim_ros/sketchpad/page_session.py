@@ -2,226 +2,192 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-One page on the world's thread: what it draws, its hand, its time and its worlds.
+The session of one page, on the world's thread: its drawing, material and hand, and its requests.
 
-Law: a session changes nothing itself; it submits requests, and each message has an answer.
+Law: a session changes nothing itself; it submits requests, and every message has an answer.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 import time
 from typing import Any
 
-from physsim_ros.files import check_world_name, OwnWorlds
-from physsim_ros.model.errors import BadWorldFile, Busy, UnknownJoint, WorldFull
-from physsim_ros.model.names import shown_name
-from physsim_ros.model.requests import Join, KeepHand, LetGo
+from physsim_ros.drawing import DrawingSession
+from physsim_ros.files import OwnWorlds
+from physsim_ros.model.body_properties import Properties
+from physsim_ros.model.colors import Color
+from physsim_ros.model.errors import Busy, PhysSimError, Refusal
+from physsim_ros.model.preview import NO_PREVIEW, Preview
+from physsim_ros.model.requests import HandRequest, KeepHand, LetGo, Request, Spawn
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.deferred_calls import Wait
-from physsim_ros.simulation.world.joint_requests import drawn_points
-from physsim_ros.sketchpad import messages
-from physsim_ros.sketchpad.answers import asker_key, request_of
+from physsim_ros.sketchpad.answers import answer_content, Content, Origin
 from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.body_past import BodyPasts
-from physsim_ros.sketchpad.page_drawing import PageDrawing
-from physsim_ros.sketchpad.page_requests import PageRequests, Send
+from physsim_ros.sketchpad.message import KINDS, Message
 from physsim_ros.sketchpad.world_control import WorldControl
 
-# From one request of a hand that holds still to the next [s]; one that is silent for 5 s lets go.
+# Time from one request of a resting hand to the next [s]; a hand without requests lets go after
+# 5 s.
 HAND_PERIOD = 2.0
-# Length of a world that a page may have as text [characters].
-MOST_SHARED = 2**20
 
 
 class PageSession:
     """
     The session of one page.
 
+    :param number: of the page
     :param world: that it draws in
-    :param page: number of the page
     :param send: sends a message to the page
     :param pasts: of bodies, for all pages
     :param own_worlds: of the user
     :param autosave: of the world
-    :param list_worlds: has all pages told which worlds there are
+    :param list_worlds: sends all pages the list of worlds
+
+    :ivar drawing: its strokes and clicks
+    :ivar hand: name of its hand in the world
+    :ivar material: properties of the bodies that it draws; those that are unset are the world's
+    :ivar color: of the bodies that it draws; None is the world's choice
     """
 
     def __init__(
         self,
+        number: int,
         world: WorldControl,
         *,
-        page: int,
-        send: Send,
+        send: Callable[[Content], None],
         pasts: BodyPasts,
         own_worlds: OwnWorlds,
         autosave: Autosave,
         list_worlds: Callable[[], None],
     ) -> None:
-        self._own_worlds = own_worlds
-        self._autosave = autosave
-        self._list_worlds = list_worlds
-        self._world = world
-        self._page = page
-        self._requests = PageRequests(world, send)
-        self._drawing = drawing = PageDrawing(world, self._requests, send)
-        self._pasts = pasts
-        self._hand = f'page {page}'
+        self.number = number
+        self.world = world
+        self.send = send
+        self.pasts = pasts
+        self.own_worlds = own_worlds
+        self.autosave = autosave
+        self.list_worlds = list_worlds
+        self.drawing = DrawingSession(world.drawing_settings())
+        self.hand = f'page {number}'
+        self.material = Properties()
+        self.color: Color | None = None
+        self._preview: Preview = NO_PREVIEW
         # Steady time of the last request of the hand [s]; None while it holds nothing.
         self._hand_used: float | None = None
-        self._actions: dict[type, Callable[[Any, str], None]] = {
-            messages.Stroke: drawing.read_stroke,
-            messages.Instead: drawing.read_instead,
-            messages.Click: drawing.click,
-            messages.Drop: drawing.drop,
-            messages.Copy: drawing.copy_body,
-            messages.DrawWith: drawing.choose_material,
-            messages.Submit: self._submit,
-            messages.ChangeJoint: self._change_joint,
-            messages.UseHand: self._use_hand,
-            messages.Watch: self._watch,
-            messages.Share: self._share,
-            messages.Upload: self._upload,
-            messages.Perform: self._perform,
-            messages.ManageWorld: self._manage_world,
-            messages.SetSpeed: self._set_speed,
-            messages.Seek: self._seek,
-            messages.ReturnToCourse: self._return_to_course,
-        }
 
-    def handle(self, message: messages.Message, request_id: str) -> None:
-        """
-        Do what a message asks for.
-
-        :param request_id: of the message, for its answers
-        """
-        self._drawing.update_settings()
-        self._actions[type(message)](message, asker_key(self._page, request_id))
-        self._drawing.send_preview()
+    def handle(self, message: Message) -> None:
+        """Carry out a message."""
+        self.drawing.settings = self.world.drawing_settings()
+        kind = KINDS[message.kind]
+        origin = Origin(self.number, message.request, kind.topic)
+        try:
+            kind.handle(self, origin, **message.arguments)
+        except Refusal as refusal:
+            self.refuse(origin, refusal)
+        self._send_preview()
 
     def keep_hand(self, now: float) -> None:
         """
-        Keep what the hand holds still, as long as the page is open.
+        Keep the grip of a resting hand while the page is open.
 
         :param now: steady time [s]
         """
         if self._hand_used is not None and now - self._hand_used > HAND_PERIOD:
             self._hand_used = now
-            self._requests.submit((KeepHand(hand=self._hand),), '~/drag/feedback', '')
+            self._submit_unasked(KeepHand(hand=self.hand))
 
     def close(self) -> None:
-        """Let go of what the hand of the page holds, and forget what it has asked for."""
-        self._pasts.forget(self._page)
+        """Let go with the hand of the page, and forget the pasts that it has asked for."""
+        self.pasts.forget(self.number)
         if self._hand_used is not None:
-            self._requests.submit((LetGo(hand=self._hand),), '~/drag/feedback', '')
+            self._submit_unasked(LetGo(hand=self.hand))
 
-    # Bodies
+    # Requests
 
-    def _submit(self, message: messages.Submit, asker: str) -> None:
-        self._requests.submit(message.requests, message.topic, asker)
+    def submit(self, origin: Origin, requests: Iterable[Request]) -> None:
+        """Submit requests that are undone together."""
+        queue = self.world.simulation.requests
+        for number, request in enumerate(requests):
+            queue.submit(request, topic=origin.topic, joined=number > 0, asker=origin.asker)
 
-    def _change_joint(self, message: messages.ChangeJoint, asker: str) -> None:
-        snapshot = self._world.current_snapshot()
-        scene, name = snapshot.scene, message.name
-        joint = next((each for each in scene.joints if each.name == name), None)
-        if joint is None:
-            refusal = UnknownJoint(f'there is no joint {shown_name(name)}', field='name')
-            self._requests.refuse(refusal, '~/join', asker)
-            return
-        rows = {body: row for row, body in enumerate(scene.names)}
-        x_y_yaw = {end: snapshot.poses[rows[end]].tolist() for end in {joint.a, joint.b} & {*rows}}
-        # Where it is drawn now, so that it keeps its seat.
-        request = Join(
-            name=name,
-            kind=joint.kind,
-            points=drawn_points(joint, {end: (x, y, yaw) for end, (x, y, yaw) in x_y_yaw.items()}),
-            a=joint.a,
-            b=joint.b,
-            properties=message.properties,
+    def use_hand(self, origin: Origin, request: HandRequest) -> None:
+        """Submit a request of the page's hand."""
+        self._hand_used = None if isinstance(request, LetGo) else time.monotonic()
+        queue = self.world.simulation.requests
+        queue.submit(request, topic=origin.topic, asker=origin.asker)
+
+    def with_material(self, requests: Iterable[Request]) -> tuple[Request, ...]:
+        """Return the requests of a drawing, with the page's material for the bodies they add."""
+        return tuple(
+            self._with_material(each) if isinstance(each, Spawn) else each for each in requests
         )
-        self._requests.submit((request,), '~/join', asker)
 
-    def _use_hand(self, message: messages.UseHand, asker: str) -> None:
-        holds = not isinstance(message.request, LetGo)
-        self._hand_used = time.monotonic() if holds else None
-        request = replace(message.request, hand=self._hand)
-        self._requests.submit((request,), '~/drag/feedback', asker)
+    def _with_material(self, spawn: Spawn) -> Spawn:
+        chosen = self.material.explicit()
+        if spawn.properties.anchored:
+            # A wall does not move.
+            chosen.pop('velocity', None)
+        properties = replace(spawn.properties, **chosen)
+        return replace(spawn, color=self.color or spawn.color, properties=properties)
 
-    def _watch(self, message: messages.Watch, asker: str) -> None:
-        self._pasts.ask(self._page, message.name, request_of(asker))
+    # Answers
 
-    # Time
+    def refuse(self, origin: Origin, refusal: Refusal) -> None:
+        """Queue the refusal of a message."""
+        queue = self.world.simulation.requests
+        queue.refuse(refusal, topic=origin.topic, subject='', asker=origin.asker)
 
-    def _set_speed(self, message: messages.SetSpeed, asker: str) -> None:
-        self._requests.perform('~/speed', asker, lambda: self._world.set_speed(message.speed))
+    def tell(self, origin: Origin, message: str) -> None:
+        """Queue the answer to a message."""
+        answer = Answer(topic=origin.topic, message=message, asker=origin.asker)
+        self.world.simulation.requests.tell(answer)
 
-    def _seek(self, message: messages.Seek, asker: str) -> None:
-        stamp = message.stamp
-        seek = self._world.seek
-        wait = Wait.BEHIND_REQUESTS
-        self._requests.submit_action('~/seek', asker, lambda: seek(stamp), wait)
+    def answer_page(self, origin: Origin, message: str, **details: Any) -> None:
+        """
+        Answer this page alone and at once: the answer concerns no other page.
 
-    def _return_to_course(self, message: messages.ReturnToCourse, asker: str) -> None:
-        course = message.course
-        return_to_course = self._world.simulation.return_to_course
-        wait = Wait.BEHIND_REQUESTS
-        self._requests.submit_action('~/timeline', asker, lambda: return_to_course(course), wait)
+        :param details: other fields of the answer
+        """
+        self.send(answer_content(Answer(topic='page', message=message, **details), origin.request))
 
-    # Worlds
+    def perform(self, origin: Origin, action: Callable[[], str], wait: Wait = Wait.NONE) -> None:
+        """
+        Perform an action at its time, and queue its answer.
 
-    def _perform(self, message: messages.Perform, asker: str) -> None:
-        action, world = message.action, message.world
+        :param action: returns what was done; raises a PhysSimError where it is refused
+        :param wait: time of the action
+        """
+        self.call(origin, lambda: [answer_of(origin, action)], wait)
 
-        def perform() -> str:
-            if message.checks_name:
-                self._own_worlds.check_free(check_world_name(world), replace=message.replace)
-                self._own_worlds.keep(world)
-            done = self._world.perform(action, world)
-            if action == 'save_world':
-                self._autosave.note_saved()
-                self._list_worlds()
-            return done
+    def call(self, origin: Origin, call: Callable[[], Iterable[Answer]], wait: Wait) -> None:
+        """Make a call at its time, or refuse it where too many wait."""
+        try:
+            self.world.submit_call(call, wait)
+        except Busy as refusal:
+            self.refuse(origin, refusal)
 
-        self._requests.submit_action(f'~/{action}', asker, perform, self._world.wait_of(action))
+    def _submit_unasked(self, request: HandRequest) -> None:
+        """Submit a request of the hand that no message asks for."""
+        self.world.simulation.requests.submit(request, topic='~/drag/feedback')
 
-    def _manage_world(self, message: messages.ManageWorld, asker: str) -> None:
-        own, name = self._own_worlds, message.name
-        actions: dict[str, Callable[[], str]] = {
-            'rename': lambda: own.rename(name, message.to),
-            'remove': lambda: own.delete(name),
-            'put_back': lambda: own.put_back(name),
-            'forget': self._autosave.forget_unsaved,
-        }
+    def _send_preview(self) -> None:
+        """Send the page its unfinished gesture, if that has changed."""
+        if self.drawing.preview == self._preview:
+            return
+        self._preview = preview = self.drawing.preview
+        lines = [*preview.lines, *([preview.points] if preview.points else [])]
+        self.send({'type': 'preview', 'lines': lines, 'label': preview.label})
 
-        def manage() -> str:
-            try:
-                done = actions[message.action]()
-            except OSError as error:
-                reason = error.strerror or error
-                raise BadWorldFile(f'{name}: {reason}', field='name') from error
-            self._list_worlds()
-            return done
 
-        self._requests.perform('page', asker, manage)
-
-    def _upload(self, message: messages.Upload, asker: str) -> None:
-        def replace_world() -> str:
-            content = message.take()
-            if content is None:
-                raise Busy('an upload has waited too long; nothing was done')
-            return self._world.replace_world(content)
-
-        self._requests.submit_action('~/load_world', asker, replace_world, Wait.FOR_SEEK)
-
-    def _share(self, _: messages.Share, asker: str) -> None:
-        def share() -> list[Answer]:
-            try:
-                text = self._world.world_text(longest=MOST_SHARED)
-            except WorldFull as refusal:
-                self._requests.answer_page(asker, str(refusal), code=refusal.code)
-            else:
-                self._requests.answer_page(asker, 'the world as text', values=(('yaml', text),))
-            return []
-
-        self._requests.submit_call('~/save_world', asker, share, Wait.FOR_SEEK)
+def answer_of(origin: Origin, action: Callable[[], str]) -> Answer:
+    """Perform an action; return the answer with its message, or with its refusal."""
+    topic, asker = origin.topic, origin.asker
+    try:
+        return Answer(topic=topic, message=action(), asker=asker)
+    except Refusal as refusal:
+        return Answer.refused(refusal, topic=topic, asker=asker)
+    except PhysSimError as error:
+        return Answer(topic=topic, message=str(error), code='refused', asker=asker)

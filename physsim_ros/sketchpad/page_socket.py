@@ -4,136 +4,95 @@
 """
 The socket of one page, on the server's thread.
 
-Laws: a page that does not read is skipped, never waited for; what it sends is limited in size,
-rate and depth, and checked before anything else sees it.
+Law: messages of a page are limited in size, rate and depth, and checked before the world's thread
+receives them.
 """
 
 from __future__ import annotations
 
-from asyncio import Future
-from typing import TYPE_CHECKING
-
+from physsim_ros.model.checks import flag
 from physsim_ros.model.errors import Busy, Refusal
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.sketchpad.access import Role
 from physsim_ros.sketchpad.answers import answer_content
 from physsim_ros.sketchpad.frame_codec import Show
-from physsim_ros.sketchpad.guarded_socket import GuardedSocket, TOO_BIG
-from physsim_ros.sketchpad.inbox import Closed, Incoming, Opened
-from physsim_ros.sketchpad.messages import message_from, OF_VIEWERS, read_envelope, ShowParts
+from physsim_ros.sketchpad.frame_feed import FrameFeed
+from physsim_ros.sketchpad.guarded import GuardedSocket
+from physsim_ros.sketchpad.inbox import Closed, Inbox, Opened
+from physsim_ros.sketchpad.message import message, Optional
+from physsim_ros.sketchpad.messages import read_message
+from physsim_ros.sketchpad.open_pages import MOST_PAGES, OpenPage
 from physsim_ros.sketchpad.scene_codec import compact
-from tornado.websocket import WebSocketClosedError
 
-if TYPE_CHECKING:
-    from physsim_ros.sketchpad.server import Server
-
-# Size of the messages that a page leaves unread before it is closed [bytes]: tens of thousands of
-# answers. The newest frame and its scenes, which have the size of the world, do not count.
-MOST_UNREAD = 16 * 2**20
+# Types of the messages that a page may send which only shows the world.
+OF_VIEWERS = ('show', 'watch')
 
 
 class PageSocket(GuardedSocket):
-    """
-    The socket of a page.
+    """The socket of a page."""
 
-    :ivar number: of the page, never used again
-    :ivar show: the parts of a frame that it gets
-    :ivar epoch: of the scene that was sent last; 0 before the first
-    :ivar ghost_epoch: of the ghost's scene that was sent last; 0 where there is none
-    :ivar frame: number of the frame that was sent last; 0 before the first
-    """
+    def initialize(self, feed: FrameFeed, inbox: Inbox) -> None:  # type: ignore[override]
+        """
+        Set the receivers of its messages.
 
-    def initialize(self, server: Server) -> None:
-        """Set the server, and begin without number."""
-        super().initialize(server)
-        self.number = 0
-        self.show = Show.POSES
-        self.epoch = self.ghost_epoch = self.frame = 0
-        self.view_only = True
-        # Messages on their way to it, and the size of those that count [bytes].
-        self._under_way = self._unread = 0
+        :param feed: of frames to the open pages
+        :param inbox: of the world's thread
+        """
+        super().initialize()
+        self._feed = feed
+        self._inbox = inbox
+        self._page: OpenPage | None = None
 
     @property
     def too_many(self) -> str:
-        """Return why one more is refused; '' where there is room for it."""
-        return 'there are as many pages open as there may be' if self.server.pages.is_full else ''
+        """Return why one more page is refused; '' where there is room for it."""
+        room = len(self._feed.pages) < MOST_PAGES
+        return '' if room else 'there are as many pages open as there may be'
 
     def open(self) -> None:  # noqa: A003 - tornado's name
-        """Welcome the page."""
-        self.view_only = self.role is not Role.DRAW or 'view' in self.request.arguments
+        """Begin to send frames to the page, and tell the world's thread."""
         self.set_nodelay(True)
-        self.number = self.server.add_page(self)
-        role = Role.VIEW if self.view_only else Role.DRAW
-        self.server.inbox_put(Incoming(self.number, '', Opened(role=role)))
+        draws = self.role is Role.DRAW and 'view' not in self.request.arguments
+        self.role = Role.DRAW if draws else Role.VIEW
+        self._page = self._feed.add_page(self)
+        self._inbox.put(self._page.number, Opened(role=self.role))
 
-    def receive(self, message: str | bytes) -> None:
+    def on_message(self, message: str | bytes) -> None:
         """Check a message and hand it to the world's thread."""
-        id_ = ''
-        try:
-            # Binary messages are no JSON either.
-            envelope = read_envelope(message if isinstance(message, str) else '')
-            id_ = envelope.request
-            checked = message_from(envelope)
-        except Refusal as refusal:
-            self._answer(id_, Answer.refused(refusal, topic=''))
+        if self._page is None or not self.take_token():
             return
-        if isinstance(checked, ShowParts):
-            self.show = checked.show
-            self.server.pages.note_parts()
-            # Sent once more, with other parts.
-            self.frame = 0
-            self.server.feed.update_page(self)
-        elif self.view_only and not isinstance(checked, OF_VIEWERS):
-            self._refuse(id_, 'view_only', 'this page only shows the world')
-        elif not self.server.inbox_put(Incoming(self.number, id_, checked)):
-            self._refuse(id_, Busy.code, 'the world is too busy; nothing was done')
+        # Binary messages are no JSON either.
+        request, checked = read_message(message if isinstance(message, str) else '')
+        if isinstance(checked, Refusal):
+            self._answer(request, Answer.refused(checked, topic=''))
+        elif checked.kind == 'show':
+            self._feed.show_parts(self._page, _show(**checked.arguments))
+        elif self.role is not Role.DRAW and checked.kind not in OF_VIEWERS:
+            self._refuse(request, 'view_only', 'this page only shows the world')
+        elif not self._inbox.put(self._page.number, checked):
+            self._refuse(request, Busy.code, 'the world is too busy; nothing was done')
 
     def on_close(self) -> None:
         """Forget the page."""
-        if self.number:
-            self.server.pages.remove(self)
-            self.server.inbox_put(Incoming(self.number, '', Closed()))
+        if self._page is not None:
+            self._feed.pages.remove(self._page)
+            self._inbox.put(self._page.number, Closed())
 
-    @property
-    def is_busy(self) -> bool:
-        """Whether messages are on their way to it."""
-        return self._under_way > 0
+    def _refuse(self, request: str, code: str, reason: str) -> None:
+        """Refuse a message, which does not reach the world."""
+        self._answer(request, Answer(topic='', message=reason, code=code))
 
-    def send(self, message: str) -> None:
-        """Send a message; a page that has left too much unread is closed instead."""
-        size = len(message)
-        if self._unread + size > MOST_UNREAD:
-            self.close(TOO_BIG, 'too much left unread')
-        else:
-            self._write(message, counting=size)
+    def _answer(self, request: str, answer: Answer) -> None:
+        if self._page is not None:
+            self._page.send(compact(answer_content(answer, request)))
 
-    def send_part(self, part: str | bytes) -> None:
-        """Send a frame or a scene, of any size; the feed has none for a page that is busy."""
-        self._write(part, counting=0)
 
-    def _write(self, message: str | bytes, *, counting: int) -> None:
-        try:
-            sent = self.write_message(message, binary=isinstance(message, bytes))
-        except WebSocketClosedError:
-            return
-        self._under_way += 1
-        self._unread += counting
-
-        def done(future: Future[None]) -> None:
-            self._under_way -= 1
-            self._unread -= counting
-            if future.cancelled() or future.exception() is not None:
-                # It is being closed.
-                return
-            if not self.is_busy:
-                self.server.feed.update_page(self)
-
-        sent.add_done_callback(done)
-
-    def _refuse(self, id_: str, code: str, message: str) -> None:
-        """Refuse a message of this page, which does not reach the world."""
-        self._answer(id_, Answer(topic='', message=message, code=code))
-
-    def _answer(self, id_: str, answer: Answer) -> None:
-        """Answer a message of this page."""
-        self.send(compact(answer_content(answer, id_)))
+# The world's thread never receives this kind.
+@message('show', '', velocities=Optional(flag), contacts=Optional(flag), forces=Optional(flag))
+def _show(*, velocities: bool = False, contacts: bool = False, forces: bool = False) -> Show:
+    """Return the parts of a frame that a page asks for."""
+    return (
+        (Show.VELOCITIES if velocities else Show.POSES)
+        | (Show.CONTACTS if contacts else Show.POSES)
+        | (Show.FORCES if forces else Show.POSES)
+    )

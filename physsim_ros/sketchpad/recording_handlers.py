@@ -5,42 +5,40 @@
 The recording beside the page: the web viewer of Rerun, and the stream that it shows.
 
 Laws: a browser calls no other origin: the viewer's files come through this server, from the
-program that serves them on loopback, and the policy of its page forbids all other hosts. A page is
-sent the next batch of its stream when it shows the one before.
+program that serves them on loopback, and the policy of the page forbids all other hosts. A page is
+sent the next batch of its stream when it shows the last one.
 """
 
 from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable
+from contextlib import suppress
 from importlib.metadata import version
 import time
-from typing import Any, Protocol, TYPE_CHECKING
+from typing import Any, Protocol
 from urllib.parse import urlsplit
 
 from physsim_ros.sketchpad.access import headers_for
-from physsim_ros.sketchpad.guarded_socket import GuardedSocket, POLICY_VIOLATION
-from physsim_ros.sketchpad.handlers import Guarded, TYPES
+from physsim_ros.sketchpad.guarded import Guarded, GuardedSocket, POLICY_VIOLATION, TYPES
+from physsim_ros.sketchpad.page_handlers import PAGE
 from physsim_ros.sketchpad.scene_codec import compact
 from tornado.httpclient import AsyncHTTPClient, HTTPClientError
 from tornado.iostream import StreamClosedError
 from tornado.websocket import WebSocketClosedError
 
-if TYPE_CHECKING:
-    from physsim_ros.sketchpad.server import Server
-
 # Recordings that are watched at once: each has a thread, and logs every frame.
 MOST_RECORDINGS = 4
-# For a file of the viewer, of some 40 MB [s].
+# Time to pass on a file of the viewer, of some 40 MB [s].
 _FILE_TIMEOUT = 60.0
-# For the program to be up, which is read from disk (290 MB) where nobody used it before [s].
+# Time for the program to start; at its first use 290 MB are read from disk [s].
 _START_TIMEOUT = 30.0
-# Between two tries to reach it [s].
+# Time from one try to reach it to the next [s].
 _RETRY_PERIOD = 0.1
 
 
 class Recordings(Protocol):
-    """The viewer, as this server needs it; pages are what `open_page` returns."""
+    """The viewer, as this server uses it; `open_page` returns a page."""
 
     @property
     def is_opening(self) -> bool:
@@ -62,12 +60,12 @@ class Recordings(Protocol):
         """End the recording of a page."""
 
 
-def recording_routes(server: Server, recordings: Recordings) -> list[tuple[str, type, Any]]:
+def recording_routes(recordings: Recordings) -> list[tuple[str, type, Any]]:
     """Return the routes below `/rerun/`."""
-    own = {'server': server, 'recordings': recordings}
+    own = {'recordings': recordings}
     return [
         ('/rerun/', RecordingPage, own),
-        # Nothing else of the viewer's own server is passed on.
+        # No other file of the viewer's own server is passed on.
         (r'/rerun/(re_viewer\.js|re_viewer_bg\.wasm)', ViewerFile, own),
         ('/rerun/ws', RecordingSocket, own | {'sockets': set()}),
     ]
@@ -76,13 +74,13 @@ def recording_routes(server: Server, recordings: Recordings) -> list[tuple[str, 
 class _OfRecording(Guarded):
     """A handler that needs the viewer's web page."""
 
-    def initialize(self, server: Server, recordings: Recordings) -> None:  # type: ignore[override]
-        """Set server and viewer."""
-        super().initialize(server)
+    def initialize(self, recordings: Recordings) -> None:
+        """Set the viewer."""
+        super().initialize()
         self.recordings = recordings
 
     async def prepare(self) -> None:
-        """Refuse a request where the viewer is none for browsers, once it is open."""
+        """Refuse a request where the viewer does not serve browsers, once it is open."""
         await super().prepare()
         until = time.monotonic() + _START_TIMEOUT
         # On a thread of the viewer, which knows no event loop.
@@ -101,7 +99,7 @@ class RecordingPage(_OfRecording):
         policy = policy.replace("script-src 'self'", "script-src 'self' 'wasm-unsafe-eval'")
         self.set_header('Content-Security-Policy', policy)
         self.set_header('Content-Type', TYPES['.html'])
-        self.finish((self.server.page_directory / 'recording.html').read_bytes())
+        self.finish((PAGE / 'recording.html').read_bytes())
 
 
 class ViewerFile(_OfRecording):
@@ -154,14 +152,15 @@ class ViewerFile(_OfRecording):
 
 
 class RecordingSocket(_OfRecording, GuardedSocket):
-    """The stream of a recording to one page, and what that has shown of it."""
+    """The stream of a recording to one page, and the time that the page shows."""
 
     def initialize(  # type: ignore[override]
-        self, server: Server, recordings: Recordings, sockets: set[RecordingSocket]
+        self, recordings: Recordings, sockets: set[RecordingSocket]
     ) -> None:
-        """Set server, viewer and all that are open."""
-        super().initialize(server, recordings)
+        """Set the viewer and the open sockets."""
+        super().initialize(recordings)
         self._sockets = sockets
+        self._loop = asyncio.get_running_loop()
         self._page: Any = None
 
     @property
@@ -176,8 +175,10 @@ class RecordingSocket(_OfRecording, GuardedSocket):
         self._sockets.add(self)
         self._page = self.recordings.open_page(self._send_soon)
 
-    def receive(self, message: str | bytes) -> None:
+    def on_message(self, message: str | bytes) -> None:
         """Note which frame the page shows: its time [ns], as digits."""
+        if not self.take_token():
+            return
         try:
             self._page.note_shown(int(message[:20]))
         except ValueError:
@@ -191,7 +192,9 @@ class RecordingSocket(_OfRecording, GuardedSocket):
 
     def _send_soon(self, batch: bytes, recorded: int) -> None:
         """Send a batch; called on the thread of the recording."""
-        self.server.call_soon(lambda: self._send(batch, recorded))
+        # The loop has ended where the server is closed.
+        with suppress(RuntimeError):
+            self._loop.call_soon_threadsafe(self._send, batch, recorded)
 
     def _send(self, batch: bytes, recorded: int) -> None:
         try:

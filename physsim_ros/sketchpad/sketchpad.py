@@ -4,7 +4,7 @@
 """
 The sketchpad of a world: its server, and a session for each open page.
 
-Law: the world's thread decides; it handles the messages of pages between two frames, for a bounded
+Law: messages of pages are carried out on the world's thread, between two frames, for a bounded
 time.
 """
 
@@ -12,22 +12,23 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import suppress
+from functools import partial
 from pathlib import Path
 import time
 from typing import Any
 
-from physsim_ros.files import OwnWorlds
+from physsim_ros.files import OwnWorlds, state_from, text_of
 from physsim_ros.model.errors import Busy
 from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.simulation.deferred_calls import Wait
 from physsim_ros.sketchpad.access import Role
+from physsim_ros.sketchpad.answers import Origin
 from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.body_past import BodyPasts
 from physsim_ros.sketchpad.frame_codec import VERSION
-from physsim_ros.sketchpad.inbox import Closed, Inbox, Incoming, Opened, SERVER
+from physsim_ros.sketchpad.inbox import Closed, Inbox, Opened, Upload, UPLOADERS
 from physsim_ros.sketchpad.last_contacts import LastContacts
-from physsim_ros.sketchpad.page_requests import Content
-from physsim_ros.sketchpad.page_session import PageSession
+from physsim_ros.sketchpad.page_session import answer_of, PageSession
 from physsim_ros.sketchpad.recording_handlers import Recordings
 from physsim_ros.sketchpad.server import Server
 from physsim_ros.sketchpad.timeline_report import timeline_content, TimelineReport
@@ -43,7 +44,7 @@ class Sketchpad:
     The sketchpad of a world.
 
     :param world: that the pages draw in
-    :param welcome: what a page is told first: frame, rate
+    :param welcome: further fields of the first message to a page: frame_id, rate
     :param address: to listen on
     :param port: to listen on, or the first free one after it
     :param world_dir: directory of the user's worlds
@@ -64,26 +65,25 @@ class Sketchpad:
         wake: Callable[[], None],
     ) -> None:
         self._world = world
+        self._simulation = world.simulation
         self._welcome = welcome
         self._recordings = recordings
-        self._inbox = Inbox()
+        self._inbox = Inbox(wake)
         self._timeline = TimelineReport(world.simulation)
         self._contacts = LastContacts()
         self._own_worlds = OwnWorlds(world_dir)
-        self._autosave = Autosave(world_dir, lambda longest: world.world_text(longest=longest))
+        self._autosave = Autosave(world_dir, self._world_text)
         self._server = Server(
             address=address,
             port=port,
-            world_dir=world_dir,
+            own_worlds=self._own_worlds,
             autosave=self._autosave,
             recordings=recordings,
             inbox=self._inbox,
-            wake=wake,
         )
         self._pasts = BodyPasts(world.simulation, self._server.send)
         self._sessions: dict[int, PageSession] = {}
-        self._server_session = self._session(SERVER)
-        self._told_recording = self._recording_path()
+        self._sent_recording = self._recording_path()
 
     def url(self, role: Role = Role.DRAW) -> str:
         """Return the address of a page with its token."""
@@ -92,31 +92,31 @@ class Sketchpad:
     @property
     def wants_contacts(self) -> bool:
         """Whether a page shows contacts."""
-        return self._server.pages.wants_contacts
+        return self._server.wants_contacts
 
     def handle_messages(self) -> None:
-        """Handle the messages of pages, as many as there is time for."""
-        if self._recording_path() != self._told_recording:
-            self._told_recording = self._recording_path()
-            self._server.send({'type': 'recording', 'rerun': self._told_recording})
+        """Carry out the messages of pages that have come, as many as there is time for."""
         now = time.monotonic()
-        for session in self._sessions.values():
-            session.keep_hand(now)
-        self._pasts.send_due(now)
-        if self._autosave.is_due(now):
-            self._save_unsaved()
-        deadline = now + BUDGET
-        while (incoming := self._inbox.take()) is not None:
-            self._handle(incoming)
-            if time.monotonic() > deadline:
+        self._do_periodic_work(now)
+        while (entry := self._inbox.take()) is not None:
+            match entry:
+                case page, Opened(role=role):
+                    self._open(page, role)
+                case page, Closed():
+                    if (session := self._sessions.pop(page, None)) is not None:
+                        session.close()
+                case _, Upload() as upload:
+                    self._replace_world(upload)
+                case page, message:
+                    self._sessions[page].handle(message)
+            if time.monotonic() > now + BUDGET:
                 return
 
     def show(self, frame: Frame) -> None:
         """Send a frame, its answers and the timeline to all pages; never blocks."""
         frame = self._contacts.completed(frame)
         self._autosave.note_frame(frame, drawn=bool(self._sessions))
-        if not self._server.has_pages:
-            # The first page to come gets this frame.
+        if not self._sessions:
             self._server.keep(frame)
             return
         status = self._timeline.take_status(frame, time.monotonic())
@@ -132,39 +132,79 @@ class Sketchpad:
         """Close all pages, and end the server's thread."""
         self._server.close()
 
-    def _handle(self, incoming: Incoming) -> None:
-        number, request_id, message = incoming
-        match message:
-            case Opened(role=role):
-                self._open(number, role)
-            case Closed():
-                session = self._sessions.pop(number, None)
-                if session is not None:
-                    session.close()
-            case _:
-                session = self._server_session if number == SERVER else self._sessions.get(number)
-                if session is not None:
-                    session.handle(message, request_id)
+    def _do_periodic_work(self, now: float) -> None:
+        """
+        Keep hands and send pasts, autosave the world, and tell where its recording is shown.
 
-    def _save_unsaved(self) -> None:
-        def save() -> list[Answer]:
-            self._autosave.save()
-            return []
+        :param now: steady time [s]
+        """
+        for session in self._sessions.values():
+            session.keep_hand(now)
+        self._pasts.send_due(now)
+        if self._autosave.is_due(now):
+            # Where too many requests wait, the world is saved later.
+            with suppress(Busy):
+                self._world.submit_call(self._save_unsaved, Wait.FOR_SEEK)
+        if self._recording_path() != self._sent_recording:
+            self._sent_recording = self._recording_path()
+            self._server.send({'type': 'recording', 'rerun': self._sent_recording})
 
-        # Where too many requests wait, it comes later.
-        with suppress(Busy):
-            self._world.submit_call(save, Wait.FOR_SEEK)
+    def _save_unsaved(self) -> tuple[Answer, ...]:
+        self._autosave.save()
+        return ()
+
+    def _world_text(self, longest: int) -> str:
+        """
+        Return the world as the text of a world file.
+
+        :param longest: greatest length [characters]
+        :raises WorldFull: it is longer
+        """
+        simulation = self._simulation
+        return text_of(simulation.save(), simulation.physics_rate, longest=longest)
+
+    def _replace_world(self, upload: Upload) -> None:
+        """Replace the world by an uploaded one, and tell the answer to the uploader too."""
+        origin, simulation = Origin(UPLOADERS, '', '~/load_world'), self._simulation
+
+        def load() -> str:
+            content = upload.take()
+            if content is None:
+                raise Busy('an upload has waited too long; nothing was done')
+            settings, rate = simulation.settings, simulation.physics_rate
+            return simulation.load(state_from(content, settings, rate))
+
+        def answers() -> list[Answer]:
+            answer = answer_of(origin, load)
+            upload.reply(answer)
+            return [answer]
+
+        try:
+            self._world.submit_call(answers, Wait.FOR_SEEK)
+        except Busy as refusal:
+            upload.reply(Answer.refused(refusal, topic=origin.topic))
+            simulation.requests.refuse(refusal, topic=origin.topic, subject='')
 
     def _open(self, number: int, role: Role) -> None:
-        self._sessions[number] = self._session(number)
-        settings = self._world.simulation.settings
-        drawing = self._world.drawing_settings
-        self._server.send(
+        """Begin the session of a page, and welcome it."""
+        send = partial(self._server.send, page=number)
+        self._sessions[number] = PageSession(
+            number,
+            self._world,
+            send=send,
+            pasts=self._pasts,
+            own_worlds=self._own_worlds,
+            autosave=self._autosave,
+            list_worlds=self._server.list_worlds,
+        )
+        settings = self._simulation.settings
+        drawing = self._world.drawing_settings()
+        send(
             {
                 'type': 'welcome',
                 'client': str(number),
                 'version': VERSION,
-                'physics_rate': self._world.simulation.physics_rate,
+                'physics_rate': self._simulation.physics_rate,
                 **self._welcome,
                 'rerun': self._recording_path(),
                 'view_only': role is not Role.DRAW,
@@ -178,25 +218,11 @@ class Sketchpad:
                     'draw_color': drawing.draw_color,
                     'snap': drawing.snap,
                 },
-            },
-            page=number,
+            }
         )
-        self._server.send(timeline_content(self._world.simulation.status), page=number)
+        send(timeline_content(self._simulation.status))
+        self._server.list_worlds(number)
 
     def _recording_path(self) -> str:
         """Return where the recording is shown; '' where no viewer serves browsers."""
         return '/rerun/' if self._recordings.page_address else ''
-
-    def _session(self, number: int) -> PageSession:
-        def send(content: Content) -> None:
-            self._server.send(content, page=number)
-
-        return PageSession(
-            self._world,
-            page=number,
-            send=send,
-            pasts=self._pasts,
-            own_worlds=self._own_worlds,
-            autosave=self._autosave,
-            list_worlds=self._server.list_worlds,
-        )

@@ -1,89 +1,182 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
+"""
+The worlds that pages offer: their list, their pictures, and their files over HTTP.
 
-"""Worlds over HTTP: files to download, files to upload."""
+Law: nothing but the files of own and shipped worlds can be read.
+"""
 
 from __future__ import annotations
 
 import asyncio
+from collections.abc import Callable
+from contextlib import suppress
+from itertools import islice
+from pathlib import Path
 from typing import Any
+from urllib.parse import quote
 
-from physsim_ros.files import find_world, load_mapping, write_file
-from physsim_ros.model.errors import Busy, Malformed, Refusal
+from physsim_ros.files import (
+    find_world,
+    load_mapping,
+    OwnWorlds,
+    shipped_pictures,
+    shipped_worlds,
+    title_of,
+    worlds_in,
+    write_file,
+)
+from physsim_ros.model.errors import Malformed, Refusal
 from physsim_ros.model.snapshot import Answer
-from physsim_ros.sketchpad.access import Role
-from physsim_ros.sketchpad.handlers import Guarded
-from physsim_ros.sketchpad.messages import Upload
+from physsim_ros.sketchpad.autosave import Autosave
+from physsim_ros.sketchpad.guarded import Guarded, TYPES
+from physsim_ros.sketchpad.inbox import Inbox, Upload, UPLOADERS
 
 # Uploads at once.
 MOST_UPLOADS = 4
-# Until the world begins to take over a file [s].
+# Time until the world begins to read an upload [s].
 TIMEOUT = 60.0
-# Of the picture of a world [bytes].
+# Size of the picture of a world [bytes].
 MOST_PICTURE = 200_000
 _PNG = b'\x89PNG\r\n\x1a\n'
+# Worlds of the user that are listed, at most.
+MOST_WORLDS = 500
+# Shipped worlds, the simplest first; the others come after these.
+BY_DIFFICULTY = (
+    'demo',
+    'dominoes',
+    'pendulums',
+    'incline',
+    'newtons_cradle',
+    'galton',
+    'car',
+    'catapult',
+    'gear_train',
+    'bridge',
+)
 
 
-class Download(Guarded):
-    """A world file, by the rules of service `~/load_world`."""
+def gallery_content(own_worlds: OwnWorlds) -> dict[str, Any]:
+    """Return the message of all worlds: those that ship with the package, and the user's own."""
+    known = worlds_in(shipped_worlds())
+    names = sorted(known, key=lambda name: (*BY_DIFFICULTY, name).index(name))
+    shipped = [_shipped(known[name]) for name in names]
+    files = islice(worlds_in(own_worlds.directory).values(), MOST_WORLDS)
+    own = [_own(path, own_worlds) for path in files]
+    # A world of the user comes before the shipped one of its name.
+    worlds = {entry['name']: entry for entry in shipped + own}
+    return {'type': 'worlds', 'worlds': list(worlds.values())}
+
+
+def _shipped(path: Path) -> dict[str, Any]:
+    picture = (shipped_pictures() / f'{path.stem}.png').is_file()
+    return {
+        'name': path.stem,
+        'title': title_of(path),
+        'picture': f'/gallery/{path.stem}.png' if picture else '',
+        'shipped': True,
+    }
+
+
+def _own(path: Path, own_worlds: OwnWorlds) -> dict[str, Any]:
+    # The title is the name: a comment of the user's file is private.
+    name, picture = path.stem, ''
+    # A script may have chosen a name that a page refuses.
+    with suppress(Refusal, OSError):
+        changed = own_worlds.picture(name).stat().st_mtime_ns
+        picture = f'/picture/{quote(name)}?{changed}'
+    return {'name': name, 'title': name, 'picture': picture, 'shipped': False}
+
+
+class _OfWorlds(Guarded):
+    """A handler of own worlds."""
+
+    def initialize(self, own_worlds: OwnWorlds) -> None:
+        """Set the worlds of the user."""
+        self.own_worlds = own_worlds
+
+    def world_path(self, name: str) -> Path:
+        """
+        Return the path of a world, by the rules of service `~/load_world`.
+
+        :raises Refusal: there is no such world
+        """
+        return find_world(name, world_dir=self.own_worlds.directory, confined=True)
+
+
+class Download(_OfWorlds):
+    """The file of a world."""
 
     async def get(self, name: str) -> None:
-        """Answer with a file."""
+        """Answer with the file."""
         try:
-            path = find_world(name, world_dir=self.server.world_dir, confined=True)
+            path = self.world_path(name)
             content = path.read_bytes()
         except (Refusal, OSError):
             self.refuse(404, 'there is no such world')
-        self.set_header('Content-Type', 'application/yaml; charset=utf-8')
+        self.set_header('Content-Type', TYPES['.yaml'])
         self.set_header('Content-Disposition', f'attachment; filename="{path.name}"')
         self.finish(content)
 
 
-class Unsaved(Guarded):
-    """The world of the last start that nobody has saved."""
-
-    async def get(self) -> None:
-        """Answer with a file."""
-        if self.role is not Role.DRAW:
-            self.refuse(403, 'this page only shows the world')
-        try:
-            content = self.server.autosave.unsaved_text()
-        except (OSError, UnicodeDecodeError):
-            self.refuse(404, 'there is no unsaved world')
-        self.set_header('Content-Type', 'application/yaml; charset=utf-8')
-        self.finish(content)
-
-
-class Picture(Guarded):
+class Picture(_OfWorlds):
     """The picture of an own world."""
+
+    def initialize(  # type: ignore[override]
+        self, own_worlds: OwnWorlds, on_change: Callable[[], None]
+    ) -> None:
+        """
+        Set the worlds of the user.
+
+        :param on_change: called when a picture has changed
+        """
+        super().initialize(own_worlds)
+        self._on_change = on_change
 
     async def get(self, name: str) -> None:
         """Answer with the picture."""
         try:
-            content = self.server.own_worlds.picture(name).read_bytes()
+            content = self.own_worlds.picture(name).read_bytes()
         except (Refusal, OSError):
             self.refuse(404, 'there is no such picture')
-        self.set_header('Content-Type', 'image/png')
+        self.set_header('Content-Type', TYPES['.png'])
         self.finish(content)
 
     async def post(self, name: str) -> None:
-        """Keep the picture of a world that has been saved."""
+        """Write the picture of a world that was saved."""
         self.require_origin()
-        if self.role is not Role.DRAW:
-            self.refuse(403, 'this page only shows the world')
+        self.require_drawing()
         content = self.request.body
         if not content.startswith(_PNG) or len(content) > MOST_PICTURE:
             self.refuse(400, 'this is no PNG, or a large one')
         try:
-            path = self.server.own_worlds.picture(name)
-            find_world(name, world_dir=self.server.world_dir, confined=True)
+            path = self.own_worlds.picture(name)
+            self.world_path(name)
             path.parent.mkdir(parents=True, exist_ok=True)
             write_file(path, content)
         except (Refusal, OSError):
             self.refuse(404, 'there is no such world')
         self.finish({'ok': True})
-        self.server.list_worlds()
+        self._on_change()
+
+
+class Unsaved(Guarded):
+    """The unsaved world of the last start."""
+
+    def initialize(self, autosave: Autosave) -> None:
+        """Set the autosave, which has its file."""
+        self._autosave = autosave
+
+    async def get(self) -> None:
+        """Answer with the file."""
+        self.require_drawing()
+        try:
+            content = self._autosave.unsaved_text()
+        except (OSError, UnicodeDecodeError):
+            self.refuse(404, 'there is no unsaved world')
+        self.set_header('Content-Type', TYPES['.yaml'])
+        self.finish(content)
 
 
 class UploadWorld(Guarded):
@@ -91,36 +184,48 @@ class UploadWorld(Guarded):
 
     uploads = 0
 
+    def initialize(self, inbox: Inbox) -> None:
+        """Set the inbox of the world's thread."""
+        self._inbox = inbox
+
     async def post(self) -> None:
-        """Answer with `ok`, `message` and `code`, when the world has taken over the file."""
+        """Answer with the world's own answer."""
         self.require_origin()
-        if self.role is not Role.DRAW:
-            self.refuse(403, 'this page only shows the world')
+        self.require_drawing()
         if UploadWorld.uploads >= MOST_UPLOADS:
             self.refuse(503, 'too many uploads at once')
         UploadWorld.uploads += 1
         try:
-            self.finish(await self._replace_world())
+            answer = await self._replace_world()
+        except Refusal as refusal:
+            answer = Answer.refused(refusal, topic='~/load_world')
         finally:
             UploadWorld.uploads -= 1
+        self.finish({'ok': not answer.code, 'message': answer.message, 'code': answer.code})
 
-    async def _replace_world(self) -> dict[str, Any]:
+    async def _replace_world(self) -> Answer:
+        """
+        Have the world's thread replace the world, and return its answer.
+
+        :raises Refusal: the file is no mapping in YAML
+        """
         try:
             text = self.request.body.decode()
-        except UnicodeDecodeError:
-            return _content(Malformed('the file is not UTF-8', field='file'))
-        try:
-            # YAML of a megabyte takes a second to be read; meanwhile the pages get their frames.
-            content = await asyncio.to_thread(load_mapping, text, field='the file')
-        except Refusal as refusal:
-            return _content(refusal)
-        try:
-            answer = await self.server.upload(Upload(content), TIMEOUT)
-        except Busy as refusal:
-            self.refuse(503, str(refusal))
-        return {'ok': not answer.code, 'message': answer.message, 'code': answer.code}
+        except UnicodeDecodeError as error:
+            raise Malformed('the file is not UTF-8', field='file') from error
+        # YAML of a megabyte takes a second to be read; meanwhile the pages get their frames.
+        content = await asyncio.to_thread(load_mapping, text, field='the file')
+        loop = asyncio.get_running_loop()
+        reply: asyncio.Future[Answer] = loop.create_future()
 
+        def take_reply(answer: Answer) -> None:
+            # The loop has ended where the server is closed.
+            with suppress(RuntimeError):
+                loop.call_soon_threadsafe(reply.set_result, answer)
 
-def _content(refusal: Refusal) -> dict[str, Any]:
-    answer = Answer.refused(refusal, topic='~/load_world')
-    return {'ok': False, 'message': answer.message, 'code': answer.code}
+        upload = Upload(content, take_reply)
+        if self._inbox.put(UPLOADERS, upload):
+            await asyncio.wait([reply], timeout=TIMEOUT)
+        if not reply.done() and upload.take() is not None:
+            self.refuse(503, 'the world is too busy; nothing was done')
+        return await reply

@@ -8,8 +8,7 @@ import os
 from pathlib import Path
 import stat
 
-from physsim_ros.sketchpad.access import Access, Role
-from physsim_ros.sketchpad.cookie_key import cookie_key
+from physsim_ros.sketchpad.access import Access, cookie_key, Role
 import pytest
 
 

@@ -4,25 +4,32 @@
 """Frames of a page are those of the world, and its messages become the world's own requests."""
 
 from collections.abc import Mapping
+import inspect
 import json
 import math
+from pathlib import Path
 import threading
 import time
 from typing import Any
 
 import numpy as np
 from physsim_ros.files import text_of
+from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.grips import Grip
 from physsim_ros.model.snapshot import Answer
-from physsim_ros.ros.page_control import PageControl
-from physsim_ros.sketchpad import body_past, page_session, page_socket, world_handlers
-from physsim_ros.sketchpad.messages import Upload
-from physsim_ros.sketchpad.server import PAGE
+from physsim_ros.simulation.simulation import Simulation
+from physsim_ros.sketchpad import body_past, open_pages, world_handlers
+from physsim_ros.sketchpad.inbox import Upload
+from physsim_ros.sketchpad.message import KINDS
+from physsim_ros.sketchpad.messages import worlds
+from physsim_ros.sketchpad.page_handlers import PAGE
 from physsim_ros.testing import PhysSim
 import pytest
 from rclpy.parameter import Parameter
 
 from .browser import Browser, Page, PATIENCE
+
+PROTOCOL = Path(__file__).parents[2] / 'docs' / 'page_protocol.md'
 
 
 def circle(x: float, y: float, radius: float) -> list[list[float]]:
@@ -32,6 +39,15 @@ def circle(x: float, y: float, radius: float) -> list[list[float]]:
 
 def grips(physsim: PhysSim) -> tuple[Grip, ...]:
     return physsim.node.simulation.world.snapshot().grips
+
+
+def test_a_kind_of_message_has_the_fields_of_its_function_and_is_documented() -> None:
+    documented = PROTOCOL.read_text(encoding='utf-8')
+    for name, kind in KINDS.items():
+        parameters = {*inspect.signature(kind.handle).parameters} - {'page', 'origin'}
+        # Those of `draw_with` are properties of bodies.
+        assert kind.fields.keys() == parameters or parameters == {'color', 'properties'}, name
+        assert f'`{name}`' in documented
 
 
 def test_a_page_gets_the_poses_of_the_world(browser: Browser) -> None:
@@ -82,7 +98,7 @@ def test_of_many_answers_in_a_frame_others_get_the_first_and_the_count_of_the_re
 def test_a_scene_above_the_limit_of_what_is_left_unread_is_shown(
     browser: Browser, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(page_socket, 'MOST_UNREAD', 20_000)
+    monkeypatch.setattr(open_pages, 'MOST_UNREAD', 20_000)
     first = browser.open_page()
     corners = [[math.cos(each / 100), math.sin(each / 100)] for each in range(600)]
     body = {'name': 'big/0', 'polygon': corners, 'at': [0, 5]}
@@ -95,7 +111,7 @@ def test_a_scene_above_the_limit_of_what_is_left_unread_is_shown(
     for page in (first, browser.open_page()):
         page.until(lambda page=page: page.frames and page.ghosts)
         assert [each['name'] for each in page.of_type('scene')[-1]['bodies']] == ['big/0']
-        assert len(json.dumps(page.of_type('scene')[-1])) > page_socket.MOST_UNREAD
+        assert len(json.dumps(page.of_type('scene')[-1])) > open_pages.MOST_UNREAD
         assert not page.closed
         assert page.ask('drop')['ok']
 
@@ -208,7 +224,7 @@ def test_an_upload_that_has_begun_is_answered_however_long_it_takes(
 ) -> None:
     monkeypatch.setattr(world_handlers, 'TIMEOUT', 0.5)
     withdrawn = threading.Event()
-    take, replace_world = Upload.take, PageControl.replace_world
+    take, load = Upload.take, Simulation.load
 
     def noted_take(upload: Upload) -> Mapping[Any, Any] | None:
         content = take(upload)
@@ -216,12 +232,12 @@ def test_an_upload_that_has_begun_is_answered_however_long_it_takes(
             withdrawn.set()
         return content
 
-    def slow_replace_world(control: PageControl, content: Mapping[Any, Any]) -> str:
+    def slow_load(simulation: Simulation, state: WorldState) -> str:
         assert withdrawn.wait(PATIENCE)
-        return replace_world(control, content)
+        return load(simulation, state)
 
     monkeypatch.setattr(Upload, 'take', noted_take)
-    monkeypatch.setattr(PageControl, 'replace_world', slow_replace_world)
+    monkeypatch.setattr(Simulation, 'load', slow_load)
     body = 'format: 1\nbodies:\n  - {name: ball/0, circle: {radius: 1}, at: [0, 1]}\n'
     response = browser.fetch('/world', method='POST', body=body, headers={'Origin': browser.base})
     assert json.loads(response.body)['ok']
@@ -296,9 +312,9 @@ def test_a_world_that_is_too_long_to_share_is_refused(
     for x in range(3):
         page.ask('spawn', body={'circle': {'radius': 0.4}, 'at': [x, 5]})
     text = page.ask('share')['values']['yaml']
-    monkeypatch.setattr(page_session, 'MOST_SHARED', len(text))
+    monkeypatch.setattr(worlds, 'MOST_SHARED', len(text))
     assert page.ask('share')['ok']
-    monkeypatch.setattr(page_session, 'MOST_SHARED', len(text) - 1)
+    monkeypatch.setattr(worlds, 'MOST_SHARED', len(text) - 1)
     refused = page.ask('share')
     assert (refused['code'], refused['values']) == ('world_full', {})
 

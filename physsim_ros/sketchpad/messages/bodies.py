@@ -1,102 +1,130 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Messages that add, change, move, copy and delete bodies, or change gravity."""
+"""Messages that add, change, move, copy and delete bodies or joints, watch a body, set gravity."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import Any
 
 from physsim_ros.files import spawn_from, with_shipped_robot
 from physsim_ros.model.body_properties import properties_from
 from physsim_ros.model.checks import pair
-from physsim_ros.model.errors import BadProperty
-from physsim_ros.model.requests import ChangeBody, Configure, DeleteBodies, MoveBodies, Request
-from physsim_ros.model.transform import Point
-from physsim_ros.sketchpad.messages.fields import (
-    color_of,
-    Fields,
-    names_of,
-    point_of,
-    pose_of,
-    Readers,
-    text_of,
+from physsim_ros.model.errors import UnknownJoint
+from physsim_ros.model.joints import joint_properties_from, JointProperties
+from physsim_ros.model.names import shown_name
+from physsim_ros.model.requests import (
+    ChangeBody,
+    Configure,
+    DeleteBodies,
+    Join,
+    MoveBodies,
+    Spawn,
+    Unjoin,
 )
+from physsim_ros.model.transform import Point
+from physsim_ros.simulation.world.joint_requests import drawn_points
+from physsim_ros.sketchpad.answers import Origin
+from physsim_ros.sketchpad.message import message
+from physsim_ros.sketchpad.messages import fields
+from physsim_ros.sketchpad.page_session import PageSession
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Submit:
-    """
-    Submit requests that are undone together.
-
-    :param requests: in order
-    :param topic: on which a node would publish them; answers and events name it
-    """
-
-    requests: tuple[Request, ...]
-    topic: str
+def _body(value: object, name: str) -> Spawn:
+    """Return the request for a body, which is given as in a world file."""
+    return spawn_from(fields.mapping(value, name))
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Copy:
-    """
-    Add a body like another one, at rest.
-
-    :param name: of the body
-    :param to: position of the copy [m]
-    """
-
-    name: str
-    to: Point
+def _changes(value: object, name: str) -> dict[str, Any]:
+    """Return changed properties of a body as the fields of `ChangeBody`."""
+    given = dict(fields.mapping(value, name))
+    changes: dict[str, Any] = {}
+    if 'color' in given:
+        changes['color'] = fields.color(given.pop('color'), 'color')
+    if 'at' in given:
+        changes['pose'] = fields.pose(given.pop('at'), 'at')
+    return changes | {'properties': properties_from(with_shipped_robot(given, ['robot']))}
 
 
-def _spawn(fields: Fields) -> Submit:
-    body = fields.get('body')
-    if not isinstance(body, dict):
-        raise BadProperty('body must be a mapping', field='body')
-    return Submit(requests=(spawn_from(body),), topic='~/spawn')
+def _joint_properties(value: object, name: str) -> JointProperties:
+    return joint_properties_from(fields.mapping(value, name))
 
 
-def _change(fields: Fields) -> Submit:
-    name = text_of(fields.get('name'), 'name')
-    given = fields.get('properties')
-    if not isinstance(given, dict):
-        raise BadProperty('properties must be a mapping', field='properties')
-    properties = {key: value for key, value in given.items() if key not in ('color', 'at')}
-    request = ChangeBody(
+# Bodies
+
+
+@message('spawn', '~/spawn', body=_body)
+def spawn(page: PageSession, origin: Origin, body: Spawn) -> None:
+    """Add a body."""
+    page.submit(origin, (body,))
+
+
+@message('change', '~/spawn', name=fields.text, properties=_changes)
+def change(page: PageSession, origin: Origin, name: str, properties: dict[str, Any]) -> None:
+    """Change the properties of a body that are given, its colour or its pose."""
+    page.submit(origin, (ChangeBody(name=name, **properties),))
+
+
+@message('move_bodies', '~/command', names=fields.names, by=fields.point)
+def move_bodies(page: PageSession, origin: Origin, names: tuple[str, ...], by: Point) -> None:
+    """Move bodies by a vector [m]."""
+    page.submit(origin, (MoveBodies(names=names, by=by),))
+
+
+@message('copy', '~/spawn', name=fields.text, to=fields.point)
+def copy(page: PageSession, origin: Origin, name: str, to: Point) -> None:
+    """Add a body like another one, at rest, at a point [m]."""
+    page.submit(origin, (page.drawing.copy(name, to, page.world.current_snapshot()),))
+
+
+@message('delete', '~/spawn', names=fields.names)
+def delete(page: PageSession, origin: Origin, names: tuple[str, ...]) -> None:
+    """Delete bodies."""
+    page.submit(origin, (DeleteBodies(names=names),))
+
+
+@message('watch', 'page', name=fields.text)
+def watch(page: PageSession, origin: Origin, name: str) -> None:
+    """Send the page the past of a body, as far as it was shown; '' is no body."""
+    page.pasts.ask(page.number, name, origin.request)
+
+
+# Joints
+
+
+@message('change_joint', '~/join', name=fields.text, properties=_joint_properties)
+def change_joint(
+    page: PageSession, origin: Origin, name: str, properties: JointProperties
+) -> None:
+    """Change the properties of a joint that are given, where the joint is."""
+    snapshot = page.world.current_snapshot()
+    scene = snapshot.scene
+    joint = next((each for each in scene.joints if each.name == name), None)
+    if joint is None:
+        raise UnknownJoint(f'there is no joint {shown_name(name)}', field='name')
+    poses = dict(zip(scene.names, snapshot.poses.tolist(), strict=True))
+    request = Join(
         name=name,
-        properties=properties_from(with_shipped_robot(properties, ['robot'])),
-        color=color_of(given['color']) if 'color' in given else None,
-        pose=pose_of(given['at']) if 'at' in given else None,
+        kind=joint.kind,
+        # A joint that is drawn where it is keeps its seat.
+        points=drawn_points(joint, poses),
+        a=joint.a,
+        b=joint.b,
+        properties=properties,
     )
-    return Submit(requests=(request,), topic='~/spawn')
+    page.submit(origin, (request,))
 
 
-def _move_bodies(fields: Fields) -> Submit:
-    names = names_of(fields.get('names'), 'names')
-    request = MoveBodies(names=names, by=point_of(fields.get('by'), 'by'))
-    return Submit(requests=(request,), topic='~/command')
+@message('unjoin', '~/join', name=fields.text)
+def unjoin(page: PageSession, origin: Origin, name: str) -> None:
+    """Delete a joint."""
+    page.submit(origin, (Unjoin(name=name),))
 
 
-def _copy(fields: Fields) -> Copy:
-    return Copy(name=text_of(fields.get('name'), 'name'), to=point_of(fields.get('to'), 'to'))
+# The world
 
 
-def _delete(fields: Fields) -> Submit:
-    names = names_of(fields.get('names'), 'names')
-    return Submit(requests=(DeleteBodies(names=names),), topic='~/spawn')
-
-
-def _gravity(fields: Fields) -> Submit:
-    gravity = pair(fields.get('gravity'), 'gravity')
-    return Submit(requests=(Configure(changes={'gravity': gravity}),), topic='gravity')
-
-
-READERS: Readers = {
-    'spawn': (['body'], _spawn),
-    'change': (['name', 'properties'], _change),
-    'move_bodies': (['names', 'by'], _move_bodies),
-    'copy': (['name', 'to'], _copy),
-    'delete': (['names'], _delete),
-    'gravity': (['gravity'], _gravity),
-}
+@message('gravity', 'gravity', gravity=pair)
+def gravity(page: PageSession, origin: Origin, gravity: Point) -> None:
+    """Set the gravity [m/s²]."""
+    page.submit(origin, (Configure(changes={'gravity': gravity}),))

@@ -1,149 +1,194 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Messages of the pen, of click tools and of the hand, and the material of what is drawn."""
+"""Messages of the pen, the click tools and the hand, and the material of what is drawn."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Literal
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+import time
+from typing import Any, Literal
 
 import numpy as np
-from physsim_ros.drawing import Tool
+from physsim_ros.drawing import Reading, submit_reading, Tool
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.body_properties import Properties, properties_from
-from physsim_ros.model.checks import number, pair, shown
+from physsim_ros.model.body_properties import properties_from
+from physsim_ros.model.checks import number, shown
 from physsim_ros.model.colors import Color
-from physsim_ros.model.errors import BadProperty, Malformed
-from physsim_ros.model.requests import Grab, HandRequest, LetGo, MoveHand
+from physsim_ros.model.errors import BadProperty, Malformed, NotRecognised
+from physsim_ros.model.requests import Grab, LetGo, MoveHand
 from physsim_ros.model.settings import MOST_SAMPLES
 from physsim_ros.model.transform import Point
-from physsim_ros.sketchpad.messages.fields import color_of, Fields, point_of, Readers, text_of
-
-# Name of a hand until it gets that of its page.
-_HAND = 'page'
-# The properties that a page may choose for the bodies that it draws.
-_MATERIAL = ['density', 'friction', 'elasticity', 'velocity']
+from physsim_ros.sketchpad.answers import Origin
+from physsim_ros.sketchpad.message import message, Optional
+from physsim_ros.sketchpad.messages import fields
+from physsim_ros.sketchpad.page_session import PageSession
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Stroke:
-    """
-    Read a stroke.
-
-    :param samples: (n, 3) float64: x, y [m], time from any start [s]
-    """
-
-    samples: Floats
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Click:
-    """Click with a tool [m]; another tool than before drops the unfinished gesture."""
-
-    tool: Tool
-    point: Point
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Instead:
-    """
-    Read the last stroke otherwise.
-
-    :param meaning: one of its guesses; '' is the next one
-    """
-
-    meaning: str = ''
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Drop:
-    """Drop the unfinished gesture."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class UseHand:
-    """
-    Grab, drag or let go with the hand of this page.
-
-    :param request: of some hand, whose name is replaced by that of the page's own
-    """
-
-    request: HandRequest
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class DrawWith:
-    """
-    Choose the material of what this page draws next.
-
-    :param properties: that bodies get; those that are not set stay as they were
-    :param color: that bodies get; None stays as it was, '' is one of the world's choice
-    """
-
-    properties: Properties
-    color: Color | Literal[''] | None = None
-
-
-def _stroke(fields: Fields) -> Stroke:
-    points = fields.get('points')
-    if not isinstance(points, list) or len(points) > MOST_SAMPLES:
-        raise Malformed(f'a stroke is a list of at most {MOST_SAMPLES} points', field='points')
-    for point in points:
+def _samples(value: object, name: str) -> Floats:
+    """Return (n, 3) float64: x, y [m], time since the first sample [s]."""
+    if not isinstance(value, list) or len(value) > MOST_SAMPLES:
+        raise Malformed(f'a stroke is a list of at most {MOST_SAMPLES} points', field=name)
+    for point in value:
         if not isinstance(point, list) or len(point) != 3:
-            raise Malformed('a point of a stroke is [x, y, time]', field='points')
+            raise Malformed('a point of a stroke is [x, y, time]', field=name)
         if not all(type(each) in (int, float) for each in point):
-            raise BadProperty('a point of a stroke is three numbers', field='points')
+            raise BadProperty('a point of a stroke is three numbers', field=name)
     try:
-        samples = np.array(points, dtype=np.float64).reshape(-1, 3)
+        samples = np.array(value, dtype=np.float64).reshape(-1, 3)
     except OverflowError as error:
-        raise Malformed('a sample of the stroke is not finite', field='points') from error
+        raise Malformed('a sample of the stroke is not finite', field=name) from error
     if not np.isfinite(samples).all():
-        raise Malformed('a sample of the stroke is not finite', field='points')
+        raise Malformed('a sample of the stroke is not finite', field=name)
     if len(samples):
         samples[:, 2] -= samples[0, 2]
-    return Stroke(samples=samples)
+    return samples
 
 
-def _instead(fields: Fields) -> Instead:
-    return Instead(meaning=text_of(fields.get('meaning', ''), 'meaning'))
+def _tool(value: Any, name: str) -> Tool:
+    if value not in list(Tool):
+        raise BadProperty(f'there is no tool {shown(value)}', field=name)
+    return Tool(value)
 
 
-def _click(fields: Fields) -> Click:
-    tool = fields.get('tool')
-    if tool not in list(Tool):
-        raise BadProperty(f'there is no tool {shown(tool)}', field='tool')
-    return Click(tool=Tool(tool), point=point_of(fields.get('point'), 'point'))
+def _property(value: object, name: str) -> object:
+    """Return a property of a body."""
+    return properties_from({name: value}).explicit()[name]
 
 
-def _grab(fields: Fields) -> UseHand:
-    return UseHand(request=Grab(hand=_HAND, point=pair(fields.get('point'), 'point')))
+def _color(value: object, name: str) -> Color | Literal['']:
+    """Return a colour, or '' for the world's choice."""
+    return '' if value == '' else fields.color(value, name)
 
 
-def _move(fields: Fields) -> UseHand:
-    yaw = number(fields['yaw'], 'yaw') if 'yaw' in fields else None
-    return UseHand(request=MoveHand(hand=_HAND, point=pair(fields.get('point'), 'point'), yaw=yaw))
+# The pen
 
 
-def _let_go(_: Fields) -> UseHand:
-    return UseHand(request=LetGo(hand=_HAND))
+@message('stroke', '~/stroke', points=_samples)
+def read_stroke(page: PageSession, origin: Origin, points: Floats) -> None:
+    """Read a stroke, and submit the requests of its reading."""
+    duration = float(np.ptp(points[:, 2])) if len(points) else 0.0
+    began = time.monotonic() - duration
+    snapshot = page.world.current_snapshot()
+    _submit(page, origin, lambda: page.drawing.stroke(points, '', snapshot, began=began))
 
 
-def _draw_with(fields: Fields) -> DrawWith:
-    properties = {key: fields[key] for key in _MATERIAL if key in fields}
-    color: Color | Literal[''] | None = None
-    if 'color' in fields:
-        color = '' if fields['color'] == '' else color_of(fields['color'])
-    return DrawWith(properties=properties_from(properties), color=color)
+@message('instead', '~/instead', meaning=Optional(fields.text))
+def read_instead(page: PageSession, origin: Origin, meaning: str = '') -> None:
+    """Replace the last reading by another guess; '' is the next one."""
+    # The requests of the last reading may wait.
+    page.world.current_snapshot()
+    _submit(page, origin, lambda: page.drawing.instead(meaning))
 
 
-READERS: Readers = {
-    'stroke': (['points'], _stroke),
-    'instead': (['meaning'], _instead),
-    'click': (['tool', 'point'], _click),
-    'drop': ([], lambda _: Drop()),
-    'grab': (['point'], _grab),
-    'move': (['point', 'yaw'], _move),
-    'let_go': ([], _let_go),
-    'draw_with': ([*_MATERIAL, 'color'], _draw_with),
-}
+def _submit(page: PageSession, origin: Origin, read: Callable[[], Reading]) -> None:
+    """Send the page a reading, built or not, and submit its requests."""
+    try:
+        reading = read()
+    except NotRecognised as refusal:
+        page.send(_reading_content(origin, refusal.values, outline=[], built=False))
+        raise
+    outline = reading.outline.tolist()
+    page.send(_reading_content(origin, reading.values, outline=outline, built=True))
+    reading = replace(reading, requests=page.with_material(reading.requests))
+    simulation, asker = page.world.simulation, origin.asker
+    submit_reading(simulation, page.drawing, reading, topic=origin.topic, asker=asker)
+
+
+def _reading_content(
+    origin: Origin,
+    values: tuple[tuple[str, str], ...],
+    *,
+    outline: list[list[float]],
+    built: bool,
+) -> dict[str, Any]:
+    """Return the message of a reading: its guesses, and whether the first is built."""
+    guesses = _guesses(dict(values))
+    (meaning, confidence), (second, second_confidence) = [*guesses, ('', 0.0), ('', 0.0)][:2]
+    return {
+        'type': 'reading',
+        'request': origin.request,
+        'meaning': meaning,
+        'confidence': confidence,
+        'runner_up': second,
+        'runner_up_confidence': second_confidence,
+        'guesses': guesses,
+        'outline': outline,
+        'built': built,
+    }
+
+
+def _guesses(values: Mapping[str, str]) -> list[tuple[str, float]]:
+    """Return the meanings of a reading with their confidences, the likeliest first."""
+    ranked = (
+        ('reading', 'confidence'),
+        ('runner_up', 'runner_up_confidence'),
+        ('third', 'third_confidence'),
+    )
+    return [(values[name], float(values[share])) for name, share in ranked if values.get(name)]
+
+
+# Click tools
+
+
+@message('click', 'clicked_point', tool=_tool, point=fields.point)
+def click(page: PageSession, origin: Origin, tool: Tool, point: Point) -> None:
+    """Add a point [m] to the gesture of a tool; another tool than before drops the gesture."""
+    page.drawing.tool = tool
+    result = page.drawing.click(point, '', page.world.current_snapshot())
+    if result.message:
+        page.tell(origin, result.message)
+    page.submit(origin, page.with_material(result.requests))
+
+
+@message('drop', 'page')
+def drop(page: PageSession, origin: Origin) -> None:
+    """Drop the unfinished gesture."""
+    # A change of the tool drops it.
+    tool, page.drawing.tool = page.drawing.tool, Tool.NONE
+    page.drawing.tool = tool
+    page.answer_page(origin, 'dropped what was unfinished')
+
+
+@message(
+    'draw_with',
+    'page',
+    density=Optional(_property),
+    friction=Optional(_property),
+    elasticity=Optional(_property),
+    velocity=Optional(_property),
+    color=Optional(_color),
+)
+def draw_with(
+    page: PageSession,
+    origin: Origin,
+    color: Color | Literal[''] | None = None,
+    **properties: Any,
+) -> None:
+    """Choose the material of what this page draws next; what is not given stays as it is."""
+    page.material = replace(page.material, **properties)
+    if color is not None:
+        page.color = color or None
+    page.answer_page(origin, 'the material of what is drawn next')
+
+
+# The hand
+
+
+@message('grab', '~/drag/feedback', point=fields.point)
+def grab(page: PageSession, origin: Origin, point: Point) -> None:
+    """Grab the body at a point [m]."""
+    page.use_hand(origin, Grab(hand=page.hand, point=point))
+
+
+@message('move', '~/drag/feedback', point=fields.point, yaw=Optional(number))
+def move(page: PageSession, origin: Origin, point: Point, yaw: float | None = None) -> None:
+    """Move the hand to a point [m]; turn a body that is placed to a yaw [rad]."""
+    page.use_hand(origin, MoveHand(hand=page.hand, point=point, yaw=yaw))
+
+
+@message('let_go', '~/drag/feedback')
+def let_go(page: PageSession, origin: Origin) -> None:
+    """Let go of the body that the hand holds."""
+    page.use_hand(origin, LetGo(hand=page.hand))

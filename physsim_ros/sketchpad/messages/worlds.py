@@ -1,20 +1,24 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Messages about time and whole worlds: what services do, speed, seeking, courses, files."""
+"""Messages about time and whole worlds: services, speed, seeking, courses and files."""
 
 from __future__ import annotations
 
-from collections import deque
-from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Callable
+from functools import partial
 
+from physsim_ros.files import check_world_name, text_of
 from physsim_ros.model.checks import flag, LONGEST, number, shown, Whole, Within
-from physsim_ros.model.errors import BadProperty
-from physsim_ros.sketchpad.messages.fields import Fields, Readers, text_of
+from physsim_ros.model.errors import BadProperty, BadWorldFile, WorldFull
+from physsim_ros.model.snapshot import Answer
+from physsim_ros.simulation.deferred_calls import Wait
+from physsim_ros.sketchpad.answers import Origin
+from physsim_ros.sketchpad.message import message, Optional
+from physsim_ros.sketchpad.messages import fields
+from physsim_ros.sketchpad.page_session import PageSession
 
-# Actions that need nothing but a name: those of the services.
+# Names of the services that a page may call.
 ACTIONS = (
     'play',
     'pause',
@@ -29,140 +33,148 @@ ACTIONS = (
     'save_world',
     'load_world',
 )
+# Length of a world that a page may have as text [characters].
+MOST_SHARED = 2**20
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Perform:
-    """
-    Perform what a service does.
-
-    :param action: one of `ACTIONS`
-    :param world: name of the world to save or load; '' is the one of parameter `world_file`
-    :param checks_name: whether a name that is taken is refused when it is saved
-    :param replace: whether an own world of that name may be written over then
-    """
-
-    action: str
-    world: str = ''
-    checks_name: bool = False
-    replace: bool = False
+def _action(value: object, name: str) -> str:
+    if value not in ACTIONS:
+        raise BadProperty(f'there is no service {shown(value)}', field=name)
+    return str(value)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ManageWorld:
-    """
-    Rename, delete or put back an own world, or forget the unsaved one.
-
-    :param action: `rename`, `remove`, `put_back` or `forget`
-    :param name: of the world; '' of the unsaved one
-    :param to: its new name
-    """
-
-    action: str
-    name: str = ''
-    to: str = ''
+def _stamp(value: object, name: str) -> int:
+    """Return a simulation time in [ns], which is given in [s]."""
+    return round(Within(0.0, LONGEST, 's')(value, name) * 1e9)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class SetSpeed:
+def _world_name(value: object, name: str) -> str:
+    checked = fields.text(value, name)
+    if not checked:
+        raise BadProperty('a world has a name', field=name)
+    return checked
+
+
+# Time
+
+
+@message('service', 'page', name=_action, world=Optional(fields.text))
+def service(page: PageSession, origin: Origin, name: str, world: str = '') -> None:
+    """Perform the action of a service, on the world file of a name where one is given."""
+    origin = origin._replace(topic=f'~/{name}')
+    action, wait = page.world.services[name]
+    if world and name == 'load_world':
+        action = partial(page.world.load_world, world)
+    elif world and name == 'save_world':
+        action = partial(page.world.save_world, world)
+    elif world:
+        raise BadWorldFile(f'~/{name} takes no world', field='world')
+    page.perform(origin, partial(_saving, page, action) if name == 'save_world' else action, wait)
+
+
+@message('speed', '~/speed', speed=number)
+def set_speed(page: PageSession, origin: Origin, speed: float) -> None:
     """Set the speed of time [simulation seconds a second]."""
+    page.perform(origin, partial(page.world.set_speed, speed))
 
-    speed: float
 
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Seek:
+@message('seek', '~/seek', time=_stamp)
+def seek(page: PageSession, origin: Origin, time: int) -> None:
     """Go to a simulation time [ns]."""
+    page.perform(origin, partial(page.world.seek, time))
 
-    stamp: int
 
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ReturnToCourse:
+@message('course', '~/timeline', course=Whole(0, 2**31))
+def return_to_course(page: PageSession, origin: Origin, course: int) -> None:
     """Return to a course of events that was left, by its number."""
-
-    course: int
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Share:
-    """Ask for the world as the text of a world file."""
+    action = partial(page.world.simulation.return_to_course, course)
+    page.perform(origin, action, Wait.BEHIND_REQUESTS)
 
 
-class Upload:
+# World files
+
+
+@message('open', '~/load_world', name=_world_name)
+def open_world(page: PageSession, origin: Origin, name: str) -> None:
+    """Load a world."""
+    page.perform(origin, partial(page.world.load_world, name), Wait.FOR_SEEK)
+
+
+@message('save', '~/save_world', name=_world_name, replace=Optional(flag))
+def save_world(page: PageSession, origin: Origin, name: str, *, replace: bool = False) -> None:
     """
-    Replace the world by that of a file.
+    Save the world under a name that is free.
 
-    The content is taken once: by the world's thread, or by the server's, which waits no longer.
-
-    :param content: of the world file
+    :param replace: whether an own world of that name may be written over, and kept
     """
 
-    def __init__(self, content: Mapping[Any, Any]) -> None:
-        # A deque's `pop` is atomic.
-        self._content = deque((content,))
+    def save() -> str:
+        page.own_worlds.check_free(check_world_name(name), replace=replace)
+        page.own_worlds.keep(name)
+        return page.world.save_world(name)
 
-    def take(self) -> Mapping[Any, Any] | None:
-        """Return the content to whoever is the first to take it, else None."""
+    page.perform(origin, partial(_saving, page, save), Wait.FOR_SEEK)
+
+
+def _saving(page: PageSession, save: Callable[[], str]) -> str:
+    """Save the world, and return what was done; then nothing is unsaved."""
+    done = save()
+    page.autosave.note_saved()
+    page.list_worlds()
+    return done
+
+
+@message('rename', 'page', name=_world_name, to=fields.text)
+def rename(page: PageSession, origin: Origin, name: str, to: str) -> None:
+    """Rename an own world."""
+    _manage(page, origin, partial(page.own_worlds.rename, name, to), name)
+
+
+@message('remove', 'page', name=_world_name)
+def remove(page: PageSession, origin: Origin, name: str) -> None:
+    """Delete an own world, which is kept aside."""
+    _manage(page, origin, partial(page.own_worlds.delete, name), name)
+
+
+@message('put_back', 'page', name=_world_name)
+def put_back(page: PageSession, origin: Origin, name: str) -> None:
+    """Put back the own world that was deleted or written over last."""
+    _manage(page, origin, partial(page.own_worlds.put_back, name), name)
+
+
+@message('forget', 'page')
+def forget(page: PageSession, origin: Origin) -> None:
+    """Delete the unsaved world of the last start."""
+    _manage(page, origin, page.autosave.forget_unsaved)
+
+
+def _manage(page: PageSession, origin: Origin, action: Callable[[], str], name: str = '') -> None:
+    """Change the files of own worlds, and send all pages the list."""
+
+    def manage() -> str:
         try:
-            return self._content.pop()
-        except IndexError:
-            return None
+            done = action()
+        except OSError as error:
+            reason = error.strerror or error
+            raise BadWorldFile(f'{name}: {reason}', field='name') from error
+        page.list_worlds()
+        return done
+
+    page.perform(origin, manage)
 
 
-def _perform(fields: Fields) -> Perform:
-    action = fields.get('name')
-    if action not in ACTIONS:
-        raise BadProperty(f'there is no service {shown(action)}', field='name')
-    return Perform(action=action, world=text_of(fields.get('world', ''), 'world'))
+@message('share', '~/save_world')
+def share(page: PageSession, origin: Origin) -> None:
+    """Send this page the world as the text of a world file."""
 
+    def send_text() -> list[Answer]:
+        simulation = page.world.simulation
+        try:
+            text = text_of(simulation.save(), simulation.physics_rate, longest=MOST_SHARED)
+        except WorldFull as refusal:
+            page.answer_page(origin, str(refusal), code=refusal.code)
+        else:
+            page.answer_page(origin, 'the world as text', values=(('yaml', text),))
+        return []
 
-def _seek(fields: Fields) -> Seek:
-    return Seek(stamp=round(Within(0.0, LONGEST, 's')(fields.get('time'), 'time') * 1e9))
-
-
-def _course(fields: Fields) -> ReturnToCourse:
-    return ReturnToCourse(course=Whole(0, 2**31)(fields.get('course'), 'course'))
-
-
-def _save(fields: Fields) -> Perform:
-    replace = flag(fields.get('replace', False), 'replace')
-    name = _world_name(fields)
-    return Perform(action='save_world', world=name, checks_name=True, replace=replace)
-
-
-def _open(fields: Fields) -> Perform:
-    return Perform(action='load_world', world=_world_name(fields))
-
-
-def _world_name(fields: Fields) -> str:
-    name = text_of(fields.get('name'), 'name')
-    if not name:
-        raise BadProperty('a world has a name', field='name')
-    return name
-
-
-READERS: Readers = {
-    'service': (['name', 'world'], _perform),
-    'speed': (['speed'], lambda fields: SetSpeed(speed=number(fields.get('speed'), 'speed'))),
-    'seek': (['time'], _seek),
-    'course': (['course'], _course),
-    'save': (['name', 'replace'], _save),
-    'open': (['name'], _open),
-    'rename': (
-        ['name', 'to'],
-        lambda fields: ManageWorld(
-            action='rename', name=_world_name(fields), to=text_of(fields.get('to'), 'to')
-        ),
-    ),
-    'remove': (
-        ['name'],
-        lambda fields: ManageWorld(action='remove', name=_world_name(fields)),
-    ),
-    'put_back': (
-        ['name'],
-        lambda fields: ManageWorld(action='put_back', name=_world_name(fields)),
-    ),
-    'forget': ([], lambda _: ManageWorld(action='forget')),
-    'share': ([], lambda _: Share()),
-}
+    page.call(origin, send_text, Wait.FOR_SEEK)

@@ -1,0 +1,167 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+The checks of every request and every web socket: host, cookie, origin, rate of messages.
+
+Laws: every request passes `Guarded.prepare` before it is answered; a socket that sends faster than
+a page does is closed.
+"""
+
+from __future__ import annotations
+
+from html import escape
+from http import HTTPStatus
+import time
+from typing import Any, NoReturn
+
+from physsim_ros.sketchpad.access import Access, headers_for, Role
+from tornado.web import HTTPError, RequestHandler
+from tornado.websocket import WebSocketHandler
+
+# Content types by suffix; the machine's own table may lack some.
+TYPES = {
+    '.css': 'text/css; charset=utf-8',
+    '.html': 'text/html; charset=utf-8',
+    '.js': 'text/javascript; charset=utf-8',
+    '.json': 'application/json',
+    '.png': 'image/png',
+    '.svg': 'image/svg+xml',
+    '.wasm': 'application/wasm',
+    '.webmanifest': 'application/manifest+json',
+    '.yaml': 'application/yaml; charset=utf-8',
+}
+# Rate of the messages of a socket in the long run [1/s], and messages at once. A pen and a hand
+# send one message each frame of the page, at 60 to 144 Hz.
+RATE, BURST = 200.0, 400.0
+# Codes of closing, RFC 6455, section 7.4.1.
+POLICY_VIOLATION, TOO_BIG = 1008, 1009
+
+# A refusal as a browser shows it. The page's own style is behind the cookie, and the policy allows
+# nothing inline.
+_REFUSAL = """<!doctype html>
+<html lang="en">
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="color-scheme" content="light dark">
+<title>physsim</title>
+<h1>This cannot be opened</h1>
+<p>{reason}.</p>
+<p>The node prints the address of its page when it starts, with a token that is new each time: copy
+that one from the terminal, or ask the person who started it.</p>
+</html>
+"""
+
+
+class Guarded(RequestHandler):
+    """
+    A handler behind the checks of host and cookie.
+
+    :ivar role: that the cookie gives; None without a valid cookie
+    """
+
+    needs_cookie = True
+    role: Role | None = None
+    _refusal = ''
+
+    @property
+    def access(self) -> Access:
+        """Return the tokens and checks of the server."""
+        access: Access = self.settings['access']
+        return access
+
+    def set_default_headers(self) -> None:
+        """Set the headers of every answer, errors included."""
+        self.set_header('Server', 'physsim')
+        host = self.request.host
+        known = host if self.access.allows_host(host) else 'localhost'
+        for name, value in headers_for(known).items():
+            self.set_header(name, value)
+
+    async def prepare(self) -> None:
+        """Refuse a foreign host, and a request without the cookie."""
+        if not self.access.allows_host(self.request.host):
+            self.refuse(403, 'this name is not one of this machine')
+        self.role = self.access.role_of_cookie(self.get_cookie(self.access.cookie) or '')
+        if self.needs_cookie and self.role is None:
+            self.refuse(403, 'open the address that the node has printed: it holds the token')
+
+    def require_origin(self) -> None:
+        """Refuse a request that no page of this server has made."""
+        origin = self.request.headers.get('Origin')
+        if not self.access.allows_origin(origin, self.request.host):
+            self.refuse(403, 'this request comes from another page')
+
+    def require_drawing(self) -> None:
+        """Refuse a request of a page that only shows the world."""
+        if self.role is not Role.DRAW:
+            self.refuse(403, 'this page only shows the world')
+
+    def refuse(self, status: int, reason: str) -> NoReturn:
+        """Answer with an error and its reason."""
+        self._refusal = reason
+        raise HTTPError(status)
+
+    def log_exception(self, *details: Any) -> None:
+        """Log the errors of this server, not those of its clients."""
+        if not isinstance(details[1], HTTPError):
+            super().log_exception(*details)
+
+    def write_error(self, status_code: int, **_: Any) -> None:
+        """Write the reason of a refusal, or the meaning of the status; nothing of the request."""
+        reason = self._refusal or HTTPStatus(status_code).phrase
+        if 'text/html' not in self.request.headers.get('Accept', ''):
+            self.set_header('Content-Type', 'text/plain; charset=utf-8')
+            self.finish(f'{reason}\n')
+            return
+        # A person has opened the address in a browser.
+        self.set_header('Content-Type', TYPES['.html'])
+        self.finish(_REFUSAL.format(reason=escape(reason[:1].upper() + reason[1:])))
+
+
+class GuardedSocket(Guarded, WebSocketHandler):
+    """A web socket of a page of this server, with a token bucket for its messages."""
+
+    def initialize(self) -> None:
+        """Fill the bucket."""
+        self._tokens, self._refilled = BURST, time.monotonic()
+
+    @property
+    def too_many(self) -> str:
+        """Return why one more socket is refused; '' where there is room for it."""
+        raise NotImplementedError
+
+    def check_origin(self, origin: str) -> bool:
+        """Accept the pages of this server."""
+        return self.access.allows_origin(origin, self.request.host)
+
+    async def prepare(self) -> None:
+        """Refuse a page without the right to be here, or one too many."""
+        await super().prepare()
+        # A browser always sends the origin; tornado checks it only where it is there.
+        self.require_origin()
+        if reason := self.too_many:
+            self.refuse(503, reason)
+
+    def on_ping(self, data: bytes) -> None:  # noqa: ARG002 - tornado's name
+        """Count a ping, which tornado has answered, among the messages; no browser sends any."""
+        self.take_token()
+
+    def on_pong(self, data: bytes) -> None:  # noqa: ARG002 - tornado's name
+        """Count a pong among the messages; a browser sends one for each ping of the server."""
+        self.take_token()
+
+    def take_token(self) -> bool:
+        """
+        Take a token of the bucket that limits the rate of messages.
+
+        :return: whether there was one; without one the socket is closed
+        """
+        now = time.monotonic()
+        self._tokens = min(BURST, self._tokens + RATE * (now - self._refilled))
+        self._refilled = now
+        if self._tokens < 1.0:
+            self.close(POLICY_VIOLATION, 'too many messages')
+            return False
+        self._tokens -= 1.0
+        return True

@@ -1,0 +1,171 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+Messages of pages: untrusted text becomes a kind and its checked arguments.
+
+Laws: text that is not JSON, not Unicode or nested too deeply is refused here; every field is
+checked on the server's thread, before the world's thread receives the message.
+
+The decorator `message` declares a kind at the function that carries it out; `messages` has these
+functions.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+import json
+from typing import Any, NamedTuple, TypeVar
+
+from physsim_ros.model.checks import check_key, shown
+from physsim_ros.model.errors import Malformed, Refusal
+
+# Levels of nested lists and mappings; a stroke has three, a body five.
+DEEPEST = 8
+# Length of the identifier of a message [characters].
+LONGEST_ID = 64
+
+# Returns the checked value of a field from the given value and the name of the field; raises a
+# Refusal.
+Read = Callable[[Any, str], Any]
+_Handler = TypeVar('_Handler', bound=Callable[..., object])
+
+
+class Optional(NamedTuple):
+    """A field that a message may lack; the function has a default value for it."""
+
+    read: Read
+
+
+class Kind(NamedTuple):
+    """
+    A kind of message.
+
+    :ivar topic: that its answers name
+    :ivar fields: checks by the name of the field
+    :ivar handle: carries it out on the world's thread, with the page's session, the origin of the
+        message and the checked fields
+    """
+
+    topic: str
+    fields: Mapping[str, Read | Optional]
+    handle: Callable[..., object]
+
+
+class Message(NamedTuple):
+    """
+    A checked message.
+
+    :ivar request: identifier that the page gave to it; its answers carry it
+    :ivar kind: name of its kind
+    :ivar arguments: checked fields by name
+    """
+
+    request: str
+    kind: str
+    arguments: dict[str, Any]
+
+
+# By the type that messages name.
+KINDS: dict[str, Kind] = {}
+
+
+def message(
+    type_: str, topic: str, /, **fields: Read | Optional
+) -> Callable[[_Handler], _Handler]:
+    """
+    Declare a kind of message at the function that carries it out.
+
+    :param type_: that messages name
+    :param topic: that its answers name
+    :param fields: checks by the name of the field
+    """
+
+    def declare(handle: _Handler) -> _Handler:
+        KINDS[type_] = Kind(topic, fields, handle)
+        return handle
+
+    return declare
+
+
+def read_message(text: str) -> tuple[str, Message | Refusal]:
+    """
+    Return the identifier of a message ('' if it cannot be read), and the message or its refusal.
+
+    The refusal names an unknown type, an unknown field, or a field whose value is out of range.
+    """
+    request = ''
+    try:
+        fields = _mapping_from(text)
+        request = _request_from(fields.pop('id', ''))
+        return request, _checked(request, fields.pop('type', None), fields)
+    except Refusal as refusal:
+        return request, refusal
+
+
+def _checked(request: str, type_: object, fields: dict[str, Any]) -> Message:
+    if not isinstance(type_, str):
+        raise Malformed('the message has no type', field='type')
+    kind = KINDS.get(type_)
+    if kind is None:
+        raise Malformed(f'there is no message {shown(type_)}', field='type')
+    for name in fields:
+        check_key(name, [*kind.fields])
+    arguments = {}
+    for name, read in kind.fields.items():
+        if not isinstance(read, Optional):
+            arguments[name] = read(fields.get(name), name)
+        elif name in fields:
+            arguments[name] = read.read(fields[name], name)
+    return Message(request, type_, arguments)
+
+
+def _request_from(value: object) -> str:
+    if not isinstance(value, str) or len(value) > LONGEST_ID:
+        raise Malformed(f'id must be a text of at most {LONGEST_ID} characters', field='id')
+    return value
+
+
+def _mapping_from(text: str) -> dict[str, Any]:
+    """
+    Return the JSON object of a text.
+
+    :raises Malformed: it is no JSON object, or has too many levels
+    """
+    try:
+        value = json.loads(text, parse_constant=_refuse_constant)
+        if '\\u' in text:
+            # JSON may escape half of a surrogate pair (RFC 8259, section 8.2), which no file name
+            # and no ROS message holds.
+            json.dumps(value, ensure_ascii=False).encode()
+    except (ValueError, RecursionError) as error:
+        raise Malformed('the message is not JSON', field='message') from error
+    if not isinstance(value, dict):
+        raise Malformed('the message is no JSON object', field='message')
+    _check_depth(value)
+    return value
+
+
+def _refuse_constant(name: str) -> float:
+    """Refuse NaN and Infinity, which Python reads and JSON does not have."""
+    raise ValueError(name)
+
+
+def _check_depth(value: object) -> None:
+    """
+    Refuse a value that is nested too deeply.
+
+    :raises Malformed: it has more than `DEEPEST` levels
+    """
+    level = [value]
+    for _ in range(DEEPEST):
+        level = [
+            child
+            for each in level
+            if isinstance(each, list | dict)
+            for child in (each.values() if isinstance(each, dict) else each)
+            if isinstance(child, list | dict)
+        ]
+        if not level:
+            return
+    raise Malformed(f'the message has more than {DEEPEST} levels', field='message')

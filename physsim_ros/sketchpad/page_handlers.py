@@ -1,0 +1,91 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""The login, the page and its files over HTTP."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from physsim_ros.sketchpad.access import Role
+from physsim_ros.sketchpad.guarded import Guarded, TYPES
+from tornado.web import HTTPError, StaticFileHandler
+
+# The files that a browser runs.
+PAGE = Path(__file__).with_name('page')
+
+
+class _CookieSetting(Guarded):
+    """A handler that sets the cookie."""
+
+    def set_cookie_for(self, role: Role) -> None:
+        """Set the cookie of a role."""
+        self.set_cookie(
+            self.access.cookie,
+            self.access.signed_cookie(role),
+            expires_days=None,
+            httponly=True,
+            samesite='Strict',
+        )
+
+
+class Login(_CookieSetting):
+    """Exchange a token for the cookie."""
+
+    needs_cookie = False
+
+    async def get(self) -> None:
+        """Set the cookie, and show the page."""
+        token = self.get_query_argument('token', '')
+        role = self.access.role_of(token)
+        if role is None:
+            self.refuse(403, 'this token is wrong, or of a world that has ended')
+        self.set_cookie_for(role)
+        shows_only = role is Role.VIEW or 'view' in self.request.arguments
+        self.redirect('/?view' if shows_only else '/')
+
+
+class Page(_CookieSetting):
+    """The page itself."""
+
+    async def get(self) -> None:
+        """Answer with the page."""
+        if self.role is not None:
+            # The time of the cookie begins anew at each visit.
+            self.set_cookie_for(self.role)
+        self.set_header('Content-Type', TYPES['.html'])
+        self.finish((PAGE / 'index.html').read_bytes())
+
+
+class CookieCheck(Guarded):
+    """Whether the cookie of a page is still valid: a socket that is refused cannot say why."""
+
+    async def get(self) -> None:
+        """Answer with the rights of the page."""
+        self.finish({'ok': True, 'view_only': self.role is not Role.DRAW})
+
+
+class Missing(Guarded):
+    """Every other path."""
+
+    async def get(self) -> None:
+        """Answer that there is nothing."""
+        self.refuse(404, 'there is nothing here')
+
+    post = head = delete = patch = put = options = get
+
+
+class Files(Guarded, StaticFileHandler):
+    """The files of a directory."""
+
+    def validate_absolute_path(self, root: str, absolute_path: str) -> str | None:
+        """Return the path of a file; a path that names no file is missing."""
+        try:
+            return super().validate_absolute_path(root, absolute_path)
+        except (HTTPError, ValueError):
+            self.refuse(404, 'there is nothing here')
+
+    def get_content_type(self) -> str:
+        """Return the type of a file of the page; other files are bytes."""
+        path = Path(self.absolute_path or '')
+        return TYPES.get(path.suffix, 'application/octet-stream')
