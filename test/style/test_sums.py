@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Nothing on the way from a request to a state rounds otherwise on another processor.
+Nothing on the way from a request to a state or a reading rounds otherwise on another processor.
 
 OpenBLAS chooses its kernels by processor, NumPy its loops by vectors: products of matrices, and
 functions whose loops for AVX-512 round otherwise than the others.
@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 PACKAGE = Path(__file__).parents[2] / 'physsim_ros'
-FOLDERS = ('model', 'engine', 'simulation', 'drawing')
+FOLDERS = ('model', 'sensing', 'engine', 'simulation', 'drawing')
 BLAS = {'dot', 'vdot', 'inner', 'matmul', 'einsum', 'tensordot', 'linalg', 'convolve', 'correlate'}
 # Measured: without AVX-512 these have other bits (NumPy 2.4).
 VECTORS = {'arctan2', 'angle', 'exp', 'log', 'power'}

@@ -11,7 +11,13 @@ from typing import ClassVar
 
 from physsim_ros.model.checks import Checks, Whole
 from physsim_ros.model.errors import BadProperty
-from physsim_ros.model.robots.sensors.sensor import angles, distances, LENGTH, Sensor
+from physsim_ros.model.robots.sensors.sensor import (
+    angles,
+    distances,
+    LEAST_INCREMENT,
+    LENGTH,
+    Sensor,
+)
 from physsim_ros.model.transform import Point
 
 # Greatest number of beams: ten times as many as real scanners have; some 3 ms a scan.
@@ -31,7 +37,7 @@ class Laser(Sensor):
         be the first again, is one increment before it
     :param range: least and greatest distance that it measures [m]
     :param noise: standard deviation of a distance [m]
-    :raises BadProperty: several beams have one angle
+    :raises BadProperty: beams are closer than LEAST_INCREMENT
     """
 
     KIND: ClassVar = 'laser'
@@ -52,9 +58,10 @@ class Laser(Sensor):
     def __post_init__(self) -> None:
         # `super()` without arguments has no class there: a dataclass with slots is made anew.
         Sensor.__post_init__(self)
-        if self.beams > 1 and self.angle[0] == self.angle[1]:
+        if self.beams > 1 and self.increment < LEAST_INCREMENT:
             raise BadProperty(
-                f'angle is {self.angle[0]:g} only, for {self.beams} beams', field='angle'
+                f'{self.beams} beams in {self.angle[1] - self.angle[0]:g} rad are too close',
+                field='angle',
             )
 
     @property

@@ -11,7 +11,7 @@ from typing import ClassVar
 
 from physsim_ros.model.checks import Checks, shown, Whole, Within
 from physsim_ros.model.errors import BadProperty
-from physsim_ros.model.robots.sensors.sensor import distances, LENGTH, Sensor
+from physsim_ros.model.robots.sensors.sensor import distances, LEAST_INCREMENT, LENGTH, Sensor
 from physsim_ros.model.transform import Point
 
 # Greatest opening of a cone [rad]: half a turn.
@@ -43,6 +43,7 @@ class RangeFinder(Sensor):
     :param rays: number of rays at equal angles in the cone, of which the nearest one counts
     :param range: least and greatest distance that it measures [m]
     :param noise: standard deviation of a distance [m]
+    :raises BadProperty: rays are closer than LEAST_INCREMENT
     """
 
     KIND: ClassVar = 'range'
@@ -61,3 +62,11 @@ class RangeFinder(Sensor):
     rays: int = 15
     range: Point = (0.02, 1.0)  # noqa: A003 - a word of the interface
     noise: float = 0.0
+
+    def __post_init__(self) -> None:
+        # `super()` without arguments has no class there: a dataclass with slots is made anew.
+        Sensor.__post_init__(self)
+        if 0.0 < self.cone < LEAST_INCREMENT * (self.rays - 1):
+            raise BadProperty(
+                f'{self.rays} rays in a cone of {self.cone:g} rad are too close', field='cone'
+            )

@@ -25,6 +25,8 @@ _TURN_ROUNDING = 1e-4
 # Greatest angle of a beam from the sensor's axis [rad].
 _FARTHEST_ROUND = 2 * math.tau
 
+# Least angle between two beams [rad]: far above the rounding of angles.
+LEAST_INCREMENT = 1e-6
 FULL_TURN = Within(0.0, math.tau + _TURN_ROUNDING, 'rad')
 LENGTH = Within(0.0, LARGEST, 'm')
 _COORDINATE = Within(-LARGEST, LARGEST, 'm')

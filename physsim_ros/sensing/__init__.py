@@ -1,0 +1,30 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+What sensors of robots read: functions of a frame, the sensor and the seed; one file a kind.
+
+Law: the same frame, sensor and seed have the same reading, whoever else senses, in any order and
+after a rewind. No state, no clock, no engine; messages of readings are in `ros`. Start with
+`laser`, then `surroundings` (what rays meet) and `fan` (how).
+"""
+
+from physsim_ros.sensing.bumper import read_bumper
+from physsim_ros.sensing.floor_eye import FloorMarks, read_floor
+from physsim_ros.sensing.imu import InertialReading, read_imu
+from physsim_ros.sensing.laser import read_laser
+from physsim_ros.sensing.range_finder import read_range
+from physsim_ros.sensing.schedule import is_due
+from physsim_ros.sensing.surroundings import Surroundings
+
+__all__ = [
+    'FloorMarks',
+    'InertialReading',
+    'Surroundings',
+    'is_due',
+    'read_bumper',
+    'read_floor',
+    'read_imu',
+    'read_laser',
+    'read_range',
+]

@@ -1,0 +1,83 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+The reading of an inertial measurement unit: turn rate, and acceleration as felt in the plane.
+
+Felt is the acceleration less gravity: at rest on a floor that is seen from the side it is upward;
+the gravity of a world that is seen from above is not in its plane. The acceleration is the mean
+since the frame before, that of the sensor's place, centripetal part included.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from physsim_ros.model.robots.sensors import Imu
+from physsim_ros.model.snapshot import Snapshot
+from physsim_ros.model.transform import Point, rotated
+from physsim_ros.sensing.mounting import noise_of, placed
+
+
+class InertialReading(NamedTuple):
+    """
+    A reading, in the frame of the sensor.
+
+    :ivar yaw: of the sensor in the world [rad]
+    :ivar turn_rate: counter-clockwise [rad/s]
+    :ivar acceleration: x, y [m/s²]
+    """
+
+    yaw: float
+    turn_rate: float
+    acceleration: Point
+
+
+def read_imu(
+    snapshot: Snapshot, before: Snapshot | None, row: int, imu: Imu, seed: int
+) -> InertialReading:
+    """
+    Return the reading of an inertial measurement unit.
+
+    :param snapshot: of the world
+    :param before: an earlier one; None, or one without the body, is no acceleration but gravity
+    :param row: of the robot's body in the scene
+    :param imu: on it
+    :param seed: of all noise of the world
+    """
+    yaw = placed(snapshot, row, imu)[2]
+    change, seconds = _velocity(snapshot, row, imu), 0.0
+    earlier = None if before is None else _row_before(snapshot, before, row)
+    if before is not None and earlier is not None:
+        seconds = (snapshot.stamp - before.stamp) * 1e-9
+        was = _velocity(before, earlier, imu)
+        change = change[0] - was[0], change[1] - was[1]
+    share = 1.0 / seconds if seconds > 0.0 else 0.0
+    gravity = snapshot.scene.settings.gravity
+    felt = change[0] * share - gravity[0], change[1] * share - gravity[1]
+    ahead, aside = rotated(felt, -yaw)
+    turn_rate = float(snapshot.twists[row, 2])
+    if any(imu.noise):
+        noise = noise_of(snapshot, row, imu, seed, 3).tolist()
+        ahead += imu.noise[0] * noise[0]
+        aside += imu.noise[0] * noise[1]
+        turn_rate += imu.noise[1] * noise[2]
+    return InertialReading(yaw, turn_rate, (ahead, aside))
+
+
+def _row_before(snapshot: Snapshot, before: Snapshot, row: int) -> int | None:
+    """Return the row that a body had; None where it was not there, or time went back."""
+    if before.stamp >= snapshot.stamp:
+        return None
+    if before.scene is snapshot.scene:
+        return row
+    names, name = before.scene.names, snapshot.scene.names[row]
+    return names.index(name) if name in names else None
+
+
+def _velocity(snapshot: Snapshot, row: int, imu: Imu) -> Point:
+    """Return the velocity of the sensor's place in the world [m/s]."""
+    vx, vy, spin = snapshot.twists[row].tolist()
+    x, y, _ = placed(snapshot, row, imu)
+    center_x, center_y = snapshot.centers[row].tolist()
+    return vx - spin * (y - center_y), vy + spin * (x - center_x)

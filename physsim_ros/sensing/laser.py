@@ -1,0 +1,64 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+A laser scan: the distance along each beam, by the conventions of REP 117.
+
+The beams start at the sensor; pieces of its own body are not seen, sensors neither.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+from physsim_ros.model.arrays import Floats
+from physsim_ros.model.robots.sensors import Laser
+from physsim_ros.model.transform import turned
+from physsim_ros.sensing.fan import Rays
+from physsim_ros.sensing.mounting import noise_of, placed
+from physsim_ros.sensing.surroundings import Surroundings
+
+
+def read_laser(surroundings: Surroundings, row: int, laser: Laser, seed: int) -> Floats:
+    """
+    Return (beams,) float64: the range of each beam [m].
+
+    Minus infinity is nearer than the least range, or inside another body; infinity is nothing
+    within the greatest range.
+
+    :param surroundings: of the frame
+    :param row: of the robot's body in the scene
+    :param laser: on it
+    :param seed: of all noise of the world
+    """
+    snapshot = surroundings.snapshot
+    *origin, yaw = placed(snapshot, row, laser)
+    directions = turned(_beams(laser.beams, laser.angle[0], laser.increment), yaw)
+    x, y = np.ascontiguousarray(directions.T)
+    least, greatest = laser.range
+    ranges = surroundings.nearest(Rays((origin[0], origin[1]), x, y), greatest, row)
+    noise = noise_of(snapshot, row, laser, seed, laser.beams) if laser.noise else None
+    return within_range(ranges, least, greatest, laser.noise, noise)
+
+
+def within_range(
+    distances: Floats, least: float, greatest: float, deviation: float, noise: Floats | None
+) -> Floats:
+    """
+    Return distances with noise, and with infinities out of range (REP 117).
+
+    :param distances: (k,) float64 [m]
+    :param deviation: standard deviation of the noise [m]
+    :param noise: (k,) float64: of mean 0 and variance 1; None is no noise
+    """
+    measured = distances if noise is None else distances + deviation * noise
+    measured = np.where((distances > greatest) | (measured > greatest), np.inf, measured)
+    return np.where((distances < least) | (measured < least), -np.inf, measured)
+
+
+@lru_cache(maxsize=256)
+def _beams(count: int, first: float, increment: float) -> Floats:
+    """Return (count, 2) float64: unit vectors of beams at equal angles, in the sensor's frame."""
+    angles = first + increment * np.arange(count)
+    return np.column_stack((np.cos(angles), np.sin(angles)))

@@ -1,0 +1,34 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""Where sensors are in the world, and the noise of their readings."""
+
+from __future__ import annotations
+
+from physsim_ros.model.arrays import Floats
+from physsim_ros.model.noise import normals
+from physsim_ros.model.robots.sensors import Sensor
+from physsim_ros.model.snapshot import Snapshot
+from physsim_ros.model.transform import Pose, rotated
+
+
+def placed(snapshot: Snapshot, row: int, sensor: Sensor) -> Pose:
+    """
+    Return the pose of a sensor in the world: x, y [m], yaw [rad].
+
+    :param row: of its body in the scene
+    """
+    x, y, yaw = snapshot.poses[row].tolist()
+    ahead, aside = rotated(sensor.at[:2], yaw)
+    return x + ahead, y + aside, yaw + sensor.at[2]
+
+
+def noise_of(snapshot: Snapshot, row: int, sensor: Sensor, seed: int, count: int) -> Floats:
+    """
+    Return (count,) float64: normal numbers of mean 0 and variance 1 for a reading.
+
+    :param row: of the body in the scene
+    :param seed: of all noise of the world
+    """
+    name = f'{snapshot.scene.bodies[row].name}|{sensor.name}'
+    return normals(seed, name, snapshot.step, count)

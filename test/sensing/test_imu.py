@@ -1,0 +1,100 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""Inertial measurement units: turn rate and acceleration as felt, against the formulas."""
+
+import math
+
+from physsim_ros.model.requests import Configure, Delete
+from physsim_ros.model.robots.sensors import Imu
+from physsim_ros.sensing import read_imu
+import pytest
+
+from .worlds import add_robot, plane
+from ..building import command, DT, spawn, unlimit_wrenches
+
+
+def readings(world, row, imu, steps=60):
+    before = world.snapshot()
+    world.step(steps)
+    return read_imu(world.snapshot(), before, row, imu, 1)
+
+
+def test_a_push_is_felt_in_the_axes_of_the_robot():
+    world = plane()
+    row = add_robot(world, pose=(0.0, 0.0, math.pi / 2), mass=2.0)
+    unlimit_wrenches(world)
+    command(world, 'robot/0', wrench=(0.0, 3.0, 0.0))
+
+    felt = readings(world, row, Imu())
+
+    assert felt.acceleration == pytest.approx((1.5, 0.0), abs=1e-9)
+    assert felt.turn_rate == 0.0
+    assert felt.yaw == math.pi / 2
+
+
+def test_off_the_centre_of_a_turn_the_centripetal_acceleration_is_felt():
+    world = plane()
+    row = add_robot(world, spin=2.0)
+
+    felt = readings(world, row, Imu(at=(0.5, 0.0, 0.0)), steps=2)
+
+    # The mean over two steps is that of a step ago.
+    ahead, aside = felt.acceleration
+    assert math.hypot(ahead, aside) == pytest.approx(2.0**2 * 0.5, rel=1e-4)
+    assert ahead == pytest.approx(-2.0, rel=1e-3)
+    assert aside == pytest.approx(2.0 * 2.0 * DT, rel=1e-2)
+    assert felt.turn_rate == pytest.approx(2.0)
+
+
+def test_in_free_fall_nothing_is_felt_and_at_rest_the_weight_is():
+    world = plane()
+    world.apply(Configure(changes={'gravity': (0.0, -9.81)}))
+    row = add_robot(world)
+    still = world.snapshot()
+
+    felt = readings(world, row, Imu())
+
+    assert felt.acceleration == pytest.approx((0.0, 0.0), abs=1e-9)
+    assert read_imu(still, None, row, Imu(), 1).acceleration == pytest.approx((0.0, 9.81))
+    assert read_imu(still, still, row, Imu(), 1).acceleration == pytest.approx((0.0, 9.81))
+
+
+def test_a_robot_that_was_not_there_before_has_no_acceleration():
+    world = plane()
+    spawn(world, 'thing/0')
+    before = world.snapshot()
+    row = add_robot(world, pose=(5.0, 0.0, 0.0), velocity=[1.0, 0.0])
+    world.step(1)
+
+    assert read_imu(world.snapshot(), before, row, Imu(), 1).acceleration == (0.0, 0.0)
+
+
+def test_the_row_of_a_body_may_change():
+    world = plane()
+    spawn(world, 'thing/0', pose=(9.0, 9.0, 0.0))
+    row = add_robot(world, mass=1.0)
+    unlimit_wrenches(world)
+    command(world, 'robot/0', wrench=(1.0, 0.0, 0.0))
+    before = world.snapshot()
+    world.apply(Delete(name='thing/0'))
+    world.step(10)
+
+    felt = read_imu(world.snapshot(), before, row - 1, Imu(), 1)
+
+    # Stamps are whole nanoseconds.
+    assert felt.acceleration == pytest.approx((1.0, 0.0), abs=1e-7)
+
+
+def test_noise_is_that_of_the_seed():
+    world = plane()
+    row = add_robot(world)
+    snapshot = world.snapshot()
+    imu = Imu(noise=(0.1, 0.01))
+
+    felt = read_imu(snapshot, None, row, imu, 1)
+
+    assert felt == read_imu(snapshot, None, row, imu, 1)
+    assert felt != read_imu(snapshot, None, row, imu, 2)
+    assert 0.0 < abs(felt.turn_rate) < 0.06
+    assert 0.0 < math.hypot(*felt.acceleration) < 0.9
