@@ -18,7 +18,7 @@ from physsim_ros.appearance.joint_glyphs import Strip
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.scene import Scene
-from physsim_ros.model.transform import turned
+from physsim_ros.model.transform import rotated_each
 
 
 class JointLines:
@@ -63,7 +63,7 @@ class JointLines:
         """
         background = np.zeros((*poses.shape[:-2], 1, 3))
         frames = np.concatenate((poses, background), axis=-2)[..., self._scene.joint_rows, :]
-        return frames[..., :2] + turned(self.seats, frames[..., 2])
+        return frames[..., :2] + rotated_each(self.seats, frames[..., 2])
 
     def corners(self, poses: Floats) -> Floats:
         """
@@ -85,7 +85,7 @@ class JointLines:
         yaw = np.concatenate((poses[..., 2], background), axis=-1)[..., self._rows]
         corners: Floats = first[..., joints, :] + self._along * span[..., joints, :]
         corners += self._across * side[..., joints, :] + self._sag * depth[..., joints, :]
-        return corners + turned(self._arms, yaw)
+        return corners + rotated_each(self._arms, yaw)
 
 
 def _drawn_seats(scene: Scene) -> Floats:

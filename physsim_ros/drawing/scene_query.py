@@ -24,7 +24,7 @@ from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Capsule, Circle, Convex, Piece
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.texts import nearest_name
-from physsim_ros.model.transform import Point, Pose, rotated
+from physsim_ros.model.transform import Point, Pose, rotated, Twist
 
 # The namespace of drawn bodies and joints.
 DRAWN = 'drawn'
@@ -78,7 +78,7 @@ class SceneQuery:
         """Return the centre of mass of a body at uniform density [m]."""
         return self.in_world(name, self.body(name).shape.form.centroid)
 
-    def twist(self, name: str) -> Pose:
+    def twist(self, name: str) -> Twist:
         """Return vx, vy [m/s] of a body's centre of mass and its angular velocity [rad/s]."""
         vx, vy, spin = self.snapshot.twists[self._rows[name]].tolist()
         return vx, vy, spin

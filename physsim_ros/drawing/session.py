@@ -44,7 +44,7 @@ from physsim_ros.model.names import split_name
 from physsim_ros.model.preview import Line, NO_PREVIEW, Preview
 from physsim_ros.model.requests import Join, Request, Spawn
 from physsim_ros.model.snapshot import Answer, Snapshot
-from physsim_ros.model.transform import Point, turned
+from physsim_ros.model.transform import Point, rotated_each
 from physsim_ros.simulation.queue_entries import Amend
 from physsim_ros.simulation.simulation import Simulation
 
@@ -252,7 +252,7 @@ def _in_world(samples: Floats, frame: str, scene: SceneQuery) -> Floats:
         return samples
     origin = scene.resolve_point((0.0, 0.0), frame)
     placed = samples.copy()
-    placed[:, :2] = turned(samples[:, :2], scene.pose(frame)[2]) + origin
+    placed[:, :2] = rotated_each(samples[:, :2], scene.pose(frame)[2]) + origin
     return placed
 
 

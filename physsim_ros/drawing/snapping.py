@@ -58,9 +58,9 @@ def joint_ends(
             End(_snapped(start, a, scene, settings), a),
             End(_snapped(end, b, scene, settings), b),
         )
-        if a != WORLD and not scene.body(a).fixed:
+        if a != WORLD and scene.body(a).dynamic:
             return ends
-        if b != WORLD and not scene.body(b).fixed:
+        if b != WORLD and scene.body(b).dynamic:
             return ends[::-1]
     return None
 
@@ -114,7 +114,7 @@ def crossed_pair(center: Point, drawn: Floats, scene: SceneQuery) -> tuple[str, 
 
 def _carrier_of(wheel: str, center: Point, snap: float, scene: SceneQuery) -> str | None:
     """
-    Return the movable body that a wheel overlaps and that is nearest to its middle, if any.
+    Return the dynamic body that a wheel overlaps and that is nearest to its middle, if any.
 
     A wheel may stand half below its chassis; it never turns about the road on which it stands.
 
@@ -128,13 +128,13 @@ def _carrier_of(wheel: str, center: Point, snap: float, scene: SceneQuery) -> st
     if math.dist((x, y), center) > max(snap, form.outer / 4):
         return None
     near = scene.bodies_at((x, y), _CARRIED * form.outer)
-    movable = [each for each in near if each != wheel and not scene.body(each).fixed]
+    dynamic = [each for each in near if each != wheel and scene.body(each).dynamic]
 
     def distance(name: str) -> float:
         covered = name in scene.bodies_at((x, y))
         return 0.0 if covered else math.dist((x, y), _surface((x, y), name, scene))
 
-    return min(movable, key=distance, default=None)
+    return min(dynamic, key=distance, default=None)
 
 
 def wall_end(point: Point, scene: SceneQuery, settings: DrawingSettings) -> Point:
@@ -163,7 +163,7 @@ def _snapped(point: Point, name: str, scene: SceneQuery, settings: DrawingSettin
     body = scene.body(name)
     # A body joined exactly at its middle does not turn under gravity.
     middle = scene.centroid(name)
-    if not body.fixed and math.dist(point, middle) <= min(settings.snap, body.shape.form.inner):
+    if body.dynamic and math.dist(point, middle) <= min(settings.snap, body.shape.form.inner):
         return middle
     return point if name in scene.bodies_at(point) else _surface(point, name, scene)
 

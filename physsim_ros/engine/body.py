@@ -20,11 +20,10 @@ from physsim_ros.model.checkpoint import BodyState, Motion
 from physsim_ros.model.scene import Body
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Capsule, Circle, Convex, Piece
-from physsim_ros.model.transform import Point, Pose, rotated
+from physsim_ros.model.transform import NO_WRENCH, Point, Pose, REST, rotated, Twist, Wrench
 import pymunk
 from pymunk._chipmunk_cffi import lib
 
-REST = (0.0, 0.0, 0.0)
 # Discs are smaller by this [m]: those that are placed side by side would overlap by rounding, and
 # an impact on a row of them would act on all at once. Ten times the rounding of a position within
 # a kilometre of the origin (1.1e-13 m).
@@ -50,7 +49,7 @@ class RigidBody:
     serial: int
     first: int = 0
     free: bool = True
-    wrench: Pose = REST
+    wrench: Wrench = NO_WRENCH
     wrench_until: int | None = None
 
     @property
@@ -74,11 +73,11 @@ class RigidBody:
         self.engine.position = x + offset_x, y + offset_y
         self._reindex()
 
-    def lead(self, gravity: Point, dt: float) -> Pose:
+    def lead(self, gravity: Point, dt: float) -> Twist:
         """Return how far the engine's velocity is ahead of the true one in free flight."""
         return lead_of(self.body, self.wrench, gravity, dt)
 
-    def twist(self, gravity: Point, dt: float, *, free: bool) -> Pose:
+    def twist(self, gravity: Point, dt: float, *, free: bool) -> Twist:
         """
         Return the true velocity of the centre of mass [m/s] and spin [rad/s].
 
@@ -88,7 +87,7 @@ class RigidBody:
         vx, vy = self.engine.velocity
         return vx - ahead[0], vy - ahead[1], self.engine.angular_velocity - ahead[2]
 
-    def set_twist(self, twist: Pose, gravity: Point, dt: float, *, free: bool = True) -> None:
+    def set_twist(self, twist: Twist, gravity: Point, dt: float, *, free: bool = True) -> None:
         """
         Set velocity [m/s] and spin [rad/s].
 
@@ -137,9 +136,9 @@ def offset_of(body: Body) -> Point:
     return (0.0, 0.0) if body.anchored else body.shape.form.centroid
 
 
-def lead_of(body: Body, wrench: Pose, gravity: Point, dt: float) -> Pose:
+def lead_of(body: Body, wrench: Wrench, gravity: Point, dt: float) -> Twist:
     """Return the half-step lead of a body in free flight."""
-    if body.fixed:
+    if not body.dynamic:
         return REST
     fx, fy, torque = wrench
     half, mass = dt / 2, body.total_mass

@@ -12,10 +12,11 @@ from __future__ import annotations
 
 import numpy as np
 from physsim_ros.engine import body as rigid_body
-from physsim_ros.engine.body import REST, RigidBody
+from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.space import Space
 from physsim_ros.engine.stages.sleeping import wake_bodies
 from physsim_ros.model.scene import Scene
+from physsim_ros.model.transform import NO_WRENCH
 import pymunk
 
 
@@ -76,5 +77,5 @@ def _extract_body(space: Space) -> RigidBody:
     space.engine.remove(rigid.engine)
     # The last step has left a velocity by which the next one pushes overlaps apart.
     pymunk.Body.update_position(rigid.engine, 0.0)
-    rigid.wrench, rigid.wrench_until, rigid.free = REST, None, True
+    rigid.wrench, rigid.wrench_until, rigid.free = NO_WRENCH, None, True
     return rigid

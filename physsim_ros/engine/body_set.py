@@ -107,7 +107,7 @@ class BodySet:
 
         :param touching: before it was moved
         """
-        if rigid.body.fixed:
+        if not rigid.body.dynamic:
             wake_bodies(each.engine for each in touching)
             wake_overlapping(self._engine, rigid.engine)
 

@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 import numpy as np
 from physsim_ros.engine.batch_io import BatchIO, Ids
-from physsim_ros.engine.body import REST, RigidBody
+from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.ccd.body_extents import corner_count, safe_depths, turning_radius
 from physsim_ros.engine.fast_bodies import slow_bounds
 from physsim_ros.engine.graph_search import reachable, Rows
@@ -25,6 +25,7 @@ from physsim_ros.engine.memory import indices_of
 from physsim_ros.model.arrays import Flags, Floats, greatest, Ints
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.scene import Scene
+from physsim_ros.model.transform import NO_WRENCH
 import pymunk
 from pymunk._chipmunk_cffi import lib
 
@@ -120,7 +121,7 @@ class BodyTable:
         self.columns = _columns_of(scene, dt)
         self.leads = self.columns.gravity_lead.copy(order='F')
         for row, rigid in enumerate(bodies):
-            if rigid.wrench != REST:
+            if rigid.wrench != NO_WRENCH:
                 self.leads[row] = rigid.lead(scene.settings.gravity, dt)
         self.free = np.array([rigid.free for rigid in bodies], np.bool_)
         self.slot_changes = 0
@@ -258,7 +259,7 @@ class BodyTable:
 def _columns_of(scene: Scene, dt: float) -> SceneColumns:
     bodies, count = scene.bodies, len(scene.bodies)
     anchored = np.array([*(body.anchored for body in bodies), True], np.bool_)
-    dynamic = np.array([*(not body.fixed for body in bodies), False], np.bool_)
+    dynamic = np.array([*(body.dynamic for body in bodies), False], np.bool_)
     sensor = np.array([body.sensor for body in bodies], np.bool_)
     lead = (*(half * dt / 2 for half in scene.settings.gravity), 0.0)
     elasticity = np.sqrt([*(body.elasticity for body in bodies), scene.settings.elasticity])

@@ -17,13 +17,14 @@ from dataclasses import replace
 
 import numpy as np
 from physsim_ros.engine import body as rigid_body
-from physsim_ros.engine.body import engine_motion, REST, RigidBody
+from physsim_ros.engine.body import engine_motion, RigidBody
 from physsim_ros.engine.boundary import wall_count
 from physsim_ros.engine.space import Space
 from physsim_ros.engine.warm_start import read_impulses, shape_numbers, write_impulses
 from physsim_ros.model.checkpoint import BodyState, Checkpoint, ImpulseCache, Motion, WorldState
 from physsim_ros.model.garbage_collection import suspended_collection
 from physsim_ros.model.scene import Body, Scene
+from physsim_ros.model.transform import NO_WRENCH
 
 
 def take_checkpoint(space: Space, step: int) -> Checkpoint:
@@ -64,8 +65,8 @@ def saved_state(space: Space, step: int) -> WorldState:
 
     :param step: steps that the world has made
     """
-    key, bodies = take_checkpoint(space, step), []
-    motions = zip(key.state.tolist(), key.free.tolist(), strict=True)
+    checkpoint, bodies = take_checkpoint(space, step), []
+    motions = zip(checkpoint.state.tolist(), checkpoint.free.tolist(), strict=True)
     for rigid, (state, free) in zip(space.bodies.by_name.values(), motions, strict=True):
         body, until = rigid.body, rigid.wrench_until
         if body.expires is not None:
@@ -81,10 +82,10 @@ def saved_state(space: Space, step: int) -> WorldState:
             )
         )
     return WorldState(
-        settings=key.scene.settings,
+        settings=checkpoint.scene.settings,
         bodies=tuple(bodies),
-        joints=key.scene.joints,
-        memory=key.memory,
+        joints=checkpoint.scene.joints,
+        memory=checkpoint.memory,
     )
 
 
@@ -113,7 +114,7 @@ def checkpoint_of(state: WorldState, step: int, dt: float) -> Checkpoint:
             (row, saved.wrench, None if steps is None else step + steps)
             for row, saved in enumerate(state.bodies)
             for steps in (saved.wrench_steps,)
-            if saved.wrench != REST
+            if saved.wrench != NO_WRENCH
         ),
         memory=state.memory or _no_impulses(state),
         unstepped=frozenset(joint.name for joint in state.joints),
@@ -137,7 +138,7 @@ def _no_impulses(state: WorldState) -> ImpulseCache:
 
 @suspended_collection()
 def restore_checkpoint(
-    key: Checkpoint, dt: float, *, pool: Mapping[str, RigidBody] | None = None
+    checkpoint: Checkpoint, dt: float, *, pool: Mapping[str, RigidBody] | None = None
 ) -> Space:
     """
     Build a space from a checkpoint.
@@ -145,25 +146,29 @@ def restore_checkpoint(
     :param dt: of a step [s]
     :param pool: bodies built beforehand, by name
     """
-    space = Space(key.scene.settings, dt, first_shape=key.memory.walls)
-    rigids = [_rigid_body(body, pool or {}, row) for row, body in enumerate(key.scene.bodies)]
-    for rigid, first, free in zip(rigids, key.memory.ids.tolist(), key.free.tolist(), strict=True):
+    space = Space(checkpoint.scene.settings, dt, first_shape=checkpoint.memory.walls)
+    rigids = [
+        _rigid_body(body, pool or {}, row) for row, body in enumerate(checkpoint.scene.bodies)
+    ]
+    for rigid, first, free in zip(
+        rigids, checkpoint.memory.ids.tolist(), checkpoint.free.tolist(), strict=True
+    ):
         rigid.first, rigid.free = first, free
-    for row, wrench, until in key.wrenches:
+    for row, wrench, until in checkpoint.wrenches:
         space.pipeline.wrenches.set_wrench(rigids[row], wrench, until)
     space.bodies.add_without_shapes(rigids)
-    table = space.lay_out(key.scene)
-    at_rest = key.state.copy()
+    table = space.lay_out(checkpoint.scene)
+    at_rest = checkpoint.state.copy()
     at_rest[:, 3:] = 0.0
     table.write_state(at_rest)
     space.shapes.put_back((rigid.first, rigid.engine.shapes) for rigid in rigids)
-    write_impulses(space.engine, space.shapes, key.memory, dt)
-    table.write_state(key.state)
-    for joint in key.scene.joints:
+    write_impulses(space.engine, space.shapes, checkpoint.memory, dt)
+    table.write_state(checkpoint.state)
+    for joint in checkpoint.scene.joints:
         space.joints.add(joint)
-    space.joints.set_impulses(key.memory.joints)
-    space.joints.set_unstepped(key.unstepped)
-    for grip in key.grips:
+    space.joints.set_impulses(checkpoint.memory.joints)
+    space.joints.set_unstepped(checkpoint.unstepped)
+    for grip in checkpoint.grips:
         space.pipeline.mouse_joints.set_grip(grip)
     return space
 

@@ -12,7 +12,7 @@ from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.body_table import BodyTable
 from physsim_ros.engine.stages.half_step import StartState
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.transform import turned
+from physsim_ros.model.transform import rotated_each
 
 
 def observe_bodies(table: BodyTable, start: StartState) -> tuple[Floats, Floats]:
@@ -25,7 +25,7 @@ def observe_bodies(table: BodyTable, start: StartState) -> tuple[Floats, Floats]
     poses, twists = start.state[:, :3].copy(), start.state[:, 3:].copy()
     offsets = table.columns.offsets
     if np.count_nonzero(offsets):
-        poses[:, :2] -= turned(offsets, poses[:, 2])
+        poses[:, :2] -= rotated_each(offsets, poses[:, 2])
     if np.count_nonzero(start.free):
         twists -= np.where(start.free[:, None], table.leads, 0.0)
     return poses, twists

@@ -27,7 +27,7 @@ from physsim_ros.engine.ccd.broad_phase import pairs_in_parts
 from physsim_ros.engine.tolerances import COLLISION_SLOP
 from physsim_ros.model.arrays import Flags, Floats, Ints
 from physsim_ros.model.shapes import Capsule, Circle, Convex, Form, Piece, Shape
-from physsim_ros.model.transform import next_vertices, Pose, rotated, turned
+from physsim_ros.model.transform import next_vertices, Pose, rotated, rotated_each
 
 # Candidates compared at once: some 30 MB.
 _PART = 200_000
@@ -99,7 +99,7 @@ def _core(piece: Piece) -> tuple[tuple[float, float], tuple[float, float], float
             edges = next_vertices(corners) - corners
             longest = edges[np.argmax(np.hypot(edges[:, 0], edges[:, 1]))]
             yaw = math.atan2(longest[1], longest[0])
-            along = turned(corners, np.full(len(corners), -yaw))
+            along = rotated_each(corners, np.full(len(corners), -yaw))
             low, high = along.min(axis=0), along.max(axis=0)
             middle = (low + high) / 2
             # All corners of a rectangle are corners of its box.
@@ -143,16 +143,16 @@ def laid_out(shapes: Sequence[Shape], poses: Floats) -> Layout:
         return Layout(Cores(np.empty((0, 2)), np.empty((0, 2)), np.empty(0)), bodies)
     local = Cores(*(np.concatenate(column) for column in zip(*parts, strict=True)))
     yaws = poses[bodies, 2]
-    centers = poses[bodies, :2] + turned(local.centers, yaws)
+    centers = poses[bodies, :2] + rotated_each(local.centers, yaws)
     return Layout(Cores(centers, local.halves, local.yaws + yaws), bodies)
 
 
-def count_overlaps(layout: Layout, first: Flags, fixed: Flags, *, most: int) -> int:
+def count_overlaps(layout: Layout, first: Flags, anchored: Flags, *, most: int) -> int:
     """
     Count the pairs of pieces of different bodies that overlap.
 
     :param first: (b,) bool: one body of each pair is among these
-    :param fixed: (b,) bool: anchored bodies, which do not collide with each other
+    :param anchored: (b,) bool: bodies, which do not collide with each other
     :param most: the count ends when it is greater
     """
     cores, bodies = layout
@@ -162,7 +162,7 @@ def count_overlaps(layout: Layout, first: Flags, fixed: Flags, *, most: int) -> 
     boxes = _boxes(cores)
     for one, other in pairs_in_parts(boxes, first[bodies], most=_PART):
         a, b = bodies[one], bodies[other]
-        apart = (a != b) & ~(fixed[a] & fixed[b])
+        apart = (a != b) & ~(anchored[a] & anchored[b])
         count += int(_overlap(cores, one[apart], other[apart]).sum())
         if count > most:
             break
@@ -192,7 +192,7 @@ def _overlap(cores: Cores, one: Ints, other: Ints) -> Flags:
     cos, sin = np.abs(np.cos(difference)), np.abs(np.sin(difference))
     overlap = np.ones(len(one), np.bool_)
     for axes, own, its in ((one, one, other), (other, other, one)):
-        distance = np.abs(turned(offset, -cores.yaws[axes]))
+        distance = np.abs(rotated_each(offset, -cores.yaws[axes]))
         length, width = cores.halves[its].T
         reach = np.column_stack((length * cos + width * sin, length * sin + width * cos))
         overlap &= (distance < cores.halves[own] + reach).all(axis=1)

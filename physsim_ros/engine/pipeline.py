@@ -87,21 +87,25 @@ class Pipeline:
         self._shapes = shapes
         self._dt = dt
 
-    def step(self, table: BodyTable, settings: WorldSettings, *, age: int, watching: bool) -> None:
+    def step(
+        self, table: BodyTable, settings: WorldSettings, *, age: int, reports_contacts: bool
+    ) -> None:
         """
         Make a step.
 
         :param table: the bodies
         :param settings: of the world
         :param age: steps made since the space was built
-        :param watching: whether contacts are reported
+        :param reports_contacts: whether contacts are reported
         """
         self.wrenches.apply_wrenches()
         unsupported = self.half_step.begin_step(table)
         if unsupported:
             clear_impulses(self._shapes, [table.bodies[row] for row in unsupported])
         state = table.state.copy()
-        context = StepContext(table, settings, self._dt, age, watching, state[:, :3], state[:, 3:])
+        context = StepContext(
+            table, settings, self._dt, age, reports_contacts, state[:, :3], state[:, 3:]
+        )
         self.mouse_joints.apply_forces(context)
         self.resting_damping.damp_resting(context)
         self.continuous_collision.clamp_moves(context)
@@ -113,7 +117,7 @@ class Pipeline:
         self.half_step.find_free(context)
         keep_flying_awake(context)
         keep_swinging_awake(context)
-        if watching:
+        if reports_contacts:
             self.contact_report.add_step(table)
         else:
             self.contact_report.skip_step()
@@ -125,7 +129,7 @@ class Pipeline:
         if touches is None:
             return
         self._block_solver.solve_impacts(touches)
-        if context.watching:
+        if context.reports_contacts:
             self.contact_report.add_first_touches(touches)
 
     def forget_body(self, engine_id: int) -> None:

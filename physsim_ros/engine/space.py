@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from physsim_ros.engine import body as rigid_body
 from physsim_ros.engine.batch_io import BatchIO
-from physsim_ros.engine.body import REST, RigidBody, same_in_engine
+from physsim_ros.engine.body import RigidBody, same_in_engine
 from physsim_ros.engine.body_set import BodySet
 from physsim_ros.engine.body_table import BodyTable
 from physsim_ros.engine.boundary import Boundary
@@ -24,7 +24,7 @@ from physsim_ros.engine.warm_start import ShapeIds
 from physsim_ros.model.grips import Grip
 from physsim_ros.model.scene import Body, Joint, Scene
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.transform import Pose
+from physsim_ros.model.transform import NO_WRENCH, Pose, REST, Twist, Wrench
 
 
 class Space:
@@ -94,7 +94,7 @@ class Space:
         """Return the state that the next step begins with."""
         return self.pipeline.half_step.start_state(self.table)
 
-    def twist_of(self, rigid: RigidBody) -> Pose:
+    def twist_of(self, rigid: RigidBody) -> Twist:
         """Return the true velocity of a body."""
         if rigid.engine.is_sleeping:
             return REST
@@ -109,14 +109,14 @@ class Space:
 
     # Bodies
 
-    def add(self, body: Body, pose: Pose, twist: Pose) -> RigidBody:
+    def add(self, body: Body, pose: Pose, twist: Twist) -> RigidBody:
         """Add a new body, the topmost one."""
         last = next(reversed(self.bodies.by_name.values()), None)
         rigid = rigid_body.build(body, 0 if last is None else last.serial + 1)
         self._insert(rigid, pose, twist)
         return rigid
 
-    def change(self, old: RigidBody, body: Body, pose: Pose, twist: Pose) -> None:
+    def change(self, old: RigidBody, body: Body, pose: Pose, twist: Twist) -> None:
         """
         Replace a body by a changed one, in its place in the spawn order.
 
@@ -140,10 +140,10 @@ class Space:
         self._take_out(old)
         self._insert(rigid, pose, twist)
         self.joints.attach(body.name)
-        if body.fixed:
+        if not body.dynamic:
             self.pipeline.mouse_joints.forget_body(body.name)
         self.pipeline.half_step.release_bodies(touching)
-        if old.wrench != REST and not body.fixed:
+        if old.wrench != NO_WRENCH and body.dynamic:
             self.set_wrench(rigid, old.wrench, old.wrench_until)
 
     def remove(self, name: str) -> None:
@@ -166,7 +166,7 @@ class Space:
         self.pipeline.half_step.release_bodies(touching)
         self._note_motion()
 
-    def set_twist(self, rigid: RigidBody, twist: Pose) -> None:
+    def set_twist(self, rigid: RigidBody, twist: Twist) -> None:
         """Set the velocity of a body: it flies freely then, unless joints bear it."""
         free = self._is_free(rigid) or not self.joints.has_joints(rigid.body.name)
         rigid.set_twist(twist, self._settings.gravity, self.dt, free=free)
@@ -175,7 +175,7 @@ class Space:
             self._table.free[self._table.columns.rows[rigid.body.name]] = free
         self._note_motion()
 
-    def set_wrench(self, rigid: RigidBody, wrench: Pose, until: int | None) -> None:
+    def set_wrench(self, rigid: RigidBody, wrench: Wrench, until: int | None) -> None:
         """Let a wrench act from now on, to the step `until`; None is for ever."""
         twist, free = self.twist_of(rigid), self._is_free(rigid)
         self.pipeline.wrenches.set_wrench(rigid, wrench, until)
@@ -222,19 +222,21 @@ class Space:
             bodies[end] for end in (joint.a, joint.b) if end in bodies
         )
 
-    def step(self, number: int, *, watching: bool) -> list[str]:
+    def step(self, number: int, *, reports_contacts: bool) -> list[str]:
         """
         Make a step.
 
         :param number: steps that the world has made
-        :param watching: whether contacts are reported
+        :param reports_contacts: whether contacts are reported
         :return: bodies that have left the range of numbers, and were removed after it
         """
         for rigid in self.pipeline.wrenches.ended(number):
-            self.set_wrench(rigid, REST, None)
+            self.set_wrench(rigid, NO_WRENCH, None)
         table = self.table
         if table.columns.moving:
-            self.pipeline.step(table, self._settings, age=self._age, watching=watching)
+            self.pipeline.step(
+                table, self._settings, age=self._age, reports_contacts=reports_contacts
+            )
         self._age += 1
         for name, force in self.joints.broken():
             self.unjoin(name)
@@ -253,7 +255,7 @@ class Space:
             return rigid.free
         return bool(self._table.free[self._table.columns.rows[rigid.body.name]])
 
-    def _insert(self, rigid: RigidBody, pose: Pose, twist: Pose) -> None:
+    def _insert(self, rigid: RigidBody, pose: Pose, twist: Twist) -> None:
         self._drop_table()
         self.changes += 1
         rigid.pose = pose

@@ -22,7 +22,7 @@ class StepContext:
     :param dt: length of the step [s]
     :param age: steps made since the space was built; stages that act every so many steps count
         by it, so that a space restored from a checkpoint goes on alike
-    :param watching: whether contacts are reported
+    :param reports_contacts: whether contacts are reported
     :param poses: (n, 3) float64: of the engine's origins as the step begins [m, rad]
     :param twists: (n, 3) float64: velocities [m/s] and spins [rad/s] that the engine begins the
         step with; a stage that changes one in the engine changes it here too
@@ -32,6 +32,6 @@ class StepContext:
     settings: WorldSettings
     dt: float
     age: int
-    watching: bool
+    reports_contacts: bool
     poses: Floats
     twists: Floats

@@ -15,7 +15,6 @@ from dataclasses import replace
 import math
 from typing import Any
 
-from physsim_ros.engine.body import REST
 from physsim_ros.engine.body_table import LOST
 from physsim_ros.files.entries import is_same, naming, ROUNDING
 from physsim_ros.files.world_schema import OWN_JOINT_KEYS
@@ -25,7 +24,7 @@ from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.names import check_name, WORLD
 from physsim_ros.model.requests import join_from, joined_from, Restore
 from physsim_ros.model.scene import Joint, Seat
-from physsim_ros.model.transform import Point, Pose
+from physsim_ros.model.transform import Point, Pose, REST
 from physsim_ros.simulation.world import World
 from physsim_ros.simulation.world.joint_requests import drawn_points
 
@@ -41,7 +40,7 @@ def joints_from(
     :param physics_rate: [Hz]
     :raises BadWorldFile: a joint is refused
     """
-    world, movable = (World(physics_rate=physics_rate, settings=state.settings) for _ in range(2))
+    world, dynamic = (World(physics_rate=physics_rate, settings=state.settings) for _ in range(2))
     world.apply(Restore(state=state))
     # Both bodies of a saved joint may have been anchored after it was made.
     bodies = tuple(
@@ -50,7 +49,7 @@ def joints_from(
         )
         for each in state.bodies
     )
-    movable.apply(Restore(state=replace(state, bodies=bodies, memory=None)))
+    dynamic.apply(Restore(state=replace(state, bodies=bodies, memory=None)))
     poses = {saved.body.name: saved.pose for saved in state.bodies}
     # By name; None where the seat is that of the newly made joint.
     joints: dict[str, Joint | None] = {}
@@ -72,8 +71,8 @@ def joints_from(
             join = join_from(terms, name=name, points=points)
             if 'seat' not in entry:
                 world.apply(join)
-            movable.apply(join)
-    made = {joint.name: joint for joint in movable.save().joints}
+            dynamic.apply(join)
+    made = {joint.name: joint for joint in dynamic.save().joints}
     return tuple(joint or made[name] for name, joint in joints.items())
 
 

@@ -16,7 +16,7 @@ import operator
 from typing import Any
 
 import numpy as np
-from physsim_ros.engine.body import lead_of, offset_of, REST
+from physsim_ros.engine.body import lead_of, offset_of
 from physsim_ros.engine.body_table import LOST
 from physsim_ros.files.entries import count_from, entries_of, naming, ROUNDING
 from physsim_ros.files.impulse_cache import cache_from
@@ -38,7 +38,7 @@ from physsim_ros.model.errors import BadProperty, UnknownProperty
 from physsim_ros.model.requests import Command, Spawn
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Shape, SHAPES
-from physsim_ros.model.transform import Pose, rotated
+from physsim_ros.model.transform import NO_WRENCH, Pose, REST, rotated, Twist
 from physsim_ros.simulation.world import steps_in
 from physsim_ros.simulation.world.body_description import new_body
 from physsim_ros.simulation.world.body_requests import check_command
@@ -124,7 +124,7 @@ def _body_state(
     spawn = spawn_from(at_rest if saved else entry)
     expires = steps_in(spawn.lifetime, physics_rate) if spawn.lifetime > 0 else None
     body, twist = new_body(spawn, settings, expires)
-    wrench, wrench_steps = REST, None
+    wrench, wrench_steps = NO_WRENCH, None
     if 'wrench' in entry:
         command = _wrench(spawn.name, entry['wrench'])
         check_command(body, command)
@@ -211,7 +211,7 @@ def _wrench_steps(wrench: Mapping[Any, Any], physics_rate: float) -> int | None:
     raise BadProperty(f'steps are more than {LONGEST:g} s', field='steps')
 
 
-def _saved_state(state: BodyState, entry: Mapping[Any, Any], lead: Pose) -> BodyState | None:
+def _saved_state(state: BodyState, entry: Mapping[Any, Any], lead: Twist) -> BodyState | None:
     """
     Return a body with the pose, twist and motion of its entry.
 

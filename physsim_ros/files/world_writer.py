@@ -21,7 +21,7 @@ from physsim_ros.model.checkpoint import BodyState, WorldState
 from physsim_ros.model.colors import Color, color_from
 from physsim_ros.model.errors import WorldFull
 from physsim_ros.model.scene import Joint
-from physsim_ros.model.transform import Pose
+from physsim_ros.model.transform import NO_WRENCH, Pose
 from physsim_ros.simulation.world.joint_requests import drawn_points
 
 # Quoted texts, and whole numbers with an exponent.
@@ -98,7 +98,7 @@ def _entry(state: BodyState, physics_rate: float) -> dict[str, object]:
         entry['group'] = body.group
     if body.expires is not None:
         entry['lifetime'] = body.expires / physics_rate
-    if state.wrench != (0.0, 0.0, 0.0):
+    if state.wrench != NO_WRENCH:
         steps = state.wrench_steps
         entry['wrench'] = {
             'force': list(state.wrench[:2]),

@@ -18,7 +18,7 @@ from physsim_ros.model.arrays import Floats, Ints
 from physsim_ros.model.grips import Grip
 from physsim_ros.model.scene import Body, Joint, Scene
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.transform import Pose
+from physsim_ros.model.transform import NO_WRENCH, Pose, REST, Twist, Wrench
 
 
 class Motion(NamedTuple):
@@ -54,9 +54,9 @@ class BodyState:
 
     body: Body
     pose: Pose
-    twist: Pose = (0.0, 0.0, 0.0)
+    twist: Twist = REST
     motion: Motion | None = None
-    wrench: Pose = (0.0, 0.0, 0.0)
+    wrench: Wrench = NO_WRENCH
     wrench_steps: int | None = None
 
 
@@ -119,7 +119,7 @@ class Checkpoint:
     scene: Scene
     state: Floats
     free: NDArray[np.bool_]
-    wrenches: tuple[tuple[int, Pose, int | None], ...]
+    wrenches: tuple[tuple[int, Wrench, int | None], ...]
     memory: ImpulseCache
     grips: tuple[Grip, ...] = ()
     unstepped: frozenset[str] = frozenset()

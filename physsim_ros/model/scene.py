@@ -67,9 +67,9 @@ class Body:
         return self.density * self.shape.form.area if self.mass is None else self.mass
 
     @property
-    def fixed(self) -> bool:
-        """Whether forces have no effect on it: it is anchored or kinematic."""
-        return self.anchored or self.kinematic
+    def dynamic(self) -> bool:
+        """Whether forces move it: it is neither anchored nor kinematic."""
+        return not (self.anchored or self.kinematic)
 
 
 class Seat(NamedTuple):
@@ -182,11 +182,11 @@ class Scene:
 
     @cached_property
     def inertia(self) -> Floats:
-        """(n, 2) float64: mass [kg], moment of inertia [kg m²]; 0 for fixed bodies."""
+        """(n, 2) float64: mass [kg], moment of inertia [kg m²]; 0 unless dynamic."""
         rows = [
-            (0.0, 0.0)
-            if body.fixed
-            else (body.total_mass, body.total_mass * body.shape.form.gyration)
+            (body.total_mass, body.total_mass * body.shape.form.gyration)
+            if body.dynamic
+            else (0.0, 0.0)
             for body in self.bodies
         ]
         return np.array(rows, dtype=np.float64).reshape(-1, 2)

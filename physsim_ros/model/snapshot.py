@@ -21,7 +21,7 @@ from physsim_ros.model.names import shown_name
 from physsim_ros.model.preview import NO_PREVIEW, Preview
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.texts import nearest_name
-from physsim_ros.model.transform import turned
+from physsim_ros.model.transform import rotated_each
 
 # The field that every request with a point or pose has besides the one it consists of.
 _FRAME = 'header.frame_id'
@@ -31,7 +31,7 @@ class Springs(NamedTuple):
     """
     The springs of a world with the engine's constants.
 
-    :ivar numbers: (k,) int64: rows among the joints of those springs that act on a movable body
+    :ivar numbers: (k,) int64: rows among the joints of those springs that act on a dynamic body
     :ivar stiffness: (k,) float64: [N/m]
     :ivar rest: (k,) float64: length without force [m]
     :ivar reach: (k,) float64: extension from which the force is constant [m]
@@ -108,18 +108,18 @@ class Snapshot:
     @cached_property
     def centers(self) -> Floats:
         """(n, 2) float64: centres of mass, world [m]."""
-        return self.poses[:, :2] + turned(self.scene.centroids, self.poses[:, 2])
+        return self.poses[:, :2] + rotated_each(self.scene.centroids, self.poses[:, 2])
 
     @cached_property
     def kinetic_energy(self) -> float:
-        """Kinetic energy of all movable bodies [J]."""
+        """Kinetic energy of all dynamic bodies [J]."""
         mass, moment = self.scene.inertia.T
         speed2 = (self.twists[:, :2] ** 2).sum(axis=1)
         return float((mass * speed2 + moment * self.twists[:, 2] ** 2).sum() / 2)
 
     @cached_property
     def potential_energy(self) -> float:
-        """Potential energy of all movable bodies in the field of gravity, 0 at the origin [J]."""
+        """Potential energy of all dynamic bodies in the field of gravity, 0 at the origin [J]."""
         weights = self.scene.inertia[:, :1] * self.scene.settings.gravity
         return float(-(weights * self.centers).sum())
 
@@ -137,7 +137,7 @@ class Snapshot:
         seats, rows = self.scene.seats, self.scene.joint_rows
         # Row -1, the background, is the row of zeros appended here.
         poses = np.vstack((self.poses, np.zeros((1, 3))))[rows]
-        return poses[..., :2] + turned(seats[:, :4].reshape(-1, 2, 2), poses[..., 2])
+        return poses[..., :2] + rotated_each(seats[:, :4].reshape(-1, 2, 2), poses[..., 2])
 
     @cached_property
     def grip_lines(self) -> Floats:
@@ -146,11 +146,11 @@ class Snapshot:
         poses = self.poses[[rows[grip.body] for grip in self.grips]].reshape(-1, 3)
         anchors = np.array([grip.anchor for grip in self.grips]).reshape(-1, 2)
         targets = np.array([grip.target for grip in self.grips]).reshape(-1, 2)
-        return np.stack((poses[:, :2] + turned(anchors, poses[:, 2]), targets), axis=1)
+        return np.stack((poses[:, :2] + rotated_each(anchors, poses[:, 2]), targets), axis=1)
 
     @cached_property
     def momentum(self) -> tuple[float, float]:
-        """Linear momentum of all movable bodies [kg m/s]."""
+        """Linear momentum of all dynamic bodies [kg m/s]."""
         x, y = (self.scene.inertia[:, :1] * self.twists[:, :2]).sum(axis=0).tolist()
         return x, y
 

@@ -12,9 +12,16 @@ from physsim_ros.model.arrays import Floats
 
 # x, y [m].
 Point = tuple[float, float]
-# x, y [m], yaw [rad]; also vx, vy [m/s], spin [rad/s] of a twist, and fx, fy [N], torque [N m] of
-# a wrench.
+# x, y [m], yaw [rad] of a body's origin.
 Pose = tuple[float, float, float]
+# vx, vy [m/s] of the centre of mass, spin [rad/s]; world axes.
+Twist = tuple[float, float, float]
+# fx, fy [N] at the centre of mass, torque [N m]; world axes.
+Wrench = tuple[float, float, float]
+
+ORIGIN: Pose = (0.0, 0.0, 0.0)
+REST: Twist = (0.0, 0.0, 0.0)
+NO_WRENCH: Wrench = (0.0, 0.0, 0.0)
 
 
 def rotated(vector: Point, yaw: float) -> Point:
@@ -25,7 +32,7 @@ def rotated(vector: Point, yaw: float) -> Point:
     return cos * vector[0] - sin * vector[1], sin * vector[0] + cos * vector[1]
 
 
-def turned(vectors: Floats, yaw: Floats | float) -> Floats:
+def rotated_each(vectors: Floats, yaw: Floats | float) -> Floats:
     """
     Return vectors, each rotated counter-clockwise by its own yaw.
 

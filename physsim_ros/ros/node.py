@@ -308,7 +308,7 @@ class PhysSimNode(NodeWithoutQosEvents):
 
     def _update_contact_recording(self) -> None:
         """Record contacts while there is a subscriber, a viewer or a page that shows them."""
-        self.simulation.watch_contacts(self.outputs.wants_contacts)
+        self.simulation.reports_contacts = self.outputs.wants_contacts
 
     def _apply_up_to_seek(self) -> bool:
         """

@@ -111,7 +111,7 @@ class FrameLoop:
         self._playback.changed = False
         return Frame(
             snapshot=snapshot,
-            contacts=contacts if self._past.watching else None,
+            contacts=contacts if self._past.reports_contacts else None,
             answers=self._handler.take_answers(),
             speed=self._playback.speed,
             moved=moved,

@@ -125,7 +125,7 @@ class Playback:
         timeline, cache = self._past.timeline, self._past.frame_cache
         world = timeline.world
         snapshot = world.snapshot()
-        contacts = world.contacts(snapshot) if world.watching else None
+        contacts = world.contacts(snapshot) if world.reports_contacts else None
         frame = CachedFrame(snapshot, contacts)
         # The frame that came with this step has taken its contacts.
         cache.add_frame(frame if moved else cache.with_first_contacts(frame))
@@ -144,7 +144,7 @@ class Playback:
         self.frames_due = 0
         past = self._past
         step = past.steps_in(stamp * 1e-9)
-        frame = past.frame_cache.cached_frame(step, watching=past.watching)
+        frame = past.frame_cache.cached_frame(step, reports_contacts=past.reports_contacts)
         if frame is None:
             past.timeline.seek(step)
         self.note_jump()
@@ -215,16 +215,18 @@ class Playback:
         :param is_overdue: whether its replay is to go on another time; time stands still meanwhile
         :return: whether it is shown
         """
-        cache, watching = self._past.frame_cache, self._past.watching
+        cache, reports_contacts = self._past.frame_cache, self._past.reports_contacts
         step = max(self._past.timeline.history.oldest, self.step - steps)
         if step >= self.step:
             return True
-        shown = cache.frame_at(step, watching=watching, is_overdue=is_overdue)
+        shown = cache.frame_at(step, reports_contacts=reports_contacts, is_overdue=is_overdue)
         if shown is None:
             # No frame makes up for the time that this takes.
             self.clock.restart()
             return False
         self._shown = shown
         fine = not self.speed.is_integer()
-        cache.replay_ahead(step, steps, fine=fine, watching=watching, is_overdue=is_overdue)
+        cache.replay_ahead(
+            step, steps, fine=fine, reports_contacts=reports_contacts, is_overdue=is_overdue
+        )
         return True

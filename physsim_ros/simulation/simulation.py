@@ -139,9 +139,14 @@ class Simulation:
         """Count of frames that the machine could not make in time."""
         return self._playback.clock.late_frames
 
-    def watch_contacts(self, watching: bool) -> None:  # noqa: FBT001 - a state, not a mode
-        """Record contacts for the frames, or save the cost of it."""
-        self.past.watching = watching
+    @property
+    def reports_contacts(self) -> bool:
+        """Return whether frames have contacts, which costs a tenth of a step."""
+        return self.past.reports_contacts
+
+    @reports_contacts.setter
+    def reports_contacts(self, reports_contacts: bool) -> None:
+        self.past.reports_contacts = reports_contacts
 
     # Requests
 

@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Snapshot
-from physsim_ros.model.transform import turned
+from physsim_ros.model.transform import rotated_each
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.sketchpad.answers import Content
 
@@ -105,7 +105,7 @@ def body_past(snapshots: Sequence[Snapshot], name: str) -> dict[str, list[float]
             poses = np.array([each.poses[row] for each in shown])
             twists = np.array([each.twists[row] for each in shown])
             centroid = np.array(scene.bodies[row].shape.form.centroid)
-            centers = poses[:, :2] + turned(centroid, poses[:, 2])
+            centers = poses[:, :2] + rotated_each(centroid, poses[:, 2])
             columns.append(np.concatenate((centers, twists), axis=1))
     x, y, vx, vy, spin = np.concatenate(columns).T.tolist()
     return {'time': times, 'x': x, 'y': y, 'vx': vx, 'vy': vy, 'w': spin}

@@ -64,7 +64,7 @@ def _momenta(frame: Frame) -> tuple[float, ...]:
 
 
 def angular_momentum(snapshot: Snapshot) -> float:
-    """Return the angular momentum of all movable bodies about the origin [kg m²/s]."""
+    """Return the angular momentum of all dynamic bodies about the origin [kg m²/s]."""
     mass, moment = snapshot.scene.inertia.T
     orbital = mass * cross(snapshot.centers, snapshot.twists[:, :2])
     return float((orbital + moment * snapshot.twists[:, 2]).sum())

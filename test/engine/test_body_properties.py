@@ -85,7 +85,7 @@ def test_a_kinematic_body_can_be_anchored_and_let_go_as_it_was(world: World) -> 
 def test_a_sensor_reports_what_it_overlaps_and_pushes_nothing(world: World) -> None:
     spawn(world, 'gate/0', Box(width=1.0, height=4.0), (2.0, 0.0, 0.0), sensor=True, anchored=True)
     spawn(world, 'a/0', DISC, velocity=(5.0, 1.0))
-    world.watching = True
+    world.reports_contacts = True
 
     seen = []
     for _ in range(120):

@@ -26,7 +26,7 @@ def loaded(kind: JointKind) -> World:
     spawn(world, 'a/1', BOX, (1.6, 0.2, -0.2))
     points = [(0.4, 0.0), (1.4, 0.0)][: kind.points]
     world.apply(joining(kind, points, a='a/0', b='a/1', **PROPERTIES.get(kind, {})))
-    world.watching = True
+    world.reports_contacts = True
     return world
 
 
@@ -52,7 +52,7 @@ def test_weight_and_joint_are_what_changes_the_momentum(kind: JointKind) -> None
 
 def test_joints_have_no_vectors_where_nobody_watches() -> None:
     world = loaded(JointKind.ROD)
-    world.watching = False
+    world.reports_contacts = False
     world.step(4)
     assert world.snapshot().pulls.shape == (0, 2)
     assert world.snapshot().forces.shape == (1,)

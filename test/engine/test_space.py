@@ -255,7 +255,7 @@ def test_a_body_falls_as_exactly_after_steps_in_which_nothing_could_move() -> No
 
 
 def test_the_contacts_of_the_last_body_that_could_move_end_with_it(world: World) -> None:
-    world.watching = True
+    world.reports_contacts = True
     spawn(world, 'floor/0', BOX, (0.0, -0.5, 0.0), anchored=True)
     spawn(world, 'a/0', BOX, (0.0, 0.5, 0.0))
     world.step(8)

@@ -140,7 +140,7 @@ def test_a_wrench_and_a_lifetime_go_on() -> None:
 def test_impulses_of_the_frame_are_taken_over() -> None:
     one, other = settled(2), settled(2)
     for world in (one, other):
-        world.watching = True
+        world.reports_contacts = True
         world.step(4)
         world.contacts(world.snapshot())
         world.step(2)

@@ -130,7 +130,7 @@ def _gas(speed, seed):
 @pytest.mark.parametrize(('speed', 'seconds'), [(1.0, 60), (5.0, 12)])
 def test_a_gas_of_discs_keeps_its_energy(report, speed, seconds):
     sim = _gas(speed, seed=1)
-    sim.watch_contacts(True)
+    sim.reports_contacts = True
     start = last = sim.world.snapshot()
 
     bounces = 0

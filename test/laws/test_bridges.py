@@ -101,7 +101,7 @@ def test_a_load_lies_on_a_bridge(report, kind, slack, shape, ratio, deepest):
 def test_a_bridge_is_told_the_weight_that_lies_on_it(report, kind):
     sim, middle = bridge(kind)
     load = put_load(sim, Box(width=0.6, height=0.6), 30.0, middle)
-    sim.watch_contacts(True)
+    sim.reports_contacts = True
     pressed = np.zeros(2)
     for _ in range(120):
         before = sim.advance_frame().snapshot.twists[load, 1]

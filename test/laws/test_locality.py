@@ -95,7 +95,7 @@ def test_far_away_changes_nothing(report, here, far):
 
 def weight_on(sim, name, seconds=1.0):
     """Return the upward impulse on a body in a time, less that which it gives [N s]."""
-    sim.watch_contacts(True)
+    sim.reports_contacts = True
     run(sim, 3.0)
     total = 0.0
     for _ in range(round(60 * seconds)):

@@ -216,7 +216,7 @@ class Fuzzed:
     def __init__(self) -> None:
         bounds = WorldSettings(bounds=(-20.0, -20.0, 20.0, 20.0))
         self.simulation = Simulation(settings=bounds)
-        self.simulation.watch_contacts(True)
+        self.simulation.reports_contacts = True
         self._encoders = [
             encoders.PosesEncoder('world'),
             encoders.StatesEncoder('world'),

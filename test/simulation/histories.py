@@ -321,7 +321,7 @@ class Player:
             checkpoints=checkpoints,
             speed=0.0,
         )
-        self.sim.watch_contacts(contacts)
+        self.sim.reports_contacts = contacts
         self.line = Line(1, WorldState(settings=SETTINGS))
         self.courses = 1
 

@@ -119,9 +119,9 @@ class Disturbances(RuleBasedStateMachine):
         assert frame is not None
         assert frame.answers[-1].code
 
-    @rule(watching=st.booleans())
-    def watch(self, watching: bool) -> None:
-        self.disturbed.watch_contacts(watching)
+    @rule(reports_contacts=st.booleans())
+    def watch(self, reports_contacts: bool) -> None:
+        self.disturbed.reports_contacts = reports_contacts
 
     @rule()
     def read(self) -> None:

@@ -287,7 +287,7 @@ class Model:
 def begun(*, most: int = MOST_BODIES) -> tuple[World, Model]:
     """Return a world with a few bodies, and what is known of it."""
     world = World(settings=WorldSettings(bounds=(-9.0, -9.0, 9.0, 9.0), max_bodies=most))
-    world.watching = True
+    world.reports_contacts = True
     model = Model()
     for number, name in enumerate(NAMES[:3]):
         request = Spawn(name=name, shape=Disc(radius=1.0), pose=(3.0 * number - 3.0, 0.0, 0.0))

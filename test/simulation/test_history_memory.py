@@ -231,7 +231,7 @@ def test_a_gesture_is_undone_as_a_whole_or_not_at_all() -> None:
     for number in range(600):
         command(sim, number, joined=number > 0)
     sim.apply_requests()
-    assert sim.past.timeline.history.checkpoints[0].serial > 0
+    assert sim.past.timeline.history.keyframes[0].serial > 0
     before = sim.world.digest()
 
     with pytest.raises(OutOfHistory):

@@ -210,7 +210,7 @@ def test_a_frame_that_is_cached_is_shown_at_once_and_the_world_follows_while_tim
 
 def test_a_cached_frame_that_is_sought_has_its_contacts_and_all_requests_of_its_step() -> None:
     simulation = Simulation(settings=FLOOR, speed=0.0)
-    simulation.watch_contacts(True)
+    simulation.reports_contacts = True
     simulation.requests.submit(spawning('disc/0', DISC, (0.0, DISC.radius, 0.0)), topic='')
     shown = [simulation.advance_frame() for _ in range(60)]
     # It belongs to the step at which it is applied, though no frame came before the next seek.

@@ -15,7 +15,7 @@ PERIOD_NS = round(1e9 / 60)
 
 def test_contacts_of_the_past_are_those_shown_where_a_request_woke_bodies():
     simulation = Simulation(history=60.0)
-    simulation.watch_contacts(True)
+    simulation.reports_contacts = True
     simulation.requests.submit(Configure(changes={'bounds': (-5.0, 0.0, 5.0, 12.0)}), topic='')
     for number in range(6):
         box, pose = Box(width=0.5, height=0.5), (number * 0.5 - 3.0, 0.25, 0.0)

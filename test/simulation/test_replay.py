@@ -65,7 +65,7 @@ def test_a_frame_without_a_step_tells_no_contacts_and_drops_none(
 ) -> None:
     driven = Driven()
     driven.ask(spawning('a/0', BOX, (0.0, 0.5, 0.0)))
-    driven.simulation.watch_contacts(True)
+    driven.simulation.reports_contacts = True
     driven.run(1.0, 2.0)
     if back:
         driven.run(-1.0, 1.0)
@@ -86,7 +86,7 @@ def test_a_frame_without_a_step_tells_no_contacts_and_drops_none(
 def test_a_seek_from_within_a_frame_shows_all_its_contacts(steps: tuple[int, int]) -> None:
     driven = Driven()
     driven.ask(spawning('a/0', BOX, (0.0, 0.5, 0.0)))
-    driven.simulation.watch_contacts(True)
+    driven.simulation.reports_contacts = True
     driven.run(1.0, 2.0)
     impulses = []
     for step in (steps[1], *steps):
@@ -145,7 +145,7 @@ def test_contacts_come_again_that_nobody_asked_for_the_first_time() -> None:
     driven = Driven()
     driven.ask(spawning('a/0', BOX, (0.0, 0.5, 0.0)))
     driven.run(1.0, 5.0)
-    driven.simulation.watch_contacts(True)
+    driven.simulation.reports_contacts = True
     for frame in driven.run(-1.0, 4.0)[1:]:
         assert frame.contacts is not None
         assert frame.contacts.pairs.tolist() == [[0, -1]]
@@ -205,7 +205,7 @@ def test_few_bodies_take_no_more_memory_than_their_poses_would(bodies: int) -> N
 def test_what_is_worked_out_from_the_past_is_not_kept(driven: Driven) -> None:
     driven.ask(spawning('sensor/0', BOX, (0.0, 0.5, 0.0), anchored=True, sensor=True))
     driven.record(4.0)
-    driven.simulation.watch_contacts(True)
+    driven.simulation.reports_contacts = True
     # Among them some that are made again, with a sensor's contacts, which take the centres.
     for frame in driven.run(-1.0, 3.5):
         assert frame.snapshot.centers.size
@@ -229,7 +229,7 @@ def test_forces_of_joints_come_again(back: float) -> None:
             )
         )
     driven.record(7.0)
-    checkpoint = driven.simulation.past.timeline.history.checkpoints[2].key.step
+    checkpoint = driven.simulation.past.timeline.history.keyframes[2].checkpoint.step
     assert driven.shown[checkpoint].snapshot.forces.all()
     driven.simulation.past.frame_cache.drop_from(0)
     driven.simulation.seek(checkpoint * SECOND // 240)
@@ -240,8 +240,8 @@ def test_forces_of_joints_come_again(back: float) -> None:
 
 def test_other_bits_than_before_are_told(driven: Driven) -> None:
     history = driven.simulation.past.timeline.history
-    wrong = history.checkpoints[2]._replace(digest='not that')
-    history.checkpoints[2] = wrong
+    wrong = history.keyframes[2]._replace(digest='not that')
+    history.keyframes[2] = wrong
     driven.simulation.seek(0)
     frames = driven.run(8.0, 0.7)
     (answer,) = told(frames, 'divergence')
@@ -288,7 +288,7 @@ def test_checkpoints_come_at_the_same_steps_however_the_steps_were_made(
     for speed in speeds:
         driven.run(speed, 0.8 / speed)
     # At the beginning there are two, before and after the first requests.
-    steps = sorted({mark.step for mark in driven.simulation.past.timeline.history.checkpoints})
+    steps = sorted({mark.step for mark in driven.simulation.past.timeline.history.keyframes})
     assert steps == list(range(0, 41 * len(steps), 41))
     assert len(steps) > 4
 
@@ -326,7 +326,7 @@ def test_a_request_at_the_step_of_a_checkpoint_is_made_again_where_it_was() -> N
     collide(driven)
     for _ in range(150):
         driven.simulation.advance_frame()
-    checkpoint = driven.simulation.past.timeline.history.checkpoints[-1].step
+    checkpoint = driven.simulation.past.timeline.history.keyframes[-1].step
     driven.simulation.seek(round(checkpoint / 240 * SECOND))
     driven.ask(spawning('b/0', BOX, (0.2, 6.0, 0.5)))
     for _ in range(120):
@@ -343,7 +343,7 @@ def test_a_request_at_the_step_of_a_checkpoint_is_made_again_where_it_was() -> N
 def test_a_request_at_a_checkpoint_of_the_past_is_made_again_where_it_was() -> None:
     sim = Simulation(settings=FLOOR)
     # A seek comes from the frame before, for its contacts.
-    sim.watch_contacts(True)
+    sim.reports_contacts = True
     # Deep in the floor, so that it goes on otherwise in a space that is built anew.
     sim.perform(spawning('a/0', DISC, (2.4, 0.1, 3.0), velocity=(1.8, 2.7)))
     sim.advance_frame()
@@ -408,7 +408,7 @@ def test_what_changes_nothing_drops_nothing(driven: Driven) -> None:
 @pytest.mark.parametrize('names', [None, 'a/0', 'a/4'])
 def test_what_is_deleted_at_a_checkpoint_is_gone_from_the_contacts(names: str | None) -> None:
     driven = Driven()
-    driven.simulation.watch_contacts(True)
+    driven.simulation.reports_contacts = True
     for number in range(5):
         driven.ask(spawning(f'a/{number}', BOX, (0.0, 0.5 + number, 0.0)))
     for _ in range(3):

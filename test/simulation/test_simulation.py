@@ -317,14 +317,14 @@ def test_reset_returns_to_what_was_loaded_at_time_0() -> None:
         periods(sim, 7)
         sim.requests.submit(spawning('b/0'), topic='~/spawn')
         sim.perform(Configure(changes={'damping': 0.5, 'gravity': (1.0, 1.0)}))
-        sim.watch_contacts(True)
+        sim.reports_contacts = True
         message = sim.reset()
 
         assert message == 'back at the beginning, time 0'
         assert sim.world.step_count == 0
         assert sim.world.digest() == first
         assert sim.world.save() == state
-        assert sim.world.watching
+        assert sim.world.reports_contacts
 
 
 def test_reset_without_a_load_empties_the_world() -> None:
@@ -401,12 +401,12 @@ def test_contacts_come_where_somebody_watches() -> None:
     sim.requests.submit(spawning('a/0', BOX, (0.0, 0.5, 0.0)), topic='~/spawn')
     assert {frame.contacts for frame in periods(sim, 30)} == {None}
 
-    sim.watch_contacts(True)
+    sim.reports_contacts = True
     frames = periods(sim, 30, since=30)
 
     told = [frame.contacts.pairs.tolist() for frame in frames if frame.contacts is not None]
     assert told == [[[0, -1]]] * len(frames)
-    sim.watch_contacts(False)
+    sim.reports_contacts = False
     assert {frame.contacts for frame in periods(sim, 3, since=60)} == {None}
 
 

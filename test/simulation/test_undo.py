@@ -37,7 +37,7 @@ def test_redo_returns_to_where_undo_was_asked_for(driven: Driven) -> None:
 
 
 def test_redo_shows_the_contacts_of_one_frame(driven: Driven) -> None:
-    driven.simulation.watch_contacts(True)
+    driven.simulation.reports_contacts = True
     before = driven.run(1.0, 1.0)[-1].contacts
     driven.ask(spawning('more/0', BOX, (8.0, 18.0, 0.0)))
     driven.apply_requests()
@@ -203,7 +203,7 @@ def test_older_steps_than_are_kept_are_dropped() -> None:
     driven.record(10.0)
     history = driven.simulation.past.timeline.history
     assert history.head - history.oldest == 3 * 240
-    assert len(history.checkpoints) <= 3
+    assert len(history.keyframes) <= 3
     frames = driven.run(-64.0, 0.5)
     assert frames[-1].snapshot.step == history.head - 3 * 240
     driven.assert_same(frames[-1])

@@ -29,7 +29,7 @@ def test_bodies_that_stay_keep_their_contacts_and_others_lose_them() -> None:
     simulation = Simulation(settings=YARD)
     for number in range(3):
         spawn(simulation.world, f'a/{number}', BOX, (3.0 * number, 0.5, 0.0))
-    simulation.watch_contacts(True)
+    simulation.reports_contacts = True
     kept = LastContacts()
     for _ in range(60):
         kept.completed(simulation.advance_frame())

@@ -16,7 +16,7 @@ from unittest import mock
 
 import numpy as np
 from physsim_ros.engine import body_table, checkpoint, pipeline, settings, warm_start
-from physsim_ros.engine.body import REST, RigidBody
+from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.ccd.continuous import ContinuousCollision
 from physsim_ros.engine.joints.joint_set import JointSet
 from physsim_ros.engine.stages import first_touch, half_step
@@ -24,6 +24,7 @@ from physsim_ros.engine.stages.block_solver import BlockSolver
 from physsim_ros.engine.stages.half_step import HalfStep
 from physsim_ros.engine.stages.impact_propagation import ImpactPropagation
 from physsim_ros.engine.stages.resting_damping import RestingDamping
+from physsim_ros.model.transform import REST
 
 Target = tuple[Any, str]
 

@@ -53,7 +53,7 @@ class _Scene:
 
     def __init__(self, sim: Simulation) -> None:
         self._simulation = sim
-        sim.watch_contacts(True)
+        sim.reports_contacts = True
 
     def simulate(self, seconds: int) -> list[Frame]:
         """Return the frames of the next seconds."""

@@ -77,7 +77,7 @@ class Recording:
 
 def frames_until(simulation: Simulation, seconds: float) -> Iterator[Frame]:
     """Yield the frames of a simulation up to a time [s]."""
-    simulation.watch_contacts(True)
+    simulation.reports_contacts = True
     simulation.speed = 1.0
     while simulation.step < seconds * simulation.physics_rate:
         yield simulation.advance_frame()

@@ -16,7 +16,7 @@ from physsim_ros.model.snapshot import Frame
 def car_story() -> list[Frame]:
     """Return the frames of a car that drives on, goes back, and meets a wall that was moved."""
     simulation = scene('drawings/car')
-    simulation.watch_contacts(True)
+    simulation.reports_contacts = True
     wall = Spawn(
         name='wall/0',
         shape=Box(width=0.3, height=1.7),

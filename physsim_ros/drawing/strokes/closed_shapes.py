@@ -34,7 +34,7 @@ from physsim_ros.drawing.strokes.plane import angles, principal_axis
 from physsim_ros.drawing.strokes.polyline import point_of, widened
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.shapes import crosses_itself, is_convex, signed_area
-from physsim_ros.model.transform import cross, Point, turned
+from physsim_ros.model.transform import cross, Point, rotated_each
 
 # Of the forms, only this is no meaning too.
 OVAL = 'oval'
@@ -211,7 +211,7 @@ def roundness(outline: Floats) -> tuple[Floats, float, float, float]:
     away = outline - center
     angle, along, across = principal_axis(away)
     aspect = math.sqrt(max(across / along, 1e-18))
-    x, y = turned(away, -angle).T
+    x, y = rotated_each(away, -angle).T
     radii = np.hypot(x, y / aspect)
     radius = math.sqrt(abs(area) / math.pi)
     return center, radius, float(radii.std() / radii.mean()), aspect

@@ -22,7 +22,7 @@ from physsim_ros.drawing.strokes.plane import (
 )
 from physsim_ros.drawing.strokes.polyline import COUNT, smoothed, spaced
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.transform import turned
+from physsim_ros.model.transform import rotated_each
 
 # The greatest distance of an open stroke from straight sides, root mean square, at which it is no
 # curve; and the tolerance to which a curve is simplified. Both in shares of its size.
@@ -46,9 +46,9 @@ def rectangle(corners: Floats) -> Floats:
     sides = np.roll(corners, -1, axis=0) - corners
     # Sides weigh by their length².
     angle = quarter_heading(sides, dot(sides, sides))
-    local = turned(corners - middle, -angle)
+    local = rotated_each(corners - middle, -angle)
     signs = np.where(local >= 0, 1.0, -1.0)
-    nearest: Floats = middle + turned(signs * np.abs(local).mean(axis=0), angle)
+    nearest: Floats = middle + rotated_each(signs * np.abs(local).mean(axis=0), angle)
     return nearest
 
 
@@ -64,7 +64,7 @@ def rectangle_of(outline: Floats) -> tuple[Floats, float]:
     """
     steps = np.roll(outline, -max(len(outline) // 40, 1), axis=0) - outline
     angle = quarter_heading(steps, np.hypot(steps[:, 0], steps[:, 1]))
-    local = turned(outline, -angle)
+    local = rotated_each(outline, -angle)
     # Left, right, lower and upper side.
     sides = np.concatenate((local.min(axis=0), local.max(axis=0)))[[0, 2, 1, 3]]
     across = local[:, [0, 0, 1, 1]]
@@ -76,7 +76,7 @@ def rectangle_of(outline: Floats) -> tuple[Floats, float]:
     off = np.abs(across - sides).min(axis=1)
     left, right, lower, upper = sides.tolist()
     corners = np.array(((left, lower), (right, lower), (right, upper), (left, upper)))
-    return turned(corners, angle), math.sqrt(float((off**2).mean()))
+    return rotated_each(corners, angle), math.sqrt(float((off**2).mean()))
 
 
 def ellipse(outline: Floats, sides: int) -> Floats:
@@ -87,14 +87,14 @@ def ellipse(outline: Floats, sides: int) -> Floats:
     center = (weights * middles).sum(axis=0) / weights.sum()
     away = outline - center
     angle, *_ = principal_axis(away)
-    local = turned(away, -angle)
+    local = rotated_each(away, -angle)
     angles = np.arange(sides) * 2.0 * math.pi / sides
     # The half axes by which the outline is a unit circle (least squares), at most its reach.
     inverse = np.array(least_squares(local**2, np.ones(len(local))))
     reach = np.abs(local).max(axis=0)
     half = reach / np.sqrt(np.maximum(inverse * reach**2, 1.0))
     circle = np.column_stack((np.cos(angles), np.sin(angles)))
-    corners: Floats = center + turned(circle * half, angle)
+    corners: Floats = center + rotated_each(circle * half, angle)
     return corners
 
 

@@ -11,7 +11,7 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.transform import next_vertices, turned
+from physsim_ros.model.transform import next_vertices, rotated_each
 import pymunk
 
 
@@ -33,8 +33,8 @@ class Hull(NamedTuple):
     def placed_on(self, body: pymunk.Body) -> Hull:
         """Return the hull, given in the frame of a body, in the world."""
         yaw = np.array(body.angle)
-        corners = turned(self.corners, yaw) + np.array(body.position)
-        return Hull(corners, turned(self.normals, yaw), self.radius, self.reach)
+        corners = rotated_each(self.corners, yaw) + np.array(body.position)
+        return Hull(corners, rotated_each(self.normals, yaw), self.radius, self.reach)
 
 
 class Hulls:

@@ -19,7 +19,7 @@ from typing import NamedTuple
 import numpy as np
 from physsim_ros.engine.ccd.hulls import Hull
 from physsim_ros.model.arrays import Flags, Floats, Ints
-from physsim_ros.model.transform import cross, dots, turned
+from physsim_ros.model.transform import cross, dots, rotated_each
 
 # A pair that approaches by less than this share of the lesser inner radius in a step needs no time
 # of impact: each keeps its centre well on the side it came from.
@@ -57,7 +57,7 @@ class Motions:
         lapse = (shares - self.since[rows])[:, None]
         moved = self.rates[rows] * lapse
         pivots = self.pivots[rows] + moved[:, :2]
-        arms = turned(self.poses[rows, :2] - self.pivots[rows], moved[:, 2])
+        arms = rotated_each(self.poses[rows, :2] - self.pivots[rows], moved[:, 2])
         return np.column_stack((pivots + arms, self.poses[rows, 2] + moved[:, 2])), pivots
 
 
@@ -263,5 +263,5 @@ def _stacked(hulls: Sequence[Hull], shapes: Ints) -> _Side:
 def _placed(side: _Side, rows: Ints, poses: Floats) -> _Side:
     """Return hulls where their bodies are."""
     angles = poses[:, 2, None]
-    corners = turned(side.corners[rows], angles) + poses[:, None, :2]
-    return _Side(corners, turned(side.normals[rows], angles))
+    corners = rotated_each(side.corners[rows], angles) + poses[:, None, :2]
+    return _Side(corners, rotated_each(side.normals[rows], angles))

@@ -6,14 +6,14 @@
 from __future__ import annotations
 
 from physsim_ros.engine.body import RigidBody
-from physsim_ros.engine.joints import axle, gear, motor, pin, rod, rope, slider, spring
+from physsim_ros.engine.joints import axle, gear, motor, rod, rope, slider, spring, weld
 from physsim_ros.engine.joints.kind import Ends, EngineJoint, Kind
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.scene import Joint
 import pymunk
 
 KINDS: dict[JointKind, Kind] = {
-    JointKind.PIN: pin.KIND,
+    JointKind.WELD: weld.KIND,
     JointKind.AXLE: axle.KIND,
     JointKind.MOTOR: motor.KIND,
     JointKind.SPRING: spring.KIND,
@@ -27,7 +27,7 @@ KINDS: dict[JointKind, Kind] = {
 def kind_of(joint: Joint) -> Kind:
     """Return the kind of a joint; a slider whose limits are one point is welded there."""
     if joint.kind is JointKind.SLIDER and slider.has_no_way(joint):
-        return pin.KIND
+        return weld.KIND
     return KINDS[joint.kind]
 
 
@@ -54,7 +54,7 @@ def build_joint(
         at_a=(seat.ax - a.offset[0], seat.ay - a.offset[1]),
         at_b=at_b,
     )
-    if a.body.fixed and (b is None or b.body.fixed):
+    if not (a.body.dynamic or (b is not None and b.body.dynamic)):
         return EngineJoint(joint, ends, ())
     built = EngineJoint(joint, ends, tuple(kind_of(joint).constraints(joint, ends)))
     for constraint in built.constraints:

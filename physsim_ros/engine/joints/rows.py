@@ -16,7 +16,7 @@ from collections.abc import Callable
 import numpy as np
 from physsim_ros.engine.joints.kind import Batch
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.transform import turned
+from physsim_ros.model.transform import rotated_each
 
 
 def arms(batch: Batch, a: Floats, b: Floats) -> tuple[Floats, Floats, Floats]:
@@ -25,7 +25,7 @@ def arms(batch: Batch, a: Floats, b: Floats) -> tuple[Floats, Floats, Floats]:
 
     :return: (k, 2) float64 each, world axes
     """
-    arm_a, arm_b = turned(batch.at_a, a[:, 2]), turned(batch.at_b, b[:, 2])
+    arm_a, arm_b = rotated_each(batch.at_a, a[:, 2]), rotated_each(batch.at_b, b[:, 2])
     return arm_a, arm_b, (a[:, :2] + arm_a) - (b[:, :2] + arm_b)
 
 
@@ -72,7 +72,7 @@ def _place_on_line(
 ) -> tuple[Floats, Floats]:
     """Return x = direction . (p_a - p_b), the direction turning with the second body."""
     arm_a, arm_b, apart = arms(batch, a, b)
-    direction = direction_of(turned(batch.axis, b[:, 2]))
+    direction = direction_of(rotated_each(batch.axis, b[:, 2]))
     # The line reaches from the second body to where the first anchor is.
     return dot(direction, apart)[:, None], along(direction, arm_a, arm_b + apart)
 

@@ -22,7 +22,7 @@ from physsim_ros.engine.joints.kind import Batch, Ends, EQUAL, Kind
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.scene import Joint
 from physsim_ros.model.shapes import SMALLEST
-from physsim_ros.model.transform import Point, turned
+from physsim_ros.model.transform import Point, rotated_each
 import pymunk
 from pymunk._chipmunk_cffi import lib
 
@@ -77,8 +77,8 @@ def _rows(batch: Batch, a: Floats, b: Floats) -> tuple[Floats, Floats]:
 def _prepare(batch: Batch, a: Floats, b: Floats) -> None:
     """Put the other end of each `PinJoint` across the line from the anchor."""
     _, arm_b, apart = rows.arms(batch, a, b)
-    across = rows.across(turned(batch.axis, b[:, 2]))
-    anchors = turned(arm_b + apart - across * _ARM, -b[:, 2])
+    across = rows.across(rotated_each(batch.axis, b[:, 2]))
+    anchors = rotated_each(arm_b + apart - across * _ARM, -b[:, 2])
     for pointer, anchor in zip(batch.constraints, anchors.tolist(), strict=True):
         lib.cpPinJointSetAnchorA(pointer, anchor)
 

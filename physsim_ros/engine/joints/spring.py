@@ -95,7 +95,7 @@ def _softness(spring: Joint, bodies: Mapping[str, Body]) -> Iterator[tuple[str, 
     """Yield the dynamic bodies of a spring, and f (1/m + r^2/I) of each [1/kg]."""
     seat = spring.seat
     ends = ((spring.a, seat.ax, seat.ay), (spring.b, seat.bx, seat.by))
-    moving = [each for each in ends if each[0] in bodies and not bodies[each[0]].fixed]
+    moving = [each for each in ends if each[0] in bodies and bodies[each[0]].dynamic]
     for name, x, y in moving:
         body = bodies[name]
         form = body.shape.form

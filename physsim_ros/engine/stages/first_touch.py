@@ -49,7 +49,7 @@ from physsim_ros.engine.step_context import StepContext
 from physsim_ros.engine.tolerances import COLLISION_SLOP
 from physsim_ros.engine.work_correction import are_jointed, take_back_work
 from physsim_ros.model.arrays import Flags, Floats, Ints
-from physsim_ros.model.transform import cross, dots, turned
+from physsim_ros.model.transform import cross, dots, rotated_each
 import pymunk
 
 # Distance from a corner within which overlaps of the slop along two faces lie [m]: the diagonal
@@ -152,16 +152,16 @@ def move_to_impact(touches: Touches, context: StepContext) -> None:
     (begin, end, now), radii = places[:, 1], shapes.radii[:, rows]
     # The way of the disc in the frame that the other shape has where the step ends.
     turns = yaws[2] - yaws[:2]
-    start, stop = now + turned(places[:2, 0] - (begin, end), turns)
+    start, stop = now + rotated_each(places[:2, 0] - (begin, end), turns)
     shares, normals = _first_hits(start, stop, shapes, rows)
     hit = np.isfinite(shares) & (shares > 0.0)
     shares = np.where(hit, shares, 0.0)
     on_other = start + (stop - start) * shares[:, None] - normals * radii[0, :, None]
     # To the yaw of the impact.
     turn = yaws[0] + (yaws[1] - yaws[0]) * shares - yaws[2]
-    outwards = turned(normals, turn)
+    outwards = rotated_each(normals, turn)
     on_disc = places[2, 0] - outwards * radii[0, :, None]
-    on_other = now + turned(on_other - now, turn)
+    on_other = now + rotated_each(on_other - now, turn)
     touches.normals[rows[hit]] = -outwards[hit]
     touches.places[0, rows[hit]], touches.places[1, rows[hit]] = (
         each[hit, None] for each in (on_disc, on_other)
@@ -183,7 +183,7 @@ def _moments(touches: Touches, rows: Ints, context: StepContext) -> tuple[Floats
     twists = np.where(known[..., None], context.twists[table_rows], 0.0)
     poses = np.empty((3, *now.shape))
     poses[0], poses[1], poses[2] = begin, begin + twists * context.dt, now
-    places = poses[..., :2] + turned(shapes.offsets[:, rows], poses[..., 2])
+    places = poses[..., :2] + rotated_each(shapes.offsets[:, rows], poses[..., 2])
     # That a disc turns does not matter.
     return places, np.where(shapes.kinds[1, rows] == memory.CIRCLE, 0.0, poses[:, 1, :, 2])
 

@@ -74,7 +74,7 @@ class MouseJoints:
             held.setdefault(grip.body, []).append(grip)
         for name, grips in held.items():
             rigid = self._bodies[name]
-            if not rigid.body.fixed:
+            if rigid.body.dynamic:
                 _apply_to_body(rigid, grips, context)
 
 

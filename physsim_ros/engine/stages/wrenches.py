@@ -11,8 +11,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from physsim_ros.engine.body import REST, RigidBody
-from physsim_ros.model.transform import Pose
+from physsim_ros.engine.body import RigidBody
+from physsim_ros.model.transform import NO_WRENCH, Wrench
 
 
 class Wrenches:
@@ -21,7 +21,7 @@ class Wrenches:
     def __init__(self) -> None:
         self._acting: dict[str, RigidBody] = {}
 
-    def set_wrench(self, rigid: RigidBody, wrench: Pose, until: int | None) -> None:
+    def set_wrench(self, rigid: RigidBody, wrench: Wrench, until: int | None) -> None:
         """
         Let a wrench act in place of the one before.
 
@@ -29,7 +29,7 @@ class Wrenches:
         :param until: step at which it ends; None is never
         """
         rigid.wrench, rigid.wrench_until = wrench, until
-        if wrench == REST:
+        if wrench == NO_WRENCH:
             self._acting.pop(rigid.body.name, None)
         else:
             self._acting[rigid.body.name] = rigid

@@ -20,7 +20,7 @@ _SCHEMAS: dict[str, JointSchema] = {
 class JointKind(StrEnum):
     """Kinds of joints; the value is the word in markers and world files."""
 
-    PIN = 'pin'
+    WELD = 'pin'
     AXLE = 'axle'
     MOTOR = 'motor'
     SPRING = 'spring'

@@ -13,7 +13,7 @@ from physsim_ros.model.colors import check_color, Color
 from physsim_ros.model.errors import BadProperty, Malformed
 from physsim_ros.model.names import check_body_name
 from physsim_ros.model.shapes import Shape
-from physsim_ros.model.transform import Point, Pose
+from physsim_ros.model.transform import ORIGIN, Point, Pose
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -38,7 +38,7 @@ class Spawn:
 
     name: str
     shape: Shape
-    pose: Pose = (0.0, 0.0, 0.0)
+    pose: Pose = ORIGIN
     frame: str = ''
     color: Color | None = None
     lifetime: float = 0.0

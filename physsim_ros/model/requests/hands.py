@@ -30,7 +30,7 @@ class OfHand:
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Grab(OfHand):
     """
-    Have a hand grab the topmost movable body under a point; it lets go of any other body.
+    Have a hand grab the topmost dynamic body under a point; it lets go of any other body.
 
     :param point: position of the hand [m]
     :param frame: of the point: '' for the world, or a body's name
@@ -46,7 +46,7 @@ class Grab(OfHand):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GrabToPlace(Grab):
-    """`Grab` in a paused world: where no movable body is under the point, any body is grabbed."""
+    """`Grab` in a paused world: where no dynamic body is under the point, any body is grabbed."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -26,7 +26,7 @@ from physsim_ros.model.arrays import Floats
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.scene import Body, Joint, Scene
 from physsim_ros.model.snapshot import Frame, Snapshot
-from physsim_ros.model.transform import turned
+from physsim_ros.model.transform import rotated_each
 from physsim_ros.ros.encoders.cdr import CdrWriter, MessageTemplate, START
 from physsim_ros.ros.encoders.marker_symbols import (
     body_symbols,
@@ -252,4 +252,4 @@ class _JointColumns:
         scene = snapshot.scene
         # The background is the last row.
         yaw = np.append(snapshot.poses[:, 2], 0.0)[scene.joint_rows[self._sliders, 1]]
-        return turned(scene.seats[self._sliders, 4:6], yaw)
+        return rotated_each(scene.seats[self._sliders, 4:6], yaw)

@@ -20,7 +20,7 @@ from physsim_ros.model.snapshot import Answer, Snapshot
 from physsim_ros.simulation.past.frame_segment import CachedFrame, FrameSegment, SegmentReplay
 from physsim_ros.simulation.past.history import History
 from physsim_ros.simulation.past.replay import Replay
-from physsim_ros.simulation.past.tree import Mark
+from physsim_ros.simulation.past.tree import Keyframe
 from physsim_ros.simulation.world import World
 
 # Segments that are never dropped for want of memory: the one that is shown, and the one beside it
@@ -50,9 +50,9 @@ class FrameCache:
         self._frame_steps = frame_steps
         self.budget = budget
         self.size = 0
-        self._segments: dict[Mark, FrameSegment] = {}
+        self._segments: dict[Keyframe, FrameSegment] = {}
         # The first checkpoint of the history, as far as segments before it are dropped.
-        self._first = history.checkpoints[0].moment
+        self._first = history.keyframes[0].moment
         # The step that is shown.
         self._shown = 0
         # Number of bodies in the last frame.
@@ -73,8 +73,8 @@ class FrameCache:
         :param count: of the last ones, at most
         """
         frames: dict[int, CachedFrame] = {}
-        for mark in sorted(self._segments, key=lambda mark: mark.moment, reverse=True):
-            for step, frame in self._segments[mark].frames.items():
+        for keyframe in sorted(self._segments, key=lambda keyframe: keyframe.moment, reverse=True):
+            for step, frame in self._segments[keyframe].frames.items():
                 if step <= end:
                     # The step between two segments is in both.
                     frames.setdefault(step, frame)
@@ -85,8 +85,8 @@ class FrameCache:
     def add_frame(self, frame: CachedFrame) -> None:
         """Add a frame that has just been shown."""
         self._bodies = len(frame.snapshot.poses)
-        mark, _ = self._history.segment(frame.snapshot.step)
-        segment = self._segments.setdefault(mark, FrameSegment())
+        keyframe, _ = self._history.segment(frame.snapshot.step)
+        segment = self._segments.setdefault(keyframe, FrameSegment())
         before = segment.size
         segment.add(frame)
         self.size += segment.size - before
@@ -95,8 +95,8 @@ class FrameCache:
     def with_first_contacts(self, frame: CachedFrame) -> CachedFrame:
         """Return a frame with the contacts that it had when it was shown first, where cached."""
         step = frame.snapshot.step
-        mark, _ = self._history.segment(step)
-        old = self._segments[mark].frames.get(step) if mark in self._segments else None
+        keyframe, _ = self._history.segment(step)
+        old = self._segments[keyframe].frames.get(step) if keyframe in self._segments else None
         if old is None or old.contacts is None or not _same(old.snapshot, frame.snapshot):
             return frame
         return CachedFrame(frame.snapshot, old.contacts)
@@ -105,47 +105,47 @@ class FrameCache:
         """Drop the frames from a step on, where another course begins, and return them."""
         self._segment_replay = None
         dropped: list[CachedFrame] = []
-        for mark in [mark for mark in self._segments if mark.step >= step]:
-            dropped += self._segments.pop(mark).frames.values()
+        for keyframe in [keyframe for keyframe in self._segments if keyframe.step >= step]:
+            dropped += self._segments.pop(keyframe).frames.values()
         for segment in self._segments.values():
             dropped += segment.pop_from(step)
         self._count_size()
         return dropped
 
-    def cached_frame(self, step: int, *, watching: bool) -> CachedFrame | None:
+    def cached_frame(self, step: int, *, reports_contacts: bool) -> CachedFrame | None:
         """
         Return the frame of a step; None where it is not cached, or out of the history.
 
-        :param watching: whether with contacts
+        :param reports_contacts: whether with contacts
         """
         if not self._history.oldest <= step <= self._history.head:
             return None
-        mark, _ = self._history.segment(step)
-        segment = self._segments.get(mark)
-        if segment is None or not segment.has(step, watching=watching):
+        keyframe, _ = self._history.segment(step)
+        segment = self._segments.get(keyframe)
+        if segment is None or not segment.has(step, reports_contacts=reports_contacts):
             return None
         return segment.frames[step].copy()
 
     def frame_at(
-        self, step: int, *, watching: bool, is_overdue: Callable[[], bool]
+        self, step: int, *, reports_contacts: bool, is_overdue: Callable[[], bool]
     ) -> CachedFrame | None:
         """
         Return the frame of a step.
 
-        :param watching: whether with contacts
+        :param reports_contacts: whether with contacts
         :param is_overdue: whether its replay is to go on another time
         :return: None where it is not replayed yet
         """
-        cached = self.cached_frame(step, watching=watching)
+        cached = self.cached_frame(step, reports_contacts=reports_contacts)
         if cached is not None:
             return cached
-        mark, end = self._history.segment(step)
+        keyframe, end = self._history.segment(step)
         stride = self._frame_steps if step == end or step % self._frame_steps == 0 else 1
-        replay = self._begin_segment(mark, end, stride, watching=watching)
-        replay.replay_steps(end - mark.step, is_overdue)
+        replay = self._begin_segment(keyframe, end, stride, reports_contacts=reports_contacts)
+        replay.replay_steps(end - keyframe.step, is_overdue)
         if replay.steps_left:
             return None
-        self._keep_replayed(mark, replay.segment)
+        self._keep_replayed(keyframe, replay.segment)
         self._evict(step)
         return replay.segment.frames[step].copy()
 
@@ -155,7 +155,7 @@ class FrameCache:
         steps: int,
         *,
         fine: bool,
-        watching: bool,
+        reports_contacts: bool,
         is_overdue: Callable[[], bool],
     ) -> None:
         """
@@ -164,51 +164,53 @@ class FrameCache:
         :param step: that is shown now
         :param steps: to the one that is shown next
         :param fine: whether every step is shown
-        :param watching: whether with contacts
+        :param reports_contacts: whether with contacts
         :param is_overdue: whether the rest is to be replayed another time
         """
         stride = 1 if fine else self._frame_steps
         # At whole speeds all frames but the first, which may be shorter, go by as many steps.
         apart = 1 if fine else -(-steps // stride) * stride
-        gap = self._missing_step(step, apart, watching=watching)
+        gap = self._missing_step(step, apart, reports_contacts=reports_contacts)
         if gap is None:
             return
-        mark, end = self._history.segment(gap)
-        replay = self._begin_segment(mark, end, stride, watching=watching)
+        keyframe, end = self._history.segment(gap)
+        replay = self._begin_segment(keyframe, end, stride, reports_contacts=reports_contacts)
         frames_left = max(1, (step - gap) // max(1, steps))
         replay.replay_steps(-(-replay.steps_left // frames_left), is_overdue)
         if replay.steps_left == 0:
-            self._keep_replayed(mark, replay.segment)
+            self._keep_replayed(keyframe, replay.segment)
             self._evict(step)
 
-    def _missing_step(self, step: int, apart: int, *, watching: bool) -> int | None:
+    def _missing_step(self, step: int, apart: int, *, reports_contacts: bool) -> int | None:
         """
         Return the first step that this segment and the one before do not have; None is none.
 
         :param step: from which on, backward
         :param apart: from one step that is shown to the next
         """
-        mark, _ = self._history.segment(step)
-        before, _ = self._history.segment(mark.step)
+        keyframe, _ = self._history.segment(step)
+        before, _ = self._history.segment(keyframe.step)
         for number in range(step - apart, before.step, -apart):
-            segment = self._segments.get(mark if number > mark.step else before)
-            if segment is None or not segment.has(number, watching=watching):
+            segment = self._segments.get(keyframe if number > keyframe.step else before)
+            if segment is None or not segment.has(number, reports_contacts=reports_contacts):
                 return number
         return None
 
     def _begin_segment(
-        self, mark: Mark, end: int, stride: int, *, watching: bool
+        self, keyframe: Keyframe, end: int, stride: int, *, reports_contacts: bool
     ) -> SegmentReplay:
         """Begin the replay of a segment, or return the one under way if it has what is asked."""
         replay = self._segment_replay
-        if replay is None or not replay.suits(mark, end, stride, watching=watching):
-            self._replay.world.watching = watching
-            replay = self._segment_replay = SegmentReplay(self._replay, mark, end, stride)
+        if replay is None or not replay.suits(
+            keyframe, end, stride, reports_contacts=reports_contacts
+        ):
+            self._replay.world.reports_contacts = reports_contacts
+            replay = self._segment_replay = SegmentReplay(self._replay, keyframe, end, stride)
         return replay
 
-    def _keep_replayed(self, mark: Mark, segment: FrameSegment) -> None:
+    def _keep_replayed(self, keyframe: Keyframe, segment: FrameSegment) -> None:
         """Keep the frames of a replay that has come to its end."""
-        self._segments[mark] = segment
+        self._segments[keyframe] = segment
         self._segment_replay = None
         self._count_size()
 
@@ -218,11 +220,11 @@ class FrameCache:
     def _evict(self, step: int) -> None:
         """Drop the segments that the history has no more, and more of them until all fit."""
         self._shown = step
-        first = self._history.checkpoints[0].moment
+        first = self._history.keyframes[0].moment
         if first != self._first:
             self._first = first
-            for mark in [mark for mark in self._segments if mark.moment < first]:
-                del self._segments[mark]
+            for keyframe in [keyframe for keyframe in self._segments if keyframe.moment < first]:
+                del self._segments[keyframe]
             self._count_size()
         poses = self._history.length // self._frame_steps * self._bodies
         budget = min(self.budget, poses * _BODY)
@@ -240,8 +242,10 @@ class FrameCache:
         """
         if len(self._segments) <= _LEAST_SEGMENTS:
             return 0
-        marks = sorted(self._segments, key=lambda mark: mark.moment)
-        last = self._segments.pop(marks[-1] if marks[-1].step > self._shown else marks[0])
+        keyframes = sorted(self._segments, key=lambda keyframe: keyframe.moment)
+        last = self._segments.pop(
+            keyframes[-1] if keyframes[-1].step > self._shown else keyframes[0]
+        )
         self.size -= last.size
         return last.size
 

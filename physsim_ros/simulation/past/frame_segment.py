@@ -18,7 +18,7 @@ from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Contacts, Snapshot
 from physsim_ros.simulation.past.memory_size import frame_size, scene_size
 from physsim_ros.simulation.past.replay import Replay
-from physsim_ros.simulation.past.tree import Mark
+from physsim_ros.simulation.past.tree import Keyframe
 
 
 class CachedFrame(NamedTuple):
@@ -78,10 +78,10 @@ class FrameSegment:
             self.size = size_of_frames(self.frames.values())
         return popped
 
-    def has(self, step: int, *, watching: bool) -> bool:
-        """Return whether it has the frame of a step, with contacts if `watching`."""
+    def has(self, step: int, *, reports_contacts: bool) -> bool:
+        """Return whether it has the frame of a step, with contacts if `reports_contacts`."""
         frame = self.frames.get(step)
-        return frame is not None and (frame.contacts is not None or not watching)
+        return frame is not None and (frame.contacts is not None or not reports_contacts)
 
 
 class SegmentReplay:
@@ -89,28 +89,28 @@ class SegmentReplay:
     The replay of a segment.
 
     :param replay: that makes the steps
-    :param mark: the checkpoint it begins with
+    :param keyframe: the checkpoint it begins with
     :param end: its last step
     :param stride: steps from one frame to the next
     """
 
-    def __init__(self, replay: Replay, mark: Mark, end: int, stride: int) -> None:
-        self.mark = mark
+    def __init__(self, replay: Replay, keyframe: Keyframe, end: int, stride: int) -> None:
+        self.keyframe = keyframe
         self.segment = FrameSegment()
         self._replay = replay
         self._end = end
         self._stride = stride
-        self._watching = replay.world.watching
-        replay.resume(mark)
-        replay.replay_shown(mark.step)
+        self._reports_contacts = replay.world.reports_contacts
+        replay.resume(keyframe)
+        replay.replay_shown(keyframe.step)
         # Its step may have been shown before the requests that it follows.
-        if replay.serial == replay.history.serial_shown_at(mark.step):
+        if replay.serial == replay.history.serial_shown_at(keyframe.step):
             self._add_frame()
 
-    def suits(self, mark: Mark, end: int, stride: int, *, watching: bool) -> bool:
+    def suits(self, keyframe: Keyframe, end: int, stride: int, *, reports_contacts: bool) -> bool:
         """Return whether it goes from a checkpoint to a step, with all frames of a stride."""
-        same = self.mark == mark and self._end == end
-        return same and self._stride <= stride and (self._watching or not watching)
+        same = self.keyframe == keyframe and self._end == end
+        return same and self._stride <= stride and (self._reports_contacts or not reports_contacts)
 
     @property
     def steps_left(self) -> int:
@@ -134,5 +134,5 @@ class SegmentReplay:
         world = self._replay.world
         snapshot = world.snapshot()
         self.segment.add(
-            CachedFrame(snapshot, world.contacts(snapshot) if world.watching else None)
+            CachedFrame(snapshot, world.contacts(snapshot) if world.reports_contacts else None)
         )

@@ -16,7 +16,7 @@ from itertools import pairwise
 
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
 from physsim_ros.model.requests import Request
-from physsim_ros.simulation.past.tree import Mark, Moment, Node, Tree
+from physsim_ros.simulation.past.tree import Keyframe, Moment, Node, Tree
 
 
 class History:
@@ -30,7 +30,7 @@ class History:
         is due [bytes]: what lies after a checkpoint can be dropped only together with it
 
     :ivar nodes: the requests, the root first
-    :ivar checkpoints: those of its nodes, oldest first; a line that runs on where another one has
+    :ivar keyframes: those of its nodes, oldest first; a line that runs on where another one has
         run before has the checkpoints ahead, too
     :ivar head: the last step that was reached
     :ivar shown: the moment that is shown; the checkpoint that it is replayed from is not dropped
@@ -43,7 +43,7 @@ class History:
         self.shown = (0, 0)
         self.head = 0
         self.nodes: list[Node] = []
-        self.checkpoints: list[Mark] = []
+        self.keyframes: list[Keyframe] = []
         self._length = length
         self.spacing = spacing
         # Serials of the first request of each gesture.
@@ -66,7 +66,7 @@ class History:
     @property
     def oldest(self) -> int:
         """Return the oldest step that can be gone back to."""
-        root, first = self.nodes[0], self.checkpoints[0].step
+        root, first = self.nodes[0], self.keyframes[0].step
         # Its request was dropped; the step was shown without it.
         begins_later = root.step == first and not root.shown
         return min(self.head, max(first + begins_later, self.head - self._length))
@@ -106,31 +106,31 @@ class History:
         place = bisect_left(self.nodes, not_shown, key=lambda each: (each.step, not each.shown))
         return self._first + max(0, place - 1)
 
-    def checkpoint_before(self, step: int, serial: int) -> Mark:
+    def keyframe_before(self, step: int, serial: int) -> Keyframe:
         """Return the last checkpoint from which a moment can be reached."""
-        place = bisect_right(self.checkpoints, (step, serial), key=lambda each: each.moment)
-        return self.checkpoints[place - 1]
+        place = bisect_right(self.keyframes, (step, serial), key=lambda each: each.moment)
+        return self.keyframes[place - 1]
 
-    def checkpoint_at(self, step: int, serial: int) -> Mark | None:
+    def keyframe_at(self, step: int, serial: int) -> Keyframe | None:
         """Return the checkpoint of exactly that moment; None is none."""
-        mark = self.checkpoint_before(step, serial)
-        return mark if mark.moment == (step, serial) else None
+        keyframe = self.keyframe_before(step, serial)
+        return keyframe if keyframe.moment == (step, serial) else None
 
-    def segment(self, step: int) -> tuple[Mark, int]:
+    def segment(self, step: int) -> tuple[Keyframe, int]:
         """Return the checkpoint before a step, and the step of the next one, or the last step."""
-        place = bisect_left(self.checkpoints, step, key=lambda each: each.step)
-        first = self.checkpoints[max(0, place - 1)]
+        place = bisect_left(self.keyframes, step, key=lambda each: each.step)
+        first = self.keyframes[max(0, place - 1)]
         end = self.head
-        if place < len(self.checkpoints):
-            end = min(end, self.checkpoints[place].step)
+        if place < len(self.keyframes):
+            end = min(end, self.keyframes[place].step)
         return first, max(step, end)
 
     def next_stop(self, step: int, end: int) -> int:
         """Return the next step at which there is a request or a checkpoint, or the end."""
-        place = bisect_right(self.checkpoints, step, key=lambda each: each.step)
-        if place < len(self.checkpoints):
-            end = min(end, self.checkpoints[place].step)
-        elif (due := self.checkpoints[-1].step + self.spacing) > step:
+        place = bisect_right(self.keyframes, step, key=lambda each: each.step)
+        if place < len(self.keyframes):
+            end = min(end, self.keyframes[place].step)
+        elif (due := self.keyframes[-1].step + self.spacing) > step:
             # However the steps are counted out, a checkpoint comes at the same.
             end = min(end, due)
         place = bisect_right(self.nodes, step, key=lambda each: each.step)
@@ -138,14 +138,14 @@ class History:
 
     def is_checkpoint_due(self, step: int) -> bool:
         """Return whether a checkpoint is due at the tip; a loaded state begins with one."""
-        last = self.checkpoints[-1]
+        last = self.keyframes[-1]
         long = step - last.step >= self.spacing or self.is_log_long
         return long or self.tip.loaded.serial > last.serial
 
     @property
     def is_log_long(self) -> bool:
         """Whether the requests after the last checkpoint take so much that the next is due."""
-        last = self.node(self.checkpoints[-1].serial)
+        last = self.node(self.keyframes[-1].serial)
         return self.tip.total - last.total > self.log_limit
 
     def lies_ahead(self, step: int, serial: int) -> bool:
@@ -180,7 +180,7 @@ class History:
         """
         if tip not in self._partings:
             kept, apart = self._apart(tip)
-            root = self.checkpoints[0]
+            root = self.keyframes[0]
             lost = kept == 0 or (kept == 1 and apart and apart[0].after < root.step)
             steps = [each[0].step for each in (self.nodes[kept:], apart) if each]
             self._partings[tip] = None if lost else min(steps, default=self.head)
@@ -200,10 +200,10 @@ class History:
 
     # Changing
 
-    def begin(self, state: WorldState, key: Checkpoint, digest: str) -> None:
+    def begin(self, state: WorldState, checkpoint: Checkpoint, digest: str) -> None:
         """Begin a world with a state, at time 0."""
         root = self.tree.add_root(state)
-        self.tree.add_mark(root, Mark(0, 0, key, digest), None)
+        self.tree.add_keyframe(root, Keyframe(0, 0, checkpoint, digest), None)
         self.follow(root, 0)
 
     def follow(self, tip: Node, head: int) -> int:
@@ -223,16 +223,18 @@ class History:
         if left:
             self._openings.clear()
         if not kept:
-            self.checkpoints.clear()
+            self.keyframes.clear()
         for node in self.nodes if left else apart:
             self._openings[node.gesture] = node.opening
         # Those of the last node in common depend on the one that follows.
         last = max(0, kept - 1)
-        while self.checkpoints and self.checkpoints[-1].serial >= self.nodes[last].serial:
-            self.checkpoints.pop()
+        while self.keyframes and self.keyframes[-1].serial >= self.nodes[last].serial:
+            self.keyframes.pop()
         for node, following in pairwise(self.nodes[last:]):
-            self.checkpoints += [mark for mark in node.marks if mark.step <= following.after]
-        self.checkpoints += tip.marks
+            self.keyframes += [
+                keyframe for keyframe in node.keyframes if keyframe.step <= following.after
+            ]
+        self.keyframes += tip.keyframes
         self._partings.clear()
         steps = [head, *(each[0].step for each in (left, apart) if each)]
         self.head = head
@@ -254,12 +256,12 @@ class History:
         self.follow(node, step)
         return node
 
-    def add_checkpoint(self, moment: Moment, key: Checkpoint, digest: str) -> Mark:
+    def add_keyframe(self, moment: Moment, checkpoint: Checkpoint, digest: str) -> Keyframe:
         """Add a checkpoint at the tip, as the last."""
-        mark = Mark(*moment, key, digest)
-        mark = self.tree.add_mark(self.tip, mark, self.checkpoints[-1].key)
-        self.checkpoints.append(mark)
-        return mark
+        keyframe = Keyframe(*moment, checkpoint, digest)
+        keyframe = self.tree.add_keyframe(self.tip, keyframe, self.keyframes[-1].checkpoint)
+        self.keyframes.append(keyframe)
+        return keyframe
 
     def note_step(self, step: int) -> None:
         """Note that the world has reached a step."""
@@ -280,24 +282,24 @@ class History:
     def _drop_old(self) -> None:
         """Drop checkpoints older than `length`, but for the last one before the oldest step."""
         oldest = self.head - self._length
-        old = bisect_right(self.checkpoints, oldest, key=lambda each: each.step) - 1
+        old = bisect_right(self.keyframes, oldest, key=lambda each: each.step) - 1
         if old > 0:
             self._drop_before(old)
 
     def drop_oldest(self) -> bool:
         """Drop the oldest checkpoint and the requests up to the next one, if it can be spared."""
-        if len(self.checkpoints) == 1 or self.checkpoints[1].moment > self.shown:
+        if len(self.keyframes) == 1 or self.keyframes[1].moment > self.shown:
             return False
         self._drop_before(1)
         return True
 
     def _drop_before(self, place: int) -> None:
         """Drop the checkpoints before one of them, and the requests up to it."""
-        mark = self.checkpoints[place]
-        root = self.node(mark.serial)
-        del self.checkpoints[:place]
+        keyframe = self.keyframes[place]
+        root = self.node(keyframe.serial)
+        del self.keyframes[:place]
         del self.nodes[: root.serial - self._first]
-        self.tree.make_root(root, mark)
+        self.tree.make_root(root, keyframe)
         # Of a gesture that began before, the beginning remains known.
         self._openings = {each.gesture: each.opening for each in self.nodes}
         self._partings.clear()

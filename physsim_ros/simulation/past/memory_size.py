@@ -103,19 +103,26 @@ def state_size(state: WorldState) -> int:
     return size
 
 
-def checkpoint_size(key: Checkpoint, before: Checkpoint | None = None) -> int:
+def checkpoint_size(checkpoint: Checkpoint, before: Checkpoint | None = None) -> int:
     """
     Return the memory of a checkpoint.
 
     :param before: the one before, with which it may share the scene
     """
-    memory = key.memory
-    arrays = (key.state, key.free, memory.ids, memory.pairs, memory.hashes, memory.impulses)
+    memory = checkpoint.memory
+    arrays = (
+        checkpoint.state,
+        checkpoint.free,
+        memory.ids,
+        memory.pairs,
+        memory.hashes,
+        memory.impulses,
+    )
     size = _CHECKPOINT + _nbytes((*arrays, memory.joints))
-    size += _WRENCH * len(key.wrenches) + _NAME * len(key.unstepped)
-    if before is None or before.scene is not key.scene:
-        # The digest of a checkpoint makes the scene's key.
-        size += scene_size(key.scene) + len(key.scene.key)
+    size += _WRENCH * len(checkpoint.wrenches) + _NAME * len(checkpoint.unstepped)
+    if before is None or before.scene is not checkpoint.scene:
+        # The digest of a checkpoint makes the scene's checkpoint.
+        size += scene_size(checkpoint.scene) + len(checkpoint.scene.key)
     return size
 
 

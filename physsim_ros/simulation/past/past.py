@@ -86,17 +86,17 @@ class Past:
         self.course = self._courses = 1
         self._era = 0
         # The oldest checkpoint when lines were looked through that part before it.
-        self._oldest = history.checkpoints[0]
+        self._oldest = history.keyframes[0]
         self._answers: list[Answer] = []
 
     @property
-    def watching(self) -> bool:
-        """Return whether contacts are recorded."""
-        return self.timeline.watching
+    def reports_contacts(self) -> bool:
+        """Return whether contacts are reported."""
+        return self.timeline.reports_contacts
 
-    @watching.setter
-    def watching(self, watching: bool) -> None:
-        self.timeline.watch_contacts(watching)
+    @reports_contacts.setter
+    def reports_contacts(self, reports_contacts: bool) -> None:
+        self.timeline.reports_contacts = reports_contacts
 
     def steps_in(self, seconds: float) -> int:
         """Return the number of steps in a simulation time [s]."""
@@ -397,8 +397,8 @@ class Past:
     def _drop_lost(self) -> None:
         """Drop lines that part from the one in force before the oldest checkpoint."""
         history = self.timeline.history
-        if self._oldest is not history.checkpoints[0]:
-            self._oldest = history.checkpoints[0]
+        if self._oldest is not history.keyframes[0]:
+            self._oldest = history.keyframes[0]
             self._lines.drop_where(
                 lambda line: line.era == self._era and history.parting(line.tip) is None
             )

@@ -15,7 +15,7 @@ from collections.abc import Callable
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.past.history import History
-from physsim_ros.simulation.past.tree import Mark, Moment
+from physsim_ros.simulation.past.tree import Keyframe, Moment
 from physsim_ros.simulation.world import World
 
 
@@ -50,15 +50,15 @@ class Replay:
         told, self._reports = self._reports, []
         return told
 
-    def resume(self, mark: Mark, *, going_over: bool = False) -> None:
+    def resume(self, keyframe: Keyframe, *, going_over: bool = False) -> None:
         """
         Go to a checkpoint.
 
         :param going_over: whether the world is at that moment now, with the same bits
         """
-        self._world.resume(mark.key, going_over=going_over)
-        self.serial = mark.serial
-        self._resumed = mark.moment
+        self._world.resume(keyframe.checkpoint, going_over=going_over)
+        self.serial = keyframe.serial
+        self._resumed = keyframe.moment
 
     def replay_to(
         self, step: int, serial: int, is_overdue: Callable[[], bool] = lambda: False
@@ -123,14 +123,14 @@ class Replay:
 
     def _enter_checkpoint(self) -> None:
         """Go over into the space of the checkpoint of this moment, if there is one."""
-        mark = self.history.checkpoint_at(*self.moment)
-        if mark is not None and self._resumed != mark.moment:
-            self.resume(mark, going_over=self.check_digest())
+        keyframe = self.history.keyframe_at(*self.moment)
+        if keyframe is not None and self._resumed != keyframe.moment:
+            self.resume(keyframe, going_over=self.check_digest())
 
     def check_digest(self) -> bool:
         """Return whether the digest is that of the checkpoint of this moment; report if not."""
-        mark = self.history.checkpoint_at(*self.moment)
-        same = mark is None or self._world.digest() == mark.digest
+        keyframe = self.history.keyframe_at(*self.moment)
+        same = keyframe is None or self._world.digest() == keyframe.digest
         if not same:
             seconds = self._world.step_count * self._world.dt
             self._report('divergence', f'{seconds:.3f} s was reached with other bits than before')

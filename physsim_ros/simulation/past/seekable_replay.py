@@ -66,9 +66,9 @@ class SeekableReplay(Replay):
         if self._seek is None:
             return self._world.settings
         goal = self._seek.goal
-        mark = self.history.checkpoint_before(*goal)
-        settings = mark.key.scene.settings
-        for node in self.history.nodes_between(mark.serial, goal[1]):
+        keyframe = self.history.keyframe_before(*goal)
+        settings = keyframe.checkpoint.scene.settings
+        for node in self.history.nodes_between(keyframe.serial, goal[1]):
             match node.request:
                 case Configure(changes=changes):
                     settings = replace(settings, **changes)
@@ -112,12 +112,12 @@ class SeekableReplay(Replay):
         begin = max(history.oldest, step - (step % frame or frame))
         start = begin, history.serial_shown_at(begin)
         first = (step, serial)
-        if self._world.watching:
+        if self._world.reports_contacts:
             first = min(first, start)
-        mark = history.checkpoint_before(*first)
+        keyframe = history.keyframe_before(*first)
         # A seek that this one takes the place of has come to a moment of the history, too.
-        if elsewhere or not mark.moment <= super().moment <= first:
-            self.resume(mark)
+        if elsewhere or not keyframe.moment <= super().moment <= first:
+            self.resume(keyframe)
         self._seek = _Seek(min(start, (step, serial)), (step, serial), with_contacts)
 
     def continue_seek(self, is_overdue: Callable[[], bool] = lambda: False) -> bool:

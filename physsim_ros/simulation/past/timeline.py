@@ -48,19 +48,19 @@ class Timeline(SeekableReplay):
             physics_rate=old.physics_rate, frame_steps=old.frame_steps, settings=state.settings
         )
         world.apply(Restore(state=state))
-        world.watching = old.watching
+        world.reports_contacts = old.reports_contacts
         self._world, self._seek, self.serial = world, None, 0
         self.history.begin(state, world.renew(), world.digest())
         self._resumed = self.moment
 
     @property
-    def watching(self) -> bool:
-        """Return whether contacts are recorded."""
-        return self._world.watching
+    def reports_contacts(self) -> bool:
+        """Return whether contacts are reported."""
+        return self._world.reports_contacts
 
-    def watch_contacts(self, watching: bool) -> None:  # noqa: FBT001 - a state, not a mode
-        """Record contacts from now on, or not."""
-        self._world.watching = watching
+    @reports_contacts.setter
+    def reports_contacts(self, reports_contacts: bool) -> None:
+        self._world.reports_contacts = reports_contacts
 
     def apply(self, request: Request, gesture: int) -> Done:
         """
@@ -77,7 +77,7 @@ class Timeline(SeekableReplay):
             self.serial += 1
             if self.history.is_log_long:
                 # A paused world, too, can drop what is old.
-                self.add_checkpoint()
+                self.add_keyframe()
         return done
 
     @property
@@ -121,10 +121,7 @@ class Timeline(SeekableReplay):
         :return: whether the world is at the same moment as before
         """
         history = self.history
-        if (
-            self.world.step_count >= history.oldest
-            and self.moment >= history.checkpoints[0].moment
-        ):
+        if self.world.step_count >= history.oldest and self.moment >= history.keyframes[0].moment:
             return True
         self.seek(history.oldest)
         return False
@@ -140,7 +137,7 @@ class Timeline(SeekableReplay):
         """
         differs = self.history.follow(tip, head)
         step, serial = max(moment[0], self.history.oldest), moment[1]
-        first = self.history.checkpoints[0]
+        first = self.history.keyframes[0]
         if serial is None or step != moment[0] or (step, serial) < first.moment:
             serial = self.history.serial_shown_at(step)
         self.seek_moment(step, serial, elsewhere=True)
@@ -193,13 +190,13 @@ class Timeline(SeekableReplay):
         due = self.history.is_checkpoint_due(step) or (
             self._resumed is not None and self._resumed[0] == step
         )
-        if due and self.history.checkpoint_at(*self.moment) is None:
-            self.add_checkpoint()
+        if due and self.history.keyframe_at(*self.moment) is None:
+            self.add_keyframe()
 
-    def add_checkpoint(self) -> None:
+    def add_keyframe(self) -> None:
         """Make a checkpoint now, the last of the history, and go on from it."""
-        key, digest = self.world.renew(), self.world.digest()
-        self._resumed = self.history.add_checkpoint(self.moment, key, digest).moment
+        checkpoint, digest = self.world.renew(), self.world.digest()
+        self._resumed = self.history.add_keyframe(self.moment, checkpoint, digest).moment
 
     def build_ahead(self, steps: int) -> None:
         """Build the share of bodies for the next checkpoint that falls to so many steps."""

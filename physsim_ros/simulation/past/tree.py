@@ -68,20 +68,20 @@ from physsim_ros.simulation.past.memory_size import checkpoint_size, RequestSize
 Moment = tuple[int, int]
 
 
-class Mark(NamedTuple):
+class Keyframe(NamedTuple):
     """
     A checkpoint and its moment.
 
     :ivar step: of the checkpoint
     :ivar serial: number of requests made until then
-    :ivar key: the checkpoint
+    :ivar checkpoint: at that moment
     :ivar digest: of the world then
     :ivar size: memory that it takes [bytes]
     """
 
     step: int
     serial: int
-    key: Checkpoint
+    checkpoint: Checkpoint
     digest: str
     size: int = 0
 
@@ -123,7 +123,7 @@ class Node:
         in the next frame
 
     :ivar end: the last step that was reached before another request
-    :ivar marks: checkpoints up to there
+    :ivar keyframes: checkpoints up to there
     :ivar users: number of children, and of lines that end with it
     """
 
@@ -140,7 +140,7 @@ class Node:
     total: int = 0
     shown: bool = False
     end: int = field(init=False)
-    marks: list[Mark] = field(default_factory=list)
+    keyframes: list[Keyframe] = field(default_factory=list)
     users: int = 0
 
     def __post_init__(self) -> None:
@@ -175,12 +175,12 @@ class Tree:
     ) -> Node:
         """Return a new node, after the checkpoints that its parent has up to a step."""
         serial, size = parent.serial + 1, self._sizes.size_of(request)
-        marks = [mark.step for mark in parent.marks if mark.step <= step]
+        keyframes = [keyframe.step for keyframe in parent.keyframes if keyframe.step <= step]
         node = Node(
             parent=parent,
             serial=serial,
             step=step,
-            after=marks[-1] if marks else -1,
+            after=keyframes[-1] if keyframes else -1,
             request=request,
             gesture=gesture,
             opening=opening,
@@ -195,16 +195,16 @@ class Tree:
         self.size += size
         return node
 
-    def add_mark(self, node: Node, mark: Mark, before: Checkpoint | None) -> Mark:
+    def add_keyframe(self, node: Node, keyframe: Keyframe, before: Checkpoint | None) -> Keyframe:
         """
         Add a checkpoint to a node, as its last; return it with its size.
 
         :param before: the checkpoint before, with which it may share the scene
         """
-        mark = mark._replace(size=checkpoint_size(mark.key, before))
-        node.marks.append(mark)
-        self.size += mark.size
-        return mark
+        keyframe = keyframe._replace(size=checkpoint_size(keyframe.checkpoint, before))
+        node.keyframes.append(keyframe)
+        self.size += keyframe.size
+        return keyframe
 
     def hold(self, node: Node) -> None:
         """Note that a line ends with a node."""
@@ -216,14 +216,14 @@ class Tree:
             node.users -= 1
             if node.users:
                 return
-            self.size -= node.size + sum(mark.size for mark in node.marks)
+            self.size -= node.size + sum(keyframe.size for keyframe in node.keyframes)
             node = node.parent
 
-    def make_root(self, node: Node, mark: Mark) -> None:
+    def make_root(self, node: Node, keyframe: Keyframe) -> None:
         """Have a node begin at one of its checkpoints; drop what lies before on its line."""
-        place = node.marks.index(mark)
-        self.size -= node.size + sum(each.size for each in node.marks[:place])
-        del node.marks[:place]
+        place = node.keyframes.index(keyframe)
+        self.size -= node.size + sum(each.size for each in node.keyframes[:place])
+        del node.keyframes[:place]
         parent, node.parent, node.size = node.parent, None, 0
         node.request = Restore(state=node.loaded.state)
         self.release(parent)

@@ -12,7 +12,6 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from physsim_ros.engine.body import REST
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checks import HEAVIEST, LIGHTEST
 from physsim_ros.model.colors import color_of
@@ -21,10 +20,10 @@ from physsim_ros.model.requests import Spawn
 from physsim_ros.model.robots import check_namespace
 from physsim_ros.model.scene import Body
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.transform import Pose
+from physsim_ros.model.transform import REST, Twist
 
 
-def new_body(request: Spawn, settings: WorldSettings, expires: int | None) -> tuple[Body, Pose]:
+def new_body(request: Spawn, settings: WorldSettings, expires: int | None) -> tuple[Body, Twist]:
     """
     Return the body of a request, and its twist.
 
@@ -97,7 +96,7 @@ def _check_role(body: Body) -> None:
     check_namespace(body.robot.namespace_of(body.name), 'namespace')
 
 
-def changed_twist(body: Body, twist: Pose, properties: Properties) -> Pose:
+def changed_twist(body: Body, twist: Twist, properties: Properties) -> Twist:
     """
     Return the twist of a body with other properties.
 

@@ -14,7 +14,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
-from physsim_ros.engine.body import REST, RigidBody
+from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.space import Space
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.body_properties import Properties
@@ -34,7 +34,7 @@ from physsim_ros.model.requests import (
     Spawn,
 )
 from physsim_ros.model.scene import Body
-from physsim_ros.model.transform import Point, Pose
+from physsim_ros.model.transform import ORIGIN, Point, Pose, REST
 from physsim_ros.simulation.world import joint_requests
 from physsim_ros.simulation.world.body_description import (
     changed_body,
@@ -97,7 +97,7 @@ def command(live: LiveSpace, request: Command) -> Done:
     for rigid in rigids:
         check_command(rigid.body, request)
     # Twists and wrenches are of the world, but a frame that there is not is a mistake.
-    pose_in_world(space, REST, request.frame)
+    pose_in_world(space, ORIGIN, request.frame)
     poses = [pose_in_world(space, pose, request.frame) for pose in _tuples(request.poses)]
     _set_poses(live, rigids, poses)
     for rigid, twist in zip(rigids, _tuples(request.twists), strict=False):
@@ -188,7 +188,7 @@ def _delete(space: Space, names: tuple[str, ...], field: str) -> Done:
     return _done('deleted', names)
 
 
-def _tuples(rows: Floats) -> Iterator[Pose]:
+def _tuples(rows: Floats) -> Iterator[tuple[float, float, float]]:
     """Return rows of three numbers as tuples."""
     return ((x, y, z) for x, y, z in rows.tolist())
 

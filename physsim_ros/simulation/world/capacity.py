@@ -204,10 +204,10 @@ def _count(
     bodies = [body for body, _ in placed]
     shapes, poses = _columns(placed)
     some = [first is None or body.name in first for body in bodies]
-    fixed = np.array([body.anchored for body in bodies], np.bool_)
+    anchored = np.array([body.anchored for body in bodies], np.bool_)
     count = sum(map(_inside, bodies)) if first is None else 0
     return count + count_overlaps(
-        laid_out(shapes, poses), np.array(some, np.bool_), fixed, most=most
+        laid_out(shapes, poses), np.array(some, np.bool_), anchored, most=most
     )
 
 

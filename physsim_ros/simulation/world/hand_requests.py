@@ -35,8 +35,8 @@ def grab(live: LiveSpace, request: Grab) -> Done:
     space = live.space
     (point,) = points_in_world(space, (request.point,), request.frame)
     under = space.bodies.at(point)
-    movable = [name for name in under if not space.bodies.by_name[name].body.fixed]
-    names = movable or (under if isinstance(request, GrabToPlace) else [])
+    dynamic = [name for name in under if space.bodies.by_name[name].body.dynamic]
+    names = dynamic or (under if isinstance(request, GrabToPlace) else [])
     if not names:
         x, y = point
         why = 'the body there cannot be moved' if under else 'there is no body'

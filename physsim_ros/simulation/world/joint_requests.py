@@ -21,7 +21,7 @@ from physsim_ros.model.names import names_in, WORLD
 from physsim_ros.model.requests import Axle, Join, Pin, Unjoin, UnjoinAll
 from physsim_ros.model.scene import Joint, Seat
 from physsim_ros.model.texts import nearest_name
-from physsim_ros.model.transform import Point, Pose, rotated
+from physsim_ros.model.transform import ORIGIN, Point, Pose, rotated
 from physsim_ros.simulation.world.live_space import LiveSpace
 from physsim_ros.simulation.world.lookup import body_of_name, Done, points_in_world
 
@@ -32,8 +32,6 @@ _SAME = 1e-9
 # an axle means it.
 _NEAR_SHARE, _NEAR = 0.35, 0.1
 
-# Pose of the background, which never moves.
-BACKGROUND = (0.0, 0.0, 0.0)
 _STRAIGHT = {JointKind.SPRING, JointKind.ROD, JointKind.ROPE}
 
 
@@ -68,9 +66,9 @@ def join(live: LiveSpace, request: Join) -> Done:
     return Done(request.name, f'joined {a} to {other} by {which}')
 
 
-def pin(live: LiveSpace, request: Pin | Axle) -> Done:
+def join_at_point(live: LiveSpace, request: Pin | Axle) -> Done:
     """Join the two topmost bodies at a point, or the only one and the background."""
-    kind = JointKind.PIN if isinstance(request, Pin) else JointKind.AXLE
+    kind = JointKind.WELD if isinstance(request, Pin) else JointKind.AXLE
     number = 0
     while f'{kind}/{number}' in live.space.joints.by_name:
         number += 1
@@ -105,7 +103,7 @@ def loosen(space: Space, body: str, point: Point) -> list[str]:
     names = [
         name
         for name in space.joints.names_on(body)
-        if (joint := space.joints.by_name[name].joint).kind in (JointKind.PIN, JointKind.AXLE)
+        if (joint := space.joints.by_name[name].joint).kind in (JointKind.WELD, JointKind.AXLE)
         and math.dist(_drawn(space, joint)[0], point) <= reach
     ]
     for name in names:
@@ -123,7 +121,7 @@ def drawn_points(joint: Joint, poses: Mapping[str, Pose]) -> tuple[Point, ...]:
     x, y = _out(poses[joint.a], (seat.ax, seat.ay))
     if joint.kind.points == 1:
         return ((x, y),)
-    pose_b = BACKGROUND if joint.b == WORLD else poses[joint.b]
+    pose_b = ORIGIN if joint.b == WORLD else poses[joint.b]
     if joint.kind is JointKind.SLIDER:
         ux, uy = rotated((seat.ux, seat.uy), pose_b[2])
         return (x, y), (x + ux, y + uy)
@@ -161,12 +159,12 @@ def _check_members(space: Space, kind: JointKind, a: str, b: str) -> None:
     if a == b:
         raise BadProperty(f'{a} cannot be joined to itself', field='b', body=a)
     bodies = [space.bodies.by_name[name].body for name in (a, b) if name != WORLD]
-    if all(body.fixed for body in bodies):
-        fixed = ' and '.join(
+    if not any(body.dynamic for body in bodies):
+        immovable = ' and '.join(
             f'{body.name} is {"anchored" if body.anchored else "kinematic"}' for body in bodies
         )
         other = '' if len(bodies) == 2 else ', and so is the background'
-        message = f'{fixed}{other}; there is nothing for the {kind} to hold'
+        message = f'{immovable}{other}; there is nothing for the {kind} to hold'
         raise Anchored(message, field='a', body=bodies[0].name if bodies else '')
 
 
@@ -221,7 +219,7 @@ def _drawn(space: Space, joint: Joint) -> tuple[Point, ...]:
 
 
 def _pose(space: Space, name: str) -> Pose:
-    return BACKGROUND if name == WORLD else space.bodies.by_name[name].pose
+    return ORIGIN if name == WORLD else space.bodies.by_name[name].pose
 
 
 def _out(pose: Pose, point: Point) -> Point:

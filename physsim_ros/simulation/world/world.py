@@ -68,8 +68,8 @@ HANDLERS: Mapping[type, Callable[[LiveSpace, Any], Done]] = {
     DeleteBodies: body_requests.delete_bodies,
     DeleteAll: body_requests.delete_all,
     Join: joint_requests.join,
-    Pin: joint_requests.pin,
-    Axle: joint_requests.pin,
+    Pin: joint_requests.join_at_point,
+    Axle: joint_requests.join_at_point,
     Unjoin: joint_requests.unjoin,
     UnjoinAll: joint_requests.unjoin_all,
     Grab: hand_requests.grab,
@@ -91,7 +91,7 @@ class World(LiveSpace):
     :param frame_steps: number of steps in a frame
     :param settings: at the start; None is the default ones
 
-    :ivar watching: whether contacts are reported, which costs a tenth of a step
+    :ivar reports_contacts: whether contacts are reported, which costs a tenth of a step
     :ivar changed: whether the last request that was carried out changed anything
     """
 
@@ -104,7 +104,7 @@ class World(LiveSpace):
     ) -> None:
         super().__init__(settings or WorldSettings(), physics_rate)
         self.frame_steps = frame_steps
-        self.watching = False
+        self.reports_contacts = False
         self.changed = False
 
     # Reading
@@ -139,7 +139,7 @@ class World(LiveSpace):
             compressed=self.space.joints.compressed(),
             springs=self.space.joints.springs(),
             grips=self.grips,
-            pulls=self.space.joints.pulls() if self.watching else np.empty((0, 2)),
+            pulls=self.space.joints.pulls() if self.reports_contacts else np.empty((0, 2)),
         )
 
     def contacts(self, snapshot: Snapshot) -> Contacts:
@@ -209,6 +209,6 @@ class World(LiveSpace):
         """
         lost: list[str] = []
         for _ in range(count):
-            lost += self.space.step(self.step_count, watching=self.watching)
+            lost += self.space.step(self.step_count, reports_contacts=self.reports_contacts)
             self.step_count += 1
         return tuple(lost)

@@ -20,7 +20,7 @@ from physsim_ros.model.arrays import Floats
 from physsim_ros.model.scene import Body, Scene
 from physsim_ros.model.settings import Bounds
 from physsim_ros.model.shapes import Box, Disc
-from physsim_ros.model.transform import turned
+from physsim_ros.model.transform import rotated_each
 from physsim_ros.view.meshes.body_mesh import body_mesh, opacity
 from physsim_ros.view.meshes.mesh import Strips
 from physsim_ros.view.meshes.mesh_track import MeshGroup, Path
@@ -112,7 +112,7 @@ class BodyGeometry:
             (left, bottom), (right, top) = group.mesh.extent
             corners = np.array(((left, bottom), (right, bottom), (right, top), (left, top)))
             scales = np.ones((1, 3)) if group.scales is None else group.scales
-            offsets = turned(corners * scales[:, None, :2], poses[group.rows, 2][:, None])
+            offsets = rotated_each(corners * scales[:, None, :2], poses[group.rows, 2][:, None])
             places = poses[group.rows, None, :2] + offsets
             low.append(places.min(axis=(0, 1)))
             high.append(places.max(axis=(0, 1)))

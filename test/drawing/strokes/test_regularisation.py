@@ -13,7 +13,7 @@ import pytest
 NEAR = 0.12
 
 
-def turned(corners: list[tuple[float, float]], angle: float) -> Floats:
+def rotated_each(corners: list[tuple[float, float]], angle: float) -> Floats:
     cos, sin = math.cos(angle), math.sin(angle)
     return np.array(corners) @ np.array(((cos, sin), (-sin, cos)))
 
@@ -25,7 +25,7 @@ def sides(corners: Floats) -> Floats:
 @pytest.mark.parametrize(('angle', 'yaw'), [(0.1, 0.0), (0.15, 0.15), (1.52, 0.0), (-0.6, -0.6)])
 def test_a_rectangle_is_level_if_it_is_nearly(angle: float, yaw: float) -> None:
     pose, width, height = regularisation.rectangle(
-        turned([(0, 0), (3, 0), (3, 1), (0, 1)], angle), NEAR
+        rotated_each([(0, 0), (3, 0), (3, 1), (0, 1)], angle), NEAR
     )
 
     assert pose[2] == pytest.approx(yaw, abs=1e-9)

@@ -24,7 +24,7 @@ YARD = WorldSettings(bounds=(-20.0, 0.0, 20.0, 40.0))
 
 def watched(settings: WorldSettings = NOWHERE) -> World:
     world = World(settings=settings)
-    world.watching = True
+    world.reports_contacts = True
     return world
 
 
@@ -389,11 +389,11 @@ def test_what_changes_while_nobody_watches_is_told_right_from_then_on(
     request_: Request, forces: list[float]
 ) -> None:
     world = at_rest()
-    world.watching = False
+    world.reports_contacts = False
     world.step(FRAME)
     world.apply(request_)
     world.step(240)
-    world.watching = True
+    world.reports_contacts = True
 
     contacts = frame(world)
 

@@ -167,7 +167,7 @@ def weights(world: World, seconds: float) -> list[float]:
 
 def test_sleeping_bodies_stay_in_the_contacts_with_their_weight() -> None:
     world = World(settings=YARD)
-    world.watching = True
+    world.reports_contacts = True
     stack(world, 3)
     weights(world, 4.0)
     found = weights(world, 2.0)
@@ -181,7 +181,7 @@ def test_who_begins_to_watch_sees_the_contacts_of_sleeping_bodies() -> None:
     world = at_rest()
     assert len(sleepers(world)) == 3
 
-    world.watching = True
+    world.reports_contacts = True
     found = weights(world, 0.5)
 
     assert len(sleepers(world)) == 3
@@ -190,7 +190,7 @@ def test_who_begins_to_watch_sees_the_contacts_of_sleeping_bodies() -> None:
 
 def test_a_contact_that_wakes_is_reported_once() -> None:
     world = at_rest()
-    world.watching = True
+    world.reports_contacts = True
     weights(world, 0.5)
     world.apply(Command(names=('stack/2',), twists=((0.0, 0.0, 0.0),)))
 

@@ -19,10 +19,10 @@ _INSIDE = 0.95
 
 
 def hatched_body(context: Context) -> str | None:
-    """Return the name of the topmost movable body that all of the stroke lies on, if any."""
+    """Return the name of the topmost dynamic body that all of the stroke lies on, if any."""
     points, scene = context.drawn.points, context.scene
     for name in scene.bodies_at(point_of(points[len(points) // 2])):
-        if not scene.body(name).fixed and scene.covers(name, points).mean() >= _INSIDE:
+        if scene.body(name).dynamic and scene.covers(name, points).mean() >= _INSIDE:
             return name
     return None
 

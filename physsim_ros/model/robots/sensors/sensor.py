@@ -14,7 +14,7 @@ from typing import ClassVar
 from physsim_ros.model.checks import check_values, Checks, explicit_values, shown, Within
 from physsim_ros.model.errors import BadProperty, Malformed
 from physsim_ros.model.shapes import LARGEST
-from physsim_ros.model.transform import Point, Pose
+from physsim_ros.model.transform import ORIGIN, Point, Pose
 
 # Tokens of ROS (https://design.ros2.org/articles/topic_and_service_names.html).
 _TOPIC = re.compile(r'[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*')
@@ -109,7 +109,7 @@ class Sensor(ABC):
     }
 
     name: str
-    at: Pose = (0.0, 0.0, 0.0)
+    at: Pose = ORIGIN
     rate: float = 10.0
 
     def __post_init__(self) -> None:

@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Pin: two anchors coincide, and neither body turns against the other."""
+"""Weld (`pin` in markers and files): two anchors coincide, and neither body turns on the other."""
 
 from __future__ import annotations
 
