@@ -41,9 +41,8 @@ from physsim_ros.drawing.waiting_joints import requests_with_waiting_joints
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NotRecognised, UnknownBody
 from physsim_ros.model.names import split_name
-from physsim_ros.model.preview import Line, NO_PREVIEW, Preview
 from physsim_ros.model.requests import Join, Request, Spawn
-from physsim_ros.model.snapshot import Answer, Snapshot
+from physsim_ros.model.snapshot import Answer, Line, NO_PREVIEW, Preview, Snapshot
 from physsim_ros.model.transform import Point, rotated_each
 from physsim_ros.simulation.queue_entries import Amend
 from physsim_ros.simulation.simulation import Simulation

@@ -21,9 +21,9 @@ from physsim_ros.engine.pipeline import Pipeline
 from physsim_ros.engine.settings import apply_settings, make_engine
 from physsim_ros.engine.stages.half_step import StartState
 from physsim_ros.engine.warm_start import ShapeIds
-from physsim_ros.model.grips import Grip
 from physsim_ros.model.scene import Body, Joint, Scene
 from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.snapshot import Grip
 from physsim_ros.model.transform import NO_WRENCH, Pose, REST, Twist, Wrench
 
 

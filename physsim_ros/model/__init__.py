@@ -2,12 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Values that all folders use, frozen and checked; numpy is the most that is imported here.
+Values that all folders use, frozen and checked; NumPy is the most that is imported here.
 
-Nothing here moves, reads a clock or knows an engine. Each module is a front of its own, named by
-a noun, and so are the packages `shapes`, `joints` and `requests`; this file exports nothing.
-Shared by all values: `names`, `colors`, `transform`, `arrays`, `checks`, `errors`.
-Descriptions of a world: `shapes`, `body_properties`, `joints`, `settings`, `scene`.
-Changes of it: `requests`. States that are shown: `snapshot`, `preview`. States that are saved:
-`checkpoint`. Start with `scene` and `requests`.
+Nothing here moves, reads a clock or knows an engine. Modules are imported by their names; the
+packages `shapes`, `requests` and `robots` by their fronts. Start with `scene` and `requests`.
+
+- Shared by all values: `names`, `colors`, `transform`, `arrays`, `checks`, `errors`, `texts`.
+- Descriptions of a world: `shapes`, `body_properties`, `joints`, `robots`, `settings`, `scene`.
+- Changes of it: `requests`.
+- States: `snapshot` is shown, `timeline` is its place in the past, `checkpoint` is saved.
 """

@@ -15,9 +15,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.model.arrays import Floats, Ints
-from physsim_ros.model.grips import Grip
 from physsim_ros.model.scene import Body, Joint, Scene
 from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.snapshot import Grip
 from physsim_ros.model.transform import NO_WRENCH, Pose, REST, Twist, Wrench
 
 

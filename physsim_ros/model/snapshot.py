@@ -16,15 +16,31 @@ from typing import NamedTuple
 import numpy as np
 from physsim_ros.model.arrays import Flags, Floats, Ints
 from physsim_ros.model.errors import Refusal, UnknownBody
-from physsim_ros.model.grips import Grip
 from physsim_ros.model.names import shown_name
-from physsim_ros.model.preview import NO_PREVIEW, Preview
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.texts import nearest_name
-from physsim_ros.model.transform import rotated_each
+from physsim_ros.model.transform import Point, rotated_each
 
 # The field that every request with a point or pose has besides the one it consists of.
 _FRAME = 'header.frame_id'
+
+Line = tuple[Point, ...]
+
+
+class Grip(NamedTuple):
+    """
+    The grip of a hand on a body; Box2D's mouse joint.
+
+    :ivar hand: name of the hand, unique in its world
+    :ivar body: name of the body
+    :ivar anchor: point of the body that is drawn to the hand, in the body's frame [m]
+    :ivar target: position of the hand in the world [m]
+    """
+
+    hand: str
+    body: str
+    anchor: Point
+    target: Point
 
 
 class Springs(NamedTuple):
@@ -238,6 +254,30 @@ class Answer:
             values=(*refusal.values, *body),
             asker=asker,
         )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Preview:
+    """
+    Lines, points and a label that are shown over the world.
+
+    :param lines: polylines [m]
+    :param points: clicked so far [m]
+    :param label: text above the rest; '' is none
+    """
+
+    lines: tuple[Line, ...] = ()
+    points: Line = ()
+    label: str = ''
+
+    @property
+    def top(self) -> Point:
+        """Return the highest point of it, above which the label is drawn [m]."""
+        every = [*self.points, *(point for line in self.lines for point in line)]
+        return max(every, key=lambda point: point[1], default=(0.0, 0.0))
+
+
+NO_PREVIEW = Preview()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -13,7 +13,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from physsim_ros.model.grips import Grip
 from physsim_ros.model.requests import (
     Grab,
     GrabToPlace,
@@ -23,6 +22,7 @@ from physsim_ros.model.requests import (
     MoveHand,
     PlaceHand,
 )
+from physsim_ros.model.snapshot import Grip
 
 # Steady time after which a hand without any request lets go [ns]: one whose page has gone.
 LONGEST_SILENCE = 5 * 10**9

@@ -28,7 +28,7 @@ from physsim_ros.model.requests import (
 )
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Compound, Disc, Shape
-from physsim_ros.model.shapes.form_cache import MOST_KEPT
+from physsim_ros.model.shapes.form import MOST_KEPT
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import capacity, World
 import pytest

@@ -15,8 +15,7 @@ from typing import Any
 import numpy as np
 from physsim_ros.files import text_of
 from physsim_ros.model.checkpoint import WorldState
-from physsim_ros.model.grips import Grip
-from physsim_ros.model.snapshot import Answer
+from physsim_ros.model.snapshot import Answer, Grip
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.sketchpad import body_past, open_pages, world_handlers
 from physsim_ros.sketchpad.inbox import Upload

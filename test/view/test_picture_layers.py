@@ -8,8 +8,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from physsim_ros.model.preview import NO_PREVIEW, Preview
-from physsim_ros.model.snapshot import Contacts
+from physsim_ros.model.snapshot import Contacts, NO_PREVIEW, Preview
 from physsim_ros.view.preview_lines import LINGER
 import pytest
 

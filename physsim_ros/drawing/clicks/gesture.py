@@ -17,7 +17,7 @@ from physsim_ros.drawing.clicks.tools import ClickResult, Tool, TOOLS
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.model.checks import check_point
-from physsim_ros.model.preview import Line, Preview
+from physsim_ros.model.snapshot import Line, Preview
 from physsim_ros.model.transform import Point
 
 # Number of corners of the circle around the first corner of a polygon.

@@ -24,8 +24,8 @@ import math
 
 from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.step_context import StepContext
-from physsim_ros.model.grips import Grip
 from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.snapshot import Grip
 from physsim_ros.model.transform import Point, rotated
 
 # Undamped frequency of the spring [Hz], and its damping ratio: 1 is critical.

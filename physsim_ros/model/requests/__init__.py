@@ -11,13 +11,15 @@ new request is a class here, a member of `Request`, and a line in the table of h
 `simulation.world.world`.
 """
 
-from physsim_ros.model.requests.at_point import Anchor, AtPoint, Axle, Pin, Release
 from physsim_ros.model.requests.bodies import (
+    Anchor,
+    AtPoint,
     ChangeBody,
     Delete,
     DeleteAll,
     DeleteBodies,
     MoveBodies,
+    Release,
     Spawn,
 )
 from physsim_ros.model.requests.command import Command
@@ -29,7 +31,15 @@ from physsim_ros.model.requests.hands import (
     MoveHand,
     PlaceHand,
 )
-from physsim_ros.model.requests.joints import Join, join_from, joined_from, Unjoin, UnjoinAll
+from physsim_ros.model.requests.joints import (
+    Axle,
+    Join,
+    join_from,
+    joined_from,
+    Pin,
+    Unjoin,
+    UnjoinAll,
+)
 from physsim_ros.model.requests.world import Configure, Restore
 
 HandRequest = Grab | GrabToPlace | MoveHand | PlaceHand | KeepHand | LetGo

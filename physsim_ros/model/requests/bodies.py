@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Requests that add, change and remove bodies by their names."""
+"""Requests that add, change and remove bodies, by their names or at a point."""
 
 from __future__ import annotations
 
@@ -101,6 +101,27 @@ class MoveBodies:
     def __post_init__(self) -> None:
         _check_names(self.names)
         check_point(self.by, 'by')
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AtPoint:
+    """A request for the topmost bodies, or joints, at a point [m]."""
+
+    point: Point
+    frame: str = ''
+
+    def __post_init__(self) -> None:
+        check_point(self.point, 'point')
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Anchor(AtPoint):
+    """Fix the topmost body at a point to the background."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Release(AtPoint):
+    """Undo the anchoring of the topmost body at a point, and remove pins and axles there."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

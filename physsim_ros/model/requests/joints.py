@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Requests that add, change and remove joints by their names."""
+"""Requests that add, change and remove joints, by their names or at a point."""
 
 from __future__ import annotations
 
@@ -20,6 +20,7 @@ from physsim_ros.model.joints import (
     kind_from,
 )
 from physsim_ros.model.names import check_name, WORLD
+from physsim_ros.model.requests.bodies import AtPoint
 from physsim_ros.model.transform import Point
 
 
@@ -71,6 +72,16 @@ class Join:
         least = self.kind.schema.least_distance
         if least and math.dist(*self.points) < least:
             raise BadSize(f'the points of a {self.kind} must be {least:g} m apart', field='points')
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Pin(AtPoint):
+    """Weld the two topmost bodies at a point, or the only one to the background."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Axle(AtPoint):
+    """Join the two topmost bodies at a point by an axle, or the only one to the background."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -15,8 +15,7 @@ from physsim_ros.model.shapes.box import Box
 from physsim_ros.model.shapes.chain import Chain
 from physsim_ros.model.shapes.compound import Compound
 from physsim_ros.model.shapes.disc import Disc
-from physsim_ros.model.shapes.mass_properties import Form
-from physsim_ros.model.shapes.pieces import Capsule, Circle, Convex, Piece
+from physsim_ros.model.shapes.form import Capsule, Circle, Convex, Form, Piece
 from physsim_ros.model.shapes.polygon import Polygon
 from physsim_ros.model.shapes.polygon_geometry import crosses_itself, is_convex, signed_area
 from physsim_ros.model.shapes.triangles import Triangles

@@ -9,8 +9,7 @@ from dataclasses import dataclass, field
 from typing import ClassVar, Self
 
 from physsim_ros.model.checks import known_mapping, number
-from physsim_ros.model.shapes.mass_properties import Form, form_of
-from physsim_ros.model.shapes.pieces import Convex
+from physsim_ros.model.shapes.form import Convex, Form, form_of
 from physsim_ros.model.shapes.validation import checked_length
 from physsim_ros.model.transform import Point
 

@@ -11,8 +11,7 @@ from typing import ClassVar, Self
 
 from physsim_ros.model.checks import known_mapping, number, point_list
 from physsim_ros.model.errors import BadOutline
-from physsim_ros.model.shapes.mass_properties import Form, form_of
-from physsim_ros.model.shapes.pieces import Capsule
+from physsim_ros.model.shapes.form import Capsule, Form, form_of
 from physsim_ros.model.shapes.validation import (
     as_tuples,
     checked_length,

@@ -12,8 +12,7 @@ from physsim_ros.model.checks import known_mapping, point_list
 from physsim_ros.model.errors import BadOutline, BadProperty
 from physsim_ros.model.shapes.box import Box
 from physsim_ros.model.shapes.disc import Disc
-from physsim_ros.model.shapes.mass_properties import Form, form_of
-from physsim_ros.model.shapes.pieces import Circle, Convex, Piece
+from physsim_ros.model.shapes.form import Circle, Convex, Form, form_of, Piece
 from physsim_ros.model.shapes.validation import as_tuples, checked_points
 from physsim_ros.model.transform import Point
 

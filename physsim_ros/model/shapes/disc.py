@@ -9,8 +9,7 @@ from dataclasses import dataclass, field
 from typing import ClassVar, Self
 
 from physsim_ros.model.checks import known_mapping, number
-from physsim_ros.model.shapes.mass_properties import Form, form_of
-from physsim_ros.model.shapes.pieces import Circle
+from physsim_ros.model.shapes.form import Circle, Form, form_of
 from physsim_ros.model.shapes.validation import checked_length
 
 

@@ -11,10 +11,8 @@ from typing import ClassVar, Self
 import numpy as np
 from physsim_ros.model.checks import point_list
 from physsim_ros.model.errors import BadOutline
-from physsim_ros.model.shapes.convex_pieces import convex_pieces, DEGENERATE
-from physsim_ros.model.shapes.form_cache import share_forms
-from physsim_ros.model.shapes.mass_properties import Form, form_of
-from physsim_ros.model.shapes.pieces import Convex
+from physsim_ros.model.shapes.convex_decomposition import convex_pieces, DEGENERATE
+from physsim_ros.model.shapes.form import Convex, Form, form_of, share_forms
 from physsim_ros.model.shapes.polygon_geometry import (
     crosses_itself,
     signed_area,

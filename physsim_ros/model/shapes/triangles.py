@@ -11,8 +11,8 @@ from typing import ClassVar, Self
 import numpy as np
 from physsim_ros.model.checks import point_list
 from physsim_ros.model.errors import BadOutline
-from physsim_ros.model.shapes.convex_pieces import convex_piece
-from physsim_ros.model.shapes.mass_properties import Form, form_of
+from physsim_ros.model.shapes.convex_decomposition import convex_piece
+from physsim_ros.model.shapes.form import Form, form_of
 from physsim_ros.model.shapes.validation import as_tuples, checked_points
 from physsim_ros.model.transform import cross, Point
 

@@ -14,7 +14,7 @@ import math
 
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import Point as PointMessage
-from physsim_ros.model.preview import Preview
+from physsim_ros.model.snapshot import Preview
 from physsim_ros.model.transform import Point
 from physsim_ros.ros.encoders.cdr import SECOND
 from std_msgs.msg import ColorRGBA

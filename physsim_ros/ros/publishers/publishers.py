@@ -10,8 +10,7 @@ from typing import Any
 from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import PoseArray
 from physsim_ros.model.errors import BadProperty
-from physsim_ros.model.preview import NO_PREVIEW, Preview
-from physsim_ros.model.snapshot import Answer, Frame
+from physsim_ros.model.snapshot import Answer, Frame, NO_PREVIEW, Preview
 from physsim_ros.model.timeline import TimelineStatus
 from physsim_ros.ros import encoders
 from physsim_ros.ros.encoders import Encoder

@@ -10,7 +10,6 @@ Law: a hand whose body is gone does nothing, and is not refused.
 from __future__ import annotations
 
 from physsim_ros.model.errors import NothingThere
-from physsim_ros.model.grips import Grip
 from physsim_ros.model.requests import (
     Grab,
     GrabToPlace,
@@ -20,6 +19,7 @@ from physsim_ros.model.requests import (
     MoveHand,
     PlaceHand,
 )
+from physsim_ros.model.snapshot import Grip
 from physsim_ros.model.transform import rotated
 from physsim_ros.simulation.world.live_space import LiveSpace
 from physsim_ros.simulation.world.lookup import Done, points_in_world, pose_in_world

@@ -18,7 +18,6 @@ import numpy as np
 from physsim_ros.engine.checkpoint import saved_state
 from physsim_ros.engine.observation import digest_parts, observe_bodies
 from physsim_ros.model.checkpoint import WorldState
-from physsim_ros.model.grips import Grip
 from physsim_ros.model.requests import (
     Anchor,
     Axle,
@@ -46,7 +45,7 @@ from physsim_ros.model.requests import (
 )
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.snapshot import Contacts, Snapshot
+from physsim_ros.model.snapshot import Contacts, Grip, Snapshot
 from physsim_ros.simulation.world import (
     body_requests,
     hand_requests,

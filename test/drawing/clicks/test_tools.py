@@ -24,7 +24,6 @@ from physsim_ros.model.errors import (
     UnknownFrame,
 )
 from physsim_ros.model.joints import JointKind
-from physsim_ros.model.preview import NO_PREVIEW
 from physsim_ros.model.requests import (
     Anchor,
     Axle,
@@ -39,6 +38,7 @@ from physsim_ros.model.requests import (
 )
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Chain, Disc, MOST_POINTS, Polygon
+from physsim_ros.model.snapshot import NO_PREVIEW
 from physsim_ros.model.transform import Point
 from physsim_ros.simulation.world import World
 import pytest

@@ -2,24 +2,63 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Area, centroid, moment of inertia and extent of shapes, from their convex pieces.
+Form of a shape: its convex pieces, mass properties and extent, in the body's frame.
 
-Box2D calls the first three mass data. Here they are at a density of 1 kg/m².
+The engine makes one of its own shapes of each piece: Pymunk's Circle, Poly and Segment. Area,
+centroid and moment of inertia are at a density of 1 kg/m² (Box2D: mass data).
+
+Law: equal shapes share one form, which lives as long as a shape of it does, in the world or in the
+past, whose budget counts it. A few forms outlive their shapes: a body that is deleted is often
+spawned again.
 """
 
 from __future__ import annotations
 
+from collections import deque
+from collections.abc import Callable, Hashable
 from dataclasses import dataclass
+from functools import wraps
 import math
+from typing import Any, cast, TypeVar
+from weakref import WeakValueDictionary
 
 import numpy as np
-from physsim_ros.model.shapes.form_cache import share_forms
-from physsim_ros.model.shapes.pieces import Capsule, Circle, Convex, Piece
 from physsim_ros.model.transform import cross, next_vertices, Point
 
 # A centroid closer to the origin than this share of the extent lies at the origin: a symmetric
 # shape is balanced to the bit, however its sums round.
 _CENTERED = 1e-12
+# Forms that outlive their shapes [1]: at most 6 MB, if each has 1,000 pieces.
+MOST_KEPT = 16
+
+_Make = TypeVar('_Make', bound=Callable[..., Any])
+
+
+@dataclass(frozen=True, slots=True)
+class Circle:
+    """A full circle [m]."""
+
+    center: Point
+    radius: float
+
+
+@dataclass(frozen=True, slots=True)
+class Convex:
+    """A convex polygon: vertices counter-clockwise [m], at least three."""
+
+    vertices: tuple[Point, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Capsule:
+    """A segment with round ends [m]."""
+
+    start: Point
+    end: Point
+    radius: float
+
+
+Piece = Circle | Convex | Capsule
 
 
 # Shapes are compared by what they are made of; of a form, others keep what they derive from it.
@@ -42,6 +81,22 @@ class Form:
     gyration: float
     outer: float
     inner: float
+
+
+def share_forms(make: _Make) -> _Make:
+    """Cache the forms that a function makes, by its positional arguments, which are hashable."""
+    forms: WeakValueDictionary[Hashable, Any] = WeakValueDictionary()
+    kept: deque[Any] = deque(maxlen=MOST_KEPT)
+
+    @wraps(make)
+    def form_of(*arguments: Hashable) -> Any:
+        form = forms.get(arguments)
+        if form is None:
+            form = forms[arguments] = make(*arguments)
+            kept.append(form)
+        return form
+
+    return cast('_Make', form_of)
 
 
 @share_forms
