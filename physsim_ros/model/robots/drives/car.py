@@ -11,7 +11,7 @@ from typing import ClassVar
 
 from physsim_ros.model.checks import Checks, Within
 from physsim_ros.model.robots.drives.drive import Drive, LENGTH, within
-from physsim_ros.model.transform import Pose
+from physsim_ros.model.transform import Pose, Twist
 
 # Greatest angle of the front wheels [rad]: 89 degrees.
 _STEEPEST = 1.55
@@ -55,7 +55,7 @@ class Car(Drive):
         """Return the greatest curvature of its way [1/m]."""
         return math.tan(self.steering) / self.wheelbase
 
-    def aim(self, command: Pose) -> Pose:
+    def aim(self, command: Twist) -> Twist:
         """Return the velocity that it can have and that is nearest to a commanded one."""
         speed, turn = within(command[0], self.max_speed), within(command[2], self.max_turn)
         return speed, 0.0, within(turn, abs(speed) * self.most_curved)

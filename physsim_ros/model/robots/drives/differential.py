@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from physsim_ros.model.robots.drives.drive import Drive, within
-from physsim_ros.model.transform import Pose
+from physsim_ros.model.transform import Pose, Twist
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -29,7 +29,7 @@ class Differential(Drive):
         """Return the mean distance of its wheels from their middle [m]."""
         return self.track / 2
 
-    def aim(self, command: Pose) -> Pose:
+    def aim(self, command: Twist) -> Twist:
         """Return the velocity that it can have and that is nearest to a commanded one."""
         vx, _, turn = command
         return within(vx, self.max_speed), 0.0, within(turn, self.max_turn)

@@ -17,7 +17,7 @@ from typing import ClassVar
 
 from physsim_ros.model.checks import check_values, Checks, explicit_values, FASTEST, Within
 from physsim_ros.model.shapes import LARGEST, SMALLEST
-from physsim_ros.model.transform import Pose
+from physsim_ros.model.transform import Pose, Twist
 
 # Greatest acceleration of wheels [m/s²]: 0.4 m/s in a step.
 _STRONGEST = 1e2
@@ -89,7 +89,7 @@ class Drive(ABC):
         return math.inf
 
     @abstractmethod
-    def aim(self, command: Pose) -> Pose:
+    def aim(self, command: Twist) -> Twist:
         """
         Return the velocity that it can have and that is nearest to a commanded one.
 

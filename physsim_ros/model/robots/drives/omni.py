@@ -10,7 +10,7 @@ import math
 from typing import ClassVar
 
 from physsim_ros.model.robots.drives.drive import Drive, within
-from physsim_ros.model.transform import Pose
+from physsim_ros.model.transform import Pose, Twist
 
 _ANGLES = tuple(math.radians(angle) for angle in (60.0, 180.0, 300.0))
 
@@ -35,7 +35,7 @@ class Omni(Drive):
         """Return the mean distance of its wheels from their middle [m]."""
         return self.track / 2
 
-    def aim(self, command: Pose) -> Pose:
+    def aim(self, command: Twist) -> Twist:
         """Return the velocity that it can have and that is nearest to a commanded one."""
         vx, vy, turn = command
         speed = math.hypot(vx, vy)
