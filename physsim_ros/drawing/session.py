@@ -44,7 +44,7 @@ from physsim_ros.model.names import split_name
 from physsim_ros.model.requests import Join, Request, Spawn
 from physsim_ros.model.snapshot import Answer, Line, NO_PREVIEW, Preview, Snapshot
 from physsim_ros.model.transform import Point, rotated_each
-from physsim_ros.simulation.queue_entries import Amend
+from physsim_ros.simulation.request_queue import Amend
 from physsim_ros.simulation.simulation import Simulation
 
 # The least confidence in a runner-up that the label of a preview mentions.

@@ -78,7 +78,7 @@ class DiagnosticsPublisher:
                 outputs.frame.snapshot,
                 node=self._name,
                 speed=simulation.speed,
-                late_frames=simulation.late_frames,
+                late_frames=simulation.playback.clock.late_frames,
                 viewer=outputs.viewer.state,
                 viewer_failure=outputs.viewer.failure,
                 backlog=backlog,

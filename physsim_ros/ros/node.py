@@ -328,7 +328,9 @@ class PhysSimNode(NodeWithoutQosEvents):
         """Have the parameters mirror the world, and a short seek be done at once."""
         self._live_parameters.mirror_settings()
         began = time.perf_counter_ns()
-        self.simulation.continue_seek(lambda: time.perf_counter_ns() - began > MOST_TICK_NS)
+        self.simulation.playback.continue_seek(
+            lambda: time.perf_counter_ns() - began > MOST_TICK_NS
+        )
 
     # Answers
 

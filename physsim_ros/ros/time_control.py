@@ -121,7 +121,7 @@ class TimeControl:
         if self._simulation.speed != 0:
             raise Running('time is running; pause first')
         if not self._apply_up_to_seek():
-            return f'at {self._simulation.queue_frame() * 1e-9:.6f} s'
+            return f'at {self._simulation.playback.queue_frame() * 1e-9:.6f} s'
         self._advance_frame()
         return f'at {self._simulation.world.stamp * 1e-9:.6f} s'
 

@@ -18,8 +18,7 @@ from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.hands import Hands, placing
 from physsim_ros.simulation.past.past import Past
 from physsim_ros.simulation.playback import Playback
-from physsim_ros.simulation.queue_entries import Amend, Call, Seek, Waiting
-from physsim_ros.simulation.request_queue import RequestQueue
+from physsim_ros.simulation.request_queue import Amend, Call, RequestQueue, Seek, Waiting
 from physsim_ros.simulation.world import Done
 
 
@@ -41,11 +40,6 @@ class RequestHandler:
         self._past = past
         self._playback = playback
         self._queue = queue
-
-    @property
-    def changes_world(self) -> bool:
-        """Return whether a request waits that is to be applied to the world."""
-        return self._queue.has_requests
 
     def apply_waiting(self) -> None:
         """Apply the requests that wait, and collect their answers."""

@@ -4,13 +4,14 @@
 """
 The simulation, the front of the core: requests and steady time go in, frames come out.
 
-Laws: requests are applied in the order of their arrival and only between frames; every one is
-answered; they are applied in a paused world too, and in the past, where another course begins.
+Laws: requests are applied in the order of their arrival and only between frames, in a paused world
+too; a request in the past begins another course. Every request is answered, with the first frame
+after it; a frame without a step shows what requests have changed.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import BadProperty
@@ -18,7 +19,6 @@ from physsim_ros.model.requests import Request, Restore
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.model.timeline import TimelineStatus
-from physsim_ros.simulation.frame_loop import FrameLoop
 from physsim_ros.simulation.past.history_memory import DEFAULT_MEMORY, HistoryMemory
 from physsim_ros.simulation.past.past import Past
 from physsim_ros.simulation.playback import Playback
@@ -26,8 +26,10 @@ from physsim_ros.simulation.request_handler import RequestHandler
 from physsim_ros.simulation.request_queue import RequestQueue
 from physsim_ros.simulation.world import World
 
-# Simulation time from one checkpoint to the next [s]: at most so much is replayed to reach a step.
+# Simulation time from one checkpoint to the next [s]: the most that is replayed to reach a step.
 CHECKPOINTS = 3.0
+# Frames in one call: the one that is due, and one to make up for a late one.
+_FRAMES_A_CALL = 2
 
 
 class Simulation:
@@ -45,6 +47,7 @@ class Simulation:
 
     :ivar requests: the queue of those that wait for the next frame
     :ivar past: its timeline in force, with cached frames, ghosts and their budget of memory
+    :ivar playback: the moment that is shown
     """
 
     def __init__(
@@ -75,43 +78,42 @@ class Simulation:
             checkpoints=checkpoints,
             memory=HistoryMemory(history_memory),
         )
-        self._playback = Playback(self.past, speed=speed)
+        self.playback = Playback(self.past, speed=speed)
         self.requests = RequestQueue()
-        self._handler = RequestHandler(self.past, self._playback, self.requests)
-        self._frames = FrameLoop(self.past, self._playback, self._handler)
+        self._handler = RequestHandler(self.past, self.playback, self.requests)
 
     # Reading
 
     @property
     def world(self) -> World:
         """Return the world at the moment that is shown."""
-        return self._playback.world
+        return self.playback.world
 
     @property
     def step(self) -> int:
         """Return the step that is shown."""
-        return self._playback.step
+        return self.playback.step
 
     @property
     def settings(self) -> WorldSettings:
         """Return the settings of the world at the moment that is shown."""
-        return self._playback.settings
+        return self.playback.settings
 
     @property
     def speed(self) -> float:
         """Return simulation seconds a second; 0 is paused, negative goes back."""
-        return self._playback.speed
+        return self.playback.speed
 
     @speed.setter
     def speed(self, speed: float) -> None:
         if speed < 0.0:
             self._handler.hands.clear()
-        self._playback.speed = speed
+        self.playback.speed = speed
 
     @property
     def status(self) -> TimelineStatus:
         """Return the status of the timeline at the moment that is shown."""
-        return self.past.status(self._playback.moment, speed=self.speed)
+        return self.past.status(self.playback.moment, speed=self.speed)
 
     @property
     def history(self) -> float:
@@ -120,9 +122,9 @@ class Simulation:
 
     @history.setter
     def history(self, history: float) -> None:
-        self._playback.seek_shown()
+        self.playback.seek_shown()
         if not self.past.limit_length(history):
-            self._playback.note_jump()
+            self.playback.note_jump()
             self._handler.report_oldest()
 
     def limit_memory(self, megabytes: float) -> None:
@@ -132,12 +134,7 @@ class Simulation:
         :raises Refusal: it is out of range
         """
         self.past.limit_memory(megabytes)
-        self._playback.changed = True
-
-    @property
-    def late_frames(self) -> int:
-        """Count of frames that the machine could not make in time."""
-        return self._playback.clock.late_frames
+        self.playback.changed = True
 
     @property
     def reports_contacts(self) -> bool:
@@ -158,14 +155,14 @@ class Simulation:
         """
         self._handler.apply_waiting()
         message = self._handler.apply(request, self.requests.begin_gesture()).message
-        self._playback.changed = True
+        self.playback.changed = True
         return message
 
     def begin(self, state: WorldState) -> None:
         """Begin with a state, at time 0, without a past; `reset` will return to it."""
         self.past.begin(state)
         self._handler.hands.clear()
-        self._playback.note_jump()
+        self.playback.note_jump()
 
     def load(self, state: WorldState) -> str:
         """Replace the world by a state, to which `reset` will return; time goes on."""
@@ -187,7 +184,7 @@ class Simulation:
         self._prepare_change()
         self._handler.hands.clear()
         done = self.past.reset()
-        self._playback.note_jump()
+        self.playback.note_jump()
         return 'back at the beginning, time 0' if done else 'at the beginning, time 0'
 
     def undo(self) -> str:
@@ -198,8 +195,8 @@ class Simulation:
         """
         self._prepare_change()
         undone = self.past.undo()
-        self._playback.note_jump()
-        return f'undid {undone}, back at {self._playback.time}'
+        self.playback.note_jump()
+        return f'undid {undone}, back at {self.playback.time}'
 
     def redo(self) -> str:
         """
@@ -209,8 +206,8 @@ class Simulation:
         """
         self._prepare_change()
         self.past.redo()
-        self._playback.note_jump()
-        return f'redid what was undone, at {self._playback.time}'
+        self.playback.note_jump()
+        return f'redid what was undone, at {self.playback.time}'
 
     def return_to_course(self, number: int) -> str:
         """
@@ -222,8 +219,8 @@ class Simulation:
         self._prepare_change()
         if self.past.return_to_course(number):
             self._handler.hands.clear()
-        self._playback.note_jump()
-        return f'on course {number}, at {self._playback.time}'
+        self.playback.note_jump()
+        return f'on course {number}, at {self.playback.time}'
 
     def seek(self, stamp: int) -> str:
         """
@@ -239,18 +236,23 @@ class Simulation:
     def apply_up_to_seek(self) -> bool:
         """Apply the requests before a seek; return whether no seek is under way."""
         self._handler.apply_up_to_seek()
-        return self._playback.is_there
+        return self.playback.is_there
 
-    def continue_seek(self, is_overdue: Callable[[], bool] = lambda: False) -> bool:
-        """
-        Replay towards the moment that was sought; a reader of the world has it all replayed.
+    def apply_requests(self) -> Frame | None:
+        """Apply the requests that wait, without a step; return a frame if there were any."""
+        self._handler.apply_waiting()
+        return self._observe_frame(moved=False) if self.playback.changed else None
 
-        Requests wait until it is reached; another seek or an undo takes its place.
+    def take_answers(self) -> tuple[Answer, ...]:
+        """Return the answers that wait, where no frame shows anything new."""
+        return self._handler.take_answers()
 
-        :param is_overdue: whether to go on another time
-        :return: whether the world is there
-        """
-        return self._playback.continue_seek(is_overdue)
+    def advance_frame(self) -> Frame:
+        """Apply the requests that wait, and advance by one publish period, at any speed."""
+        self._handler.apply_waiting()
+        self._handler.release_grips()
+        self.playback.clock.restart()
+        return self._play_frame(self.playback.steps_to_period)
 
     def advance(
         self, now_ns: int, *, is_overdue: Callable[[], bool] = lambda: False
@@ -260,34 +262,78 @@ class Simulation:
 
         :param now_ns: steady time, never going back [ns]
         :param is_overdue: whether the call has taken too long; a frame that advances then ends at
-            the next publish period, however many are due, so that requests do not wait for it
-        :return: the frames, in the order in which they are shown; none where nothing is due and
+            the next publish period, however many steps are due, so that requests do not wait
+        :return: the frames, in the order in which they are shown; empty where nothing is due and
             nothing has changed
         """
-        return self._frames.advance(now_ns, is_overdue)
+        playback = self.playback
+        if playback.is_world_due or self.requests.has_requests:
+            playback.seek_shown()
+        if not playback.continue_seek(is_overdue):
+            return ()
+        self._handler.apply_up_to_seek()
+        if not playback.continue_seek(is_overdue):
+            return ()
+        if playback.frames_due:
+            playback.frames_due -= 1
+            return (self.advance_frame(),)
+        self._handler.hands.note_time(now_ns, paused=playback.speed == 0)
+        if playback.speed > 0:
+            self._handler.release_grips()
+        frames = tuple(self._due_frames(now_ns, is_overdue))
+        if not frames and playback.changed:
+            return (self._observe_frame(moved=False),)
+        return frames
 
-    def apply_requests(self) -> Frame | None:
-        """Apply the requests that wait, without a step; return a frame if there were any."""
-        return self._frames.apply_requests()
+    def _due_frames(self, now_ns: int, is_overdue: Callable[[], bool]) -> Iterator[Frame]:
+        """Make and yield the frames that are due at a steady time [ns]."""
+        playback = self.playback
+        for _ in range(_FRAMES_A_CALL):
+            steps = playback.clock.due(now_ns, playback.step)
+            if steps == 0:
+                return
+            if steps > 0:
+                yield self._play_frame(steps, is_overdue)
+            elif frame := self._rewind_frame(-steps, is_overdue):
+                yield frame
+            else:
+                return
+            if playback.speed == 0 or is_overdue():
+                return
 
-    def take_answers(self) -> tuple[Answer, ...]:
-        """Return the answers that wait, where no frame shows anything new."""
-        return self._handler.take_answers()
+    def _play_frame(self, steps: int, is_overdue: Callable[[], bool] = lambda: False) -> Frame:
+        self.playback.play(steps, is_overdue)
+        return self._observe_frame(moved=True)
 
-    def advance_frame(self) -> Frame:
-        """Apply the requests that wait, and advance by one publish period, at any speed."""
-        return self._frames.advance_period()
+    def _rewind_frame(self, steps: int, is_overdue: Callable[[], bool]) -> Frame | None:
+        """Return a frame further back; None where it has to be replayed for longer."""
+        before = self.playback.step
+        if not self.playback.rewind(steps, is_overdue):
+            return None
+        if self.playback.step <= self.past.timeline.history.oldest:
+            self.playback.speed = 0.0
+            self._handler.report_oldest('; paused')
+        return self._observe_frame(moved=self.playback.step < before)
 
-    def queue_frame(self) -> int:
-        """
-        Have a paused world advance by one publish period once it is there, in a later `advance`.
-
-        :return: the simulation time then [ns]
-        """
-        return self._playback.queue_frame()
+    def _observe_frame(self, *, moved: bool) -> Frame:
+        """Return the frame that is shown, with all answers that wait, within the budget."""
+        snapshot, contacts = self.playback.observe_frame(moved=moved)
+        answers = self._handler.answers
+        answers += self.past.fit_memory(self.playback.moment)
+        answers += self.past.take_answers()
+        self.playback.changed = False
+        return Frame(
+            snapshot=snapshot,
+            contacts=contacts if self.past.reports_contacts else None,
+            answers=self._handler.take_answers(),
+            speed=self.playback.speed,
+            moved=moved,
+            past=snapshot.step < self.past.timeline.history.head,
+            course=self.past.course,
+        )
 
     def _prepare_change(self) -> None:
         """Apply the requests that wait, and have the world go to the moment that is shown."""
         self._handler.apply_waiting()
-        self._playback.frames_due = 0
-        self._playback.seek_shown()
+        self.playback.frames_due = 0
+        self.playback.seek_shown()

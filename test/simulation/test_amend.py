@@ -8,7 +8,7 @@ from __future__ import annotations
 from physsim_ros.model.requests import Configure, Delete, Request
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Frame
-from physsim_ros.simulation.queue_entries import Amend
+from physsim_ros.simulation.request_queue import Amend
 from physsim_ros.simulation.simulation import Simulation
 
 from ..building import BOX, DISC, spawning

@@ -60,7 +60,7 @@ def test_a_flood_of_commands_takes_no_more_than_the_budget(paused: bool) -> None
     # The world and the space before it, of which the bodies are used again, are not the past.
     for _ in range(2):
         sim.advance_frame()
-        sim.past.timeline.add_checkpoint()
+        sim.past.timeline.add_keyframe()
     gc.collect()
     before, first = tracemalloc.get_traced_memory()[0], used(sim)
     digests, events = {}, []
@@ -130,7 +130,7 @@ ACTS: dict[str, tuple[int, Callable[[Simulation, int], object]]] = {
     'frames': (300, lambda sim, _: sim.advance_frame()),
     'checkpoints': (
         100,
-        lambda sim, _: (sim.advance_frame(), sim.past.timeline.add_checkpoint()),
+        lambda sim, _: (sim.advance_frame(), sim.past.timeline.add_keyframe()),
     ),
     'branches': (10, throw),
     'resets': (300, lambda sim, _: begin_again(sim)),

@@ -9,7 +9,7 @@ from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.requests import DeleteAll
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer, Frame
-from physsim_ros.simulation.queue_entries import Amend
+from physsim_ros.simulation.request_queue import Amend
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
@@ -144,7 +144,7 @@ def test_single_frames_are_made_one_by_one_after_the_end_of_a_seek(
     simulation.speed = 0.0
     simulation.seek(2 * SECOND)
     assert not simulation.apply_up_to_seek()
-    times = [simulation.queue_frame(), simulation.queue_frame()]
+    times = [simulation.playback.queue_frame(), simulation.playback.queue_frame()]
     assert times == [round(step * SECOND / 240) for step in (484, 488)]
     steps = []
     for tick in range(1, 1000):
@@ -162,9 +162,9 @@ def test_another_seek_takes_the_place_of_one_and_of_its_frames(
     simulation, _ = past
     simulation.speed = 0.0
     simulation.seek(2 * SECOND)
-    simulation.queue_frame()
+    simulation.playback.queue_frame()
     simulation.seek(SECOND)
-    assert simulation.queue_frame() == round(244 * SECOND / 240)
+    assert simulation.playback.queue_frame() == round(244 * SECOND / 240)
 
 
 def test_another_seek_takes_the_place_of_one_under_way(

@@ -347,7 +347,7 @@ def test_a_request_at_a_checkpoint_of_the_past_is_made_again_where_it_was() -> N
     # Deep in the floor, so that it goes on otherwise in a space that is built anew.
     sim.perform(spawning('a/0', DISC, (2.4, 0.1, 3.0), velocity=(1.8, 2.7)))
     sim.advance_frame()
-    sim.past.timeline.add_checkpoint()
+    sim.past.timeline.add_keyframe()
     for _ in range(14):
         sim.advance_frame()
     sim.seek(round(FRAME * SECOND / 240))

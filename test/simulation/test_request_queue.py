@@ -8,8 +8,7 @@ from physsim_ros.model.requests import Delete, KeepHand, MoveHand, Spawn
 from physsim_ros.model.shapes import Disc
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation import request_queue
-from physsim_ros.simulation.queue_entries import Call, Seek, size_of
-from physsim_ros.simulation.request_queue import RequestQueue
+from physsim_ros.simulation.request_queue import Call, RequestQueue, Seek, size_of
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 

@@ -171,7 +171,7 @@ def test_play_and_pause_go_on_where_they_were() -> None:
 
     assert sim.world.step_count == 30 * FRAME
     assert {frame.speed for frame in frames} == {2.0}
-    assert sim.late_frames == 0
+    assert sim.playback.clock.late_frames == 0
 
 
 def test_two_frames_a_call_make_up_for_a_hiccup() -> None:
@@ -183,7 +183,7 @@ def test_two_frames_a_call_make_up_for_a_hiccup() -> None:
     assert [len(each) for each in frames] == [2, 2, 2, 1, 1]
     steps = [frame.snapshot.step for each in frames for frame in each]
     assert steps == list(range(FRAME, 8 * FRAME + 1, FRAME))
-    assert sim.late_frames == 0
+    assert sim.playback.clock.late_frames == 0
 
 
 def test_late_frames_are_counted_and_no_step_is_skipped() -> None:
@@ -193,7 +193,7 @@ def test_late_frames_are_counted_and_no_step_is_skipped() -> None:
     frames = [*sim.advance(round(100.2 * PERIOD)), *sim.advance(round(101.2 * PERIOD))]
 
     assert [frame.snapshot.step for frame in frames] == [FRAME, 2 * FRAME]
-    assert sim.late_frames == 99
+    assert sim.playback.clock.late_frames == 99
 
 
 def test_an_answer_is_told_once() -> None:
@@ -360,7 +360,7 @@ def test_time_after_a_reset_begins_without_a_jump() -> None:
     frames = periods(sim, 4, since=10_000)
 
     assert [frame.snapshot.step for frame in frames] == [0, FRAME, 2 * FRAME, 3 * FRAME]
-    assert sim.late_frames == 0
+    assert sim.playback.clock.late_frames == 0
 
 
 def test_the_world_after_a_reset_goes_the_same_way() -> None:
