@@ -16,6 +16,7 @@ from itertools import pairwise
 
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
 from physsim_ros.model.requests import Request
+from physsim_ros.model.settings import WorldSettings
 from physsim_ros.simulation.past.tree import Keyframe, Moment, Node, Tree
 
 
@@ -148,10 +149,6 @@ class History:
         last = self.node(self.keyframes[-1].serial)
         return self.tip.total - last.total > self.log_limit
 
-    def lies_ahead(self, step: int, serial: int) -> bool:
-        """Return whether there are steps or requests after a moment."""
-        return self.head > step or serial < self.tip.serial
-
     def last_gesture(self, serial: int) -> tuple[Node, int] | None:
         """
         Return the first request of the last gesture before a serial; None where none is kept.
@@ -241,8 +238,21 @@ class History:
         self._drop_old()
         return min(steps) if kept else 0
 
-    def add_request(self, moment: Moment, request: Request, *, gesture: int, subject: str) -> Node:
-        """Add a request that changed the world at a moment of this line, and follow it."""
+    def add_request(
+        self,
+        moment: Moment,
+        request: Request,
+        *,
+        gesture: int,
+        subject: str,
+        settings: WorldSettings,
+    ) -> None:
+        """
+        Add a request that changed the world at a moment of this line, and follow it.
+
+        :param subject: name of the body or joint concerned, or ''
+        :param settings: of the world after the request
+        """
         step, serial = moment
         opening = self._openings.get(gesture, serial + 1)
         node = self.tree.add_node(
@@ -252,9 +262,9 @@ class History:
             gesture=gesture,
             opening=opening if opening <= serial else serial + 1,
             subject=subject,
+            settings=settings,
         )
         self.follow(node, step)
-        return node
 
     def add_keyframe(self, moment: Moment, checkpoint: Checkpoint, digest: str) -> Keyframe:
         """Add a checkpoint at the tip, as the last."""

@@ -212,33 +212,26 @@ class Past:
         :raises Refusal: and nothing is changed
         """
         timeline = self.timeline
-        if not timeline.history.lies_ahead(*timeline.moment):
+        left = self._lines.hold(self._line()) if not timeline.is_newest else None
+        try:
             done = timeline.apply(request, gesture)
-        else:
-            done = self._branch(request, gesture)
+        finally:
+            if left is not None and not timeline.world.changed:
+                self._lines.drop(left)
         if timeline.world.changed:
+            if left is not None:
+                self._begin_course(left)
             self._lines.clear_undone(self._era)
         return done
 
-    def _branch(self, request: Request, gesture: int) -> Done:
-        """Apply a request to the world, and keep what lay ahead, if it changes anything."""
-        timeline = self.timeline
-        left = self._lines.hold(self._line())
-        try:
-            done = timeline.apply(request, gesture)
-        except Refusal:
-            self._lines.drop(left)
-            raise
-        if not timeline.world.changed:
-            self._lines.drop(left)
-            return done
-        step, _ = timeline.moment
+    def _begin_course(self, left: Line) -> None:
+        """Begin a course at this moment, and keep the line that was in force."""
+        step, _ = self.timeline.moment
         self._keep_course(left, self.frame_cache.drop_from(step))
         self._courses += 1
         self.course = self._courses
         message = f'course {self.course} begins at {step / self.physics_rate:.3f} s'
         self._answers.append(Answer(topic='branch', message=f'{message}; {left.course} is kept'))
-        return done
 
     def amend(self, gestures: Sequence[int], requests: Sequence[Request]) -> list[Done | Refusal]:
         """

@@ -4,20 +4,24 @@
 """
 The timeline: a world on the line of events in force, which goes on, back, and along other lines.
 
-Laws: a world that goes on from a moment of the past makes the same bits as it did from there
-before, until a request changes its course; a request that is refused changes nothing.
+Laws: a world that goes on from a moment of the past makes the same bits as before, until a request
+changes its course; a request that is refused changes nothing. A seek under way counts as done:
+moment and settings are those of its goal, whoever reads the world finishes it, and another seek
+takes its place.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
 
 from physsim_ros.model.checkpoint import WorldState
-from physsim_ros.model.errors import Refusal
+from physsim_ros.model.errors import OutOfHistory, Refusal
 from physsim_ros.model.requests import Request, Restore
+from physsim_ros.model.settings import WorldSettings
 from physsim_ros.simulation.past.history import History
-from physsim_ros.simulation.past.seekable_replay import SeekableReplay
-from physsim_ros.simulation.past.tree import Node
+from physsim_ros.simulation.past.replay import Replay
+from physsim_ros.simulation.past.tree import Moment, Node
 from physsim_ros.simulation.world import Done, World
 
 # The share of the time between two checkpoints in which the bodies for the next one are made
@@ -25,7 +29,21 @@ from physsim_ros.simulation.world import Done, World
 _AHEAD = 0.75
 
 
-class Timeline(SeekableReplay):
+class _Seek(NamedTuple):
+    """
+    A way through the past that is not finished.
+
+    :ivar begin: moment from which on contacts are those of the goal's frame; None: it is reached
+    :ivar goal: moment that is shown
+    :ivar with_contacts: whether the contacts of that frame are yet to be shown
+    """
+
+    begin: Moment | None
+    goal: Moment
+    with_contacts: bool
+
+
+class Timeline(Replay):
     """
     A world and its history, which new steps and requests are added to.
 
@@ -39,6 +57,7 @@ class Timeline(SeekableReplay):
         self, history: History, state: WorldState, *, physics_rate: float, frame_steps: int
     ) -> None:
         super().__init__(World(physics_rate=physics_rate, frame_steps=frame_steps), history)
+        self._seek: _Seek | None = None
         self.begin(state)
 
     def begin(self, state: WorldState) -> None:
@@ -62,6 +81,91 @@ class Timeline(SeekableReplay):
     def reports_contacts(self, reports_contacts: bool) -> None:
         self._world.reports_contacts = reports_contacts
 
+    # The cursor
+
+    @property
+    def world(self) -> World:
+        """Return the world, at this moment."""
+        self.continue_seek()
+        return self._world
+
+    @property
+    def is_seeking(self) -> bool:
+        """Whether a seek is under way."""
+        return self._seek is not None
+
+    @property
+    def settings(self) -> WorldSettings:
+        """Return the settings of the world at this moment."""
+        return self.history.node(self.moment[1]).settings
+
+    @property
+    def moment(self) -> Moment:
+        """Return step and serial, those of the goal while a seek is under way."""
+        return super().moment if self._seek is None else self._seek.goal
+
+    def seek(self, step: int, *, with_contacts: bool = True) -> None:
+        """
+        Go to a step of the history, as it was shown.
+
+        :param with_contacts: whether the contacts of its frame are yet to be shown
+
+        :raises OutOfHistory: it is kept no more, or has not come yet
+        """
+        history, dt = self.history, self._world.dt
+        if not history.oldest <= step <= history.head:
+            raise OutOfHistory(
+                f'{step * dt:.3f} s is not in the history, which reaches from '
+                f'{history.oldest * dt:.3f} to {history.head * dt:.3f} s',
+                field='clock',
+            )
+        moment = step, history.serial_shown_at(step)
+        self.seek_moment(*moment, with_contacts=with_contacts)
+
+    def seek_moment(
+        self, step: int, serial: int, *, with_contacts: bool = True, elsewhere: bool = False
+    ) -> None:
+        """
+        Go to a moment of the past, from the nearest checkpoint or from here.
+
+        :param elsewhere: whether the world is on another line now
+        """
+        history, frame = self.history, self._world.frame_steps
+        # Its contacts are those of one frame, as they were the first time.
+        begin = max(history.oldest, step - (step % frame or frame))
+        start = begin, history.serial_shown_at(begin)
+        first = (step, serial)
+        if self._world.reports_contacts:
+            first = min(first, start)
+        keyframe = history.keyframe_before(*first)
+        # A seek that this one takes the place of has come to a moment of the history, too.
+        if elsewhere or not keyframe.moment <= super().moment <= first:
+            self.resume(keyframe)
+        self._seek = _Seek(min(start, (step, serial)), (step, serial), with_contacts)
+
+    def continue_seek(self, is_overdue: Callable[[], bool] = lambda: False) -> bool:
+        """
+        Replay towards the moment that was sought.
+
+        :param is_overdue: whether to go on another time
+        :return: whether the world is there
+        """
+        seek, self._seek = self._seek, None
+        if seek is None:
+            return True
+        done = seek.begin is None or self.replay_to(*seek.begin, is_overdue)
+        if done and seek.begin is not None:
+            self._world.clear_contacts()
+            seek = seek._replace(begin=None)
+        if not done or not self.replay_to(*seek.goal, is_overdue):
+            self._seek = seek
+            return False
+        if not seek.with_contacts:
+            self._world.clear_contacts()
+        return True
+
+    # Going on
+
     def apply(self, request: Request, gesture: int) -> Done:
         """
         Carry out a request; where it changes anything, it is the new tip.
@@ -73,7 +177,13 @@ class Timeline(SeekableReplay):
         self._enter_checkpoint()
         done = self.world.apply(request)
         if self.world.changed:
-            self.history.add_request(self.moment, request, gesture=gesture, subject=done.subject)
+            self.history.add_request(
+                self.moment,
+                request,
+                gesture=gesture,
+                subject=done.subject,
+                settings=self.world.settings,
+            )
             self.serial += 1
             if self.history.is_log_long:
                 # A paused world, too, can drop what is old.

@@ -62,6 +62,7 @@ from typing import NamedTuple
 
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
 from physsim_ros.model.requests import Request, Restore
+from physsim_ros.model.settings import WorldSettings
 from physsim_ros.simulation.past.memory_size import checkpoint_size, RequestSizes
 
 # A step, and the number of requests made until then.
@@ -117,6 +118,7 @@ class Node:
     :param opening: serial of the first request of the gesture
     :param subject: name of the body or joint concerned, or ''
     :param loaded: the state that was loaded last
+    :param settings: of the world after the request
     :param size: memory of the request [bytes]
     :param total: memory of all requests from the beginning to this one [bytes]
     :param shown: whether its step has been shown with it; a request to a running world shows only
@@ -132,6 +134,7 @@ class Node:
     step: int
     request: Request
     loaded: Loaded
+    settings: WorldSettings
     after: int = -1
     gesture: int = 0
     opening: int = 0
@@ -161,7 +164,15 @@ class Tree:
     def add_root(self, state: WorldState) -> Node:
         """Return the beginning of a world with a state."""
         request, loaded = Restore(state=state), Loaded(0, state)
-        return Node(parent=None, serial=0, step=0, request=request, loaded=loaded, shown=True)
+        return Node(
+            parent=None,
+            serial=0,
+            step=0,
+            request=request,
+            loaded=loaded,
+            settings=state.settings,
+            shown=True,
+        )
 
     def add_node(
         self,
@@ -172,6 +183,7 @@ class Tree:
         gesture: int,
         opening: int,
         subject: str,
+        settings: WorldSettings,
     ) -> Node:
         """Return a new node, after the checkpoints that its parent has up to a step."""
         serial, size = parent.serial + 1, self._sizes.size_of(request)
@@ -185,6 +197,7 @@ class Tree:
             gesture=gesture,
             opening=opening,
             subject=subject,
+            settings=settings,
             loaded=Loaded(serial, request.state)
             if isinstance(request, Restore)
             else parent.loaded,

@@ -178,6 +178,7 @@ class World(LiveSpace):
 
         :raises Refusal: and nothing is changed
         """
+        self.changed = False
         before = self.space, self.space.changes
         done = HANDLERS[type(request)](self, request)
         self.changed = before != (self.space, self.space.changes)
