@@ -19,9 +19,8 @@ from physsim_ros.files import OwnWorlds
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.colors import Color
 from physsim_ros.model.errors import Busy, PhysSimError, Refusal
-from physsim_ros.model.preview import NO_PREVIEW, Preview
 from physsim_ros.model.requests import HandRequest, KeepHand, LetGo, Request, Spawn
-from physsim_ros.model.snapshot import Answer
+from physsim_ros.model.snapshot import Answer, NO_PREVIEW, Preview
 from physsim_ros.simulation.deferred_calls import Wait
 from physsim_ros.sketchpad.answers import answer_content, Content, Origin
 from physsim_ros.sketchpad.autosave import Autosave

@@ -5,7 +5,7 @@
 Arrows over the bodies: forces of contacts, and velocities.
 
 A contact is an arrow at its point, the force on a body, as long as the force is great. Of two
-movable bodies that is the force on the later spawned one. A velocity is the way of the next fifth
+dynamic bodies that is the force on the later spawned one. A velocity is the way of the next fifth
 of a second.
 """
 
@@ -59,12 +59,12 @@ def force_scale(scene: Scene, unit: float) -> ForceScale:
 
     :param unit: length of a unit of the view [m]
     """
-    movable = np.flatnonzero(scene.inertia[:, 0] > 0)
-    if not len(movable):
+    dynamic = np.flatnonzero(scene.inertia[:, 0] > 0)
+    if not len(dynamic):
         return ForceScale(1.0, unit)
-    weight = float(np.median(scene.inertia[movable, 0]))
+    weight = float(np.median(scene.inertia[dynamic, 0]))
     weight *= float(np.hypot(*scene.settings.gravity)) or _GRAVITY
-    size = float(np.median([scene.bodies[row].shape.form.outer for row in movable]))
+    size = float(np.median([scene.bodies[row].shape.form.outer for row in dynamic]))
     length = min(max(2.0 * size, _SHORT * unit), _LONG * unit)
     force = nice_number(weight)
     return ForceScale(force, length * force / weight)
@@ -129,15 +129,15 @@ class ContactArrows:
 
 
 def contact_forces(contacts: Contacts, scene: Scene) -> Floats:
-    """Return the impulses on the movable body of each pair, (m, 2) float64 [N s]."""
-    movable = np.append(scene.inertia[:, 0] > 0, False)
-    signs = np.where(movable[contacts.pairs[:, 1]], 1.0, -1.0)
+    """Return the impulses on the dynamic body of each pair, (m, 2) float64 [N s]."""
+    dynamic = np.append(scene.inertia[:, 0] > 0, False)
+    signs = np.where(dynamic[contacts.pairs[:, 1]], 1.0, -1.0)
     return contacts.impulses * signs[:, None]
 
 
 class VelocityArrows:
     """
-    Sends the velocities of movable bodies.
+    Sends the velocities of bodies that are not anchored.
 
     :param recording: stream to log to
     """
@@ -152,14 +152,14 @@ class VelocityArrows:
 
         :param height: z of the arrows [m]
         """
-        movable = np.flatnonzero([not body.anchored for body in batch.scene.bodies])
-        if not len(movable):
+        moving = np.flatnonzero([not body.anchored for body in batch.scene.bodies])
+        if not len(moving):
             return
-        chosen = batch.sampled(max(_VELOCITY_PERIOD, sampling_period(len(movable))))
+        chosen = batch.sampled(max(_VELOCITY_PERIOD, sampling_period(len(moving))))
         snapshots = [batch.frames[index].snapshot for index in chosen]
-        origins = np.concatenate([each.centers[movable] for each in snapshots])
-        ways = _AHEAD * np.concatenate([each.twists[movable, :2] for each in snapshots])
-        arrows = _arrow_columns(origins, ways, height, [len(movable)] * len(chosen))
+        origins = np.concatenate([each.centers[moving] for each in snapshots])
+        ways = _AHEAD * np.concatenate([each.twists[moving, :2] for each in snapshots])
+        arrows = _arrow_columns(origins, ways, height, [len(moving)] * len(chosen))
         self._recording.send_columns(VELOCITIES, batch.times_at(chosen), arrows)
 
 
