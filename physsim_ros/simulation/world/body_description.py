@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The description of a body that a request makes or changes, without a space.
+The body that a request makes or changes, as a value without a space.
 
-Law: a property that a request does not name is as it was; of a new body, the default of the world.
+Law: a property that a request does not name keeps its value; of a new body, it is the default of
+the world.
 """
 
 from __future__ import annotations
@@ -25,11 +26,11 @@ from physsim_ros.model.transform import REST, Twist
 
 def new_body(request: Spawn, settings: WorldSettings, expires: int | None) -> tuple[Body, Twist]:
     """
-    Return the body of a request, and its twist.
+    Return the new body of a request, and its twist.
 
     :param settings: of the world, the defaults of properties
     :param expires: step at whose end it is removed; None is never
-    :raises Refusal: there is no such body
+    :raises Refusal: the body cannot be simulated
     """
     changes = spawn_changes(request, expires)
     body = changed_body(_default_body(request, settings), changes, request.properties)
@@ -38,9 +39,9 @@ def new_body(request: Spawn, settings: WorldSettings, expires: int | None) -> tu
 
 def spawn_changes(request: Spawn, expires: int | None) -> dict[str, Any]:
     """
-    Return the fields of a body that a spawn request sets, by name, but for its properties.
+    Return the fields of a body that a spawn request sets, by name, without its properties.
 
-    :param expires: step at whose end it is removed; None leaves that as it is
+    :param expires: step at whose end it is removed; None leaves it unchanged
     """
     changes: dict[str, Any] = {'shape': request.shape}
     if request.color is not None:
@@ -54,7 +55,7 @@ def changed_body(old: Body, changes: dict[str, Any], properties: Properties) -> 
     """
     Return a body with other properties.
 
-    :param changes: fields of the body that are no properties, by name
+    :param changes: other fields of the body, by name
     :raises BadProperty: it would be too light or too heavy, or a robot or conveyor that cannot be
     """
     said = properties.explicit()
@@ -64,7 +65,7 @@ def changed_body(old: Body, changes: dict[str, Any], properties: Properties) -> 
         said['mass'] = None
     body = replace(old, **changes, **said)
     if body.mass is not None:
-        # Not that of the world on the day of its birth, which no file would know.
+        # The default density of the world at its spawn is in no file.
         body = replace(body, density=body.mass / body.shape.form.area)
     if not LIGHTEST <= body.total_mass <= HEAVIEST:
         field = 'density' if body.mass is None else 'mass'
@@ -101,7 +102,7 @@ def changed_twist(body: Body, twist: Twist, properties: Properties) -> Twist:
     Return the twist of a body with other properties.
 
     :param twist: that it has now
-    :raises Anchored: an anchored body is to move
+    :raises Anchored: a velocity is named, and the body is anchored
     """
     moves = (properties.velocity or (0.0, 0.0)) != (0.0, 0.0) or bool(properties.spin)
     if body.anchored and moves:

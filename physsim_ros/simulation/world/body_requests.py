@@ -96,7 +96,7 @@ def command(live: LiveSpace, request: Command) -> Done:
     rigids = [body_of_name(space, name, 'joint_names') for name in request.names]
     for rigid in rigids:
         check_command(rigid.body, request)
-    # Twists and wrenches are of the world, but a frame that there is not is a mistake.
+    # Refuses an unknown frame, though twists and wrenches are in world axes.
     pose_in_world(space, ORIGIN, request.frame)
     poses = [pose_in_world(space, pose, request.frame) for pose in _tuples(request.poses)]
     _set_poses(live, rigids, poses)
@@ -200,7 +200,7 @@ def _done(verb: str, names: tuple[str, ...]) -> Done:
 
 
 def _set_poses(live: LiveSpace, rigids: list[RigidBody], poses: list[Pose]) -> None:
-    """Set the poses of bodies, if there are any; refused where too much would overlap."""
+    """Set the poses of bodies, unless too many pieces would overlap."""
     if not poses:
         return
     moved = zip(rigids, poses, strict=True)

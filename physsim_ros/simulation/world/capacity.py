@@ -2,16 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Capacity: how much a world may hold, checked before the engine has it.
+Capacity: limits on the size of a world, checked before the engine changes.
 
-Law: what is spawned, changed, moved, released or loaded is refused as `world_full` if the bodies,
-their pieces, the pairs of these that overlap at once, or the joints would be more than the
-settings allow; so is a grip beyond `MOST_HANDS`.
+Law: a request is refused as `world_full` if the world would have more bodies, convex pieces,
+overlapping pairs of pieces or joints than its settings allow; so is a grip beyond `MOST_HANDS`.
 
-A body that is spawned or moved alone is counted by what its box meets in the engine's own tree,
-which is too many; the sum of these is a bound. Only where the bound exceeds the limit, the
-overlaps of the whole world are counted (`engine.overlaps`); the boxes of that count serve for what
-is refused next, since to list hundreds of pieces the tree takes a microsecond for each.
+Overlaps are bounded from above: each body that is spawned or moved adds the pieces whose boxes its
+own boxes meet in the engine's tree. Only when this bound exceeds the limit, the overlaps of the
+whole world are counted (`engine.overlaps`). The boxes of that count are kept for the next
+requests: to list hundreds of pieces takes the tree a microsecond each.
 """
 
 from __future__ import annotations
@@ -39,11 +38,12 @@ from physsim_ros.model.settings import MOST_HANDS, MOST_JOINTS_ON_BODY, WorldSet
 from physsim_ros.model.shapes import Shape
 from physsim_ros.model.transform import Pose
 
-# The engine lists pairs of pieces of one body too, and rejects each in a tenth of the time of a
-# contact (measured: compounds of 1,000 discs).
+# Pairs of pieces of one body that cost as much as one contact [1]: the engine lists them too, and
+# rejects each in a tenth of the time (measured: compounds of 1,000 discs).
 _INSIDE = 10
-# Pieces and overlaps in a world for each piece of requests after which the overlaps are counted
-# anew within a step: a count takes some 3 µs for each, a request a third of a millisecond more.
+# Within a step, overlaps are counted again when the pieces and overlaps of the world are fewer
+# than this many times the pieces of the requests since the last count [1]. A count takes 3 µs for
+# each piece and overlap, a request a third of a millisecond more.
 _PIECE = 100
 
 
@@ -59,31 +59,32 @@ class Capacity:
     def __init__(self, space: Space) -> None:
         self.checking = True
         self._space = space
-        # At most as many overlaps as there are; None is unknown.
+        # Upper bound of the number of overlaps; None is unknown.
         self._bound: int | None = None
-        # Steps that the engine had made at the last count, and pieces of requests since then.
+        # Steps that the space had made at the last count, and pieces of requests since then.
         self._age = -1
         self._since = 0
-        # Boxes of all cores at the last count, and the changes that the space had seen by then.
+        # Boxes of all cores at the last count, and the number of changes of the space then.
         self._boxes: Floats = np.empty((0, 4))
         self._changes = -1
 
     def check_body(self, body: Body, pose: Pose, *, old: RigidBody | None = None) -> None:
         """
-        Refuse a body for which there is no place.
+        Refuse a body that exceeds a limit.
 
         :param pose: that it is to have
         :param old: the same body as it is now; None if it is new
-        :raises WorldFull: there is none
+        :raises WorldFull: it does
         """
         self.check_bodies([(body, pose, old)])
 
     def check_bodies(self, placed: Sequence[tuple[Body, Pose, RigidBody | None]]) -> None:
         """
-        Refuse bodies for which there is no place.
+        Refuse bodies that exceed a limit together.
 
-        :param placed: each body, the pose that it is to have, and as it is now if it is not new
-        :raises WorldFull: there is none
+        :param placed: each body, the pose that it is to have, and the body as it is now if it is
+            not new
+        :raises WorldFull: they do
         """
         if not self.checking:
             return
@@ -104,7 +105,7 @@ class Capacity:
         if self._bound is not None and self._bound + added <= most:
             self._bound += added
             return
-        # Too many, as far as is known.
+        # The bound is exceeded: count.
         before = self._bound
         if before is None or self._age != space.age or self._since * _PIECE > shapes + before:
             names = {body.name for body, _ in new}
@@ -121,9 +122,9 @@ class Capacity:
 
     def check_joint(self, joint: Joint) -> None:
         """
-        Refuse a joint for which there is no place, unless it replaces one of its name.
+        Refuse a joint that exceeds a limit, unless it replaces the one of its name.
 
-        :raises WorldFull: there is none
+        :raises WorldFull: it does
         """
         if not self.checking:
             return
@@ -135,9 +136,9 @@ class Capacity:
 
     def check_hand(self, hand: str) -> None:
         """
-        Refuse the grip of a hand for which there is no place, unless it replaces one of that hand.
+        Refuse the grip of a hand beyond `MOST_HANDS`, unless the hand has one already.
 
-        :raises WorldFull: there is none
+        :raises WorldFull: too many hands drag a body
         """
         grips = self._space.pipeline.mouse_joints
         if self.checking and grips.grip_of(hand) is None and len(grips.grips()) >= MOST_HANDS:
@@ -166,7 +167,7 @@ class Capacity:
             raise _too_many(count, most)
 
     def _count_near(self, body: Body, pose: Pose, old: RigidBody | None) -> int:
-        """Count the pieces that those of a body may overlap, which are too many; see above."""
+        """Return an upper bound of the pieces that those of a body overlap."""
         space, boxes = self._space, core_boxes(body.shape, pose)
         is_counted = self._age == space.age and self._changes == space.changes
         if is_counted and old is None and not body.anchored and len(boxes) == 1:
@@ -196,10 +197,11 @@ def _count(
     placed: Sequence[tuple[Body, Pose]], most: int, *, first: set[str] | None = None
 ) -> int:
     """
-    Count the overlaps of bodies; of some of them with all, or of all.
+    Count the overlaps of pieces.
 
     :param most: the count ends when it is greater
-    :param first: names of these; None is all, with those between the pieces of each
+    :param first: names of bodies whose overlaps with all bodies are counted; None counts the
+        overlaps of all, with those between the pieces of each
     """
     bodies = [body for body, _ in placed]
     shapes, poses = _columns(placed)
@@ -212,7 +214,7 @@ def _count(
 
 
 def _poses(space: Space, without: set[str]) -> list[tuple[Body, Pose]]:
-    """Return the bodies of a space and their poses, but for some."""
+    """Return the bodies of a space and their poses, without those of some names."""
     rigids = space.bodies.by_name.values()
     return [(rigid.body, rigid.pose) for rigid in rigids if rigid.body.name not in without]
 
@@ -224,7 +226,7 @@ def _columns(placed: Sequence[tuple[Body, Pose]]) -> tuple[list[Shape], Floats]:
 
 
 def _inside(body: Body) -> int:
-    """Return the overlaps between the pieces of a body, in contacts of the same cost."""
+    """Return the overlaps between the pieces of a body, as the contacts that cost the same."""
     return 0 if body.anchored else count_inside(body.shape) // _INSIDE
 
 

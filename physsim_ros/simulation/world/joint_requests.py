@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Requests for joints: which two bodies one means, where the joint sits on them, what is refused.
+Requests for joints: the two bodies of a joint, its seat on them, and refusals.
 
-Laws: nothing is changed before all has been checked; a joint that is asked for where it already
-is keeps its seat to the last bit, so that whoever publishes what is drawn changes nothing.
+Laws: everything is checked before anything is changed. A joint that is requested where it already
+is keeps its seat to the bit, so that markers which are published back change nothing.
 """
 
 from __future__ import annotations
@@ -25,11 +25,11 @@ from physsim_ros.model.transform import ORIGIN, Point, Pose, rotated
 from physsim_ros.simulation.world.live_space import LiveSpace
 from physsim_ros.simulation.world.lookup import body_of_name, Done, points_in_world
 
-# Points that lie so near to where a joint is drawn are where it is [m]: what is drawn comes back
-# in the digits of a double, and from a person's hand never.
+# Distance within which two points are the same [1, of their size]: markers that come back have the
+# digits of a double; no person draws a point twice so exactly.
 _SAME = 1e-9
-# A click within this share of a body's inner radius, and never less than so far [m], of a pin or
-# an axle means it.
+# A click means a weld or an axle within this share of the body's inner radius [1], and within at
+# least this distance [m].
 _NEAR_SHARE, _NEAR = 0.35, 0.1
 
 _STRAIGHT = {JointKind.SPRING, JointKind.ROD, JointKind.ROPE}
@@ -57,7 +57,7 @@ def join(live: LiveSpace, request: Join) -> Done:
     if old is None or old.joint != joint:
         live.capacity.check_joint(joint)
         space.joints.check_springs({}, joint)
-        # A rebuilt joint has no cached impulses; bodies on it would lose their warm start.
+        # Only if it differs: a joint that is built anew has no cached impulses to warm start from.
         space.join(joint)
     other = 'the background' if b == WORLD else b
     which = f'{request.kind} {request.name}'
@@ -98,7 +98,7 @@ def unjoin_all(live: LiveSpace, request: UnjoinAll) -> Done:
 
 
 def loosen(space: Space, body: str, point: Point) -> list[str]:
-    """Remove the pins and axles of a body that sit at a point of the world [m]; name them."""
+    """Remove the welds and axles of a body at a point of the world [m]; return their names."""
     reach = max(_NEAR, _NEAR_SHARE * space.bodies.by_name[body].body.shape.form.inner)
     names = [
         name
@@ -113,7 +113,7 @@ def loosen(space: Space, body: str, point: Point) -> list[str]:
 
 def drawn_points(joint: Joint, poses: Mapping[str, Pose]) -> tuple[Point, ...]:
     """
-    Return the points of the world that a joint would be drawn with where it is now [m].
+    Return the points of the world with which a joint would be drawn now [m].
 
     :param poses: of the bodies, by name
     """
@@ -132,10 +132,10 @@ def _members(
     space: Space, request: Join, points: tuple[Point, ...]
 ) -> tuple[str, str, tuple[Point, ...]]:
     """
-    Return the two bodies that a request means, and the points, that of the first body first.
+    Return the two bodies of a request, and its points in their order.
 
-    :raises UnknownBody: a name is none of a body
-    :raises NothingThere: no name is given, and no body is there
+    :raises UnknownBody: there is no body of a name
+    :raises NothingThere: no name is given, and there is no body at the point
     """
     for field, name in (('a', request.a), ('b', request.b)):
         if name and name != WORLD:
@@ -144,7 +144,7 @@ def _members(
     first = [name for name in space.bodies.at(points[0]) if name != b]
     last = space.bodies.at(points[-1])
     if not a and not first:
-        # A line drawn from the ceiling down to a body hangs the body.
+        # A line that begins in the background and ends on a body: its body is a.
         if request.kind in _STRAIGHT and b in ('', WORLD) and last:
             return last[0], WORLD, points[::-1]
         x, y = points[0]
@@ -155,7 +155,7 @@ def _members(
 
 
 def _check_members(space: Space, kind: JointKind, a: str, b: str) -> None:
-    """Refuse a joint of a body with itself, or of two that forces do not move."""
+    """Refuse a joint of a body with itself, or of two bodies that are not dynamic."""
     if a == b:
         raise BadProperty(f'{a} cannot be joined to itself', field='b', body=a)
     bodies = [space.bodies.by_name[name].body for name in (a, b) if name != WORLD]
@@ -171,7 +171,7 @@ def _check_members(space: Space, kind: JointKind, a: str, b: str) -> None:
 def _seat(
     kind: JointKind, points: tuple[Point, ...], pose_a: Pose, pose_b: Pose, phase: float
 ) -> Seat:
-    """Return the seat of a joint that is drawn with these points."""
+    """Return the seat of a joint that is drawn with points of the world [m]."""
     ux = uy = 0.0
     at_b = points[-1]
     if kind is JointKind.SLIDER:
@@ -187,8 +187,8 @@ def _phase(space: Space, a: str, b: str, said: JointProperties) -> float:
     """
     Return the phase of a gear [rad].
 
-    :param said: with the phase, to which as many whole turns are added as the bodies have made;
-        without it, the phase is the present one
+    :param said: the phase, to which the whole turns of the bodies are added; where it is None,
+        the present phase is returned
     """
     ratio = 1.0 if said.ratio is None else said.ratio
     now = ratio * _pose(space, b)[2] - _pose(space, a)[2]
@@ -198,10 +198,10 @@ def _phase(space: Space, a: str, b: str, said: JointProperties) -> float:
 
 
 def _is_at(space: Space, joint: Joint, points: tuple[Point, ...]) -> bool:
-    """Return whether a joint would be drawn with these points now."""
+    """Return whether a joint is where points of the world would draw it [m]."""
     drawn = _drawn(space, joint)
     if joint.kind is JointKind.SLIDER:
-        # Its second point says no more than where its line leads.
+        # Its second point only gives the direction of its axis.
         x, y = points[0]
         length = math.dist(*points)
         points = (

@@ -4,8 +4,8 @@
 """
 The world: requests go in, snapshots come out.
 
-Laws: the world changes only between steps and only in `apply`; a refusal changes nothing; the same
-requests at the same steps give the same bits, in another process too.
+Laws: the world changes between steps only by `apply`; a refusal changes nothing; the same requests
+at the same steps give the same bits, in another process too.
 """
 
 from __future__ import annotations
@@ -55,7 +55,7 @@ from physsim_ros.simulation.world import (
 from physsim_ros.simulation.world.live_space import LiveSpace
 from physsim_ros.simulation.world.lookup import Done
 
-# The handler of each type of request: it checks all, then changes the space.
+# The handler of each type of request. It checks everything, then changes the space.
 HANDLERS: Mapping[type, Callable[[LiveSpace, Any], Done]] = {
     Spawn: body_requests.spawn,
     ChangeBody: body_requests.change_body,
