@@ -20,7 +20,7 @@ from physsim_ros.model.robots.sensors import FloorEye
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.shapes import Capsule, Circle, Convex, Piece
 from physsim_ros.model.snapshot import Snapshot
-from physsim_ros.model.transform import cross, dots, next_vertices, turned
+from physsim_ros.model.transform import cross, dots, next_vertices, rotated_each
 from physsim_ros.sensing.mounting import noise_of, placed
 
 _ROWS: WeakKeyDictionary[Scene, NDArray[np.int64]] = WeakKeyDictionary()
@@ -65,7 +65,7 @@ class FloorMarks:
         near = dots(away, away) <= (self.extents + reach) ** 2
         for row in self.rows[near].tolist():
             body, pose = self.snapshot.scene.bodies[row], self.snapshot.poses[row]
-            local = turned(points - pose[:2], -pose[2])
+            local = rotated_each(points - pose[:2], -pose[2])
             inside = np.zeros(len(points), dtype=np.bool_)
             for piece in body.shape.form.pieces:
                 inside |= _inside(piece, local)
@@ -87,7 +87,7 @@ def read_floor(marks: FloorMarks, row: int, eye: FloorEye, seed: int) -> NDArray
     x, y, yaw = placed(snapshot, row, eye)
     half = eye.width / 2 if eye.pixels > 1 else 0.0
     left = np.linspace(half, -half, eye.pixels)
-    points = turned(np.column_stack((np.zeros(eye.pixels), left)), yaw)
+    points = rotated_each(np.column_stack((np.zeros(eye.pixels), left)), yaw)
     points += np.array((x, y))
     colors = marks.colors_at(points)
     if eye.noise:

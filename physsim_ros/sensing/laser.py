@@ -14,7 +14,7 @@ from functools import lru_cache
 import numpy as np
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.robots.sensors import Laser
-from physsim_ros.model.transform import turned
+from physsim_ros.model.transform import rotated_each
 from physsim_ros.sensing.fan import Rays
 from physsim_ros.sensing.mounting import noise_of, placed
 from physsim_ros.sensing.surroundings import Surroundings
@@ -34,7 +34,7 @@ def read_laser(surroundings: Surroundings, row: int, laser: Laser, seed: int) ->
     """
     snapshot = surroundings.snapshot
     *origin, yaw = placed(snapshot, row, laser)
-    directions = turned(_beams(laser.beams, laser.angle[0], laser.increment), yaw)
+    directions = rotated_each(_beams(laser.beams, laser.angle[0], laser.increment), yaw)
     x, y = np.ascontiguousarray(directions.T)
     least, greatest = laser.range
     ranges = surroundings.nearest(Rays((origin[0], origin[1]), x, y), greatest, row)
