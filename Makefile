@@ -33,11 +33,11 @@ endif
 TSC := npx --yes --package=typescript -- tsc
 
 .DEFAULT_GOAL := help
-.PHONY: help run test lint bench ablate evaluate gallery docs soak clean
+.PHONY: help run test test-all lint bench ablate evaluate gallery docs soak clean
 
 # The comments after `##` are the help.
 help:  ## list the targets
-	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-9s %s\n", $$1, $$2 }' Makefile
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-9s %s\n", $$1, $$2 }' Makefile
 	@echo "ARGS='...' is handed on, as in: make run ARGS='-p world_file:=car', make test ARGS=test/laws"
 
 run: $(STAMP)  ## start the demo world, and its page in the browser
@@ -49,8 +49,14 @@ run: $(STAMP)  ## start the demo world, and its page in the browser
 	@echo '  ros2      topics and services under /physsim'
 	@exec $(BIN)/physsim --ros-args -p world_file:=demo -p sketchpad:=serve $(ARGS)
 
-test: $(STAMP)  ## run every test: a quarter of an hour
-	$(BIN)/python -m pytest --numprocesses=auto --maxprocesses=8 --dist=worksteal $(ARGS)
+# A worker that a test takes down is replaced, but not without end.
+PYTEST := $(BIN)/python -m pytest --numprocesses=auto --maxprocesses=8 --dist=worksteal --max-worker-restart=4
+
+test: $(STAMP)  ## run all tests but the slow ones: four minutes
+	$(PYTEST) -m 'not slow' $(ARGS)
+
+test-all: $(STAMP)  ## run every test: a quarter of an hour
+	$(PYTEST) $(ARGS)
 
 lint: $(STAMP)  ## check style, types and imports
 	$(BIN)/ruff check

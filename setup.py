@@ -88,7 +88,6 @@ setup(
             'playwright',
             'psutil',
             'pytest>=8',
-            'pytest-timeout',
             'pytest-xdist',
             # With every rule selected, a new minor version of ruff is new rules.
             'ruff>=0.17,<0.18',

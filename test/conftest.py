@@ -1,12 +1,18 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Fixtures of the tests over ROS, imported late: the core's tests run where there is no ROS."""
+"""
+Fixtures of the tests over ROS, which tests are slow, and an end to tests that hang.
+
+What needs ROS is imported late: the core's tests run where there is no ROS.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import ExitStack
+from collections.abc import Generator, Iterator
+from contextlib import contextmanager, ExitStack
+import faulthandler
+import os
 from typing import TYPE_CHECKING
 
 import pytest
@@ -16,6 +22,58 @@ if TYPE_CHECKING:
 
     from .client import Client
     from .outside import Outside
+
+# Fixtures that start other processes: a test that asks for one is slow.
+PROCESSES = {'chromium', 'outside', 'server'}
+# For setup, call and teardown of a test each [s]: ten times what the slowest may take.
+LONGEST = 300.0
+STDERR = pytest.StashKey[int]()
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    for item in items:
+        if PROCESSES.intersection(getattr(item, 'fixturenames', ())):
+            item.add_marker(pytest.mark.slow)
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    # A test's own stderr is captured, and lost with its process.
+    config.stash[STDERR] = os.dup(2)
+
+
+@contextmanager
+def _ended(item: pytest.Item) -> Iterator[None]:
+    """
+    End the process after `LONGEST` and show where it hangs; xdist starts another and goes on.
+
+    The watchdog is a thread in C. That of pytest-timeout is one in Python: it never comes while C
+    code keeps the interpreter, and like pytest's own it stops watching when a test has failed, so
+    that the teardown of such a test could hang for ever.
+    """
+    faulthandler.dump_traceback_later(LONGEST, exit=True, file=item.config.stash[STDERR])
+    try:
+        yield
+    finally:
+        faulthandler.cancel_dump_traceback_later()
+
+
+@pytest.hookimpl(wrapper=True, tryfirst=True)
+def pytest_runtest_setup(item: pytest.Item) -> Generator[None, object, object]:
+    with _ended(item):
+        return (yield)
+
+
+@pytest.hookimpl(wrapper=True, tryfirst=True)
+def pytest_runtest_call(item: pytest.Item) -> Generator[None, object, object]:
+    with _ended(item):
+        return (yield)
+
+
+@pytest.hookimpl(wrapper=True, tryfirst=True)
+def pytest_runtest_teardown(item: pytest.Item) -> Generator[None, object, object]:
+    with _ended(item):
+        return (yield)
 
 
 @pytest.fixture

@@ -49,6 +49,7 @@ def test_a_domain_comes_back() -> None:
     assert len(set(given)) < len(given)
 
 
+@pytest.mark.slow
 def test_programs_of_two_tests_on_one_domain_do_not_meet(tmp_path: Path) -> None:
     with own_domain() as domain, ExitStack() as closing:
         tests = []

@@ -26,6 +26,8 @@ from packaging.requirements import Requirement
 from packaging.version import Version
 import pytest
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).parents[1]
 CONFIG = sorted(path.relative_to(ROOT) for path in ROOT.glob('config/**/*.*'))
 

@@ -29,6 +29,7 @@ def test_a_drawing_runs_as_a_person_expects(name: str) -> None:
     LAWS[name](Machine(ruler))
 
 
+@pytest.mark.slow
 def test_of_machines_drawn_by_hand_19_in_20_run() -> None:
     failed = []
     for name, law in LAWS.items():

@@ -32,6 +32,8 @@ from tools.evaluation.scenes import faulty_scenes, scenes
 
 from .machines import LAWS, strokes_of
 
+pytestmark = pytest.mark.slow
+
 # Strokes of each kind and of each fault.
 _COUNT = 2
 # NumPy's sets of vector instructions that this processor has, AVX-512 alone and all.

@@ -109,6 +109,7 @@ def machine(pick: random.Random, *, sensors: bool) -> World:
 
 
 # A smaller seed is no simpler machine: none is looked for.
+@pytest.mark.slow
 @settings(max_examples=COUNT, deadline=None, derandomize=True, phases=[Phase.generate])
 @given(seed=strategies.integers(0, 2**32), sensors=strategies.booleans())
 def test_any_machine_runs_for_ten_seconds(seed: int, sensors: bool) -> None:

@@ -10,6 +10,7 @@ from physsim_ros.model.shapes import Box, Disc, Polygon
 import pytest
 
 from .scenes import DT, G, NOWHERE, run, simulation, spawn, steps, turned, walls
+from ..slow import slow
 
 
 @pytest.mark.parametrize('side', [0, 40, 90, 180, 270])
@@ -127,7 +128,7 @@ def _gas(speed, seed):
 
 
 # At five times the speed they bounce as often in a fifth of the time.
-@pytest.mark.parametrize(('speed', 'seconds'), [(1.0, 60), (5.0, 12)])
+@pytest.mark.parametrize(('speed', 'seconds'), [slow(1.0, 60), (5.0, 12)])
 def test_a_gas_of_discs_keeps_its_energy(report, speed, seconds):
     sim = _gas(speed, seed=1)
     sim.reports_contacts = True

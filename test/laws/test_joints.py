@@ -154,6 +154,7 @@ def test_joints_that_contradict_each_other_give_no_energy(report, seed):
     report.check(34, 'tangle, energy gained', gain, 0.0, 0.05, '–')
 
 
+@pytest.mark.slow
 def test_motors_and_springs_among_them_give_no_energy_either(report):
     gains = [energy_from_nowhere(*tangle(seed, (*KINDS, 'spring', 'motor'))) for seed in range(20)]
     what = 'tangle with motors and springs, energy gained'

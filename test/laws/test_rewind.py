@@ -19,6 +19,7 @@ from physsim_ros.simulation.simulation import Simulation
 import pytest
 
 from .scenes import floor, G, NOWHERE, run, spawn, turned, walls
+from ..slow import slow
 
 ROOT = Path(__file__).resolve().parents[2]
 # Simulation time from one checkpoint to the next [s]: at the default of 3 s each scene would have
@@ -267,7 +268,11 @@ class Player:
         )
 
 
-@pytest.fixture(params=SCENES)
+# Scenes of many bodies.
+CROWDS = ('100 discs', 'pyramid of 105', 'walls, thin ones too')
+
+
+@pytest.fixture(params=[slow(name) if name in CROWDS else name for name in SCENES])
 def scene(request):
     """Give the name of each scene in turn."""
     return request.param
@@ -361,6 +366,7 @@ def _save(sim: Simulation, directory, name):
     return save_world(state, f'{name}.yaml', world_dir=directory, physics_rate=sim.physics_rate)
 
 
+@pytest.mark.slow
 def test_a_saved_world_goes_on_in_another_process_as_it_is_loaded_here(report, tmp_path):
     chance = random.Random(26)
     paths, here = [], []

@@ -32,6 +32,7 @@ from physsim_ros.ros.requests.command_reader import command_from, CommandMessage
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.testing import box, disc
 from physsim_ros.testing.messages import rotation
+import pytest
 from rclpy.serialization import serialize_message
 from sensor_msgs.msg import MultiDOFJointState
 from std_msgs.msg import ColorRGBA, Header
@@ -268,6 +269,7 @@ class Fuzzed:
         self._contacts.encode(frame)
 
 
+@pytest.mark.slow
 def test_thousands_of_arbitrary_messages_leave_a_world_that_goes_on() -> None:
     codes: dict[str, int] = {}
     done: set[str] = set()

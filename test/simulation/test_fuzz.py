@@ -32,6 +32,7 @@ from physsim_ros.model.requests import (
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon, Shape, Triangles
 from physsim_ros.simulation.world import World
+import pytest
 
 FRAME = 4
 MOST_BODIES = 8
@@ -325,6 +326,7 @@ def carry_out(world: World, make: Callable[[World], Request]) -> Request | None:
     return request
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=150)
 @given(sequence=st.one_of(*(st.lists(each, min_size=4, max_size=12) for each in ASKED)))
 def test_any_sequence_of_requests_leaves_a_sound_world(sequence: list[Ask]) -> None:

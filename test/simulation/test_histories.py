@@ -30,6 +30,7 @@ def test_a_history_shows_what_its_requests_show_when_they_are_played_from_nothin
     check(seed)
 
 
+@pytest.mark.slow
 def test_a_history_shows_the_same_in_another_process() -> None:
     root = str(Path(__file__).parents[2])
     done = subprocess.run(
@@ -44,6 +45,7 @@ def test_a_history_shows_the_same_in_another_process() -> None:
     assert done.stdout.strip() == play(history_of(7)).digest()
 
 
+@pytest.mark.slow
 def test_a_replay_that_leaves_out_requests_is_found_and_shrunk_to_a_short_program(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

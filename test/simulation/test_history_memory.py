@@ -17,6 +17,7 @@ from physsim_ros.simulation.simulation import Simulation
 import pytest
 
 from .driven import Driven
+from ..slow import slow
 
 SECOND = 1_000_000_000
 NAMES = tuple(f'a/{number}' for number in range(100))
@@ -53,7 +54,7 @@ def used(sim: Simulation) -> float:
     return sim.past.memory.used
 
 
-@pytest.mark.parametrize('paused', [False, True])
+@pytest.mark.parametrize('paused', [slow(False), True])
 def test_a_flood_of_commands_takes_no_more_than_the_budget(paused: bool) -> None:
     tracemalloc.start()
     sim = crowd(2.0)
@@ -157,6 +158,7 @@ def test_the_memory_that_is_told_is_within_a_fifth_of_what_is_taken(
     assert (used(sim) - first) / (after - before) == pytest.approx(1.0, abs=0.2)
 
 
+@pytest.mark.slow
 def test_thousands_of_resets_take_no_more_than_the_budget() -> None:
     sim = Simulation(history_memory=LEAST_MEMORY)
     sim.advance_frame()

@@ -12,6 +12,8 @@ from physsim_ros.model.shapes import Box, Disc
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
+from ..slow import slow
+
 BOX = Box(width=0.5, height=0.5)
 FLOOR = Configure(changes={'bounds': (-4.0, 0.0, 4.0, 40.0)})
 
@@ -59,7 +61,7 @@ def sleeping() -> Simulation:
     return sim
 
 
-@pytest.mark.parametrize('scene', [resting, falling, jointed, sleeping])
+@pytest.mark.parametrize('scene', [resting, falling, slow(jointed), sleeping])
 def test_the_future_after_saves_is_the_future_without_them(
     scene: Callable[[], Simulation],
 ) -> None:

@@ -15,6 +15,7 @@ ROOT = Path(__file__).parents[2]
 AMENT_FLAKE8 = 'import sys; from ament_flake8.main import main; sys.exit(main(sys.argv[1:]))'
 
 
+@pytest.mark.slow
 @pytest.mark.flake8
 @pytest.mark.linter
 def test_ament_flake8_finds_no_errors():

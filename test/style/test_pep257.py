@@ -11,6 +11,7 @@ import pytest
 ROOT = Path(__file__).parents[2]
 
 
+@pytest.mark.slow
 @pytest.mark.linter
 @pytest.mark.pep257
 def test_ament_pep257_finds_no_errors(monkeypatch):

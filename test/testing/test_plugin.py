@@ -115,6 +115,7 @@ def run_pytest(directory: Path, *words: str, **environment: str) -> str:
     return done.stdout
 
 
+@pytest.mark.slow
 def test_a_robot_of_others_is_tested_with_the_same_bits_every_time(tmp_path: Path) -> None:
     (tmp_path / 'test_robot.py').write_text(ROBOT)
     digests = []
@@ -209,6 +210,7 @@ def test_the_world_of_the_test_before_is_freed():
 """
 
 
+@pytest.mark.slow
 def test_a_world_is_freed_after_its_test(pytester: pytest.Pytester) -> None:
     pytester.makepyfile(FREED)
     pytester.runpytest_subprocess().assert_outcomes(passed=2)

@@ -28,6 +28,7 @@ PARENT = """
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize('number', [signal.SIGKILL, signal.SIGTERM])
 @pytest.mark.parametrize('frozen', [False, True], ids=['running', 'frozen'])
 def test_a_child_does_not_outlive_a_parent_that_is_killed(number, frozen):

@@ -13,6 +13,7 @@ import pytest
 import yaml
 
 from .digests import digest_at, DIGESTS, scene, SCENES, TIMES
+from ..slow import slow
 
 
 def dispatched():
@@ -28,6 +29,11 @@ PROCESSORS = {
     'before AVX': {'OPENBLAS_CORETYPE': 'Nehalem'},
     'NumPy without vectors': {'NPY_DISABLE_CPU_FEATURES': ' '.join(dispatched())},
 }
+# Scenes that are played, and replayed, for less than eight seconds.
+QUICK = {
+    *('worlds/bridge', 'worlds/demo', 'worlds/dominoes', 'worlds/newtons_cradle'),
+    *('drawings/cradle', 'drawings/double_pendulum', 'drawings/pendulum', 'drawings/windmill'),
+}
 EXPECTED = yaml.safe_load(DIGESTS.read_text(encoding='utf-8'))
 
 
@@ -35,7 +41,7 @@ def test_every_scene_has_digests():
     assert sorted(EXPECTED) == sorted(SCENES)
 
 
-@pytest.mark.parametrize('name', SCENES)
+@pytest.mark.parametrize('name', [name if name in QUICK else slow(name) for name in SCENES])
 def test_it_moves_as_it_did_and_a_rewind_repeats_it(name):
     sim = scene(name)
 
@@ -47,6 +53,7 @@ def test_it_moves_as_it_did_and_a_rewind_repeats_it(name):
     assert first == EXPECTED[name]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize('processor', PROCESSORS)
 def test_it_moves_alike_on_every_processor_with_fma(processor):
     played = subprocess.run(

@@ -10,6 +10,8 @@ import pytest
 
 from .film import Film, simulation
 
+pytestmark = pytest.mark.slow
+
 ROWS = 12
 SPACING = 0.5
 # The chi-square that one in a thousand fair boards exceeds, by degrees of freedom

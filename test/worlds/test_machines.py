@@ -12,6 +12,8 @@ import pytest
 
 from .film import Film, first, G, simulation
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope='module')
 def bridge():

@@ -11,6 +11,8 @@ import pytest
 
 from .film import at, Film, FRAMES, G, simulation
 
+pytestmark = pytest.mark.slow
+
 AMPLITUDE = math.radians(25)
 LENGTH = 3.0
 # Of the row of pendulums, all are together again after it [s].

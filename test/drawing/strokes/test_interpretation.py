@@ -180,6 +180,7 @@ def test_stairs_are_a_wall(world: World) -> None:
     assert draw(world, steps).meaning == 'wall'
 
 
+@pytest.mark.slow
 def test_what_is_drawn_is_the_likeliest_and_never_unlikely(world: World) -> None:
     spawn(world, 'a/0', Box(width=2.0, height=2.0))
     rng = np.random.default_rng(7)
