@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from physsim_ros.files import BadDrawing, find_drawing, load_drawing, Pace, shipped
 from physsim_ros.model.arrays import Floats
-from physsim_ros.ros.requests.stroke_reader import MOST_SAMPLES
+from physsim_ros.ros.requests.decoders import MOST_SAMPLES
 import pytest
 
 # Rounding of the reader's own, in units of the file.

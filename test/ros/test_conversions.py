@@ -29,13 +29,13 @@ from physsim_ros.model.requests import (
     Spawn,
 )
 from physsim_ros.model.shapes import Box, Chain, Compound, Disc, MOST_POINTS, Polygon, Triangles
-from physsim_ros.ros.requests.command_reader import command_from
 from physsim_ros.ros.requests.conversions import (
     body_request,
     command_request,
     name_of,
     point_request,
 )
+from physsim_ros.ros.requests.decoders import command_from
 from physsim_ros.testing import box, command, delete, delete_all, marker, point, polygon
 import pytest
 from rclpy.serialization import serialize_message

@@ -491,9 +491,10 @@ def test_only_bodies_that_are_new_or_different_are_drawn_again(monkeypatch):
 
 
 @pytest.mark.parametrize('stamp', [1, 999_999_999, 1_000_000_000, 86_400_000_000_001])
-def test_a_clock_is_encoded_as_rclpy_does(stamp):
+def test_the_clock_has_the_stamp_of_the_frame(stamp):
     sec, nanosec = divmod(stamp, 1_000_000_000)
-    check_same(encoders.encode_clock(stamp), Clock(clock=Time(sec=sec, nanosec=nanosec)))
+    frame = frame_of(replace(snapshot_of([PLAIN]), stamp=stamp))
+    assert encoders.ClockEncoder().encode(frame) == Clock(clock=Time(sec=sec, nanosec=nanosec))
 
 
 @settings(deadline=None)

@@ -28,7 +28,7 @@ from physsim_ros.model.requests import Anchor, Axle, Pin, Release
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.ros import encoders
 from physsim_ros.ros.requests import conversions
-from physsim_ros.ros.requests.command_reader import command_from, CommandMessage
+from physsim_ros.ros.requests.decoders import command_from, CommandMessage
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.testing import box, disc
 from physsim_ros.testing.messages import rotation

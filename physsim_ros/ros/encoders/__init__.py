@@ -2,17 +2,19 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Encoders: frames and answers become serialised messages, one file for each stream.
+Encoders: frames and answers become messages, one file for each stream.
 
-Law: the bytes are those that rclpy would write, except for padding. Numpy arrays are copied into
-a template; no message object is created for a body. Not here: topics and QoS (`ros.publishers`).
-Start with `cdr`, then `poses`; a new stream is a file here and a line in `publishers`.
+Messages with a part for each body, joint or contact are written as bytes (`cdr`): arrays of NumPy
+are copied into a template, without an object for each part, which took 40 times as long. The bytes
+are those that rclpy would write, except for padding. All other messages are objects of rclpy. Not
+here: topics and QoS (`ros.publishers`). Start with `poses`; a new stream is a file here and a line
+in `ros.publishers.publishers`.
 """
 
-from typing import Protocol
+from typing import Any, Protocol
 
 from physsim_ros.model.snapshot import Frame
-from physsim_ros.ros.encoders.clock import ClockEncoder, encode_clock
+from physsim_ros.ros.encoders.clock import ClockEncoder
 from physsim_ros.ros.encoders.contacts import ContactsEncoder
 from physsim_ros.ros.encoders.events import encode_event
 from physsim_ros.ros.encoders.markers import DELETE_REPEATS, MarkersEncoder
@@ -30,7 +32,6 @@ __all__ = [
     'PosesEncoder',
     'StatesEncoder',
     'TransformsEncoder',
-    'encode_clock',
     'encode_event',
     'preview_message',
 ]
@@ -39,5 +40,5 @@ __all__ = [
 class Encoder(Protocol):
     """An encoder of frames."""
 
-    def encode(self, frame: Frame) -> bytes | None:
-        """Return the serialised message of a frame; None where the frame has none."""
+    def encode(self, frame: Frame) -> Any:
+        """Return the message of a frame, serialised or not; None where the frame has none."""

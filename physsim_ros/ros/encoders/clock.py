@@ -5,10 +5,9 @@
 
 from __future__ import annotations
 
-import struct
-
 from physsim_ros.model.snapshot import Frame
-from physsim_ros.ros.encoders.cdr import SECOND, START
+from rclpy.time import Time
+from rosgraph_msgs.msg import Clock
 
 
 class ClockEncoder:
@@ -22,17 +21,8 @@ class ClockEncoder:
     def __init__(self) -> None:
         self._began = False
 
-    def encode(self, frame: Frame) -> bytes | None:
-        """Return the serialised message of a frame; None before the first step."""
+    def encode(self, frame: Frame) -> Clock | None:
+        """Return the message of a frame; None before the first step."""
         stamp = frame.snapshot.stamp
         self._began = self._began or stamp > 0
-        return encode_clock(max(1, stamp)) if self._began else None
-
-
-def encode_clock(stamp: int) -> bytes:
-    """
-    Return a serialised rosgraph_msgs/Clock.
-
-    :param stamp: simulation time [ns]
-    """
-    return START[4:] + struct.pack('<iI', *divmod(stamp, SECOND))
+        return Clock(clock=Time(nanoseconds=max(1, stamp)).to_msg()) if self._began else None

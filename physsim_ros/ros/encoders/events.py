@@ -5,23 +5,27 @@
 
 from __future__ import annotations
 
+from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 from physsim_ros.model.snapshot import Answer
-from physsim_ros.ros.encoders.cdr import CdrWriter, START
+from rclpy.serialization import serialize_message
 
 
 def encode_event(answer: Answer) -> bytes:
-    """Return a serialised diagnostic_msgs/DiagnosticStatus that reports an answer."""
-    writer = CdrWriter(START)
-    # The level: ERROR or OK.
-    writer.data += b'\2' if answer.code else b'\0'
-    for text in (answer.topic, answer.message, answer.subject):
-        writer.text(text)
-    values = [('code', answer.code or 'ok')]
-    if answer.field:
-        values.append(('field', answer.field))
-    values.extend(answer.values)
-    writer.ints(len(values))
-    for key, value in values:
-        writer.text(key)
-        writer.text(value)
-    return bytes(writer.data[4:])
+    """Return an answer as a serialised message, which takes a tenth of the memory of an object."""
+    field = [('field', answer.field)] if answer.field else []
+    values = [('code', answer.code or 'ok'), *field, *answer.values]
+    message: bytes = serialize_message(
+        DiagnosticStatus(
+            level=DiagnosticStatus.ERROR if answer.code else DiagnosticStatus.OK,
+            name=answer.topic,
+            message=_encodable(answer.message),
+            hardware_id=_encodable(answer.subject),
+            values=[KeyValue(key=key, value=_encodable(value)) for key, value in values],
+        )
+    )
+    return message
+
+
+def _encodable(text: str) -> str:
+    """Return a text with '?' for characters without UTF-8, as half surrogates of file names."""
+    return text.encode(errors='replace').decode()

@@ -12,12 +12,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 import math
 
-from builtin_interfaces.msg import Time
 from geometry_msgs.msg import Point as PointMessage
 from physsim_ros.model.snapshot import Preview
 from physsim_ros.model.transform import Point
-from physsim_ros.ros.encoders.cdr import SECOND
-from std_msgs.msg import ColorRGBA
+from rclpy.time import Time
+from std_msgs.msg import ColorRGBA, Header
 from visualization_msgs.msg import Marker, MarkerArray
 
 NAMESPACE = 'preview'
@@ -49,10 +48,9 @@ def preview_message(preview: Preview, *, frame_id: str, stamp: int) -> MarkerArr
         x, y = preview.top
         label.pose.position = PointMessage(x=x, y=y + letter, z=_HEIGHT)
         markers.append(label)
-    seconds, nanoseconds = divmod(stamp, SECOND)
+    header = Header(frame_id=frame_id, stamp=Time(nanoseconds=stamp).to_msg())
     for number, marker in enumerate(markers):
-        marker.header.frame_id = frame_id
-        marker.header.stamp = Time(sec=seconds, nanosec=nanoseconds)
+        marker.header = header
         marker.ns, marker.id = NAMESPACE, number
     return MarkerArray(markers=markers)
 

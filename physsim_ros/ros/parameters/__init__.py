@@ -18,8 +18,7 @@ from physsim_ros.ros.parameters.settings import (
     world_parameters,
     world_settings,
 )
-from physsim_ros.ros.parameters.spec import Spec
-from physsim_ros.ros.parameters.table import SPECS
+from physsim_ros.ros.parameters.table import Spec, SPECS
 
 __all__ = [
     'SPECS',

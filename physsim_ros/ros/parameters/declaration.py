@@ -17,8 +17,7 @@ from physsim_ros.model.checks import shown
 from physsim_ros.model.errors import BadProperty, Malformed, UnknownProperty
 from physsim_ros.model.texts import nearest_name
 from physsim_ros.ros.parameters.settings import drawing_settings, world_settings
-from physsim_ros.ros.parameters.spec import Spec, Type
-from physsim_ros.ros.parameters.table import SPECS
+from physsim_ros.ros.parameters.table import Spec, SPECS, Type
 from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.node import Node
 from rclpy.parameter import Parameter

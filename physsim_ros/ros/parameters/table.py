@@ -1,23 +1,81 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""The table of the parameters."""
+"""
+The table of the parameters: default, meaning, unit and range of each.
+
+A setting of the world or of drawing has only its meaning here; its default and range are those of
+`model.settings` and `drawing.settings`.
+"""
 
 from __future__ import annotations
 
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
+from typing import Any
 
 from physsim_ros.drawing import DRAWING_RANGES, DrawingSettings, Tool
 from physsim_ros.model.checks import FASTEST
 from physsim_ros.model.settings import RANGES as WORLD_RANGES
 from physsim_ros.model.settings import STRONGEST, WorldSettings
 from physsim_ros.model.shapes import LARGEST
-from physsim_ros.ros.parameters.spec import Spec
 from physsim_ros.simulation.past.history_memory import DEFAULT_MEMORY, LEAST_MEMORY, MOST_MEMORY
 from physsim_ros.view import ViewerMode
+from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
+from rclpy.parameter import Parameter
+
+Type = Parameter.Type
 
 # Value of draw_color with which each body has another colour.
 AUTO = 'auto'
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Spec:
+    """
+    The specification of a parameter.
+
+    :param default: its value and type
+    :param meaning: description in one line, with the unit
+    :param low: least value
+    :param high: greatest value
+    :param choices: allowed values, empty for any
+    :param read_only: whether it is fixed after start
+    """
+
+    default: Any
+    meaning: str
+    low: float | None = None
+    high: float | None = None
+    choices: tuple[str, ...] = ()
+    read_only: bool = False
+
+    @property
+    def kind(self) -> Type:
+        """Return the type of the parameter."""
+        if isinstance(self.default, list):
+            return Type.DOUBLE_ARRAY
+        kind: Type = Type.from_parameter_value(self.default)
+        return kind
+
+    @property
+    def descriptor(self) -> ParameterDescriptor:
+        """Return the descriptor for `ros2 param describe`."""
+        descriptor = ParameterDescriptor(
+            description=self.meaning,
+            read_only=self.read_only,
+            type=int(self.kind.value),
+        )
+        if self.choices:
+            descriptor.additional_constraints = 'one of ' + ', '.join(self.choices)
+        elif self.low is not None and self.high is not None:
+            if self.kind == Type.INTEGER:
+                span = IntegerRange(from_value=int(self.low), to_value=int(self.high))
+                descriptor.integer_range = [span]
+            else:
+                spans = FloatingPointRange(from_value=float(self.low), to_value=float(self.high))
+                descriptor.floating_point_range = [spans]
+        return descriptor
+
 
 _OF_NODE = {
     'frame_id': Spec(default='world', meaning='name of the world frame', read_only=True),

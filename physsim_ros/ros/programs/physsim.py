@@ -89,7 +89,7 @@ class _Usage(ArgumentParser):
 
     def format_help(self) -> str:
         """Return the help."""
-        from physsim_ros.ros.programs.usage import physsim_help
+        from physsim_ros.ros.programs.help import physsim_help
 
         return super().format_help() + physsim_help()
 

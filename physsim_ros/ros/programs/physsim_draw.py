@@ -13,7 +13,7 @@ import sys
 from diagnostic_msgs.msg import DiagnosticStatus
 from physsim_ros.files import BadDrawing, drawings, find_drawing, load_drawing, Pace, shipped
 from physsim_ros.model.arrays import Floats
-from physsim_ros.ros.programs.help_tables import files_table
+from physsim_ros.ros.programs.help import files_table
 from physsim_ros.ros.programs.stroke_publisher import (
     Interrupted,
     SeveralWorlds,

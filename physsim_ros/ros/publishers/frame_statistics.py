@@ -7,9 +7,9 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from builtin_interfaces.msg import Time
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from physsim_ros.model.snapshot import run_state, Snapshot
+from rclpy.time import Time
 
 # Time constant of the smoothed real-time factor, in wall time [s]: legible to a person.
 _SMOOTHING = 1.0
@@ -164,6 +164,5 @@ class FrameStatistics:
             values=[KeyValue(key=key, value=str(value)) for key, value in values.items()],
         )
         array = DiagnosticArray(status=[status])
-        seconds, nanoseconds = divmod(snapshot.stamp, 1_000_000_000)
-        array.header.stamp = Time(sec=seconds, nanosec=nanoseconds)
+        array.header.stamp = Time(nanoseconds=snapshot.stamp).to_msg()
         return array

@@ -40,7 +40,7 @@ from physsim_ros.model.requests import (
     UnjoinAll,
 )
 from physsim_ros.ros.marker_shapes import points_from, shape_from
-from physsim_ros.ros.requests.command_reader import CommandMessage
+from physsim_ros.ros.requests.decoders import CommandMessage
 from visualization_msgs.msg import InteractiveMarkerFeedback, Marker
 
 # The namespaces of markers with an empty one.

@@ -19,7 +19,7 @@ from physsim_ros.drawing import DrawingSession, Reading, submit_reading
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.snapshot import Answer, Snapshot
 from physsim_ros.ros.requests import conversions
-from physsim_ros.ros.requests.stroke_reader import StrokeMessage
+from physsim_ros.ros.requests.decoders import StrokeMessage
 from physsim_ros.ros.requests.subscriptions import RequestSubscriptions
 from physsim_ros.simulation.simulation import Simulation
 

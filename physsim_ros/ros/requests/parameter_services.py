@@ -13,7 +13,7 @@ from physsim_ros.model.errors import BadProperty, Busy, UnknownProperty
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.model.texts import abbreviated, message_text, nearest_name
 from physsim_ros.ros.parameters import is_world_setting, SPECS
-from physsim_ros.ros.parameters.spec import Type
+from physsim_ros.ros.parameters.table import Type
 from physsim_ros.ros.requests.services import Fill, ServiceCalls
 from physsim_ros.simulation.deferred_calls import Wait
 from rcl_interfaces.msg import Parameter as ParameterMessage

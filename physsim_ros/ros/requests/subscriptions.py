@@ -14,18 +14,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from nav_msgs.msg import Path
 from physsim_ros.model.errors import Busy, Malformed, Refusal
 from physsim_ros.ros.qos_safe_node import LOSSLESS
-from physsim_ros.ros.requests.cdr_reader import CdrReader, Truncated
-from physsim_ros.ros.requests.command_reader import command_from
+from physsim_ros.ros.requests.cdr_reader import Truncated
+from physsim_ros.ros.requests.decoders import DECODERS
 from physsim_ros.ros.requests.message_queue import MessageQueue
-from physsim_ros.ros.requests.stroke_reader import stroke_from
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from rclpy.serialization import deserialize_message
-from sensor_msgs.msg import MultiDOFJointState
-from visualization_msgs.msg import MarkerArray
 
 # Size of a message [bytes]: 20,000 markers without points have 4.3 MiB. rclpy makes ten times as
 # much of it, and takes 0.7 s for as many colours, 0.4 s for points, of however many markers.
@@ -34,26 +30,6 @@ MOST_BYTES = 5 * 2**20
 # too many. Larger ones take longer to decode than to send, and the middleware keeps up to 5,000
 # that wait (KEEP_ALL of Fast DDS): 900 markers of 100,000 points took 2.7 GB.
 MOST_BYTES_OF_ONE = 2**18
-
-
-def markers_from(message: bytes) -> MarkerArray:
-    """
-    Return the markers of a serialised visualization_msgs/MarkerArray.
-
-    :raises Truncated: it has no header
-    :raises Malformed: there are too many
-    :raises RMWError: it cannot be decoded
-    """
-    CdrReader(message).count('markers')
-    return deserialize_message(message, MarkerArray)
-
-
-# Decoders of messages about many things, which count these first; all others are those of rclpy.
-_DECODERS: dict[type, Callable[[bytes], Any]] = {
-    MarkerArray: markers_from,
-    MultiDOFJointState: command_from,
-    Path: stroke_from,
-}
 
 
 class RequestSubscriptions:
@@ -97,7 +73,7 @@ class RequestSubscriptions:
 
         :raises Malformed: it is too large, too long, or cannot be decoded
         """
-        decoder = _DECODERS.get(kind)
+        decoder = DECODERS.get(kind)
         most = MOST_BYTES_OF_ONE if decoder is None else MOST_BYTES
         if len(data) > most:
             raise Malformed(f'such a message has at most {most / 2**10:g} KiB')

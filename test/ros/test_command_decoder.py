@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from physsim_ros.model.errors import Malformed
 from physsim_ros.ros.requests.cdr_reader import Truncated
-from physsim_ros.ros.requests.command_reader import command_from, CommandMessage
+from physsim_ros.ros.requests.decoders import command_from, CommandMessage
 from physsim_ros.testing import command
 import pytest
 from rclpy.serialization import deserialize_message, serialize_message

@@ -1,14 +1,20 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""The help of `physsim`: the worlds there are, and all parameters of the node."""
+"""The help of the programs: tables of worlds, drawings and parameters with their meanings."""
 
 from __future__ import annotations
 
-from physsim_ros.files import shipped_worlds, user_worlds, worlds_in
-from physsim_ros.ros.parameters import Spec, SPECS
-from physsim_ros.ros.programs.help_tables import files_table, table
+from collections.abc import Mapping
+from pathlib import Path
+import shutil
+import textwrap
 
+from physsim_ros.files import shipped_worlds, title_of, user_worlds, worlds_in
+from physsim_ros.ros.parameters import Spec, SPECS
+
+# Width of the column of names, and least width of that of meanings [characters].
+_NAMES, _MEANINGS = 22, 40
 # Last paragraph of the help.
 _ELSEWHERE = """\
 config/physsim.yaml sets all of them (--params-file). A running world describes
@@ -24,9 +30,27 @@ def physsim_help() -> str:
     tables = (
         files_table('worlds, for parameter world_file:', worlds_in(shipped_worlds())),
         files_table(f'worlds of your own, in {own}:', worlds_in(own)),
-        table('parameters, after --ros-args, each as -p name:=value:', parameters),
+        _table('parameters, after --ros-args, each as -p name:=value:', parameters),
     )
     return '\n'.join(('', *filter(None, tables), _ELSEWHERE))
+
+
+def files_table(title: str, files: Mapping[str, Path]) -> str:
+    """Return a table of files, each with the sentence that it begins with; '' if there is none."""
+    return _table(title, {name: title_of(path) for name, path in files.items()})
+
+
+def _table(title: str, meanings: Mapping[str, str]) -> str:
+    """Return names with their meanings below a title, as wide as the terminal; '' if none."""
+    if not meanings:
+        return ''
+    width = max(_MEANINGS, shutil.get_terminal_size().columns - _NAMES - 2)
+    lines = [title]
+    for name, meaning in meanings.items():
+        first, *others = textwrap.wrap(meaning, width, break_on_hyphens=False)
+        lines.append(f'  {name:{_NAMES - 2}}  {first}')
+        lines += [' ' * (_NAMES + 2) + other for other in others]
+    return '\n'.join(lines) + '\n'
 
 
 def _meaning(spec: Spec) -> str:

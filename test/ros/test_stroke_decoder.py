@@ -18,7 +18,7 @@ import numpy as np
 from physsim_ros.model.errors import Malformed
 from physsim_ros.model.settings import MOST_SAMPLES
 from physsim_ros.ros.requests.cdr_reader import Truncated
-from physsim_ros.ros.requests.stroke_reader import stroke_from
+from physsim_ros.ros.requests.decoders import stroke_from
 import pytest
 from rclpy.serialization import serialize_message
 
