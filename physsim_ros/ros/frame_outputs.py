@@ -70,7 +70,7 @@ class FrameOutputs:
         """Whether contacts have a reader, a subscriber, a viewer or a page."""
         return (
             self.records_contacts
-            or self.topics.wants_contacts
+            or self.topics.contacts.subscriptions > 0
             or self.viewer.is_open
             or (self.sketchpad is not None and self.sketchpad.wants_contacts)
         )
@@ -84,7 +84,7 @@ class FrameOutputs:
         for answer in frame.answers:
             self._log_answer(answer)
         self.topics.publish_frame(frame)
-        self.topics.publish_timeline(status, moving=frame.moved)
+        self.topics.timeline.publish(status, moving=frame.moved)
         self._show(frame)
 
     def publish_nothing_new(self) -> None:
@@ -103,12 +103,12 @@ class FrameOutputs:
         if answers and self.sketchpad is not None:
             self.sketchpad.report(answers)
         for answer in answers:
-            self.topics.publish_answer(answer)
+            self.topics.events.publish(answer)
             self._log_answer(answer)
 
     def update_clock(self) -> None:
         """Publish simulation time on `clock`, or not, as parameter `publish_clock` says."""
-        self.topics.publish_clock = self._values['publish_clock']
+        self.topics.clock.open = self._values['publish_clock']
 
     def open_viewer(self) -> None:
         """Open the viewer of parameter `viewer`, in place of the one before."""

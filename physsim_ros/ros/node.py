@@ -120,7 +120,7 @@ class PhysSimNode(NodeWithoutQosEvents):
         if self._values['world_file']:
             self.world_files.begin_with()
             self._live_parameters.mirror_settings()
-        self.outputs.topics.publish_timeline(self.simulation.status, moving=False)
+        self.outputs.topics.timeline.publish(self.simulation.status, moving=False)
         self._create_subscriptions()
         self._create_services()
         self._open_pages_for(self._values['sketchpad'])
@@ -296,7 +296,7 @@ class PhysSimNode(NodeWithoutQosEvents):
             self.publish_frame(frame)
             return frame.answers
         answers = self._report_answers()
-        self.outputs.topics.flush_answers()
+        self.outputs.topics.events.flush()
         return answers
 
     def _handle_pages(self) -> None:

@@ -51,7 +51,7 @@ class Bench:
 
     def report(self, count: int) -> None:
         for number in range(count):
-            self.streams.publish_answer(Answer(topic='~/spawn', subject=f'a/{number}'))
+            self.streams.events.publish(Answer(topic='~/spawn', subject=f'a/{number}'))
 
 
 @pytest.fixture
@@ -72,7 +72,7 @@ def test_a_burst_waits_for_a_listener_that_has_not_taken_the_last(bench: Bench) 
     assert len(bench.slow.sent) == EVENTS_DEPTH
     # Asking costs a fifth of a millisecond: once a tick, not once an answer.
     assert bench.slow.asked == 1
-    bench.streams.flush_answers()
+    bench.streams.events.flush()
     assert len(bench.slow.sent) == EVENTS_DEPTH
     bench.slow.taken = True
     bench.streams.publish_to_late_subscribers()
@@ -85,17 +85,17 @@ def test_a_listener_that_has_stopped_holds_nobody_up(bench: Bench) -> None:
     bench.slow.taken = False
     bench.report(3 * EVENTS_DEPTH)
     bench.now += ACK_TIMEOUT - 0.1
-    bench.streams.flush_answers()
+    bench.streams.events.flush()
     assert len(bench.slow.sent) == EVENTS_DEPTH
     assert not bench.streams.events.stopped
     bench.now += 0.2
-    bench.streams.flush_answers()
+    bench.streams.events.flush()
     assert len(bench.slow.sent) == EVENTS_DEPTH + STOPPED_ANSWERS
     assert bench.streams.events.stopped
     # Some ten thousand answers a second, which a listener that reads can ask for again.
     for _ in range(2):
         bench.now += STOPPED_PERIOD + 0.001
-        bench.streams.flush_answers()
+        bench.streams.events.flush()
     assert len(bench.slow.sent) == EVENTS_DEPTH + 3 * STOPPED_ANSWERS
 
 
@@ -103,10 +103,10 @@ def test_a_listener_has_stopped_until_it_takes_all(bench: Bench) -> None:
     bench.slow.taken = False
     bench.report(EVENTS_DEPTH + 1)
     bench.now += ACK_TIMEOUT + 0.1
-    bench.streams.flush_answers()
+    bench.streams.events.flush()
     assert bench.streams.events.stopped
     bench.slow.taken = True
-    bench.streams.flush_answers()
+    bench.streams.events.flush()
     assert not bench.streams.events.stopped
     bench.slow.taken = False
     bench.report(2 * EVENTS_DEPTH)
@@ -116,10 +116,10 @@ def test_a_listener_has_stopped_until_it_takes_all(bench: Bench) -> None:
 def test_a_listener_that_too_many_answers_wait_for_has_stopped(bench: Bench) -> None:
     bench.slow.taken = False
     bench.report(EVENTS_DEPTH + MOST_WAITING)
-    bench.streams.flush_answers()
+    bench.streams.events.flush()
     assert not bench.streams.events.stopped
     bench.report(1)
-    bench.streams.flush_answers()
+    bench.streams.events.flush()
     assert bench.streams.events.stopped
     assert len(bench.slow.sent) == EVENTS_DEPTH + STOPPED_ANSWERS
 

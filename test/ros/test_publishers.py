@@ -172,7 +172,7 @@ def test_who_listens_gets_every_stream_of_a_frame(bench):
     received = {topic: bench.listen(topic) for topic in ALL}
     frame = frame_of(scene_of('a/0', 'b/1'), step=3, contacts=touching())
     bench.streams.publish_frame(frame)
-    bench.streams.publish_answer(Answer(topic='~/spawn', subject='a/0', message='a/0 is there'))
+    bench.streams.events.publish(Answer(topic='~/spawn', subject='a/0', message='a/0 is there'))
     bench.spin_until(lambda: all(received.values()))
     assert [pose.position.x for pose in received['/physsim/poses'][0].poses] == [3.0, 3.0]
     assert received['/physsim/states'][0].joint_names == ['a/0', 'b/1']
@@ -189,7 +189,7 @@ def test_where_nobody_listens_nothing_is_built_but_a_rare_picture(bench, encoded
     scene = scene_of('a/0', 'b/1')
     for step in range(1, 2 * LATCH_PERIOD + 1):
         bench.streams.publish_frame(frame_of(scene, step, touching()))
-        bench.streams.publish_answer(Answer(topic='~/spawn'))
+        bench.streams.events.publish(Answer(topic='~/spawn'))
     assert encoded == ['markers'] * 2
 
 
@@ -262,9 +262,9 @@ def test_contacts_are_not_told_twice(bench):
 
 
 def test_contacts_are_wanted_while_somebody_listens(bench):
-    assert not bench.streams.wants_contacts
+    assert not bench.streams.contacts.subscriptions
     bench.listen('/physsim/contacts')
-    assert bench.streams.wants_contacts
+    assert bench.streams.contacts.subscriptions
 
 
 def test_a_frame_without_contacts_gives_no_message_of_them(bench, encoded):
@@ -287,12 +287,12 @@ def test_the_clock_is_never_0_and_follows_the_world_back(bench):
 def test_the_clock_can_be_switched_off_and_on(bench):
     clocks = bench.listen('/clock')
     scene = scene_of()
-    assert bench.streams.publish_clock
-    bench.streams.publish_clock = False
+    assert bench.streams.clock.open
+    bench.streams.clock.open = False
     bench.streams.publish_frame(frame_of(scene, 1))
     bench.streams.publish_frame(frame_of(scene, 2))
     bench.streams.publish_to_late_subscribers()
-    bench.streams.publish_clock = True
+    bench.streams.clock.open = True
     bench.streams.publish_to_late_subscribers()
     bench.streams.publish_frame(frame_of(scene, 3))
     bench.settle()
@@ -301,14 +301,14 @@ def test_the_clock_can_be_switched_off_and_on(bench):
 
 def test_the_clock_may_be_off_from_the_start(bench):
     streams = Publishers(bench.listener, frame_id='map', publish_clock=False)
-    assert not streams.publish_clock
+    assert not streams.clock.open
 
 
 def test_a_refusal_is_reported_with_its_code_and_field(bench):
     events = bench.listen('/physsim/events')
     answer = Answer(topic='~/spawn', subject='a/0', message='too small')
-    bench.streams.publish_answer(answer)
-    bench.streams.publish_answer(replace(answer, code='bad_size', field='scale'))
+    bench.streams.events.publish(answer)
+    bench.streams.events.publish(replace(answer, code='bad_size', field='scale'))
     bench.spin_until(lambda: len(events) == 2)
     good, bad = events
     assert good.level == DiagnosticStatus.OK
@@ -321,7 +321,7 @@ def test_a_refusal_is_reported_with_its_code_and_field(bench):
 def test_a_burst_of_answers_arrives_whole_and_in_order(bench):
     events = bench.listen('/physsim/events')
     for number in range(500):
-        bench.streams.publish_answer(Answer(topic='~/spawn', message=str(number)))
+        bench.streams.events.publish(Answer(topic='~/spawn', message=str(number)))
     bench.spin_until(lambda: len(events) == 500)
     assert [event.message for event in events] == [str(number) for number in range(500)]
 

@@ -10,8 +10,7 @@ from typing import Any
 from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import PoseArray
 from physsim_ros.model.errors import BadProperty
-from physsim_ros.model.snapshot import Answer, Frame, NO_PREVIEW, Preview
-from physsim_ros.model.timeline import TimelineStatus
+from physsim_ros.model.snapshot import Frame, NO_PREVIEW, Preview
 from physsim_ros.ros import encoders
 from physsim_ros.ros.encoders import Encoder
 from physsim_ros.ros.publishers.event_publisher import EventPublisher, EVENTS_DEPTH
@@ -34,6 +33,10 @@ class Publishers:
     :param publish_clock: whether simulation time is published on `clock`
     :param publish_tf: whether poses are published on `/tf`, too
     :raises BadProperty: they cannot be, since tf2_msgs is not installed
+
+    :ivar clock: the stream of simulation time; closed, it publishes nothing
+    :ivar contacts: the stream of contacts
+    :ivar timeline: the publisher of `~/timeline`
     :ivar events: the publisher of `~/events`
     """
 
@@ -47,14 +50,14 @@ class Publishers:
             qos = _reliable(1, DurabilityPolicy.TRANSIENT_LOCAL)
             return node.create_publisher(kind, topic, qos)
 
-        self._clock = stream(Clock, 'clock', 10, encoders.ClockEncoder())
-        self._clock.open = publish_clock
+        self.clock = stream(Clock, 'clock', 10, encoders.ClockEncoder())
+        self.clock.open = publish_clock
         # Contacts are those of one frame, so a late subscriber does not receive the last ones.
-        self._contacts = stream(
+        self.contacts = stream(
             MultiDOFJointState, '~/contacts', 5, encoders.ContactsEncoder(frame_id)
         )
         self._state_streams: tuple[Stream, ...] = (
-            self._clock,
+            self.clock,
             stream(PoseArray, '~/poses', 5, encoders.PosesEncoder(frame_id)),
             stream(MultiDOFJointState, '~/states', 5, encoders.StatesEncoder(frame_id)),
             LatchedStream(latched(MarkerArray, '~/markers'), encoders.MarkersEncoder(frame_id)),
@@ -63,7 +66,7 @@ class Publishers:
             # The depth that tf2_ros has.
             tf = stream(_tf_message(), '/tf', 100, encoders.TransformsEncoder(frame_id))
             self._state_streams += (tf,)
-        self._timeline = TimelinePublisher(latched(DiagnosticStatus, '~/timeline'))
+        self.timeline = TimelinePublisher(latched(DiagnosticStatus, '~/timeline'))
         self._preview_publisher = latched(MarkerArray, '~/preview')
         self._frame_id = frame_id
         self._preview: Preview = NO_PREVIEW
@@ -72,43 +75,21 @@ class Publishers:
             node.create_publisher(DiagnosticStatus, '~/events', _reliable(EVENTS_DEPTH))
         )
 
-    @property
-    def publish_clock(self) -> bool:
-        """Whether simulation time is published on `clock`; may be changed at any time."""
-        return self._clock.open
-
-    @publish_clock.setter
-    def publish_clock(self, value: bool) -> None:
-        self._clock.open = value
-
-    @property
-    def wants_contacts(self) -> bool:
-        """Whether `~/contacts` has subscribers."""
-        return self._contacts.subscriptions > 0
-
     def publish_frame(self, frame: Frame) -> None:
         """Publish the answers of a frame, and those of its streams that have subscribers."""
         for answer in frame.answers:
-            self.publish_answer(answer)
-        self.flush_answers()
+            self.events.publish(answer)
+        self.events.flush()
         self._frame = frame
-        for stream in (*self._state_streams, self._contacts):
+        for stream in (*self._state_streams, self.contacts):
             stream.publish(frame)
 
     def publish_to_late_subscribers(self) -> None:
         """Publish the last frame to later subscribers; called at ticks without a frame."""
-        self.flush_answers()
+        self.events.flush()
         if self._frame is not None:
             for stream in self._state_streams:
                 stream.publish_to_late_subscribers(self._frame)
-
-    def publish_timeline(self, status: TimelineStatus, *, moving: bool) -> None:
-        """
-        Publish the status of the timeline if it has changed.
-
-        :param moving: whether time goes on, or back; then a change of times alone may wait
-        """
-        self._timeline.publish(status, moving=moving)
 
     def publish_preview(self, preview: Preview) -> None:
         """Publish a preview if it has changed."""
@@ -117,14 +98,6 @@ class Publishers:
             stamp = self._frame.snapshot.stamp if self._frame else 0
             message = encoders.preview_message(preview, frame_id=self._frame_id, stamp=stamp)
             self._preview_publisher.publish(message)
-
-    def publish_answer(self, answer: Answer) -> None:
-        """Publish the answer to a request, after those that wait for acknowledgements."""
-        self.events.publish(answer)
-
-    def flush_answers(self) -> None:
-        """Publish the answers that wait for acknowledgements, as far as these have come."""
-        self.events.flush()
 
 
 def _tf_message() -> Any:
