@@ -9,7 +9,7 @@ Properties of bodies and joints are given by keyword: `disc('ball/0', at=(0, 5),
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 import json
 import math
 from typing import Any, TypedDict, Unpack
@@ -45,6 +45,8 @@ class BodyProperties(TypedDict, total=False):
     kinematic: bool
     group: int
     sensor: bool
+    surface_velocity: Numbers
+    robot: Mapping[str, Any]
 
 
 class MarkerOptions(BodyProperties, total=False):
