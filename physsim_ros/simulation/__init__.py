@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-A world and its time: requests go in, frames come out, any past step can be gone back to.
+A world and its time: requests go in, frames come out, and every step of the past can be shown.
 
-No physics (that is `engine`), no files, topics or threads. Start with `simulation`, the front,
-then `request_handler` and `playback` (the moment that is shown); the folder `past` has what is
-kept for going back, `world` the present and what requests do to it.
+Not here: physics (`engine`), files, topics, threads. Start with the front, `simulation`, then
+`request_handler` and `playback` (the moment that is shown). `past` has history, replay and undo;
+`world` has the present and the handlers of requests.
 """

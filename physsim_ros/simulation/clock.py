@@ -2,18 +2,18 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-How many steps are due: play, pause and speed, against a time that is handed in.
+The number of steps that are due, by the speed and a steady time that is handed in.
 
-Laws: no clock is read here. Steps are never skipped: what the machine cannot do in time is given
-up, so that simulation time slows down, and is counted.
+Laws: no clock is read here. Steps are never skipped: where the machine is too slow, simulation
+time slows down, and the late frames are counted.
 """
 
 from __future__ import annotations
 
 import math
 
-# As many frames may be made up for in a row before simulation time slows down instead: a tenth of
-# a second at 60 Hz, longer than a garbage collection, shorter than a person's patience.
+# Frames by which simulation time may be late before it slows down: a tenth of a second at 60 Hz,
+# longer than a garbage collection, and hardly seen.
 MOST_BEHIND = 6
 
 
@@ -30,9 +30,9 @@ class Clock:
         self._physics_rate = physics_rate
         self._frame_steps = frame_steps
         self._speed = float(speed)
-        # The steady time [ns] and the step from which steps are counted.
+        # Steady time [ns] and step from which steps are counted.
         self._anchor: tuple[int, float] | None = None
-        # Frames that were due and could not be made in time.
+        # Count of frames that were due and could not be made in time.
         self.late_frames = 0
 
     @property
@@ -46,12 +46,12 @@ class Clock:
         self._anchor = None
 
     def restart(self) -> None:
-        """Count from the next call on, whatever was due."""
+        """Forget what is due: count from the next call on."""
         self._anchor = None
 
     def due(self, now_ns: int, step: int) -> int:
         """
-        Return how many steps the next frame has, negative ones back; 0 where none is due yet.
+        Return the number of steps of the next frame, negative in a rewind; 0 if none is due yet.
 
         At whole speeds a frame ends on a multiple of the publish period, and a timer's jitter of
         less than half a period changes nothing.
@@ -60,7 +60,7 @@ class Clock:
         :param step: the world's step
         """
         if self._speed < 0.0:
-            # Back in time is forward on a mirrored line.
+            # A rewind is playback on the mirrored time line.
             return -self._due(now_ns, -step, -self._speed)
         return self._due(now_ns, step, self._speed) if self._speed > 0.0 else 0
 
@@ -70,7 +70,7 @@ class Clock:
         quota = self._frame_steps * speed
         anchor_ns, anchor_step = self._anchor
         target = anchor_step + (now_ns - anchor_ns) * 1e-9 * self._physics_rate * speed
-        # At the slowest speeds a frame is less than a step: before that is due nothing is late.
+        # At the slowest speeds a frame is a fraction of a step, and is not late before that step.
         frame = max(quota, 1.0)
         behind = (target - step) / frame
         if behind > MOST_BEHIND:
@@ -83,6 +83,6 @@ class Clock:
             return 0
         end = int((step + quota) // self._frame_steps) * self._frame_steps
         if step % self._frame_steps:
-            # Onto the multiples, from where the speed was none; the time line with it.
+            # Back to multiples of the period after a fractional speed, and count from there.
             self._anchor = (now_ns, end)
         return max(0, end - step)

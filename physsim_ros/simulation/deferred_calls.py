@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Calls among requests: carried out at once, or when a seek under way is done.
+Calls that read or replace the world, in the order of requests.
 
-Law: a call that waits is carried out between the requests before and after it.
+Law: a call is carried out after the requests before it, and before those after it.
 """
 
 from __future__ import annotations
@@ -18,12 +18,12 @@ from physsim_ros.simulation.request_queue import RequestQueue
 
 class Wait(Enum):
     """
-    The time at which a call may come.
+    The time at which a call is carried out.
 
-    :cvar NONE: at once; it does not concern what the requests change
-    :cvar BEHIND_REQUESTS: behind the requests that wait, which wait for the end of a seek; at once
-        where there are none: it ends a seek, or does not concern it
-    :cvar FOR_SEEK: at the end of a seek, as requests do: it reads or replaces the world
+    :cvar NONE: at once: it does not depend on requests
+    :cvar BEHIND_REQUESTS: after the requests that wait, which wait for the end of a seek; without
+        any, at once, also during a seek
+    :cvar FOR_SEEK: after the end of a seek, as requests: it reads or replaces the world
     """
 
     NONE = 'none'
@@ -33,9 +33,9 @@ class Wait(Enum):
 
 class DeferredCalls:
     """
-    Calls that may have to wait.
+    Carries out calls, or queues them among the requests.
 
-    :param requests: the queue of requests and answers
+    :param requests: queue of requests and answers
     :param apply_up_to_seek: applies the requests before a seek; returns whether none is under way
     """
 
@@ -45,9 +45,9 @@ class DeferredCalls:
 
     def submit(self, call: Callable[[], Iterable[Answer]], wait: Wait) -> None:
         """
-        Call something when it may come, and tell its answers.
+        Carry out a call, and tell its answers.
 
-        :param wait: time at which it may come
+        :param wait: time at which it is carried out
         :raises Busy: too many requests wait
         """
         waits = wait is Wait.FOR_SEEK or (

@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The hands of people: which of them drag a body, in which gesture, and how long they are silent.
+The hands of people that drag bodies.
 
-Laws: from the grab until the hand lets go is one gesture; requests that come after its grip is
-gone, or after another moment is shown, change nothing; at most `MOST_HANDS` drag.
+Laws: a drag, from the grab until the hand lets go, is one gesture; requests of a hand whose grip
+is gone, or after another moment is shown, change nothing; at most `MOST_HANDS` drag.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from physsim_ros.model.requests import (
 )
 from physsim_ros.model.snapshot import Grip
 
-# Steady time after which a hand without any request lets go [ns]: one whose page has gone.
+# Steady time without a request after which a hand lets go [ns]: its page is gone.
 LONGEST_SILENCE = 5 * 10**9
 
 
@@ -33,9 +33,9 @@ class _Hand:
     """
     A hand that drags a body.
 
-    :param gesture: of the requests that make the drag
-    :param silent_since: steady time of its last request, or of the last time of a pause [ns];
-        None until time goes on
+    :param gesture: number of the gesture of the drag
+    :param silent_since: first steady time after its last request, or after a pause [ns]; None
+        until then
     """
 
     gesture: int
@@ -55,7 +55,7 @@ class Hands:
         """
         Return the gesture that a request is part of.
 
-        :param gesture: that it would be by itself
+        :param gesture: its own, if no drag is under way
         """
         hand = self._dragging.get(request.hand)
         return gesture if hand is None or isinstance(request, Grab) else hand.gesture
@@ -64,7 +64,8 @@ class Hands:
         """
         Note that a request of a hand was carried out.
 
-        :param grips: of the world now; a grab drops the hands without one, whose bodies are gone
+        :param grips: of the world now; at a grab, hands without one are dropped: their bodies are
+            gone
         """
         match request:
             case Grab(hand=hand):
@@ -82,7 +83,7 @@ class Hands:
         Drop the hands that have been silent for too long.
 
         :param now_ns: steady time, never going back [ns]
-        :param paused: whether the world is; its time does not count
+        :param paused: whether the world is paused; then the time does not count
         """
         for name, hand in list(self._dragging.items()):
             if paused or hand.silent_since is None:
@@ -91,12 +92,12 @@ class Hands:
                 del self._dragging[name]
 
     def clear(self) -> None:
-        """Drop all hands: another moment is shown than the one at which they grabbed."""
+        """Drop all hands, since another moment is shown."""
         self._dragging.clear()
 
 
 def placing(request: HandRequest) -> HandRequest:
-    """Return the request that a hand makes of a paused world, in which bodies are placed."""
+    """Return the request of a hand in a paused world, in which it places bodies."""
     match request:
         case GrabToPlace() | PlaceHand() | KeepHand() | LetGo():
             return request

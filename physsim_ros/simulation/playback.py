@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Playback: the moment that is shown, and its way forward and back.
+Playback: the moment that is shown, forward and back.
 
-Laws: a rewind or a seek shows a cached frame while the world is at another step; the world goes to
-the step that is shown before a request, a step or a reader comes to it, and while time stands
-still; after a jump to another course the state of the world is shown, and no cached frame.
+Laws: a rewind or a seek shows a cached frame while the world is at another step. The world goes to
+the step that is shown before a request is applied, a step is made or the world is read, and while
+playback is paused. After a jump to another course the state of the world is shown, not a cached
+frame.
 """
 
 from __future__ import annotations
@@ -26,12 +27,12 @@ class Playback:
     """
     The moment that is shown.
 
-    :param past: that it is a moment of
+    :param past: with the timeline
     :param speed: simulation seconds a second; 0 is paused, negative goes back
 
     :ivar clock: the speed, and the steps that are due
-    :ivar changed: whether the next frame differs from the last one, though no step was made
-    :ivar frames_due: single frames to be made, one in each call, once the world is there
+    :ivar changed: whether the next frame differs from the last one without a step
+    :ivar frames_due: count of single frames to be made in a paused world, one in each call
     """
 
     def __init__(self, past: Past, *, speed: float) -> None:
@@ -103,7 +104,7 @@ class Playback:
 
     @property
     def is_world_due(self) -> bool:
-        """Return whether the world is to go to the moment that is shown."""
+        """Return whether the world has to go to the moment that is shown."""
         stands_still = self.speed == 0 and not self.changed
         return self.speed > 0 or stands_still or self.frames_due > 0
 
@@ -111,7 +112,7 @@ class Playback:
         """
         Return the frame that is shown, and note that it was.
 
-        :param moved: whether it is of another step than the one before
+        :param moved: whether its step differs from that of the frame before
         """
         shown = self._shown
         if shown is None:
@@ -127,7 +128,7 @@ class Playback:
         snapshot = world.snapshot()
         contacts = world.contacts(snapshot) if world.reports_contacts else None
         frame = CachedFrame(snapshot, contacts)
-        # The frame that came with this step has taken its contacts.
+        # The first frame of this step has the contacts.
         cache.add_frame(frame if moved else cache.with_first_contacts(frame))
         timeline.note_shown()
         return frame
@@ -138,7 +139,7 @@ class Playback:
         """
         Go to a simulation time [ns]; its frame is shown at once where it is cached.
 
-        :raises OutOfHistory: it is kept no more, or has not come yet
+        :raises OutOfHistory: the time is no longer kept, or in the future
         """
         self._show_requests()
         self.frames_due = 0
@@ -151,24 +152,24 @@ class Playback:
         self._shown = frame
 
     def _show_requests(self) -> None:
-        """Have requests that were applied just now belong to the frame of this step."""
+        """Note requests since the last frame as shown at this step."""
         timeline = self._past.timeline
         step, serial = timeline.moment
         if serial > timeline.history.serial_shown_at(step):
             self._observe_world(moved=False)
 
     def seek_shown(self) -> None:
-        """Have the world go to the moment that is shown."""
+        """Send the world to the moment that is shown."""
         if self._shown is not None:
             step, self._shown = self._shown.snapshot.step, None
             self._past.timeline.seek(step, with_contacts=False)
 
     def continue_seek(self, is_overdue: Callable[[], bool]) -> bool:
         """
-        Replay towards the moment that was sought; time stands still meanwhile.
+        Replay towards the goal of a seek; until then no step is due.
 
-        :param is_overdue: whether to go on another time
-        :return: whether the world is there
+        :param is_overdue: whether the replay is to continue in another call
+        :return: whether the goal is reached
         """
         if self._shown is not None or self._past.timeline.continue_seek(is_overdue):
             return True
@@ -176,7 +177,7 @@ class Playback:
         return False
 
     def note_jump(self) -> None:
-        """Note that the timeline is at another moment than the one that was shown; show it."""
+        """Show the moment of the timeline, which is another than the one that was shown."""
         self._shown = None
         self.clock.restart()
         self.changed = True
@@ -189,7 +190,11 @@ class Playback:
         return self._past.frame_steps - self.step % self._past.frame_steps
 
     def queue_frame(self) -> int:
-        """Have a single frame made once the world is there; return the time of it [ns]."""
+        """
+        Have a paused world advance by one publish period in a later call.
+
+        :return: the simulation time then [ns]
+        """
         step = self.step + self.steps_to_period + self.frames_due * self._past.frame_steps
         self.frames_due += 1
         return round(step * 1e9 / self._past.physics_rate)
@@ -212,7 +217,8 @@ class Playback:
         """
         Show the frame of an earlier step, no earlier than the oldest.
 
-        :param is_overdue: whether its replay is to go on another time; time stands still meanwhile
+        :param is_overdue: whether its replay is to continue in another call; until then no step
+            is due
         :return: whether it is shown
         """
         cache, reports_contacts = self._past.frame_cache, self._past.reports_contacts
@@ -221,7 +227,7 @@ class Playback:
             return True
         shown = cache.frame_at(step, reports_contacts=reports_contacts, is_overdue=is_overdue)
         if shown is None:
-            # No frame makes up for the time that this takes.
+            # The time of this replay is not made up for.
             self.clock.restart()
             return False
         self._shown = shown

@@ -4,8 +4,8 @@
 """
 The handler of requests: it applies those that wait, in their order, and collects the answers.
 
-Law: every request that waits has one answer, but for the moves of hands and for amendments, whose
-requests have one each; answers keep the order of requests.
+Law: every request has one answer, except moves of hands, which have one only if refused. Answers
+keep the order of requests.
 """
 
 from __future__ import annotations
@@ -26,9 +26,9 @@ class RequestHandler:
     """
     Applies requests at the moment that is shown.
 
-    :param past: whose timeline has the world
-    :param playback: of it
-    :param queue: requests that wait
+    :param past: with the timeline of the world
+    :param playback: the moment that is shown
+    :param queue: of the requests that wait
 
     :ivar hands: that drag bodies
     :ivar answers: that wait for the next frame
@@ -46,7 +46,7 @@ class RequestHandler:
         self._apply(self._queue.take())
 
     def apply_up_to_seek(self) -> None:
-        """Apply the requests that wait, but those behind a seek, which wait for its end."""
+        """Apply the requests that wait up to a seek; those after it wait for its end."""
         self._apply(self._queue.take(lambda: self._playback.is_there))
 
     def _apply(self, entries: Iterator[Waiting]) -> None:
@@ -57,7 +57,7 @@ class RequestHandler:
                 self.answers.append(_refused(refusal, waiting, waiting.subject))
 
     def _carry_out(self, waiting: Waiting) -> Iterable[Answer]:
-        """Carry out what has waited, and return its answers."""
+        """Carry out an entry of the queue, and return its answers."""
         match waiting.request:
             case Answer() as answer:
                 return [answer]
@@ -84,14 +84,14 @@ class RequestHandler:
         """
         Apply a request now.
 
-        :param gesture: that it is part of; a drag has one of its own
+        :param gesture: its gesture; requests of a drag have that of the grab
         :raises Refusal: and nothing is changed
         """
         timeline = self._past.timeline
         before = timeline.moment
         if isinstance(request, HandRequest):
             if request.hand not in self.hands and not isinstance(request, Grab):
-                # A grip of the past that is shown belongs to no hand of now.
+                # Grips of a past moment belong to no present hand.
                 return Done('', f'{request.hand} holds no body')
             if self._playback.speed == 0.0:
                 request = placing(request)
@@ -101,7 +101,7 @@ class RequestHandler:
         if isinstance(request, HandRequest):
             self.hands.note_request(request, gesture, timeline.world.grips)
         if timeline.moment != before:
-            # On a new course, grips without a hand are removed.
+            # On a new course, grips of the past have no hand.
             self.release_grips()
         return done
 
@@ -109,20 +109,20 @@ class RequestHandler:
         """
         Go to a simulation time [ns] now, and return a message about it.
 
-        :raises OutOfHistory: it is kept no more, or has not come yet
+        :raises OutOfHistory: the time is no longer kept, or in the future
         """
         self._playback.seek(stamp)
         self.hands.clear()
         return f'at {self._playback.time}'
 
     def release_grips(self) -> None:
-        """Remove the grips of hands that are gone, unless the history has their end."""
+        """Remove the grips of hands that are gone, unless the history has their release ahead."""
         timeline = self._past.timeline
         if self._playback.is_frame_cached or not timeline.world.grips or not timeline.is_newest:
             return
         for grip in timeline.world.grips:
             if grip.hand not in self.hands:
-                # Undone together with the request before.
+                # In the gesture of the request before, so that they are undone together.
                 gesture = timeline.history.node(timeline.serial).gesture or self._queue.gesture
                 self._past.apply(LetGo(hand=grip.hand), gesture)
                 message = f'{grip.hand} is silent and has let go of {grip.body}'
@@ -137,7 +137,7 @@ class RequestHandler:
         return answers
 
     def report_oldest(self, more: str = '') -> None:
-        """Answer that the moment that is shown is the oldest; nobody has asked for it."""
+        """Add the event that the moment that is shown is the oldest."""
         message = f'{self._playback.time} is the oldest that is kept{more}'
         self.answers.append(Answer(topic='history', message=message))
 

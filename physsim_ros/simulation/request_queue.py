@@ -2,12 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The queue of requests that wait for the next frame.
+The queue of requests that wait for the next frame, and its entries.
 
-Laws: what is submitted is taken in the order of its arrival and answered once; of the moves of a
-hand that wait with no requests but of hands that move or stay between them, and of seeks that wait
-with no request between them, the last is carried out; too many requests are refused, in count and
-in memory, and too many answers are counted by the last.
+Laws: entries are taken in the order of their arrival, and each is answered once. A move of a hand
+replaces the waiting move of that hand, unless a request of another kind came between them; so does
+a seek the waiting seek. Requests beyond a limit, in count and in memory, are refused; answers
+beyond twice that count are only counted.
 """
 
 from __future__ import annotations
@@ -31,8 +31,8 @@ from physsim_ros.model.requests import (
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.past.memory_size import names_size, request_size
 
-# Requests that wait, at most, and memory that they may take [bytes]: five worlds of 20,000 bodies.
-# Answers are told one by one up to twice that count.
+# Greatest number of requests that wait, and their greatest memory [bytes]: five worlds of 20,000
+# bodies. Up to twice that number of answers are told one by one.
 MOST_WAITING, MOST_BYTES = 100_000, 256 * 10**6
 
 
@@ -50,12 +50,12 @@ class Seek:
 @dataclass(frozen=True, slots=True)
 class Amend:
     """
-    Replace the requests of earlier gestures, as if these had been made then, in one gesture.
+    Replace the requests of earlier gestures by others, in one gesture.
 
-    The world is simulated again from there up to this moment. Each request is answered.
+    The world is simulated again from there up to this moment. Each new request is answered.
 
-    :param gestures: numbers of these, as `RequestQueue.gesture` was after each was submitted
-    :param requests: that take their place
+    :param gestures: their numbers: `RequestQueue.gesture` after each was submitted
+    :param requests: that replace them
     """
 
     gestures: tuple[int, ...]
@@ -65,9 +65,9 @@ class Amend:
 @dataclass(frozen=True, slots=True)
 class Call:
     """
-    Call something that reads or replaces the world, between the requests before and after it.
+    Call a function that reads or replaces the world.
 
-    :param call: returns the answers to whoever asked for it
+    :param call: the function; it returns answers
     """
 
     call: Callable[[], Iterable[Answer]]
@@ -79,14 +79,14 @@ _NO_REQUESTS = Seek | Refusal | Answer
 @dataclass(slots=True)
 class Waiting:
     """
-    A request that waits, the refusal of a message that is no request, or an answer.
+    An entry of the queue.
 
-    :param request: to be applied, gestures to amend, a time to go to, a call, a refusal, or an
-        answer without a request
-    :param topic: that it came from
+    :param request: to be applied; or an amendment, a seek, a call, the refusal of a message that
+        is no request, an answer without a request
+    :param topic: its source
     :param subject: name of the body or joint that it names, or ''
-    :param gesture: requests of one gesture are undone together
-    :param field: the only field of the message, to be named by a refusal; '' if it has several
+    :param gesture: number of its gesture; requests of one gesture are undone together
+    :param field: the only field of the message, which a refusal names; '' if it has several
     :param asker: key of the message that asks, which the answer names; '' for none
     :param size: memory of the request [bytes]
     """
@@ -130,9 +130,9 @@ def subject_of(request: Request | Amend) -> str:
 
 class RequestQueue:
     """
-    Requests, refusals and answers that wait.
+    The entries that wait.
 
-    :ivar gesture: number of the last gesture that was submitted
+    :ivar gesture: number of the last gesture
     """
 
     def __init__(self) -> None:
@@ -141,10 +141,10 @@ class RequestQueue:
         # Memory of the requests that wait [bytes].
         self._size = 0
         self._is_taken = False
-        # The last move of each hand, and the last seek; a later one takes its place.
+        # The waiting move of each hand, and the waiting seek, which a later one replaces.
         self._moves: dict[str, Waiting] = {}
         self._seek: Waiting | None = None
-        # Answers that the last entry counts.
+        # Number of answers that the last entry stands for.
         self._untold = 0
 
     def __len__(self) -> int:
@@ -152,7 +152,7 @@ class RequestQueue:
 
     @property
     def has_requests(self) -> bool:
-        """Return whether a request of the world is among what waits."""
+        """Return whether an entry waits that is applied to the world."""
         return any(each.is_for_world for each in self._waiting)
 
     def begin_gesture(self) -> int:
@@ -170,11 +170,11 @@ class RequestQueue:
         asker: str = '',
     ) -> None:
         """
-        Add a request; nothing moves until the next frame, which carries the answer.
+        Add a request; the next frame applies and answers it.
 
-        :param topic: that it comes from
-        :param joined: whether it belongs to the one before, and is undone together with it
-        :param field: the one field that it was made of, to be named by a refusal; '' is none
+        :param topic: its source
+        :param joined: whether it is in the gesture of the entry before, and is undone with it
+        :param field: the only field of its message, which a refusal names; '' if it has several
         :param asker: key of the message that asks, which the answer names; '' for none
         """
         if isinstance(request, MoveHand) and request.hand in self._moves:
@@ -201,9 +201,9 @@ class RequestQueue:
 
     def submit_seek(self, stamp: int, *, topic: str) -> None:
         """
-        Add a seek to a simulation time [ns]; of those in a row the last is carried out.
+        Add a seek to a simulation time [ns], in place of one that is the last entry.
 
-        :param topic: that it comes from
+        :param topic: its source
         """
         if busy := self._busy():
             self.refuse(busy, topic=topic, subject='', joined=True)
@@ -217,7 +217,7 @@ class RequestQueue:
 
     def submit_call(self, call: Callable[[], Iterable[Answer]]) -> None:
         """
-        Add a call, which waits for the end of a seek as a request does.
+        Add a call, which waits for the end of a seek, as requests do.
 
         :raises Busy: too many wait
         """
@@ -239,7 +239,7 @@ class RequestQueue:
         asker: str = '',
     ) -> None:
         """
-        Add the refusal of a message that is no request; other parameters are those of `submit`.
+        Add the refusal of a message that is no request; see `submit` for other parameters.
 
         :param subject: name of the body or joint that the message names, or ''
         """
@@ -247,17 +247,17 @@ class RequestQueue:
         self._add_answer(Waiting(refusal, topic, subject, gesture, field, asker))
 
     def tell(self, answer: Answer) -> None:
-        """Add an answer without a request, so that answers keep their order."""
+        """Add an answer without a request, in the order of entries."""
         self._add_answer(Waiting(answer, answer.topic, answer.subject, self.gesture))
 
     def _busy(self, size: int = 0) -> Busy | None:
-        """Return the refusal of a request of that memory [bytes], where too many wait."""
+        """Return a refusal if a request of a size [bytes] exceeds the limits."""
         if len(self) < MOST_WAITING and self._size + size <= MOST_BYTES:
             return None
         return Busy(f'{len(self)} requests wait; this one was one too many')
 
     def _add_answer(self, waiting: Waiting) -> None:
-        """Add an answer or a refusal; where too many wait, the last one counts the others."""
+        """Add an answer or a refusal; where too many wait, the last entry counts them."""
         self._untold = self._untold + 1 if len(self) >= 2 * MOST_WAITING else 0
         if self._untold > 1:
             self._waiting.pop()
@@ -267,13 +267,13 @@ class RequestQueue:
 
     def take(self, is_there: Callable[[], bool] = lambda: True) -> Iterator[Waiting]:
         """
-        Remove and yield the waiting requests, in order.
+        Remove and yield the entries in order.
 
-        Not re-entrant: a call among them that takes requests too is yielded none, since those
-        that wait come behind it.
+        Not re-entrant: a call among them that takes entries too gets none, since they come after
+        it.
 
-        :param is_there: whether the next may be applied to the world; else it waits, and all
-            behind it
+        :param is_there: whether the world can take a request; else the next one for the world and
+            all entries after it wait
         """
         if self._is_taken:
             return

@@ -40,13 +40,13 @@ class Simulation:
     :param publish_rate: frames a second of simulation time at speed 1 [Hz]
     :param settings: of the empty world at the start
     :param speed: simulation seconds a second; 0 is paused, negative goes back
-    :param history: how far back it can go [s of simulation time]
-    :param history_memory: memory that the past may take [MB]; when it is spent, the oldest goes
+    :param history: length of the past that is kept [s of simulation time]
+    :param history_memory: budget of the past [MB]; when it is spent, the oldest is dropped
     :param checkpoints: from one checkpoint to the next [s]
     :raises BadProperty: publish_rate does not divide physics_rate, or the memory is out of range
 
-    :ivar requests: the queue of those that wait for the next frame
-    :ivar past: its timeline in force, with cached frames, ghosts and their budget of memory
+    :ivar requests: queue of the requests that wait for the next frame
+    :ivar past: the timeline in force, cached frames, ghosts, and their budget of memory
     :ivar playback: the moment that is shown
     """
 
@@ -117,7 +117,7 @@ class Simulation:
 
     @property
     def history(self) -> float:
-        """Return how far back it can go [s of simulation time]."""
+        """Return the length of the past that is kept [s of simulation time]."""
         return self.past.length
 
     @history.setter
@@ -129,7 +129,7 @@ class Simulation:
 
     def limit_memory(self, megabytes: float) -> None:
         """
-        Set the memory that the past may take [MB]; the excess is dropped with the next frame.
+        Set the budget of the past [MB]; the excess is dropped with the next frame.
 
         :raises Refusal: it is out of range
         """
@@ -159,28 +159,28 @@ class Simulation:
         return message
 
     def begin(self, state: WorldState) -> None:
-        """Begin with a state, at time 0, without a past; `reset` will return to it."""
+        """Begin with a state, at time 0 and without a past; `reset` returns to it."""
         self.past.begin(state)
         self._handler.hands.clear()
         self.playback.note_jump()
 
     def load(self, state: WorldState) -> str:
-        """Replace the world by a state, to which `reset` will return; time goes on."""
+        """Replace the world by a state, to which `reset` returns; time goes on."""
         return self.perform(Restore(state=state))
 
     def save(self) -> WorldState:
         """
-        Return the world as it is, to the bit; how it goes on is not changed.
+        Return the state of the world, to the bit; nothing is changed.
 
-        All worlds that begin with that state go on alike. This world goes on as they do up to the
-        next impact; there the order in which the engine found contacts counts, which a state
-        cannot have.
+        All worlds that begin with the state have the same bits ever after. This world has them up
+        to its next impact: the engine solves contacts in the order in which it found them, which
+        is not in a state.
         """
         self._handler.apply_waiting()
         return self.world.save()
 
     def reset(self) -> str:
-        """Go to the state that was loaded last, at time 0; `undo` comes back. Return a message."""
+        """Go to the state that was loaded last, at time 0; `undo` reverts it. Return a message."""
         self._prepare_change()
         self._handler.hands.clear()
         done = self.past.reset()
@@ -200,9 +200,9 @@ class Simulation:
 
     def redo(self) -> str:
         """
-        Go to the moment at which the last undo was asked for; return a message about it.
+        Return to the moment of the last undo; return a message about it.
 
-        :raises OutOfHistory: nothing was undone, or another request was applied since
+        :raises OutOfHistory: nothing was undone, or a request was applied since
         """
         self._prepare_change()
         self.past.redo()
@@ -211,10 +211,10 @@ class Simulation:
 
     def return_to_course(self, number: int) -> str:
         """
-        Go to a course that was left, at the time that is shown or its last; return a message.
+        Return to a course, at the time that is shown or its last one; return a message.
 
         :param number: of the course
-        :raises OutOfHistory: it is kept no more; nothing is changed
+        :raises OutOfHistory: the course is no longer kept; nothing is changed
         """
         self._prepare_change()
         if self.past.return_to_course(number):
@@ -226,7 +226,7 @@ class Simulation:
         """
         Go to a simulation time [ns], and return a message about it.
 
-        :raises OutOfHistory: it is kept no more, or has not come yet
+        :raises OutOfHistory: the time is no longer kept, or in the future
         """
         self._handler.apply_waiting()
         return self._handler.seek(stamp)
@@ -234,17 +234,17 @@ class Simulation:
     # Time
 
     def apply_up_to_seek(self) -> bool:
-        """Apply the requests before a seek; return whether no seek is under way."""
+        """Apply the requests up to a seek; return whether no seek is under way."""
         self._handler.apply_up_to_seek()
         return self.playback.is_there
 
     def apply_requests(self) -> Frame | None:
-        """Apply the requests that wait, without a step; return a frame if there were any."""
+        """Apply the requests that wait, without a step; return a frame if anything changed."""
         self._handler.apply_waiting()
         return self._observe_frame(moved=False) if self.playback.changed else None
 
     def take_answers(self) -> tuple[Answer, ...]:
-        """Return the answers that wait, where no frame shows anything new."""
+        """Return the answers that no frame has taken, and drop them."""
         return self._handler.take_answers()
 
     def advance_frame(self) -> Frame:
@@ -286,7 +286,7 @@ class Simulation:
         return frames
 
     def _due_frames(self, now_ns: int, is_overdue: Callable[[], bool]) -> Iterator[Frame]:
-        """Make and yield the frames that are due at a steady time [ns]."""
+        """Yield the frames that are due at a steady time [ns], and make them."""
         playback = self.playback
         for _ in range(_FRAMES_A_CALL):
             steps = playback.clock.due(now_ns, playback.step)
@@ -306,7 +306,7 @@ class Simulation:
         return self._observe_frame(moved=True)
 
     def _rewind_frame(self, steps: int, is_overdue: Callable[[], bool]) -> Frame | None:
-        """Return a frame further back; None where it has to be replayed for longer."""
+        """Return the frame some steps back; None while its replay goes on."""
         before = self.playback.step
         if not self.playback.rewind(steps, is_overdue):
             return None
@@ -316,7 +316,7 @@ class Simulation:
         return self._observe_frame(moved=self.playback.step < before)
 
     def _observe_frame(self, *, moved: bool) -> Frame:
-        """Return the frame that is shown, with all answers that wait, within the budget."""
+        """Return the frame that is shown, with all answers; fit the past into its budget."""
         snapshot, contacts = self.playback.observe_frame(moved=moved)
         answers = self._handler.answers
         answers += self.past.fit_memory(self.playback.moment)
@@ -333,7 +333,7 @@ class Simulation:
         )
 
     def _prepare_change(self) -> None:
-        """Apply the requests that wait, and have the world go to the moment that is shown."""
+        """Apply the requests that wait, and send the world to the moment that is shown."""
         self._handler.apply_waiting()
         self.playback.frames_due = 0
         self.playback.seek_shown()

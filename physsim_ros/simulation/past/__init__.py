@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-What is kept for going back: a tree of requests with checkpoints; frames, replay, courses and undo.
+The past of a world: a tree of requests with checkpoints, cached frames, replay, courses and undo.
 
-Not here: the moment that is shown (`playback`). Start with the head of `tree`, which tells the
-theory of operation, then `past`, `history`, `lines`, `timeline` and `frame_cache`.
+Not here: the moment that is shown (`playback`). Start with the theory of operation at the head of
+`tree`, then `past`, `history`, `lines`, `timeline` and `frame_cache`.
 """

@@ -4,11 +4,11 @@
 """
 Frame cache: snapshots and contacts of the past, kept within a budget, replayed beyond it.
 
-Law: a step of the past is shown as it was the first time, to the bit; contacts to a rounding,
-since the engine lists them by address and they are summed in its order.
+Law: a step of the past is shown as it was the first time, to the bit; its contacts to a rounding,
+since the engine lists them by address, and they are summed in that order.
 
-A rewind through cached frames, or a seek to one, costs nothing. Beyond them, the steps between two
-checkpoints are replayed, forward, while those after them are shown, backward.
+A rewind through cached frames, or a seek to one, costs nothing. Beyond them, the segment between
+two checkpoints is replayed forward while the segment after it is shown backward.
 """
 
 from __future__ import annotations
@@ -23,22 +23,22 @@ from physsim_ros.simulation.past.replay import Replay
 from physsim_ros.simulation.past.tree import Keyframe
 from physsim_ros.simulation.world import World
 
-# Segments that are never dropped for want of memory: the one that is shown, and the one beside it
-# that is shown next.
+# Segments that are kept whatever their memory: the one that is shown, and the one that is shown
+# next.
 _LEAST_SEGMENTS = 2
-# The memory that a body may take in a frame on average [bytes]: a pose.
+# Greatest memory of a body in a frame, on average of all frames [bytes]: a pose.
 _BODY = 24
 
 
 class FrameCache:
     """
-    The frames of a history.
+    The cached frames of a history.
 
-    :param history: whose frames these are
+    :param history: with the keyframes between which frames are replayed
     :param physics_rate: of its world [Hz]
-    :param frame_steps: steps from one frame to the next, unless finer ones are asked for
-    :param budget: memory that may be taken, at most [bytes]; for few bodies it is less, a pose of
-        each body for each frame that the history is long
+    :param frame_steps: steps from one frame to the next at whole speeds
+    :param budget: greatest memory [bytes]; for few bodies it is less: a pose of each body in each
+        frame of the history
 
     :ivar size: memory that the frames take [bytes]
     """
@@ -51,7 +51,7 @@ class FrameCache:
         self.budget = budget
         self.size = 0
         self._segments: dict[Keyframe, FrameSegment] = {}
-        # The first checkpoint of the history, as far as segments before it are dropped.
+        # The first keyframe of the history when segments before it were dropped last.
         self._first = history.keyframes[0].moment
         # The step that is shown.
         self._shown = 0
@@ -67,10 +67,10 @@ class FrameCache:
 
     def snapshots(self, end: int, count: int) -> list[Snapshot]:
         """
-        Return kept snapshots in the order of time.
+        Return the last cached snapshots up to a step, in the order of time.
 
-        :param end: step of the last one, at most
-        :param count: of the last ones, at most
+        :param end: the step
+        :param count: greatest number of snapshots
         """
         frames: dict[int, CachedFrame] = {}
         for keyframe in sorted(self._segments, key=lambda keyframe: keyframe.moment, reverse=True):
@@ -93,7 +93,7 @@ class FrameCache:
         self._evict(frame.snapshot.step)
 
     def with_first_contacts(self, frame: CachedFrame) -> CachedFrame:
-        """Return a frame with the contacts that it had when it was shown first, where cached."""
+        """Return a frame with the contacts of its cached frame, if that shows the same poses."""
         step = frame.snapshot.step
         keyframe, _ = self._history.segment(step)
         old = self._segments[keyframe].frames.get(step) if keyframe in self._segments else None
@@ -102,7 +102,7 @@ class FrameCache:
         return CachedFrame(frame.snapshot, old.contacts)
 
     def drop_from(self, step: int) -> list[CachedFrame]:
-        """Drop the frames from a step on, where another course begins, and return them."""
+        """Drop the frames from a step on, and return them."""
         self._segment_replay = None
         dropped: list[CachedFrame] = []
         for keyframe in [keyframe for keyframe in self._segments if keyframe.step >= step]:
@@ -114,9 +114,9 @@ class FrameCache:
 
     def cached_frame(self, step: int, *, reports_contacts: bool) -> CachedFrame | None:
         """
-        Return the frame of a step; None where it is not cached, or out of the history.
+        Return the cached frame of a step; None if it is not cached, or not in the history.
 
-        :param reports_contacts: whether with contacts
+        :param reports_contacts: whether it must have contacts
         """
         if not self._history.oldest <= step <= self._history.head:
             return None
@@ -130,11 +130,11 @@ class FrameCache:
         self, step: int, *, reports_contacts: bool, is_overdue: Callable[[], bool]
     ) -> CachedFrame | None:
         """
-        Return the frame of a step.
+        Return the frame of a step, cached or replayed.
 
-        :param reports_contacts: whether with contacts
-        :param is_overdue: whether its replay is to go on another time
-        :return: None where it is not replayed yet
+        :param reports_contacts: whether it must have contacts
+        :param is_overdue: whether its replay is to continue in another call
+        :return: None until its replay is done
         """
         cached = self.cached_frame(step, reports_contacts=reports_contacts)
         if cached is not None:
@@ -159,13 +159,13 @@ class FrameCache:
         is_overdue: Callable[[], bool],
     ) -> None:
         """
-        Replay a share of the steps that a rewind shows next, so that no frame waits for all.
+        Replay some of the steps that a rewind shows later, so that no frame has to wait.
 
-        :param step: that is shown now
-        :param steps: to the one that is shown next
+        :param step: the step that is shown
+        :param steps: from that to the step that is shown next
         :param fine: whether every step is shown
-        :param reports_contacts: whether with contacts
-        :param is_overdue: whether the rest is to be replayed another time
+        :param reports_contacts: whether frames must have contacts
+        :param is_overdue: whether the replay is to continue in another call
         """
         stride = 1 if fine else self._frame_steps
         # At whole speeds all frames but the first, which may be shorter, go by as many steps.
@@ -183,10 +183,11 @@ class FrameCache:
 
     def _missing_step(self, step: int, apart: int, *, reports_contacts: bool) -> int | None:
         """
-        Return the first step that this segment and the one before do not have; None is none.
+        Return the last step before another that is not cached, in its segment and the one before.
 
-        :param step: from which on, backward
+        :param step: the other step
         :param apart: from one step that is shown to the next
+        :return: None if all are cached
         """
         keyframe, _ = self._history.segment(step)
         before, _ = self._history.segment(keyframe.step)
@@ -199,7 +200,7 @@ class FrameCache:
     def _begin_segment(
         self, keyframe: Keyframe, end: int, stride: int, *, reports_contacts: bool
     ) -> SegmentReplay:
-        """Begin the replay of a segment, or return the one under way if it has what is asked."""
+        """Begin the replay of a segment, or return the one under way if it is suitable."""
         replay = self._segment_replay
         if replay is None or not replay.suits(
             keyframe, end, stride, reports_contacts=reports_contacts
@@ -209,7 +210,7 @@ class FrameCache:
         return replay
 
     def _keep_replayed(self, keyframe: Keyframe, segment: FrameSegment) -> None:
-        """Keep the frames of a replay that has come to its end."""
+        """Keep the frames of a replay that is done."""
         self._segments[keyframe] = segment
         self._segment_replay = None
         self._count_size()
@@ -218,7 +219,7 @@ class FrameCache:
         self.size = sum(segment.size for segment in self._segments.values())
 
     def _evict(self, step: int) -> None:
-        """Drop the segments that the history has no more, and more of them until all fit."""
+        """Drop the segments before the history, and the oldest ones until all fit."""
         self._shown = step
         first = self._history.keyframes[0].moment
         if first != self._first:
@@ -233,12 +234,11 @@ class FrameCache:
 
     def drop_oldest(self) -> int:
         """
-        Drop a segment: the last of those after the step that is shown, else the first.
+        Drop a segment: the last one, if it lies after the step that is shown, else the first.
 
-        A rewind shows what lies before the step, and what is played again is added again.
+        A rewind shows the frames before the step; playback adds those after it again.
 
-        :return: memory that it took [bytes]; 0 where only the step's own and the one next to it
-            are left
+        :return: its memory [bytes]; 0 if only the segments that are always kept are left
         """
         if len(self._segments) <= _LEAST_SEGMENTS:
             return 0

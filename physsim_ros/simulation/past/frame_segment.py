@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Frames between two checkpoints: what a rewind through them shows, kept or replayed.
+A segment: the frames between two checkpoints, which a rewind shows.
 
-Law: frames are replayed forward from the first checkpoint, with the requests that each step was
-shown with; where the replay does not end with the digest of the second one, that is reported.
+Law: frames are replayed forward from the first checkpoint, each step with the requests with which
+it was shown; a replay that ends with another digest than the second checkpoint is reported.
 """
 
 from __future__ import annotations
@@ -26,19 +26,19 @@ class CachedFrame(NamedTuple):
     The state after a step, as it was shown.
 
     :ivar snapshot: of the world
-    :ivar contacts: since the frame before; None where contacts were not recorded
+    :ivar contacts: since the frame before; None if contacts were not reported
     """
 
     snapshot: Snapshot
     contacts: Contacts | None
 
     def copy(self) -> CachedFrame:
-        """Return a copy without the cached properties of its snapshot."""
+        """Return a copy whose snapshot has no cached properties."""
         return self._replace(snapshot=replace(self.snapshot))
 
 
 def size_of_frames(frames: Iterable[CachedFrame]) -> int:
-    """Return the memory that frames take [bytes], with each scene once."""
+    """Return the memory of frames [bytes], each scene counted once."""
     frames = list(frames)
     scenes = {id(frame.snapshot.scene): frame.snapshot.scene for frame in frames}
     size = sum(frame_size(*frame) for frame in frames)
@@ -49,8 +49,8 @@ class FrameSegment:
     """
     The frames between two checkpoints.
 
-    :ivar frames: by their steps
-    :ivar size: memory that they take [bytes]
+    :ivar frames: by step
+    :ivar size: memory of the frames [bytes]
     """
 
     def __init__(self) -> None:
@@ -88,8 +88,8 @@ class SegmentReplay:
     """
     The replay of a segment.
 
-    :param replay: that makes the steps
-    :param keyframe: the checkpoint it begins with
+    :param replay: makes the steps
+    :param keyframe: at which it begins
     :param end: its last step
     :param stride: steps from one frame to the next
     """
@@ -103,12 +103,12 @@ class SegmentReplay:
         self._reports_contacts = replay.world.reports_contacts
         replay.resume(keyframe)
         replay.replay_shown(keyframe.step)
-        # Its step may have been shown before the requests that it follows.
+        # The step may have been shown without the requests before the keyframe.
         if replay.serial == replay.history.serial_shown_at(keyframe.step):
             self._add_frame()
 
     def suits(self, keyframe: Keyframe, end: int, stride: int, *, reports_contacts: bool) -> bool:
-        """Return whether it goes from a checkpoint to a step, with all frames of a stride."""
+        """Return whether it has the frames of a stride from a keyframe to a step."""
         same = self.keyframe == keyframe and self._end == end
         return same and self._stride <= stride and (self._reports_contacts or not reports_contacts)
 
@@ -118,7 +118,7 @@ class SegmentReplay:
         return self._end - self._replay.world.step_count
 
     def replay_steps(self, steps: int, is_overdue: Callable[[], bool]) -> None:
-        """Make so many more steps, no more than remain, until it is overdue."""
+        """Make a number of steps, at most those that remain, until it is overdue."""
         replay = self._replay
         goal = min(self._end, replay.world.step_count + steps)
         while (at := replay.world.step_count) < goal:

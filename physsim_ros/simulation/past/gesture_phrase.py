@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-A gesture as a phrase, by which undo and redo name it: `spawn ball/0 and 2 more`.
+The phrase for a gesture, by which undo and redo name it: `spawn ball/0 and 2 more`.
 
 Law: a phrase is a verb and its object, so that it reads well after undo, redo and undid.
 """
@@ -25,7 +25,7 @@ from physsim_ros.model.requests import (
 )
 from physsim_ros.simulation.past.tree import Node
 
-# Verbs of the requests that are not named by their own.
+# Verbs of the requests whose class name is no verb.
 _VERBS = {
     ChangeBody: 'change',
     Configure: 'change',

@@ -4,9 +4,9 @@
 """
 History: the line of events in force, from the oldest checkpoint that is kept to its tip.
 
-Laws: a moment is a step and the number of requests made until then; the same requests from the
-same checkpoint lead to the same bits; requests are counted from the beginning of the world, and
-their numbers never change, whichever are dropped. See `tree` for the theory of operation.
+Laws: a moment is a step and the number of requests up to it; the same requests from the same
+checkpoint lead to the same bits; requests are counted from the beginning of the world, and the
+number of a request, its serial, never changes. See `tree` for the theory of operation.
 """
 
 from __future__ import annotations
@@ -24,18 +24,17 @@ class History:
     """
     The line of events in force.
 
-    :param tree: that it is a line of
-    :param length: steps that are kept, at least
-    :param spacing: steps from one checkpoint to the next, at most
-    :param log_limit: memory of the requests after the last checkpoint, from which on the next one
-        is due [bytes]: what lies after a checkpoint can be dropped only together with it
+    :param tree: with all lines
+    :param length: number of steps that are kept
+    :param spacing: greatest number of steps from one checkpoint to the next
+    :param log_limit: memory of the requests after a checkpoint from which the next one is due
+        [bytes]; a checkpoint is dropped only together with the requests after it
 
-    :ivar nodes: the requests, the root first
-    :ivar keyframes: those of its nodes, oldest first; a line that runs on where another one has
-        run before has the checkpoints ahead, too
+    :ivar nodes: of the line, the root first
+    :ivar keyframes: of its nodes, oldest first; also those ahead, where another line has run
+        before
     :ivar head: the last step that was reached
-    :ivar shown: the moment that is shown; the checkpoint that it is replayed from is not dropped
-        for want of memory
+    :ivar shown: the moment that is shown; the checkpoint before it is not dropped to save memory
     """
 
     def __init__(self, tree: Tree, *, length: int, spacing: int, log_limit: int) -> None:
@@ -47,16 +46,16 @@ class History:
         self.keyframes: list[Keyframe] = []
         self._length = length
         self.spacing = spacing
-        # Serials of the first request of each gesture.
+        # Serial of the first request of each gesture.
         self._openings: dict[int, int] = {}
-        # Of tips of other lines, the step at which they part from this one.
+        # By the tip of another line, the step at which that line parts from this one.
         self._partings: dict[Node, int | None] = {}
 
     # Reading
 
     @property
     def length(self) -> int:
-        """Return how many steps are kept."""
+        """Return the number of steps that are kept."""
         return self._length
 
     @length.setter
@@ -66,9 +65,9 @@ class History:
 
     @property
     def oldest(self) -> int:
-        """Return the oldest step that can be gone back to."""
+        """Return the oldest step that can be shown."""
         root, first = self.nodes[0], self.keyframes[0].step
-        # Its request was dropped; the step was shown without it.
+        # The step was shown before the request of the root, and with requests that are dropped.
         begins_later = root.step == first and not root.shown
         return min(self.head, max(first + begins_later, self.head - self._length))
 
@@ -87,38 +86,38 @@ class History:
         return self.nodes[0].serial if self.nodes else 0
 
     def node(self, serial: int) -> Node:
-        """Return the node of the last request before a serial, and with it."""
+        """Return the node of a serial."""
         return self.nodes[serial - self._first]
 
     def nodes_between(self, serial: int, end: int) -> list[Node]:
-        """Return the requests from one serial to another."""
+        """Return the nodes after a serial, up to another one."""
         first, last = serial - self._first + 1, end - self._first + 1
         return self.nodes[first:last]
 
     def serial_at(self, step: int) -> int:
-        """Return the number of requests that were made until a step, and at it."""
+        """Return the serial of the last request before or at a step."""
         place = bisect_right(self.nodes, step, key=lambda each: each.step)
         return self._first + max(0, place - 1)
 
     def serial_shown_at(self, step: int) -> int:
-        """Return the number of requests that were made until a step was shown last."""
-        # Of a step those come first that have been shown.
+        """Return the serial of the last request with which a step was shown."""
+        # At one step, the requests that were shown come first.
         not_shown = (step, True)
         place = bisect_left(self.nodes, not_shown, key=lambda each: (each.step, not each.shown))
         return self._first + max(0, place - 1)
 
     def keyframe_before(self, step: int, serial: int) -> Keyframe:
-        """Return the last checkpoint from which a moment can be reached."""
+        """Return the last keyframe from which a moment can be reached."""
         place = bisect_right(self.keyframes, (step, serial), key=lambda each: each.moment)
         return self.keyframes[place - 1]
 
     def keyframe_at(self, step: int, serial: int) -> Keyframe | None:
-        """Return the checkpoint of exactly that moment; None is none."""
+        """Return the keyframe at a moment, if there is one."""
         keyframe = self.keyframe_before(step, serial)
         return keyframe if keyframe.moment == (step, serial) else None
 
     def segment(self, step: int) -> tuple[Keyframe, int]:
-        """Return the checkpoint before a step, and the step of the next one, or the last step."""
+        """Return the keyframe before a step, and the step of the next one or the last step."""
         place = bisect_left(self.keyframes, step, key=lambda each: each.step)
         first = self.keyframes[max(0, place - 1)]
         end = self.head
@@ -127,12 +126,12 @@ class History:
         return first, max(step, end)
 
     def next_stop(self, step: int, end: int) -> int:
-        """Return the next step at which there is a request or a checkpoint, or the end."""
+        """Return the next step with a request or a checkpoint, or the end."""
         place = bisect_right(self.keyframes, step, key=lambda each: each.step)
         if place < len(self.keyframes):
             end = min(end, self.keyframes[place].step)
         elif (due := self.keyframes[-1].step + self.spacing) > step:
-            # However the steps are counted out, a checkpoint comes at the same.
+            # A checkpoint comes at the same step, however many steps are made in a call.
             end = min(end, due)
         place = bisect_right(self.nodes, step, key=lambda each: each.step)
         return min(end, self.nodes[place].step) if place < len(self.nodes) else end
@@ -145,17 +144,17 @@ class History:
 
     @property
     def is_log_long(self) -> bool:
-        """Whether the requests after the last checkpoint take so much that the next is due."""
+        """Whether the memory of the requests since the last checkpoint exceeds the limit."""
         last = self.node(self.keyframes[-1].serial)
         return self.tip.total - last.total > self.log_limit
 
     def last_gesture(self, serial: int) -> tuple[Node, int] | None:
         """
-        Return the first request of the last gesture before a serial; None where none is kept.
+        Return the first request of the last gesture up to a serial.
 
-        :return: it, and the number of requests from it on; among them are those of other gestures
-            that came in between, since time goes back before them; None also for a gesture of
-            which the beginning is kept no more: it is undone as a whole or not at all
+        :return: its node, and the number of requests from there to the serial, those of other
+            gestures included, since an undo goes back before them; None if the beginning of the
+            gesture is not kept, since it is undone as a whole or not at all
         """
         if serial <= self._first:
             return None
@@ -163,7 +162,7 @@ class History:
         return (self.node(opening), serial - opening + 1) if opening > self._first else None
 
     def gesture_start(self, gesture: int, serial: int) -> Moment | None:
-        """Return the moment before the first request of a gesture before a serial, if kept."""
+        """Return the moment before the first request of a gesture up to a serial, if kept."""
         opening = self._openings.get(gesture, serial + 1)
         kept = self._first < opening <= serial
         return (self.node(opening).step, opening - 1) if kept else None
@@ -173,7 +172,7 @@ class History:
         Return the first step at which another line differs from this one.
 
         :param tip: of the other line
-        :return: None where they have no moment in common that is kept
+        :return: None if they have no kept moment in common
         """
         if tip not in self._partings:
             kept, apart = self._apart(tip)
@@ -184,7 +183,7 @@ class History:
         return self._partings[tip]
 
     def _apart(self, tip: Node) -> tuple[int, list[Node]]:
-        """Return how many nodes this line has in common with another, and the others of that."""
+        """Return the number of nodes in common with another line, and its other nodes."""
         apart: list[Node] = []
         node: Node | None = tip
         while node is not None:
@@ -209,7 +208,7 @@ class History:
 
         :param tip: of the line
         :param head: the last step that it has reached
-        :return: the step from which on it differs from the one before
+        :return: the first step at which it differs from the line before
         """
         kept, apart = self._apart(tip)
         left = self.nodes[kept:]
@@ -223,7 +222,7 @@ class History:
             self.keyframes.clear()
         for node in self.nodes if left else apart:
             self._openings[node.gesture] = node.opening
-        # Those of the last node in common depend on the one that follows.
+        # Keyframes of the last node in common depend on the node after it.
         last = max(0, kept - 1)
         while self.keyframes and self.keyframes[-1].serial >= self.nodes[last].serial:
             self.keyframes.pop()
@@ -267,7 +266,7 @@ class History:
         self.follow(node, step)
 
     def add_keyframe(self, moment: Moment, checkpoint: Checkpoint, digest: str) -> Keyframe:
-        """Add a checkpoint at the tip, as the last."""
+        """Add a checkpoint at the tip."""
         keyframe = Keyframe(*moment, checkpoint, digest)
         keyframe = self.tree.add_keyframe(self.tip, keyframe, self.keyframes[-1].checkpoint)
         self.keyframes.append(keyframe)
@@ -281,7 +280,7 @@ class History:
             self._drop_old()
 
     def note_shown(self, step: int, serial: int) -> None:
-        """Note that a step has been shown, with the requests up to a serial."""
+        """Note that a step was shown with the requests up to a serial."""
         place = serial - self._first
         while place > 0 and self.nodes[place].step == step and not self.nodes[place].shown:
             self.nodes[place].shown = True
@@ -290,26 +289,26 @@ class History:
     # Forgetting
 
     def _drop_old(self) -> None:
-        """Drop checkpoints older than `length`, but for the last one before the oldest step."""
+        """Drop the checkpoints before the last one that is older than `length`."""
         oldest = self.head - self._length
         old = bisect_right(self.keyframes, oldest, key=lambda each: each.step) - 1
         if old > 0:
             self._drop_before(old)
 
     def drop_oldest(self) -> bool:
-        """Drop the oldest checkpoint and the requests up to the next one, if it can be spared."""
+        """Drop the oldest checkpoint, with the requests up to the next one, if not needed."""
         if len(self.keyframes) == 1 or self.keyframes[1].moment > self.shown:
             return False
         self._drop_before(1)
         return True
 
     def _drop_before(self, place: int) -> None:
-        """Drop the checkpoints before one of them, and the requests up to it."""
+        """Drop the checkpoints before a place in the list, with their requests."""
         keyframe = self.keyframes[place]
         root = self.node(keyframe.serial)
         del self.keyframes[:place]
         del self.nodes[: root.serial - self._first]
         self.tree.make_root(root, keyframe)
-        # Of a gesture that began before, the beginning remains known.
+        # Also gestures that began before the root: their opening is no longer kept.
         self._openings = {each.gesture: each.opening for each in self.nodes}
         self._partings.clear()

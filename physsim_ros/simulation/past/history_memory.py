@@ -2,15 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-History memory: the budget of the past in bytes, one for all of its stores.
+History memory: the budget of the past in bytes.
 
-Law: when it is spent the oldest goes, and the least of it first: what can be computed again, what
-is only shown, what is not in force, and last the past of the course in force.
-
-In this order: frames of that course, which a replay makes again; ghosts; courses that were left,
-the one first that was left first; what was undone; what was before resets; the oldest checkpoint
-of the course in force with the requests up to the next one. What always remains: the last
-checkpoint, the requests after it, and the frames beside the one that is shown.
+Law: when the budget is spent, the oldest entries are dropped, in this order of kinds: frames of
+the course in force, which a replay makes again; ghosts; courses that were left; lines that were
+undone; lines before resets; last, the oldest checkpoint of the course in force, with the requests
+up to the next one. The last checkpoint, the requests after it, and the frames beside the one that
+is shown always remain.
 """
 
 from __future__ import annotations
@@ -22,17 +20,17 @@ from physsim_ros.model.snapshot import Answer
 
 # Bytes of a megabyte.
 MEGABYTE = 10**6
-# Least and greatest memory of the past [MB]: a second of a few hundred commands; a large machine.
+# Least and greatest budget [MB]: a second of a few hundred commands; a large machine.
 LEAST_MEMORY, MOST_MEMORY = 1.0, 1e6
-# Memory of the past when nothing is said [MB].
+# Default budget [MB].
 DEFAULT_MEMORY = 256.0
-# Share of the budget for the requests after a checkpoint, from which on the next one is due:
-# eight or more parts can be dropped one by one.
+# Share of the budget from which the requests after a checkpoint make the next one due [1], so that
+# the history has at least eight parts that can be dropped.
 _LOG_SHARE = 1 / 8
-# Share of the budget for frames: 64 MB of 256, three minutes of 100 bodies; more than that saves
-# little, since a rewind beyond it replays ahead of what it shows.
+# Share of the budget for frames [1]: 64 MB of 256, three minutes of 100 bodies. More saves little,
+# since a rewind replays ahead of the frame that is shown.
 _FRAME_SHARE = 1 / 4
-# Share of the budget below which the next loss is news again.
+# Share of the budget below which the next loss is reported again [1].
 _RELIEF = 1 / 2
 
 
@@ -40,11 +38,11 @@ class HistoryMemory:
     """
     The budget of the past.
 
-    :param megabytes: memory that it may take [MB]
-    :raises BadProperty: that is out of range
+    :param megabytes: the budget [MB]
+    :raises BadProperty: it is out of range
     :raises Malformed: it is not a finite number
 
-    :ivar used: memory that was taken at the last count [bytes]
+    :ivar used: memory of the past at the last count [bytes]
     """
 
     def __init__(self, megabytes: float) -> None:
@@ -53,7 +51,7 @@ class HistoryMemory:
 
     @property
     def megabytes(self) -> float:
-        """Return the memory that it may take [MB]."""
+        """Return the budget [MB]."""
         return self._megabytes
 
     @megabytes.setter
@@ -63,32 +61,33 @@ class HistoryMemory:
 
     @property
     def size(self) -> int:
-        """Return the memory that it may take [bytes]."""
+        """Return the budget [bytes]."""
         return round(self._megabytes * MEGABYTE)
 
     @property
     def in_megabytes(self) -> tuple[float, float]:
-        """Return the memory that the past took at the last count, and its budget [MB]."""
+        """Return the memory of the past at the last count, and the budget [MB]."""
         return self.used / MEGABYTE, self._megabytes
 
     @property
     def log_limit(self) -> int:
-        """Return the memory of requests from which on a checkpoint is due [bytes]."""
+        """Return the memory of requests from which a checkpoint is due [bytes]."""
         return round(self.size * _LOG_SHARE)
 
     @property
     def frame_limit(self) -> int:
-        """Return the memory that frames may take [bytes]."""
+        """Return the budget of frames [bytes]."""
         return round(self.size * _FRAME_SHARE)
 
     def fit(self, used: Callable[[], int], kinds: Sequence[Callable[[], object]]) -> bool:
         """
-        Drop the oldest until everything fits.
+        Drop the oldest entries until everything fits.
 
-        :param used: returns the memory that is taken [bytes]
-        :param kinds: each drops the oldest of its kind, and returns whether there was any; in the
-            order in which they go, the first being frames that a replay makes again
-        :return: whether anything but these was lost, once until less than half is taken again
+        :param used: returns the memory of the past [bytes]
+        :param kinds: functions that drop the oldest entry of a kind, and return whether there was
+            one; in their order, the first for frames that a replay makes again
+        :return: whether other entries than frames were lost; once, until less than half of the
+            budget is used
         """
         self.used = used()
         self._told = self._told and self.used > _RELIEF * self.size
@@ -103,9 +102,9 @@ class HistoryMemory:
 
     def report(self, oldest: float) -> Answer:
         """
-        Return the event that something was lost.
+        Return the event that the past was shortened.
 
-        :param oldest: time that is kept of the course in force [s]
+        :param oldest: oldest time of the course in force that is kept [s]
         """
         message = (
             f'the past would take more than {self._megabytes:g} MB (history_memory): the oldest '

@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The lines of events that are not in force: courses that were left, what was undone, what was reset.
+Lines of events that are not in force: courses that were left, undone lines, lines before resets.
 
-Law: a line is complete in itself, whatever becomes of others; a ghost is what it has shown, to the
-bit; what it has not shown has none. See `tree` for the theory of operation.
+Law: a line is independent of other lines; its ghost has the frames that it has shown, to the bit,
+and no others. See `tree` for the theory of operation.
 """
 
 from __future__ import annotations
@@ -18,8 +18,8 @@ from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.simulation.past.frame_segment import CachedFrame, size_of_frames
 from physsim_ros.simulation.past.tree import Node, Tree
 
-# Courses that are kept, at most, as many as a person tells apart; the one that was left first
-# goes first.
+# Greatest number of courses that are kept, as many as a person tells apart; the one that was left
+# first is dropped first.
 MOST_COURSES = 16
 
 
@@ -30,15 +30,15 @@ class Line:
 
     :param tip: its last node
     :param head: the last step that it has reached
-    :param moment: at which it is to be shown; without a number of requests, those that its step
-        was shown with
-    :param course: number of it
+    :param moment: at which it is shown when it is in force again; a serial of None is that with
+        which the step was shown
+    :param course: number of its course
     :param era: number of resets before it
     :param words: phrase for the gesture that was undone in it; '' is none
 
-    :ivar ghost: frames that it has shown, in the order of time, from where it parted from the line
-        that took its place
-    :ivar size: memory of these [bytes]
+    :ivar ghost: frames that it has shown, in the order of time, since it parted from the line that
+        replaced it
+    :ivar size: memory of the ghost [bytes]
     """
 
     tip: Node
@@ -55,11 +55,11 @@ class Lines:
     """
     The lines that are not in force.
 
-    :param tree: that they are lines of
+    :param tree: with all lines
 
-    :ivar left: courses by number, the one that was left first comes first
-    :ivar undone: lines that redo returns to, the last one first to be redone
-    :ivar resets: lines before each reset
+    :ivar left: courses that were left, by number, in the order in which they were left
+    :ivar undone: lines to which redo returns, the next one last
+    :ivar resets: lines before each reset, the latest last
     """
 
     def __init__(self, tree: Tree) -> None:
@@ -75,7 +75,7 @@ class Lines:
         yield from self.resets
 
     def hold(self, line: Line) -> Line:
-        """Have the tree keep a line, which is not in force from now on; return it."""
+        """Have the tree keep a line that is not in force from now on; return it."""
         self._tree.hold(line.tip)
         return line
 
@@ -87,7 +87,7 @@ class Lines:
         self._tree.size += line.size
 
     def drop(self, line: Line) -> None:
-        """Keep a line no more."""
+        """Drop a line."""
         if self.left.get(line.course) is line:
             del self.left[line.course]
         for stack in (self.undone, self.resets):
@@ -97,7 +97,7 @@ class Lines:
         self._tree.release(line.tip)
 
     def drop_ghost(self, line: Line) -> None:
-        """Keep the frames of a line no more."""
+        """Drop the ghost of a line."""
         self._tree.size -= line.size
         line.ghost, line.size = [], 0
 
@@ -106,18 +106,18 @@ class Lines:
         self.drop_where(lambda _: True)
 
     def clear_undone(self, era: int) -> None:
-        """Drop what was undone, resets and what followed them included: there is no redo."""
+        """Drop the undone lines, and the courses of eras that were undone: there is no redo."""
         undone = [line for line in self.left.values() if line.era > era]
         for line in [*self.undone, *undone]:
             self.drop(line)
 
     def drop_where(self, is_lost: Callable[[Line], bool]) -> None:
-        """Drop lines."""
+        """Drop the lines for which a function is true."""
         for line in [line for line in self if is_lost(line)]:
             self.drop(line)
 
     def drop_oldest_ghost(self) -> bool:
-        """Drop the frames of the line that was left first; return whether there were any."""
+        """Drop the ghost of the line that was left first; return whether there was one."""
         line = next((line for line in self if line.size), None)
         if line is not None:
             self.drop_ghost(line)
@@ -131,7 +131,7 @@ class Lines:
         return line is not None
 
     def ghost_at(self, course: int, step: int) -> Snapshot | None:
-        """Return the last frame that a course showed until a step; None where it is not kept."""
+        """Return the last snapshot that a course has shown up to a step, if it is kept."""
         line = self.left.get(course)
         ghost = line.ghost if line is not None else []
         place = bisect_right(ghost, step, key=lambda frame: frame.snapshot.step)

@@ -2,9 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Estimates of the memory that the past takes [bytes].
-
-Law: an estimate costs microseconds: arrays by their `nbytes`, objects of Python by constants.
+Estimates of the memory of the past [bytes]: arrays by `nbytes`, Python objects by their number.
 
 The constants were measured with tracemalloc on CPython 3.11; the tests compare the estimate with
 tracemalloc, for requests, frames, checkpoints, branches and resets: within a fifth.
@@ -60,7 +58,7 @@ class RequestSizes:
         self._shared_names = lru_cache(maxsize=_SHARED_NAMES)(_same_names)
 
     def size_of(self, request: Request) -> int:
-        """Return the memory of a request; a command shares the names of an earlier one."""
+        """Return the memory of a request; a command shares equal names of an earlier one."""
         if not isinstance(request, Command):
             return request_size(request)
         names = request.names
@@ -107,7 +105,7 @@ def checkpoint_size(checkpoint: Checkpoint, before: Checkpoint | None = None) ->
     """
     Return the memory of a checkpoint.
 
-    :param before: the one before, with which it may share the scene
+    :param before: the checkpoint before it, with which it may share the scene
     """
     memory = checkpoint.memory
     arrays = (

@@ -4,8 +4,8 @@
 """
 The past: the timeline in force with its cached frames, all other lines, and their budget.
 
-Laws: gestures are undone last first, and redone first first, until another request is applied;
-after each frame everything that is remembered is within one budget of memory. See `tree` for the
+Laws: undo takes the last gesture first, and redo reverts the last undo first, until another
+request is applied. After each frame the past is within its budget of memory. See `tree` for the
 theory of operation.
 """
 
@@ -32,17 +32,17 @@ from physsim_ros.simulation.world import Done
 
 class Past:
     """
-    The timeline in force, with its cached frames, and the lines that are not.
+    The timeline in force, with its cached frames, and the lines that are not in force.
 
-    Requests, undo and redo apply to the moment at which the timeline is. A cached frame may be
-    shown at another one, so `Playback.seek_shown` comes first.
+    Requests, undo and redo apply to the moment of the timeline. While a cached frame of another
+    moment is shown, `Playback.seek_shown` comes first.
 
     :param physics_rate: steps a second of simulation time [Hz]
     :param frame_steps: number of steps in a frame at speed 1
     :param settings: of the empty world at the start
-    :param length: how far back it reaches [s of simulation time]
+    :param length: of the past that is kept [s of simulation time]
     :param checkpoints: from one checkpoint to the next [s]
-    :param memory: budget in bytes
+    :param memory: the budget
 
     :ivar timeline: the world on the line in force
     :ivar frame_cache: frames of that line
@@ -85,7 +85,7 @@ class Past:
         )
         self.course = self._courses = 1
         self._era = 0
-        # The oldest checkpoint when lines were looked through that part before it.
+        # The oldest keyframe when lines that part before it were dropped last.
         self._oldest = history.keyframes[0]
         self._answers: list[Answer] = []
 
@@ -139,11 +139,11 @@ class Past:
 
     def ghost(self, course: int, seconds: float) -> Snapshot | None:
         """
-        Return the snapshot that a course that was left has shown at a simulation time.
+        Return the last snapshot of a course that was left, up to a simulation time.
 
         :param course: number of the course
         :param seconds: simulation time [s]
-        :return: the last snapshot until then; None where none is kept
+        :return: None if it is not kept
         """
         return self._lines.ghost_at(course, self.steps_in(seconds))
 
@@ -156,12 +156,12 @@ class Past:
 
     @property
     def length(self) -> float:
-        """Return how far back it reaches [s of simulation time]."""
+        """Return the length of the past that is kept [s of simulation time]."""
         return self._length
 
     def limit_length(self, seconds: float) -> bool:
         """
-        Set how far back it reaches [s of simulation time].
+        Set the length of the past that is kept [s of simulation time].
 
         :return: whether the timeline is at the same moment as before
         """
@@ -180,10 +180,10 @@ class Past:
 
     def fit_memory(self, shown: Moment) -> list[Answer]:
         """
-        Drop the oldest until everything fits into the budget.
+        Drop the oldest entries until everything fits into the budget.
 
-        :param shown: the moment that is shown, which remains
-        :return: the report of that, once
+        :param shown: the moment that is shown, which is kept
+        :return: the event that the past was shortened, once
         """
         history, lines, frames = self.timeline.history, self._lines, self.frame_cache
         history.shown = shown
@@ -208,7 +208,7 @@ class Past:
         """
         Apply a request to the world; in the past it begins a course.
 
-        :param gesture: that it is part of
+        :param gesture: number of its gesture
         :raises Refusal: and nothing is changed
         """
         timeline = self.timeline
@@ -290,7 +290,7 @@ class Past:
             words = gesture_phrase(first, count)
             left, _ = self._follow(before, first.step, (first.step, before.serial))
         elif self._undoes_reset(serial):
-            # Before the reset come the requests since then, though they are kept no more.
+            # The requests since a reset are undone before it, though they are no longer kept.
             words, (left, _) = 'reset', self._return_to(lines.resets.pop())
         else:
             raise OutOfHistory('there is nothing to undo', field='history')
@@ -300,7 +300,7 @@ class Past:
 
     def redo(self) -> None:
         """
-        Return to the moment at which the last undo was asked for.
+        Return to the moment of the last undo.
 
         :raises OutOfHistory: nothing was undone, or another request was applied since
         """
@@ -315,10 +315,10 @@ class Past:
 
     def return_to_course(self, number: int) -> bool:
         """
-        Return to a course that was left, at this time or its last.
+        Return to a course that was left, at this time or its last one.
 
         :return: whether it is another course than before
-        :raises OutOfHistory: it is kept no more; nothing is changed
+        :raises OutOfHistory: the course is no longer kept; nothing is changed
         """
         self.timeline.note_shown()
         if number == self.course:
@@ -338,12 +338,12 @@ class Past:
         return bool(self._lines.undone)
 
     def _undoes_reset(self, serial: int) -> bool:
-        """Return whether nothing was requested since the last reset, as far as that is kept."""
+        """Return whether an undo at a serial reverts a reset: all since the reset is undone."""
         kept = self.timeline.history.oldest == 0
         return serial == 0 and kept and bool(self._lines.resets)
 
     def _courses_left(self) -> Iterator[tuple[Line, int]]:
-        """Yield the courses that can be returned to, and the step at which each parts."""
+        """Yield the courses that can be returned to, each with the step at which it parts."""
         for line in self._lines.left.values():
             step = self.timeline.history.parting(line.tip)
             if step is not None:
@@ -359,7 +359,7 @@ class Past:
     def _follow(
         self, tip: Node, head: int, moment: tuple[int, int | None]
     ) -> tuple[Line, list[CachedFrame]]:
-        """Put a line in force; return the one that was, and the frames that it alone has shown."""
+        """Put a line in force; return the line before, and the frames that only that has shown."""
         left = self._lines.hold(self._line())
         step = self.timeline.follow(tip, head, moment)
         reached, _ = self.timeline.moment
@@ -369,7 +369,7 @@ class Past:
         return left, self.frame_cache.drop_from(step)
 
     def _return_to(self, line: Line) -> tuple[Line, list[CachedFrame]]:
-        """Put a line in force that was left; return as `_follow` does."""
+        """Put a line in force that was left; return the same as `_follow`."""
         left = self._follow(line.tip, line.head, line.moment)
         self.course, self._era = line.course, line.era
         for frame in line.ghost:
@@ -379,7 +379,7 @@ class Past:
         return left
 
     def _keep_course(self, left: Line, frames: list[CachedFrame]) -> None:
-        """Keep a line as a course that was left, with the frames that it alone has shown."""
+        """Keep a line as a course that was left, with the frames that only it has shown."""
         self._lines.keep_ghost(left, frames)
         courses = self._lines.left
         courses[left.course] = left
@@ -388,7 +388,7 @@ class Past:
             self._lines.drop(of_era[0])
 
     def _drop_lost(self) -> None:
-        """Drop lines that part from the one in force before the oldest checkpoint."""
+        """Drop lines that part from the line in force before the oldest checkpoint."""
         history = self.timeline.history
         if self._oldest is not history.keyframes[0]:
             self._oldest = history.keyframes[0]

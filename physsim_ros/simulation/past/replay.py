@@ -4,8 +4,8 @@
 """
 Replay: a world makes the steps of its history again.
 
-Law: a replay makes the same steps, from the same checkpoints, with the same requests in between,
-and so the same bits; where it does not, that is reported.
+Law: a replay makes the same steps, from the same checkpoints and with the same requests, and so
+the same bits; a difference is reported.
 """
 
 from __future__ import annotations
@@ -23,14 +23,14 @@ class Replay:
     """
     A world that replays a history; it makes no checkpoints and takes no new requests.
 
-    :param world: at the moment of one of its checkpoints, or to be sent there by `resume`
+    :param world: at the moment of a checkpoint, or sent there by `resume`
     :param history: that is replayed
     """
 
     def __init__(self, world: World, history: History) -> None:
         self._world = world
         self.history = history
-        # Number of requests of the history that were applied.
+        # Serial of the last request that was applied.
         self.serial = 0
         self._resumed: Moment | None = None
         self._reports: list[Answer] = []
@@ -52,7 +52,7 @@ class Replay:
 
     def resume(self, keyframe: Keyframe, *, going_over: bool = False) -> None:
         """
-        Go to a checkpoint.
+        Go to a keyframe.
 
         :param going_over: whether the world is at that moment now, with the same bits
         """
@@ -66,8 +66,8 @@ class Replay:
         """
         Replay up to a moment of the past, no earlier than now.
 
-        :param is_overdue: whether to go on another time; asked after each frame and each request
-        :return: whether the world is there
+        :param is_overdue: whether to continue in another call; asked after each frame and request
+        :return: whether the moment is reached
         """
         world = self._world
         while world.step_count < step:
@@ -77,14 +77,14 @@ class Replay:
         return self._apply_logged(serial, is_overdue)
 
     def replay_shown(self, step: int) -> None:
-        """Replay up to a step of the past, with the requests that it was shown with."""
+        """Replay up to a step of the past, with the requests with which it was shown."""
         self.replay_to(step, self.history.serial_shown_at(step))
 
     def _replay_to_stop(self, end: int, is_overdue: Callable[[], bool] = lambda: False) -> bool:
         """
         Replay up to the next step with a request or a checkpoint, or to the end.
 
-        :return: whether all requests were applied with which that step was shown
+        :return: whether all requests with which that step was shown are applied
         """
         history, world = self.history, self._world
         if not self._apply_logged(history.serial_at(world.step_count), is_overdue):
@@ -97,7 +97,7 @@ class Replay:
         step = self._world.step_count
         stop = self.history.next_stop(step, end)
         lost, broken = self._world.step(stop - step), self._world.take_broken()
-        # Events of a replay were reported the first time.
+        # In a replay, events were reported the first time.
         if stop > self.history.head:
             for name in lost:
                 self._report(
@@ -109,7 +109,7 @@ class Replay:
                 )
 
     def _apply_logged(self, serial: int, is_overdue: Callable[[], bool] = lambda: False) -> bool:
-        """Apply the logged requests of this step again, up to a serial; return whether all."""
+        """Apply the logged requests of this step up to a serial; return whether it is reached."""
         for node in self.history.nodes_between(self.serial, serial):
             self._enter_checkpoint()
             try:
@@ -122,13 +122,13 @@ class Replay:
         return True
 
     def _enter_checkpoint(self) -> None:
-        """Go over into the space of the checkpoint of this moment, if there is one."""
+        """Move into a space that is built from the checkpoint of this moment, if there is one."""
         keyframe = self.history.keyframe_at(*self.moment)
         if keyframe is not None and self._resumed != keyframe.moment:
             self.resume(keyframe, going_over=self.check_digest())
 
     def check_digest(self) -> bool:
-        """Return whether the digest is that of the checkpoint of this moment; report if not."""
+        """Return whether the world has the digest of the keyframe here; report a difference."""
         keyframe = self.history.keyframe_at(*self.moment)
         same = keyframe is None or self._world.digest() == keyframe.digest
         if not same:

@@ -2,12 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The timeline: a world on the line of events in force, which goes on, back, and along other lines.
+The timeline: a world on the line of events in force, and the cursor, its moment.
 
-Laws: a world that goes on from a moment of the past makes the same bits as before, until a request
-changes its course; a request that is refused changes nothing. A seek under way counts as done:
-moment and settings are those of its goal, whoever reads the world finishes it, and another seek
-takes its place.
+Laws: a world that continues from a moment of the past makes the same bits as before, until a
+request changes its course; a refused request changes nothing. A seek under way counts as done:
+moment and settings are those of its goal, a reader of the world finishes it, and another seek
+replaces it.
 """
 
 from __future__ import annotations
@@ -24,18 +24,19 @@ from physsim_ros.simulation.past.replay import Replay
 from physsim_ros.simulation.past.tree import Moment, Node
 from physsim_ros.simulation.world import Done, World
 
-# The share of the time between two checkpoints in which the bodies for the next one are made
-# ready, so that no frame makes them all.
+# Share of the time between two checkpoints in which the bodies for the next one are built [1], so
+# that no frame builds all.
 _AHEAD = 0.75
 
 
 class _Seek(NamedTuple):
     """
-    A way through the past that is not finished.
+    A seek that is under way.
 
-    :ivar begin: moment from which on contacts are those of the goal's frame; None: it is reached
+    :ivar begin: first moment of the frame of the goal, from which its contacts are summed; None if
+        it is reached
     :ivar goal: moment that is shown
-    :ivar with_contacts: whether the contacts of that frame are yet to be shown
+    :ivar with_contacts: whether the contacts of that frame are still to be shown
     """
 
     begin: Moment | None
@@ -45,7 +46,7 @@ class _Seek(NamedTuple):
 
 class Timeline(Replay):
     """
-    A world and its history, which new steps and requests are added to.
+    A world and its history, to which new steps and requests are added.
 
     :param history: of the world
     :param state: that the world begins with
@@ -108,9 +109,8 @@ class Timeline(Replay):
         """
         Go to a step of the history, as it was shown.
 
-        :param with_contacts: whether the contacts of its frame are yet to be shown
-
-        :raises OutOfHistory: it is kept no more, or has not come yet
+        :param with_contacts: whether the contacts of its frame are still to be shown
+        :raises OutOfHistory: the time is no longer kept, or in the future
         """
         history, dt = self.history, self._world.dt
         if not history.oldest <= step <= history.head:
@@ -126,29 +126,29 @@ class Timeline(Replay):
         self, step: int, serial: int, *, with_contacts: bool = True, elsewhere: bool = False
     ) -> None:
         """
-        Go to a moment of the past, from the nearest checkpoint or from here.
+        Go to a moment of the past, from the checkpoint before it or from this moment.
 
         :param elsewhere: whether the world is on another line now
         """
         history, frame = self.history, self._world.frame_steps
-        # Its contacts are those of one frame, as they were the first time.
+        # Contacts are those of one frame, as they were the first time.
         begin = max(history.oldest, step - (step % frame or frame))
         start = begin, history.serial_shown_at(begin)
         first = (step, serial)
         if self._world.reports_contacts:
             first = min(first, start)
         keyframe = history.keyframe_before(*first)
-        # A seek that this one takes the place of has come to a moment of the history, too.
+        # A seek that this one replaces has also come to a moment of the history.
         if elsewhere or not keyframe.moment <= super().moment <= first:
             self.resume(keyframe)
         self._seek = _Seek(min(start, (step, serial)), (step, serial), with_contacts)
 
     def continue_seek(self, is_overdue: Callable[[], bool] = lambda: False) -> bool:
         """
-        Replay towards the moment that was sought.
+        Replay towards the goal of a seek.
 
-        :param is_overdue: whether to go on another time
-        :return: whether the world is there
+        :param is_overdue: whether the replay is to continue in another call
+        :return: whether the goal is reached
         """
         seek, self._seek = self._seek, None
         if seek is None:
@@ -168,12 +168,12 @@ class Timeline(Replay):
 
     def apply(self, request: Request, gesture: int) -> Done:
         """
-        Carry out a request; where it changes anything, it is the new tip.
+        Carry out a request; if it changes anything, it is the new tip.
 
         :raises Refusal: and nothing is changed
         """
         self.continue_seek()
-        # As it will be carried out again.
+        # A replay will carry it out in that space, too.
         self._enter_checkpoint()
         done = self.world.apply(request)
         if self.world.changed:
@@ -186,7 +186,7 @@ class Timeline(Replay):
             )
             self.serial += 1
             if self.history.is_log_long:
-                # A paused world, too, can drop what is old.
+                # So that a paused world can drop its oldest requests.
                 self.add_keyframe()
         return done
 
@@ -196,11 +196,11 @@ class Timeline(Replay):
         return self.moment == self.history.end
 
     def note_shown(self) -> None:
-        """Note that this moment is shown, with all requests until now."""
+        """Note that this moment is shown, with all requests up to it."""
         self.history.note_shown(*self.moment)
 
     def advance(self, steps: int) -> None:
-        """Advance by so many steps: by replay up to the head, and further."""
+        """Advance by a number of steps: by replay up to the head, then by new steps."""
         history = self.history
         end = self.world.step_count + steps
         while self.world.step_count < end:
@@ -214,11 +214,13 @@ class Timeline(Replay):
 
     def keep_within(self, length: int, log_limit: int) -> bool:
         """
-        Keep so many steps from now on, with a checkpoint after so many bytes of requests.
+        Limit the history.
 
-        :return: whether the world is at the same moment as before, as of `enter_history`
+        :param length: steps that are kept
+        :param log_limit: memory of requests after which a checkpoint is due [bytes]
+        :return: whether the world is at the same moment as before
         """
-        # Before what it goes through is dropped.
+        # Before the steps that it replays are dropped.
         self.continue_seek()
         self.history.log_limit = log_limit
         self.history.length = length
@@ -226,7 +228,7 @@ class Timeline(Replay):
 
     def enter_history(self) -> bool:
         """
-        Go to the oldest step if the world is before it.
+        Go to the oldest step that is kept, if the world is before it.
 
         :return: whether the world is at the same moment as before
         """
@@ -242,8 +244,8 @@ class Timeline(Replay):
 
         :param tip: of the line
         :param head: the last step that it has reached
-        :param moment: step and serial; None is that with which the step was shown
-        :return: the step from which on things differ
+        :param moment: step and serial; a serial of None is that with which the step was shown
+        :return: the first step at which the lines differ
         """
         differs = self.history.follow(tip, head)
         step, serial = max(moment[0], self.history.oldest), moment[1]
@@ -259,13 +261,13 @@ class Timeline(Replay):
         """
         Replace the requests of earlier gestures, and simulate again up to this moment.
 
-        Later requests that the amended past refuses are dropped; so is what lay ahead. Gestures
-        that changed nothing, or are kept no more, are left out; without any, the requests are made
-        now.
+        Later requests that the amended past refuses are dropped, and so is the future of this
+        moment. Gestures that changed nothing or are no longer kept are ignored; without any other,
+        the requests are applied now.
 
-        :param gestures: their numbers, at least one; the requests get the first of them
-        :param requests: that take the place of theirs, at their first step
-        :return: that step; and for each request what `apply` returns, or its refusal
+        :param gestures: their numbers, at least one; the requests get the first number
+        :param requests: that replace theirs, at their first step
+        :return: that step; and for each request its result or its refusal
         """
         now, history = self.moment, self.history
         starts = [history.gesture_start(each, now[1]) for each in gestures]
@@ -291,10 +293,10 @@ class Timeline(Replay):
             return refusal
 
     def _make_checkpoint(self) -> None:
-        """Make a checkpoint where one is due, or where a request followed the last one."""
+        """Make a checkpoint if one is due, or if a request followed the last one at its step."""
         self._enter_checkpoint()
         step = self.world.step_count
-        # Where another line has run on from this node before, its checkpoints are used.
+        # Another line has run from this node before: its checkpoints are used.
         if step < self.history.tip.end:
             return
         due = self.history.is_checkpoint_due(step) or (
@@ -304,11 +306,11 @@ class Timeline(Replay):
             self.add_keyframe()
 
     def add_keyframe(self) -> None:
-        """Make a checkpoint now, the last of the history, and go on from it."""
+        """Make a checkpoint now, the last of the history, and continue from it."""
         checkpoint, digest = self.world.renew(), self.world.digest()
         self._resumed = self.history.add_keyframe(self.moment, checkpoint, digest).moment
 
     def build_ahead(self, steps: int) -> None:
-        """Build the share of bodies for the next checkpoint that falls to so many steps."""
+        """Build the share of the bodies for the next checkpoint that is due in some steps."""
         bodies, spacing = len(self.world), self.history.spacing
         self.world.build_bodies(-(-bodies * steps // max(1, int(spacing * _AHEAD))))

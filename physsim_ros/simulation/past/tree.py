@@ -8,48 +8,45 @@ Theory of operation
 -------------------
 
 *Nodes.* A node is a request that changed the world, with the run of the world after it: the
-checkpoints that were made until the next request, and the last step that was reached. Its parent
-is the request before. The root is the state that the world began with. The requests from the root
-to a node, each at its step, decide every bit of what happens; two requests after the same one are
-two branches. Nothing in the tree is ever changed: a node is added at an end, and removed when
-nothing needs it any more.
+checkpoints that were made up to the next request, and the last step that was reached. Its parent
+is the request before. The root is the state with which the world began. The requests from the root
+to a node, each at its step, decide every bit of the world; two requests after the same one are two
+branches. Nodes never change: a node is added at an end, and removed when nothing uses it.
 
 *The cursor.* A line of events is a node, its tip, with the last step that was reached there, its
 head. One line is in force. `History` has it as flat lists, from the oldest checkpoint that is kept
-to the tip. The cursor is a moment of that line: a step, and the number of requests made until
-then. All that a person does with time moves it:
+to the tip. The cursor is a moment of that line: a step, and the number of requests up to it, the
+serial of the last one. Everything that a person does with time moves it:
 
 - Rewind, seek and play move it to another moment of the line in force.
-- A request adds a node at the cursor, the new tip. If something lay ahead, that line is left as a
-  course, with its number, and the line in force gets the next number.
+- A request adds a node at the cursor, the new tip. If steps or requests lay ahead, that line is
+  left as a course, with its number, and the line in force gets the next number.
 - Undo moves it to the moment before a gesture. The node before it is the new tip, and the line
   keeps the number of its course. The line with the gesture is kept for redo, until the next
   request.
-- Redo moves it to the line and the moment at which undo was asked for.
-- The return to a course moves it to that line. The line that was in force is a course that was
-  left, in its turn.
+- Redo moves it back to the line and the moment of the undo.
+- The return to a course moves it to that line. The line that was in force is left as a course.
 - Reset moves it to a root of its own, with the state that was loaded last. The line before is
   kept, and undo at the root returns to it.
 
-*A course after an undo in it* is as short as the undo has made it, and goes on from there. What
-was undone is lost with the next request or the return to another course. Other courses lose
-nothing by it, though they may have begun in what was undone: each is a line of its own, with all
-of its requests.
+*A course after an undo in it* ends where the undo went, and continues from there. The undone
+gesture is lost with the next request, or with the return to another course. Other courses lose
+nothing, even if they began in the undone gesture: each is a line with all of its requests.
 
-*Checkpoints* belong to a node. The world goes on in a space that is built from each of them, so a
-line that passes one goes over into it, and a line that parted before it does not. Several lines
-may run on from one node: they have the same bits, and the first to come to a step makes the
-checkpoint that all of them use. A request at the very step of a checkpoint comes before or after
-it, which `Node.after` says. When a checkpoint is due depends on the requests alone, not on the
-frames in which the steps were made.
+*Checkpoints* belong to a node; with its moment and the digest of the world, a checkpoint is a
+keyframe. At each one the world moves into a space that is built from it, and so does every line
+that passes it; a line that parted before it does not. Several lines may run from one node: they
+have the same bits, and the first line at a step makes the checkpoint that all lines use. A request
+at the step of a checkpoint comes before or after it, which `Node.after` says. The requests alone
+decide when a checkpoint is due, not the frames in which steps are made.
 
-*Forgetting.* The tree counts the users of each node: its children and the lines that end with it.
-A node without users is gone. The oldest checkpoint of the line in force is the root of everything
-that can be gone back to: when it is dropped, the next one takes its place, and lines that part
-before that are lost. `history_memory` says in which order things go.
+*Dropping.* The tree counts the users of each node: its children and the lines that end with it. A
+node without users is removed. The oldest checkpoint of the line in force is the root of all
+moments that can be shown: when it is dropped, the next one replaces it, and lines that part before
+that are lost. `history_memory` has the order in which things are dropped.
 
-*Ghosts* are the frames that a course has shown, and keeps when it is left (`lines`). Those of the
-line in force are in the frame cache.
+*Ghosts* are the frames that a course has shown, and keeps when it is left (`lines`). The frames of
+the line in force are in the frame cache.
 
 Source: Driscoll, Sarnak, Sleator, Tarjan, "Making data structures persistent", 1989, full
 persistence. Editors know such a tree as an undo tree.
@@ -65,7 +62,7 @@ from physsim_ros.model.requests import Request, Restore
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.simulation.past.memory_size import checkpoint_size, RequestSizes
 
-# A step, and the number of requests made until then.
+# A step, and the number of requests up to it.
 Moment = tuple[int, int]
 
 
@@ -74,10 +71,10 @@ class Keyframe(NamedTuple):
     A checkpoint and its moment.
 
     :ivar step: of the checkpoint
-    :ivar serial: number of requests made until then
+    :ivar serial: number of requests up to it
     :ivar checkpoint: at that moment
     :ivar digest: of the world then
-    :ivar size: memory that it takes [bytes]
+    :ivar size: memory of the checkpoint [bytes]
     """
 
     step: int
@@ -96,7 +93,7 @@ class Loaded(NamedTuple):
     """
     The state that was loaded last.
 
-    :ivar serial: number of requests made until then, with the one that loaded it
+    :ivar serial: of the request that loaded it; 0 for the root
     :ivar state: that was loaded
     """
 
@@ -111,21 +108,21 @@ class Node:
 
     :param parent: the node before; None at the root
     :param serial: number of requests from the beginning of the world to this one
-    :param step: at which it was applied, where it branches off the run of its parent
-    :param after: step of the last checkpoint of the parent that it follows; -1 is none
-    :param request: that was applied; that of a root loads what was loaded last
-    :param gesture: requests of one gesture are undone together
+    :param step: at which it was applied, and branches off the run of its parent
+    :param after: step of the last checkpoint of its parent before it; -1 is none
+    :param request: that was applied; of a root, the one that loads the state
+    :param gesture: number of its gesture; requests of one gesture are undone together
     :param opening: serial of the first request of the gesture
     :param subject: name of the body or joint concerned, or ''
     :param loaded: the state that was loaded last
     :param settings: of the world after the request
     :param size: memory of the request [bytes]
     :param total: memory of all requests from the beginning to this one [bytes]
-    :param shown: whether its step has been shown with it; a request to a running world shows only
+    :param shown: whether its step was shown with it; in a running world, a request is first shown
         in the next frame
 
-    :ivar end: the last step that was reached before another request
-    :ivar keyframes: checkpoints up to there
+    :ivar end: the last step that was reached without another request
+    :ivar keyframes: up to that step
     :ivar users: number of children, and of lines that end with it
     """
 
@@ -152,9 +149,9 @@ class Node:
 
 class Tree:
     """
-    The nodes that any line uses, and their memory.
+    The nodes of all lines, and their memory.
 
-    :ivar size: memory of their requests and checkpoints [bytes]
+    :ivar size: memory of requests, checkpoints and ghosts [bytes]
     """
 
     def __init__(self) -> None:
@@ -162,7 +159,7 @@ class Tree:
         self._sizes = RequestSizes()
 
     def add_root(self, state: WorldState) -> Node:
-        """Return the beginning of a world with a state."""
+        """Return the root of a world that begins with a state."""
         request, loaded = Restore(state=state), Loaded(0, state)
         return Node(
             parent=None,
@@ -185,7 +182,7 @@ class Tree:
         subject: str,
         settings: WorldSettings,
     ) -> Node:
-        """Return a new node, after the checkpoints that its parent has up to a step."""
+        """Return a new node, after the checkpoints of its parent up to a step."""
         serial, size = parent.serial + 1, self._sizes.size_of(request)
         keyframes = [keyframe.step for keyframe in parent.keyframes if keyframe.step <= step]
         node = Node(
@@ -210,9 +207,9 @@ class Tree:
 
     def add_keyframe(self, node: Node, keyframe: Keyframe, before: Checkpoint | None) -> Keyframe:
         """
-        Add a checkpoint to a node, as its last; return it with its size.
+        Add a keyframe to a node, as its last; return it with its size.
 
-        :param before: the checkpoint before, with which it may share the scene
+        :param before: the checkpoint before it, with which it may share the scene
         """
         keyframe = keyframe._replace(size=checkpoint_size(keyframe.checkpoint, before))
         node.keyframes.append(keyframe)
@@ -224,7 +221,7 @@ class Tree:
         node.users += 1
 
     def release(self, node: Node | None) -> None:
-        """Note that a line or a child does not use a node any more; drop what nothing uses."""
+        """Note that a line or child no longer uses a node; remove nodes without users."""
         while node is not None:
             node.users -= 1
             if node.users:
@@ -233,7 +230,7 @@ class Tree:
             node = node.parent
 
     def make_root(self, node: Node, keyframe: Keyframe) -> None:
-        """Have a node begin at one of its checkpoints; drop what lies before on its line."""
+        """Make a node the root, at one of its keyframes; drop what lies before it."""
         place = node.keyframes.index(keyframe)
         self.size -= node.size + sum(each.size for each in node.keyframes[:place])
         del node.keyframes[:place]

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-A world: requests go in, steps are made, snapshots come out; it knows the present alone.
+A world: requests go in, steps are made, snapshots come out; it knows only the present.
 
-Not here: when a request comes, and what was before (`past`). Start with the table of
+Not here: the time of a request, and the past (`past`). Start with the table of
 handlers in `world`; they are in `body_requests`, `joint_requests`, `hand_requests` and
 `world_requests`. Other folders import the names below.
 """
