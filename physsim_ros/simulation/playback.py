@@ -145,7 +145,7 @@ class Playback:
         self.frames_due = 0
         past = self._past
         step = past.steps_in(stamp * 1e-9)
-        frame = past.frame_cache.cached_frame(step, reports_contacts=past.reports_contacts)
+        frame = past.frame_cache.cached_frame(step)
         if frame is None:
             past.timeline.seek(step)
         self.note_jump()
@@ -221,18 +221,15 @@ class Playback:
             is due
         :return: whether it is shown
         """
-        cache, reports_contacts = self._past.frame_cache, self._past.reports_contacts
+        cache = self._past.frame_cache
         step = max(self._past.timeline.history.oldest, self.step - steps)
         if step >= self.step:
             return True
-        shown = cache.frame_at(step, reports_contacts=reports_contacts, is_overdue=is_overdue)
+        shown = cache.frame_at(step, is_overdue)
         if shown is None:
             # The time of this replay is not made up for.
             self.clock.restart()
             return False
         self._shown = shown
-        fine = not self.speed.is_integer()
-        cache.replay_ahead(
-            step, steps, fine=fine, reports_contacts=reports_contacts, is_overdue=is_overdue
-        )
+        cache.replay_ahead(step, steps, is_overdue, fine=not self.speed.is_integer())
         return True

@@ -112,36 +112,38 @@ class FrameCache:
         self._count_size()
         return dropped
 
-    def cached_frame(self, step: int, *, reports_contacts: bool) -> CachedFrame | None:
-        """
-        Return the cached frame of a step; None if it is not cached, or not in the history.
+    @property
+    def reports_contacts(self) -> bool:
+        """Return whether frames without contacts are replayed, to have them."""
+        return self._replay.world.reports_contacts
 
-        :param reports_contacts: whether it must have contacts
-        """
+    @reports_contacts.setter
+    def reports_contacts(self, reports_contacts: bool) -> None:
+        if reports_contacts != self.reports_contacts:
+            self._replay.world.reports_contacts = reports_contacts
+            self._segment_replay = None
+
+    def cached_frame(self, step: int) -> CachedFrame | None:
+        """Return the cached frame of a step; None if it is not cached, or not in the history."""
         if not self._history.oldest <= step <= self._history.head:
             return None
         keyframe, _ = self._history.segment(step)
-        segment = self._segments.get(keyframe)
-        if segment is None or not segment.has(step, reports_contacts=reports_contacts):
-            return None
-        return segment.frames[step].copy()
+        frame = self._cached(keyframe, step)
+        return None if frame is None else frame.copy()
 
-    def frame_at(
-        self, step: int, *, reports_contacts: bool, is_overdue: Callable[[], bool]
-    ) -> CachedFrame | None:
+    def frame_at(self, step: int, is_overdue: Callable[[], bool]) -> CachedFrame | None:
         """
         Return the frame of a step, cached or replayed.
 
-        :param reports_contacts: whether it must have contacts
         :param is_overdue: whether its replay is to continue in another call
         :return: None until its replay is done
         """
-        cached = self.cached_frame(step, reports_contacts=reports_contacts)
+        cached = self.cached_frame(step)
         if cached is not None:
             return cached
         keyframe, end = self._history.segment(step)
         stride = self._frame_steps if step == end or step % self._frame_steps == 0 else 1
-        replay = self._begin_segment(keyframe, end, stride, reports_contacts=reports_contacts)
+        replay = self._begin_segment(keyframe, end, stride)
         replay.replay_steps(end - keyframe.step, is_overdue)
         if replay.steps_left:
             return None
@@ -150,38 +152,38 @@ class FrameCache:
         return replay.segment.frames[step].copy()
 
     def replay_ahead(
-        self,
-        step: int,
-        steps: int,
-        *,
-        fine: bool,
-        reports_contacts: bool,
-        is_overdue: Callable[[], bool],
+        self, step: int, steps: int, is_overdue: Callable[[], bool], *, fine: bool
     ) -> None:
         """
         Replay some of the steps that a rewind shows later, so that no frame has to wait.
 
         :param step: the step that is shown
         :param steps: from that to the step that is shown next
-        :param fine: whether every step is shown
-        :param reports_contacts: whether frames must have contacts
         :param is_overdue: whether the replay is to continue in another call
+        :param fine: whether every step is shown
         """
         stride = 1 if fine else self._frame_steps
         # At whole speeds all frames but the first, which may be shorter, go by as many steps.
         apart = 1 if fine else -(-steps // stride) * stride
-        gap = self._missing_step(step, apart, reports_contacts=reports_contacts)
+        gap = self._missing_step(step, apart)
         if gap is None:
             return
         keyframe, end = self._history.segment(gap)
-        replay = self._begin_segment(keyframe, end, stride, reports_contacts=reports_contacts)
+        replay = self._begin_segment(keyframe, end, stride)
         frames_left = max(1, (step - gap) // max(1, steps))
         replay.replay_steps(-(-replay.steps_left // frames_left), is_overdue)
         if replay.steps_left == 0:
             self._keep_replayed(keyframe, replay.segment)
             self._evict(step)
 
-    def _missing_step(self, step: int, apart: int, *, reports_contacts: bool) -> int | None:
+    def _cached(self, keyframe: Keyframe, step: int) -> CachedFrame | None:
+        """Return the frame of a step of a segment, if it is cached, with contacts if need be."""
+        segment = self._segments.get(keyframe)
+        frame = None if segment is None else segment.frames.get(step)
+        lacks_contacts = frame is not None and frame.contacts is None and self.reports_contacts
+        return None if lacks_contacts else frame
+
+    def _missing_step(self, step: int, apart: int) -> int | None:
         """
         Return the last step before another that is not cached, in its segment and the one before.
 
@@ -192,20 +194,14 @@ class FrameCache:
         keyframe, _ = self._history.segment(step)
         before, _ = self._history.segment(keyframe.step)
         for number in range(step - apart, before.step, -apart):
-            segment = self._segments.get(keyframe if number > keyframe.step else before)
-            if segment is None or not segment.has(number, reports_contacts=reports_contacts):
+            if self._cached(keyframe if number > keyframe.step else before, number) is None:
                 return number
         return None
 
-    def _begin_segment(
-        self, keyframe: Keyframe, end: int, stride: int, *, reports_contacts: bool
-    ) -> SegmentReplay:
+    def _begin_segment(self, keyframe: Keyframe, end: int, stride: int) -> SegmentReplay:
         """Begin the replay of a segment, or return the one under way if it is suitable."""
         replay = self._segment_replay
-        if replay is None or not replay.suits(
-            keyframe, end, stride, reports_contacts=reports_contacts
-        ):
-            self._replay.world.reports_contacts = reports_contacts
+        if replay is None or not replay.suits(keyframe, end, stride):
             replay = self._segment_replay = SegmentReplay(self._replay, keyframe, end, stride)
         return replay
 

@@ -78,11 +78,6 @@ class FrameSegment:
             self.size = size_of_frames(self.frames.values())
         return popped
 
-    def has(self, step: int, *, reports_contacts: bool) -> bool:
-        """Return whether it has the frame of a step, with contacts if `reports_contacts`."""
-        frame = self.frames.get(step)
-        return frame is not None and (frame.contacts is not None or not reports_contacts)
-
 
 class SegmentReplay:
     """
@@ -100,17 +95,15 @@ class SegmentReplay:
         self._replay = replay
         self._end = end
         self._stride = stride
-        self._reports_contacts = replay.world.reports_contacts
         replay.resume(keyframe)
         replay.replay_shown(keyframe.step)
         # The step may have been shown without the requests before the keyframe.
         if replay.serial == replay.history.serial_shown_at(keyframe.step):
             self._add_frame()
 
-    def suits(self, keyframe: Keyframe, end: int, stride: int, *, reports_contacts: bool) -> bool:
+    def suits(self, keyframe: Keyframe, end: int, stride: int) -> bool:
         """Return whether it has the frames of a stride from a keyframe to a step."""
-        same = self.keyframe == keyframe and self._end == end
-        return same and self._stride <= stride and (self._reports_contacts or not reports_contacts)
+        return self.keyframe == keyframe and self._end == end and self._stride <= stride
 
     @property
     def steps_left(self) -> int:

@@ -9,45 +9,24 @@ Law: a phrase is a verb and its object, so that it reads well after undo, redo a
 
 from __future__ import annotations
 
-from physsim_ros.model.requests import (
-    ChangeBody,
-    Command,
-    Configure,
-    DeleteAll,
-    DeleteBodies,
-    Grab,
-    GrabToPlace,
-    LetGo,
-    MoveBodies,
-    Restore,
-    Unjoin,
-    UnjoinAll,
-)
+from physsim_ros.model import requests
 from physsim_ros.simulation.past.tree import Node
 
-# Verbs of the requests whose class name is no verb.
-_VERBS = {
-    ChangeBody: 'change',
-    Configure: 'change',
-    DeleteAll: 'delete',
-    DeleteBodies: 'delete',
-    Grab: 'drag',
-    GrabToPlace: 'place',
-    LetGo: 'drag',
-    MoveBodies: 'move',
-    Restore: 'load',
-    Unjoin: 'delete',
-    UnjoinAll: 'delete',
-}
-# Objects of the requests that concern no single body or joint.
-_OBJECTS = {
-    Command: 'several bodies',
-    Configure: 'settings',
-    DeleteAll: 'all bodies',
-    DeleteBodies: 'several bodies',
-    MoveBodies: 'several bodies',
-    Restore: 'world',
-    UnjoinAll: 'all joints',
+# Verb of the requests whose class name is no verb, and object of those that concern no single body
+# or joint.
+_PHRASES = {
+    requests.ChangeBody: ('change', ''),
+    requests.Command: ('command', 'several bodies'),
+    requests.Configure: ('change', 'settings'),
+    requests.DeleteAll: ('delete', 'all bodies'),
+    requests.DeleteBodies: ('delete', 'several bodies'),
+    requests.Grab: ('drag', ''),
+    requests.GrabToPlace: ('place', ''),
+    requests.LetGo: ('drag', ''),
+    requests.MoveBodies: ('move', 'several bodies'),
+    requests.Restore: ('load', 'world'),
+    requests.Unjoin: ('delete', ''),
+    requests.UnjoinAll: ('delete', 'all joints'),
 }
 
 
@@ -59,10 +38,11 @@ def gesture_phrase(first: Node, count: int) -> str:
     :param count: number of its requests
     """
     request = first.request
-    verb = _VERBS.get(type(request), type(request).__name__.lower())
-    phrase = f'{verb} {first.subject or _OBJECTS.get(type(request), "")}'.rstrip()
-    if isinstance(request, DeleteAll | UnjoinAll) and request.namespace is not None:
-        phrase += f' of {request.namespace or "no namespace"}'
+    verb, several = _PHRASES.get(type(request), (type(request).__name__.lower(), ''))
+    phrase = f'{verb} {first.subject or several}'.rstrip()
+    namespace = getattr(request, 'namespace', None)
+    if namespace is not None:
+        phrase += f' of {namespace or "no namespace"}'
     # All moves of a hand are one drag.
-    more = count > 1 and not isinstance(request, Grab)
+    more = count > 1 and not isinstance(request, requests.Grab)
     return f'{phrase} and {count - 1} more' if more else phrase

@@ -101,10 +101,6 @@ class Lines:
         self._tree.size -= line.size
         line.ghost, line.size = [], 0
 
-    def drop_all(self) -> None:
-        """Drop all lines."""
-        self.drop_where(lambda _: True)
-
     def clear_undone(self, era: int) -> None:
         """Drop the undone lines, and the courses of eras that were undone: there is no redo."""
         undone = [line for line in self.left.values() if line.era > era]

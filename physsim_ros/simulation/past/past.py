@@ -92,11 +92,11 @@ class Past:
     @property
     def reports_contacts(self) -> bool:
         """Return whether contacts are reported."""
-        return self.timeline.reports_contacts
+        return self.frame_cache.reports_contacts
 
     @reports_contacts.setter
     def reports_contacts(self, reports_contacts: bool) -> None:
-        self.timeline.reports_contacts = reports_contacts
+        self.timeline.reports_contacts = self.frame_cache.reports_contacts = reports_contacts
 
     def steps_in(self, seconds: float) -> int:
         """Return the number of steps in a simulation time [s]."""
@@ -252,7 +252,7 @@ class Past:
 
         Nothing before it can be undone or returned to.
         """
-        self._lines.drop_all()
+        self._lines.drop_where(lambda _: True)
         self.timeline.begin(state)
         self.frame_cache.drop_from(0)
         self.course = self._courses = 1

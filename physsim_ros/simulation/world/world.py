@@ -17,32 +17,9 @@ from typing import Any
 import numpy as np
 from physsim_ros.engine.checkpoint import saved_state
 from physsim_ros.engine.observation import digest_parts, observe_bodies
+from physsim_ros.model import requests
 from physsim_ros.model.checkpoint import WorldState
-from physsim_ros.model.requests import (
-    Anchor,
-    Axle,
-    ChangeBody,
-    Command,
-    Configure,
-    Delete,
-    DeleteAll,
-    DeleteBodies,
-    Grab,
-    GrabToPlace,
-    Join,
-    KeepHand,
-    LetGo,
-    MoveBodies,
-    MoveHand,
-    Pin,
-    PlaceHand,
-    Release,
-    Request,
-    Restore,
-    Spawn,
-    Unjoin,
-    UnjoinAll,
-)
+from physsim_ros.model.requests import Request
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Contacts, Grip, Snapshot
@@ -57,28 +34,28 @@ from physsim_ros.simulation.world.lookup import Done
 
 # The handler of each type of request. It checks everything, then changes the space.
 HANDLERS: Mapping[type, Callable[[LiveSpace, Any], Done]] = {
-    Spawn: body_requests.spawn,
-    ChangeBody: body_requests.change_body,
-    MoveBodies: body_requests.move_bodies,
-    Command: body_requests.command,
-    Anchor: body_requests.anchor,
-    Release: body_requests.release,
-    Delete: body_requests.delete,
-    DeleteBodies: body_requests.delete_bodies,
-    DeleteAll: body_requests.delete_all,
-    Join: joint_requests.join,
-    Pin: joint_requests.join_at_point,
-    Axle: joint_requests.join_at_point,
-    Unjoin: joint_requests.unjoin,
-    UnjoinAll: joint_requests.unjoin_all,
-    Grab: hand_requests.grab,
-    GrabToPlace: hand_requests.grab,
-    MoveHand: hand_requests.move_hand,
-    PlaceHand: hand_requests.place_hand,
-    KeepHand: hand_requests.keep_hand,
-    LetGo: hand_requests.let_go,
-    Configure: world_requests.configure,
-    Restore: world_requests.restore,
+    requests.Spawn: body_requests.spawn,
+    requests.ChangeBody: body_requests.change_body,
+    requests.MoveBodies: body_requests.move_bodies,
+    requests.Command: body_requests.command,
+    requests.Anchor: body_requests.anchor,
+    requests.Release: body_requests.release,
+    requests.Delete: body_requests.delete,
+    requests.DeleteBodies: body_requests.delete_bodies,
+    requests.DeleteAll: body_requests.delete_all,
+    requests.Join: joint_requests.join,
+    requests.Pin: joint_requests.join_at_point,
+    requests.Axle: joint_requests.join_at_point,
+    requests.Unjoin: joint_requests.unjoin,
+    requests.UnjoinAll: joint_requests.unjoin_all,
+    requests.Grab: hand_requests.grab,
+    requests.GrabToPlace: hand_requests.grab,
+    requests.MoveHand: hand_requests.move_hand,
+    requests.PlaceHand: hand_requests.place_hand,
+    requests.KeepHand: hand_requests.keep_hand,
+    requests.LetGo: hand_requests.let_go,
+    requests.Configure: world_requests.configure,
+    requests.Restore: world_requests.restore,
 }
 
 
