@@ -25,9 +25,8 @@ class Motion(NamedTuple):
     """
     The engine's state of a body, from which it continues to the bit.
 
-    x, y [m], yaw [rad] of the engine's origin, the centre of mass; vx, vy [m/s], spin [rad/s] of
-    the engine; whether the body is in free flight, so that the engine's velocity leads the
-    reported one by half a step.
+    x, y [m], yaw [rad] of its centre of mass; vx, vy [m/s], spin [rad/s]; whether it is in free
+    flight, in which the engine's velocity leads the reported one by half a step.
     """
 
     x: float

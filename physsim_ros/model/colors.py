@@ -56,9 +56,9 @@ def check_color(color: Color) -> Color:
 
 def color_of(name: str) -> Color:
     """
-    Return the default colour of a body, a function of its name: consecutive ids get other colours.
+    Return the default colour of a body, by its name; consecutive ids have different colours.
 
-    A count of spawned bodies instead would be a hidden state of the world, in no file.
+    It does not depend on the number of bodies, which would be a state of the world in no file.
     """
     namespace, id_ = split_name(name)
     number = zlib.crc32(namespace.encode()) + id_

@@ -165,7 +165,7 @@ class JointProperties:
     :param rest_length: length of a spring without force [m]
     :param length: greatest distance of a rope's points [m]
     :param ratio: angle of a over angle of b; negative for opposite directions
-    :param phase: angle of b times ratio, less angle of a [rad]
+    :param phase: angle of b times ratio minus angle of a [rad]
     :param max_force: greatest force of the joint [N]; of a torque, at an arm of 1 m
     :param break_force: force above which the joint is removed [N]; of a torque, at an arm of 1 m
     :param collide: whether the joined bodies collide with each other

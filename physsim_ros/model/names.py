@@ -78,7 +78,7 @@ def check_hand_name(name: str) -> None:
 
 
 def shown_name(name: str) -> str:
-    """Return a name as answers repeat it: unchanged, unless no object can have it."""
+    """Return a name for answers: unchanged, or abbreviated if it is too long for a body."""
     return abbreviated(name, LONGEST_NAME if len(name) <= LONGEST_NAME else LONGEST_WORD)
 
 
@@ -89,10 +89,10 @@ def split_name(name: str) -> tuple[str, int]:
         number = int(id_)
     except ValueError:
         return '', 0
-    # One spelling of a number: '7', not '07' or '+7', as in the name of its marker.
+    # A number has one spelling, that of a marker's id: '7', not '07' or '+7'.
     return (namespace, number) if str(number) == id_ else ('', 0)
 
 
 def names_in(names: Iterable[str], namespace: str | None) -> list[str]:
-    """Return those of some names that are in a namespace; None is all."""
+    """Return the names that are in a namespace; None is every namespace."""
     return [name for name in names if namespace is None or split_name(name)[0] == namespace]

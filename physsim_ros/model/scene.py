@@ -77,7 +77,7 @@ class Seat(NamedTuple):
     The anchor points of a joint, its axis, reference angle and length, from when it was drawn.
 
     ax, ay [m]: anchor point in the frame of a; bx, by [m]: the same in the frame of b; ux, uy:
-    unit vector of a slider's axis in the frame of b; phase [rad]: angle of b times ratio, less
+    unit vector of a slider's axis in the frame of b; phase [rad]: angle of b times ratio minus
     angle of a; length [m]: distance of the two points. Box2D: localAnchorA, localAnchorB,
     localAxis, referenceAngle, length.
     """
@@ -137,7 +137,7 @@ class Joint:
         return default if value is None else value
 
     def drawn_values(self) -> dict[str, float]:
-        """Return those properties by name whose default is the value as drawn."""
+        """Return the properties whose default is the value as drawn, by name."""
         values = {
             'rest_length': self.rest_length,
             'length': self.rest_length,

@@ -17,11 +17,10 @@ Bounds = tuple[float, float, float, float]
 
 # Greatest gravity [m/s²]: a thousand times that of the earth, 40 m/s in a step.
 STRONGEST = 1e4
-# Greatest number of joints on one body, beside `max_joints` of the world: a new joint takes a
-# microsecond for each other one on its bodies.
+# Greatest number of joints on one body [1]: a new joint takes a microsecond for each joint on its
+# bodies.
 MOST_JOINTS_ON_BODY = 1000
-# Greatest number of hands that drag at once, each 12 µs a step: as many as there may be pages,
-# each of which has one.
+# Greatest number of hands that drag at once [1], each 12 µs a step: one for each page.
 MOST_HANDS = 64
 # Greatest number of samples of a stroke: a minute of a pen at 160 Hz.
 MOST_SAMPLES = 10_000

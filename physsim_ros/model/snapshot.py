@@ -21,7 +21,7 @@ from physsim_ros.model.scene import Scene
 from physsim_ros.model.texts import nearest_name
 from physsim_ros.model.transform import Point, rotated_each
 
-# The field that every request with a point or pose has besides the one it consists of.
+# The field of every request with a point or pose, besides the point or pose itself.
 _FRAME = 'header.frame_id'
 
 Line = tuple[Point, ...]
@@ -47,7 +47,7 @@ class Springs(NamedTuple):
     """
     The springs of a world with the engine's constants.
 
-    :ivar numbers: (k,) int64: rows among the joints of those springs that act on a dynamic body
+    :ivar numbers: (k,) int64: rows of the joints that are springs on a dynamic body
     :ivar stiffness: (k,) float64: [N/m]
     :ivar rest: (k,) float64: length without force [m]
     :ivar reach: (k,) float64: extension from which the force is constant [m]

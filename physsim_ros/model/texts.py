@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Texts that somebody else has written, as far as they are repeated to others."""
+"""Texts of users: abbreviated and escaped before messages repeat them."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from itertools import islice
 import unicodedata
 
 # Unicode categories of control characters, surrogates, line and paragraph separators. Format
-# characters are allowed: Persian, Hindi and emoji are written with them.
+# characters are allowed: Persian, Hindi and emoji need them.
 _UNPRINTABLE = {'Cc', 'Cs', 'Zl', 'Zp'}
-# Bidirectional classes of the characters that change the order in which others are shown, so that
-# a text reads as another one (Unicode Standard Annex 9; CVE-2021-42574).
+# Bidirectional classes of characters that change the order in which other characters are shown: a
+# text with them can look like another text (Unicode Standard Annex 9; CVE-2021-42574).
 _REORDERING = {'LRE', 'RLE', 'LRO', 'RLO', 'PDF', 'LRI', 'RLI', 'FSI', 'PDI'}
 # Greatest lengths of a word and of a whole message [characters]: some six lines of a terminal.
 LONGEST_WORD, LONGEST_MESSAGE = 80, 480
@@ -24,7 +24,7 @@ _MOST_COMPARED = 200
 
 
 def is_printable(text: str) -> bool:
-    """Return whether a text has no character of control, of order or of lines, nor a surrogate."""
+    """Return whether a text has no control, reordering, line or surrogate character."""
     return text.isprintable() or not any(
         unicodedata.category(character) in _UNPRINTABLE
         or unicodedata.bidirectional(character) in _REORDERING
@@ -33,7 +33,7 @@ def is_printable(text: str) -> bool:
 
 
 def abbreviated(text: str, longest: int = LONGEST_WORD) -> str:
-    """Return a text with its middle left out where it is longer [characters], escaped."""
+    """Return a text, escaped, and without its middle if it is longer [characters]."""
     if len(text) > longest:
         kept = (longest - len(_OMISSION)) // 2
         text = text[:kept] + _OMISSION + text[-kept:]
@@ -46,7 +46,7 @@ def abbreviated(text: str, longest: int = LONGEST_WORD) -> str:
 
 
 def message_text(text: str) -> str:
-    """Return a message with all long words abbreviated, and itself too, escaped."""
+    """Return a message, escaped; its long words and the message itself are abbreviated."""
     if len(text) > LONGEST_WORD:
         text = ' '.join(map(abbreviated, text.split(' ')))
     return abbreviated(text, LONGEST_MESSAGE)

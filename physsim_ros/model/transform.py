@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Plane vectors: rotation counter-clockwise, of one or of many at once, and their products."""
+"""Poses, twists and wrenches; plane vectors: rotation counter-clockwise, and products."""
 
 from __future__ import annotations
 

@@ -87,7 +87,7 @@ class ChangeBody:
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MoveBodies:
     """
-    Move bodies by one vector, all of them, or none if one is refused; velocities are kept.
+    Move bodies by one vector; velocities are kept. If one is refused, none is moved.
 
     :param names: the bodies, each once
     :param by: vector of the world [m]
@@ -134,7 +134,7 @@ class Delete:
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DeleteBodies:
     """
-    Remove several bodies, and their joints; none if one is not there.
+    Remove several bodies, and their joints. If one does not exist, none is removed.
 
     :param names: the bodies, each once
     :raises Malformed: no body is named, or one is named twice

@@ -13,7 +13,7 @@ from physsim_ros.model.arrays import Floats, greatest
 from physsim_ros.model.checks import FARTHEST, FASTEST, HEAVIEST
 from physsim_ros.model.errors import BadProperty, Malformed
 
-# The array of all commands that leave it out.
+# Shared by all commands without such an array.
 _NO_ROWS: Floats = np.empty((0, 3))
 _NO_ROWS.flags.writeable = False
 
@@ -25,7 +25,7 @@ def _no_rows() -> Floats:
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Command:
     """
-    Set poses, twists or wrenches of named bodies: all of them, or none if one is refused.
+    Set poses, twists or wrenches of named bodies; if one is refused, nothing is set.
 
     Each array is copied and is read-only afterwards; n is the number of names.
 
@@ -59,7 +59,7 @@ class Command:
             )
         if greatest(self.poses[:, 2]) > FARTHEST:
             raise BadProperty('the yaw of transforms is too large', field='transforms')
-        # The coordinates first, so that no square of them overflows.
+        # The coordinates first, so that their squares do not overflow.
         if greatest(self.twists) > FASTEST or greatest(np.hypot(*self.twists.T[:2])) > FASTEST:
             raise BadProperty(f'twist is faster than {FASTEST:g} m/s or rad/s', field='twist')
         if greatest(self.wrenches) > HEAVIEST:

@@ -75,7 +75,7 @@ class PlaceHand(MoveHand):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class KeepHand(OfHand):
-    """Say that a hand is still there, though it does not move."""
+    """Keep a hand that does not move from counting as gone."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
