@@ -115,8 +115,8 @@ class Joint:
     @property
     def rest_length(self) -> float:
         """Return the length of a spring without force, or of a taut rope [m]."""
-        said = self.properties
-        length = said.rest_length if said.length is None else said.length
+        properties = self.properties
+        length = properties.rest_length if properties.length is None else properties.length
         return self.seat.length if length is None else length
 
     @property

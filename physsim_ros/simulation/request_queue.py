@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from physsim_ros.model.errors import Busy, Refusal
 from physsim_ros.model.requests import (
@@ -180,14 +180,12 @@ class RequestQueue:
         if isinstance(request, MoveHand) and request.hand in self._moves:
             self._moves[request.hand].request = request
             return
-        subject, size = subject_of(request), size_of(request)
-        if busy := self._busy(size):
-            self.refuse(
-                busy, topic=topic, subject=subject, joined=joined, field=field, asker=asker
-            )
-            return
+        size = size_of(request)
         gesture = self.gesture if joined else self.begin_gesture()
-        waiting = Waiting(request, topic, subject, gesture, field, asker, size)
+        waiting = Waiting(request, topic, subject_of(request), gesture, field, asker, size)
+        if busy := self._busy(size):
+            self._add_answer(replace(waiting, request=busy, size=0))
+            return
         self._waiting.append(waiting)
         self._size += size
         self._seek = None

@@ -58,12 +58,12 @@ def changed_body(old: Body, changes: dict[str, Any], properties: Properties) -> 
     :param changes: other fields of the body, by name
     :raises BadProperty: it would be too light or too heavy, or a robot or conveyor that cannot be
     """
-    said = properties.explicit()
+    values = properties.explicit()
     for motion in ('velocity', 'spin'):
-        said.pop(motion, None)
+        values.pop(motion, None)
     if properties.density is not None:
-        said['mass'] = None
-    body = replace(old, **changes, **said)
+        values['mass'] = None
+    body = replace(old, **changes, **values)
     if body.mass is not None:
         # The default density of the world at its spawn is in no file.
         body = replace(body, density=body.mass / body.shape.form.area)

@@ -43,17 +43,17 @@ def join(live: LiveSpace, request: Join) -> Done:
     a, b, points = _members(space, request, points)
     _check_members(space, request.kind, a, b)
     kept = old.joint if old is not None and old.joint.kind is request.kind else None
-    said = request.properties
+    properties = request.properties
     if kept is not None:
-        said = replace(kept.properties, **said.explicit())
+        properties = replace(kept.properties, **properties.explicit())
     if kept is not None and (kept.a, kept.b) == (a, b) and _is_at(space, kept, points):
         seat = kept.seat
         if request.properties.phase is not None or request.properties.ratio is not None:
-            seat = seat._replace(phase=_phase(space, a, b, said))
+            seat = seat._replace(phase=_phase(space, a, b, properties))
     else:
-        phase = _phase(space, a, b, said)
+        phase = _phase(space, a, b, properties)
         seat = _seat(request.kind, points, _pose(space, a), _pose(space, b), phase)
-    joint = Joint(name=request.name, kind=request.kind, a=a, b=b, seat=seat, properties=said)
+    joint = Joint(name=request.name, kind=request.kind, a=a, b=b, seat=seat, properties=properties)
     if old is None or old.joint != joint:
         live.capacity.check_joint(joint)
         space.joints.check_springs({}, joint)
@@ -118,14 +118,14 @@ def drawn_points(joint: Joint, poses: Mapping[str, Pose]) -> tuple[Point, ...]:
     :param poses: of the bodies, by name
     """
     seat = joint.seat
-    x, y = _out(poses[joint.a], (seat.ax, seat.ay))
+    x, y = _to_world(poses[joint.a], (seat.ax, seat.ay))
     if joint.kind.points == 1:
         return ((x, y),)
     pose_b = ORIGIN if joint.b == WORLD else poses[joint.b]
     if joint.kind is JointKind.SLIDER:
         ux, uy = rotated((seat.ux, seat.uy), pose_b[2])
         return (x, y), (x + ux, y + uy)
-    return (x, y), _out(pose_b, (seat.bx, seat.by))
+    return (x, y), _to_world(pose_b, (seat.bx, seat.by))
 
 
 def _members(
@@ -180,21 +180,21 @@ def _seat(
         ux, uy = rotated(((x2 - x1) / length, (y2 - y1) / length), -pose_b[2])
         at_b = points[0]
     length = math.dist(points[0], at_b)
-    return Seat(*_into(pose_a, points[0]), *_into(pose_b, at_b), ux, uy, phase, length)
+    return Seat(*_to_body(pose_a, points[0]), *_to_body(pose_b, at_b), ux, uy, phase, length)
 
 
-def _phase(space: Space, a: str, b: str, said: JointProperties) -> float:
+def _phase(space: Space, a: str, b: str, properties: JointProperties) -> float:
     """
     Return the phase of a gear [rad].
 
-    :param said: the phase, to which the whole turns of the bodies are added; where it is None,
-        the present phase is returned
+    :param properties: of the gear; whole turns of the bodies are added to its phase, and without
+        one the present phase is returned
     """
-    ratio = 1.0 if said.ratio is None else said.ratio
+    ratio = 1.0 if properties.ratio is None else properties.ratio
     now = ratio * _pose(space, b)[2] - _pose(space, a)[2]
-    if said.phase is None:
+    if properties.phase is None:
         return now
-    return said.phase + math.tau * round((now - said.phase) / math.tau)
+    return properties.phase + math.tau * round((now - properties.phase) / math.tau)
 
 
 def _is_at(space: Space, joint: Joint, points: tuple[Point, ...]) -> bool:
@@ -222,12 +222,12 @@ def _pose(space: Space, name: str) -> Pose:
     return ORIGIN if name == WORLD else space.bodies.by_name[name].pose
 
 
-def _out(pose: Pose, point: Point) -> Point:
+def _to_world(pose: Pose, point: Point) -> Point:
     """Return a point of a body's frame as a point of the world."""
     x, y = rotated(point, pose[2])
     return pose[0] + x, pose[1] + y
 
 
-def _into(pose: Pose, point: Point) -> Point:
+def _to_body(pose: Pose, point: Point) -> Point:
     """Return a point of the world as a point of a body's frame."""
     return rotated((point[0] - pose[0], point[1] - pose[1]), -pose[2])
