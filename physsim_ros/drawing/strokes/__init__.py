@@ -5,5 +5,5 @@
 Freehand strokes: resampled, recognised, interpreted in the scene, regularised into requests.
 
 Not here: clicks (`clicks`), and the session that both belong to (`drawing.session`). Start with
-`interpretation`, then `recogniser`; `glyphs` has one file for each sign.
+`interpretation`, then `recogniser`; `signs` has one file for each sign.
 """

@@ -17,6 +17,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from physsim_ros.drawing.strokes.plane import norms
+from physsim_ros.drawing.strokes.polyline import size_of
 from physsim_ros.model.arrays import Floats
 
 # The distance at which samples are distinct, in shares of the stroke's size: a pen that rests
@@ -48,9 +50,9 @@ def clean_samples(samples: Floats) -> Floats:
 def _robust_size(samples: Floats) -> float:
     """Return the diagonal of the bounding box without the outermost sample on each side [m]."""
     if len(samples) < _FEWEST:
-        return float(np.hypot(*np.ptp(samples, axis=0)))
+        return size_of(samples)
     inner = np.partition(samples, (1, len(samples) - 2), axis=0)
-    return float(np.hypot(*(inner[-2] - inner[1])))
+    return float(norms(inner[-2] - inner[1]))
 
 
 def _merged(points: Floats, grain: float) -> Floats:
@@ -72,7 +74,7 @@ def _without_jumps(points: Floats) -> Floats:
     if len(points) < _FEWEST:
         return points
     size = _robust_size(points)
-    steps = np.hypot(*np.diff(points, axis=0).T)
+    steps = norms(np.diff(points, axis=0))
     # A jump at an end is the longest step, those of a spike are the two longest.
     but_two, but_one = (_JUMP * np.sort(steps)[-3:-1]).tolist()
     kept = np.ones(len(points), np.bool_)

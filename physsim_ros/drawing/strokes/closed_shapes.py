@@ -19,7 +19,6 @@ import numpy as np
 from physsim_ros.drawing.strokes import corner_detection, fitting, request_builder
 from physsim_ros.drawing.strokes.features import Features
 from physsim_ros.drawing.strokes.fitting import rectangle, traced
-from physsim_ros.drawing.strokes.glyphs import axle, weld
 from physsim_ros.drawing.strokes.hypothesis import falls, Hypothesis, LEAST, rises
 from physsim_ros.drawing.strokes.meanings import (
     Context,
@@ -30,8 +29,9 @@ from physsim_ros.drawing.strokes.meanings import (
     RECTANGLE,
 )
 from physsim_ros.drawing.strokes.outer_boundary import outer_boundary
-from physsim_ros.drawing.strokes.plane import angles, principal_axis
-from physsim_ros.drawing.strokes.polyline import point_of, widened
+from physsim_ros.drawing.strokes.plane import angles, norms, principal_axis
+from physsim_ros.drawing.strokes.polyline import point_of, size_of, widened
+from physsim_ros.drawing.strokes.signs import axle, weld
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.shapes import crosses_itself, is_convex, signed_area
 from physsim_ros.model.transform import cross, Point, rotated_each
@@ -82,7 +82,7 @@ def _shapes(outline: Floats, gap: float) -> Iterator[Hypothesis]:
     wide, narrowed = widened(outline)
     at = corner_detection.corners(wide, closed=True, gap=gap)
     found = narrowed(corner_detection.vertices(wide, at, closed=True))
-    size = float(np.hypot(*np.ptp(wide, axis=0)))
+    size = size_of(wide)
     residual = corner_detection.side_error(wide, at) / size if len(at) >= 3 else 1.0
     # Logistic regression on hands' circles and polygons: sides fit a circle badly, and there are
     # many of them about it.
@@ -140,7 +140,7 @@ def oval_interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[I
     """Yield axle and polygon, which is not regularised."""
     points = hypothesis.points
     build = partial(request_builder.smooth_polygon, points, context)
-    circle = point_of(points.mean(axis=0)), float(np.hypot(*np.ptp(points, axis=0))) / 3
+    circle = point_of(points.mean(axis=0)), size_of(points) / 3
     yield from _axle_or_body(hypothesis, context, *circle, meaning=POLYGON, build=build)
 
 
@@ -180,7 +180,7 @@ def rectangle_interpretations(
 def polygon_interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[Interpretation]:
     """Yield axle and polygon: small circles are drawn with corners."""
     points = hypothesis.points
-    center, radius = points.mean(axis=0), float(np.hypot(*np.ptp(points, axis=0))) / 3
+    center, radius = points.mean(axis=0), size_of(points) / 3
     _, along, across = principal_axis(points - center)
     share = axle.share_of(point_of(center), radius, context, corners=len(points))
     share *= rises(math.sqrt(across / along), _LEAST_ROUND, 0.03)
@@ -221,8 +221,8 @@ def squareness(found: Floats) -> float:
     """Return how well four corners fit a rectangle, 0 .. 1."""
     nearest = rectangle(found)
     sides = np.roll(found, -1, axis=0) - found
-    lengths = np.hypot(*(np.roll(nearest, -1, axis=0) - nearest).T)
-    off = float(np.hypot(*(nearest - found).T).mean() / lengths.mean())
+    lengths = norms(np.roll(nearest, -1, axis=0) - nearest)
+    off = float(norms(nearest - found).mean() / lengths.mean())
     slants = np.abs(np.abs(angles(np.roll(sides, 1, axis=0), sides)) - math.pi / 2)
     # The direction of a short side is less exact than its ends.
     slant = float(slants.mean()) * min(1.0, float(lengths.min() / lengths.max()) / 0.3)

@@ -17,7 +17,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.drawing.strokes.fitting import line
-from physsim_ros.drawing.strokes.plane import angles, dot
+from physsim_ros.drawing.strokes.plane import angles, dot, norms
 from physsim_ros.drawing.strokes.polyline import smoothed, turns
 from physsim_ros.drawing.strokes.stroke import HOOK, HOOK_TURN
 from physsim_ros.model.arrays import Floats
@@ -224,8 +224,8 @@ def _errors(path: Floats, places: NDArray[np.intp]) -> NDArray[np.float64]:
     least = np.maximum((xx + yy) / 2 - np.hypot((xx - yy) / 2, xy), 0.0)
     # A stroke back along the same line has no residual, but its ends lie too close together.
     ends = path[places]
-    chord = np.hypot(*(ends[None] - ends[:, None]).transpose(2, 0, 1))
-    steps = np.concatenate(([0.0], np.cumsum(np.hypot(*np.diff(path, axis=0).T))))[places]
+    chord = norms(ends[None] - ends[:, None])
+    steps = np.concatenate(([0.0], np.cumsum(norms(np.diff(path, axis=0)))))[places]
     astray = np.maximum(ASTRAY * (steps[None] - steps[:, None]) - chord, 0.0)
     wrong: NDArray[np.float64] = least + number * astray**2
     return wrong

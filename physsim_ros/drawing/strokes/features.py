@@ -16,6 +16,7 @@ import math
 
 import numpy as np
 from physsim_ros.drawing.strokes.hypothesis import falls
+from physsim_ros.drawing.strokes.plane import norms
 from physsim_ros.drawing.strokes.polyline import COUNT, path_length
 from physsim_ros.drawing.strokes.stroke import Stroke
 from physsim_ros.model.arrays import Floats
@@ -127,7 +128,7 @@ def swings_of(points: Floats) -> Swings:
     # The sum of two swings in opposite directions is advance.
     advances = strides[1:] + strides[:-1]
     total = advances.sum(axis=0)
-    whole, steps = float(np.hypot(*total)), float(np.hypot(*advances.T).sum())
+    whole, steps = float(norms(total)), float(norms(advances).sum())
     height = float(np.abs(cross(strides, total / max(whole, 1e-12))).mean())
     return Swings(
         count=len(strides),

@@ -29,7 +29,8 @@ from physsim_ros.drawing.strokes.meanings import (
     POLYGON,
     RECTANGLE,
 )
-from physsim_ros.drawing.strokes.polyline import COUNT, path_length
+from physsim_ros.drawing.strokes.plane import norms
+from physsim_ros.drawing.strokes.polyline import COUNT, path_length, size_of
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.drawing.strokes.stroke_order import joined_strokes
 from physsim_ros.model.arrays import Flags, Floats
@@ -253,7 +254,7 @@ def _touch(one: Floats, other: Floats, size: float, settings: DrawingSettings) -
 
 
 def _size(stroke: Floats) -> float:
-    return float(np.hypot(*np.ptp(stroke, axis=0)))
+    return size_of(stroke)
 
 
 def _extended(stroke: Floats) -> Floats:
@@ -262,7 +263,7 @@ def _extended(stroke: Floats) -> Floats:
     parts = [_few_points(stroke)]
     for points in (stroke, stroke[::-1]):
         ahead = points[0] - points[_END]
-        ahead *= step / max(float(np.hypot(*ahead)), 1e-300)
+        ahead *= step / max(float(norms(ahead)), 1e-300)
         parts.append(points[0] + np.arange(1, _POINTS_BEYOND + 1)[:, None] * ahead)
     return np.vstack(parts)
 

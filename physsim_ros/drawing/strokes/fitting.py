@@ -16,11 +16,12 @@ import numpy as np
 from physsim_ros.drawing.strokes.plane import (
     dot,
     least_squares,
+    norms,
     principal_axis,
     quarter_heading,
     unit_vector,
 )
-from physsim_ros.drawing.strokes.polyline import COUNT, smoothed, spaced
+from physsim_ros.drawing.strokes.polyline import COUNT, size_of, smoothed, spaced
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.transform import rotated_each
 
@@ -63,8 +64,8 @@ def rectangle_of(outline: Floats) -> tuple[Floats, float]:
     :return: (4, 2) float64 [m]; the distance from its sides (rms) [m]
     """
     steps = np.roll(outline, -max(len(outline) // 40, 1), axis=0) - outline
-    angle = quarter_heading(steps, np.hypot(steps[:, 0], steps[:, 1]))
-    local = rotated_each(outline, -angle)
+    angle = quarter_heading(steps, norms(steps))
+    local = turned(outline, -angle)
     # Left, right, lower and upper side.
     sides = np.concatenate((local.min(axis=0), local.max(axis=0)))[[0, 2, 1, 3]]
     across = local[:, [0, 0, 1, 1]]
@@ -82,7 +83,7 @@ def rectangle_of(outline: Floats) -> tuple[Floats, float]:
 def ellipse(outline: Floats, sides: int) -> Floats:
     """Return corners of the ellipse of least squares, its axes those of inertia of an outline."""
     following = np.roll(outline, -1, axis=0)
-    weights = np.hypot(*(following - outline).T)[:, None]
+    weights = norms(following - outline)[:, None]
     middles = (outline + following) / 2
     center = (weights * middles).sum(axis=0) / weights.sum()
     away = outline - center
@@ -105,7 +106,7 @@ def simplified(points: Floats, bends: Floats) -> Floats | None:
     :param points: (n, 2) float64: of an open stroke, evenly spaced
     :param bends: (n, 2) float64: ends and bends of the sides
     """
-    size = float(np.hypot(*np.ptp(points, axis=0)))
+    size = size_of(points)
     path = smoothed(points, SMOOTHING, closed=False)
     off = np.min([_off(path, *side) for side in itertools.pairwise(bends)], axis=0)
     if math.sqrt(float((off**2).mean())) <= CURVED * size:
@@ -117,7 +118,7 @@ def traced(outline: Floats) -> Floats:
     """Return a closed polyline simplified to few points."""
     path = spaced(np.vstack((outline, outline[:1])), COUNT + 1)[:-1]
     path = smoothed(path, SMOOTHING, closed=True)
-    size = float(np.hypot(*np.ptp(path, axis=0)))
+    size = size_of(path)
     # Starting at the point farthest from the middle, which is a corner of the result.
     path = np.roll(path, -int(((path - path.mean(axis=0)) ** 2).sum(axis=1).argmax()), axis=0)
     return _traced(np.vstack((path, path[:1])), FINE * size)[:-1]
@@ -141,5 +142,5 @@ def _off(points: Floats, start: Floats, end: Floats) -> Floats:
     along = end - start
     share = np.clip(dot(points - start, along) / max(float(dot(along, along)), 1e-300), 0.0, 1.0)
     away = points - start - share[:, None] * along
-    result: Floats = np.hypot(away[:, 0], away[:, 1])
+    result: Floats = norms(away)
     return result

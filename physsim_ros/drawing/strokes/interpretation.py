@@ -21,7 +21,6 @@ from dataclasses import dataclass
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes import calibration, closed_shapes, open_lines
-from physsim_ros.drawing.strokes.glyphs import SIGNS
 from physsim_ros.drawing.strokes.hypothesis import Hypothesis, LEAST
 from physsim_ros.drawing.strokes.meanings import (
     CLOSED,
@@ -36,6 +35,7 @@ from physsim_ros.drawing.strokes.meanings import (
     RECTANGLE,
 )
 from physsim_ros.drawing.strokes.recogniser import recognise_form
+from physsim_ros.drawing.strokes.signs import SIGNS
 from physsim_ros.drawing.strokes.stroke import Stroke
 from physsim_ros.model.errors import NotRecognised
 

@@ -14,14 +14,15 @@ from functools import partial
 import math
 
 import numpy as np
-from physsim_ros.drawing.strokes import request_builder
+from physsim_ros.drawing.strokes import request_builder, snapping
 from physsim_ros.drawing.strokes.corner_detection import bends_of
 from physsim_ros.drawing.strokes.features import Features, loop_roundness
 from physsim_ros.drawing.strokes.fitting import simplified
-from physsim_ros.drawing.strokes.glyphs import hatching
 from physsim_ros.drawing.strokes.hypothesis import falls, Hypothesis, LEAST, rises
 from physsim_ros.drawing.strokes.meanings import BETWEEN, Context, Interpretation
+from physsim_ros.drawing.strokes.plane import norms
 from physsim_ros.drawing.strokes.polyline import COUNT, path_length, point_of
+from physsim_ros.drawing.strokes.signs import hatching
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
@@ -49,7 +50,7 @@ def hypotheses(features: Features, plain: float) -> Iterator[Hypothesis]:
     """
     stroke, swings = features.stroke, features.swings
     points = stroke.points
-    straight = float(np.hypot(*(points[-1] - points[0]))) / stroke.length
+    straight = float(norms(points[-1] - points[0])) / stroke.length
     calm = max(
         swings.absence,
         rises(straight, 0.9, 0.02),
@@ -90,13 +91,13 @@ def _joint_along(points: Floats, context: Context) -> tuple[JointKind, float]:
     """Return the kind of joint that a line would be, and its share of the weight, 0 .. 1."""
     drawn = context.drawn.points
     start, end = point_of(drawn[0]), point_of(drawn[-1])
-    ends = request_builder.joint_ends(drawn, context)
+    ends = snapping.joint_ends(drawn, context)
     sides = np.diff(points, axis=0)
     between = ends is not None and ends[1].body != WORLD
     curved = between and simplified(drawn, points) is not None
     if curved and math.dist(start, end) < _SAGGING * _cubic_length(drawn):
         return JointKind.ROPE, BETWEEN
-    if math.dist(start, end) > _STRAIGHT * float(np.hypot(*sides.T).sum()):
+    if math.dist(start, end) > _STRAIGHT * float(norms(sides).sum()):
         # A line beside a body that ends on no other is a wall.
         at_ends = context.scene.bodies_at(start) + context.scene.bodies_at(end)
         on_body = ends is not None and ends[0].body in at_ends

@@ -14,6 +14,7 @@ import itertools
 import math
 
 import numpy as np
+from physsim_ros.drawing.strokes.plane import norms
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.shapes import crosses_itself, signed_area
 from physsim_ros.model.transform import cross
@@ -110,4 +111,4 @@ def _outer_walk(nodes: Floats, neighbours: dict[int, list[int]]) -> list[int]:
 
 
 def _length(outline: Floats) -> float:
-    return float(np.hypot(*(np.roll(outline, -1, axis=0) - outline).T).sum())
+    return float(norms(np.roll(outline, -1, axis=0) - outline).sum())

@@ -14,7 +14,8 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.drawing.scene_query import SceneQuery
-from physsim_ros.drawing.snapping import End
+from physsim_ros.drawing.strokes.plane import norms
+from physsim_ros.drawing.strokes.snapping import End
 from physsim_ros.model.arrays import Floats
 
 # Stride of the points that are tested: 43 of a stroke, 8 to 10 of each swing of a scribble.
@@ -36,7 +37,7 @@ def covered_bodies(points: Floats, crossed: Crossed, scene: SceneQuery) -> tuple
     :param crossed: the bodies that it crosses, by `crossed_bodies`
     """
     low, high = points.min(axis=0), points.max(axis=0)
-    reach = AS_LARGE * float(np.hypot(*(high - low)))
+    reach = AS_LARGE * float(norms(high - low))
     covered = set()
     for name, hits in crossed.items():
         form = scene.body(name).shape.form
@@ -67,7 +68,7 @@ def crossed_bodies(points: Floats, scene: SceneQuery) -> Crossed:
     """Return the bodies that a stroke crosses, each with the points that lie on it."""
     low, high = points.min(axis=0), points.max(axis=0)
     x, y = ((low + high) / 2).tolist()
-    reach = float(np.hypot(*(high - low))) / 2
+    reach = float(norms(high - low)) / 2
     crossed: Crossed = {}
     for name in scene.bodies_at((x, y), reach):
         hits = scene.covers(name, points[::_STRIDE])

@@ -26,6 +26,11 @@ def dot(a: Floats, b: Floats) -> Floats:
     return product
 
 
+def norms(vectors: Floats) -> Floats:
+    """Return (...) float64: the lengths of plane vectors (..., 2)."""
+    return np.hypot(vectors[..., 0], vectors[..., 1])
+
+
 def headings(vectors: Floats) -> Floats:
     """Return the directions of plane vectors (..., 2), -π .. π [rad]."""
     return np.asarray(_atan2(vectors[..., 1], vectors[..., 0]), dtype=np.float64)
@@ -50,7 +55,7 @@ def quarter_heading(sides: Floats, weights: Floats) -> float:
     :param sides: (n, 2) float64
     :param weights: (n,) float64
     """
-    x, y = (sides / np.maximum(np.hypot(sides[:, 0], sides[:, 1]), 1e-300)[:, None]).T
+    x, y = (sides / np.maximum(norms(sides), 1e-300)[:, None]).T
     for _ in range(2):
         # The square of a complex number of length 1: twice its angle.
         x, y = x * x - y * y, 2.0 * x * y

@@ -14,7 +14,7 @@ from functools import lru_cache, partial
 import math
 
 import numpy as np
-from physsim_ros.drawing.strokes.plane import angles, principal_axis, stretched, unit_vector
+from physsim_ros.drawing.strokes.plane import angles, norms, principal_axis, stretched, unit_vector
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.transform import Point
 
@@ -35,9 +35,14 @@ def spaced(path: Floats, count: int) -> Floats:
     return points
 
 
+def size_of(points: Floats) -> float:
+    """Return the diagonal of the bounding box of points [m]."""
+    return float(norms(np.ptp(points, axis=0)))
+
+
 def path_length(path: Floats) -> float:
     """Return the length of a polyline [m]."""
-    return float(np.hypot(*np.diff(path, axis=0).T).sum())
+    return float(norms(np.diff(path, axis=0)).sum())
 
 
 def smoothed(points: Floats, width: float, *, closed: bool) -> Floats:

@@ -14,8 +14,8 @@ from dataclasses import replace
 
 from physsim_ros.drawing.strokes import closed_shapes, open_lines
 from physsim_ros.drawing.strokes.features import Features
-from physsim_ros.drawing.strokes.glyphs import arrow, cross, round_arrow, SIGNS
 from physsim_ros.drawing.strokes.hypothesis import Hypothesis, LEAST
+from physsim_ros.drawing.strokes.signs import arrow, cross, round_arrow, SIGNS
 from physsim_ros.drawing.strokes.stroke import Stroke
 
 

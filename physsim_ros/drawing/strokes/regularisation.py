@@ -14,7 +14,7 @@ import math
 
 import numpy as np
 from physsim_ros.drawing.strokes import fitting
-from physsim_ros.drawing.strokes.plane import dot, headings, quarter_heading
+from physsim_ros.drawing.strokes.plane import dot, headings, norms, quarter_heading
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.shapes import crosses_itself
 from physsim_ros.model.transform import cross, Pose
@@ -29,7 +29,7 @@ def rectangle(corners: Floats, tolerance: float) -> tuple[Pose, float, float]:
     nearest = fitting.rectangle(corners)
     side, other = nearest[1] - nearest[0], nearest[2] - nearest[1]
     angle = math.atan2(side[1], side[0])
-    width, height = float(np.hypot(*side)), float(np.hypot(*other))
+    width, height = float(norms(side)), float(norms(other))
     quarters = round(angle / (math.pi / 2))
     yaw = angle - quarters * math.pi / 2
     if quarters % 2:
@@ -62,7 +62,7 @@ def line(points: Floats, tolerance: float) -> Floats:
     sides = np.diff(points, axis=0)
     for axis in (0, 1):
         # Sides that hardly change along an axis.
-        level = np.abs(sides[:, axis]) <= math.sin(tolerance) * np.hypot(*sides.T)
+        level = np.abs(sides[:, axis]) <= math.sin(tolerance) * norms(sides)
         first = 0
         while first < len(level):
             last = first
@@ -80,7 +80,7 @@ def _regular(corners: Floats, tolerance: float) -> Floats | None:
     count = len(corners)
     middle = corners.mean(axis=0)
     away = corners - middle
-    radii = np.hypot(*away.T)
+    radii = norms(away)
     turn = 2 * math.pi / count
     if cross(away, np.roll(away, -1, axis=0)).sum() < 0:
         turn = -turn
@@ -106,7 +106,7 @@ def _squared(corners: Floats, tolerance: float) -> Floats:
     following = np.roll(corners, -1, axis=0)
     sides = following - corners
     angles = headings(sides)
-    lengths = np.hypot(*sides.T)
+    lengths = norms(sides)
     # The dominant direction modulo a quarter turn, sides weighed by their length².
     base = quarter_heading(sides, lengths**2)
     if abs(base) <= tolerance:
@@ -124,20 +124,20 @@ def _squared(corners: Floats, tolerance: float) -> Floats:
         # The intersection of nearly parallel lines is ill-conditioned.
         if abs(sine) > 0.3:
             result[corner] = p + u * (float(cross(q - p, v)) / sine)
-    moved = np.hypot(*(result - corners).T)
+    moved = norms(result - corners)
     return result if moved.max() <= tolerance * lengths.mean() + 1e-12 else corners
 
 
 def _has_right_angle(corners: Floats) -> bool:
     sides = np.roll(corners, -1, axis=0) - corners
-    lengths = np.hypot(*sides.T)
+    lengths = norms(sides)
     cosines = (sides * np.roll(sides, 1, axis=0)).sum(axis=1) / (lengths * np.roll(lengths, 1))
     return bool(np.abs(cosines).min() < 1e-9)
 
 
 def _isosceles(corners: Floats, tolerance: float) -> Floats:
     """Return a triangle whose two nearly equal sides are equal."""
-    sides = np.hypot(*(np.roll(corners, -1, axis=0) - corners).T)
+    sides = norms(np.roll(corners, -1, axis=0) - corners)
     # Relative difference of the two sides at each corner.
     ahead, behind = sides, np.roll(sides, 1)
     difference = np.abs(ahead - behind) / np.maximum(ahead, behind)
@@ -145,7 +145,7 @@ def _isosceles(corners: Floats, tolerance: float) -> Floats:
     if difference[apex] > tolerance:
         return corners
     base = corners[[apex - 1, (apex + 1) % 3]]
-    along = (base[1] - base[0]) / np.hypot(*(base[1] - base[0]))
+    along = (base[1] - base[0]) / norms(base[1] - base[0])
     result = corners.copy()
     result[apex] -= along * float(dot(corners[apex] - base.mean(axis=0), along))
     return result

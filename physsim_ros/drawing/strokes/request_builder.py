@@ -12,9 +12,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from physsim_ros.drawing import body_requests, snapping
-from physsim_ros.drawing.snapping import End
-from physsim_ros.drawing.strokes import regularisation
+from physsim_ros.drawing import body_requests
+from physsim_ros.drawing.strokes import regularisation, snapping
 from physsim_ros.drawing.strokes.fitting import simplified
 from physsim_ros.drawing.strokes.meanings import Context, Outcome
 from physsim_ros.drawing.strokes.polyline import point_of
@@ -80,14 +79,13 @@ def smooth_polygon(corners: Floats, context: Context) -> Outcome:
 
 def wall(points: Floats, context: Context) -> Outcome:
     """Return a wall, of its ends and bends, or along the curve of the stroke."""
-    scene, settings = context.scene, context.settings
-    name = scene.next_body()
+    settings, name = context.settings, context.scene.next_body()
     # A stroke that straight sides do not fit is a curve, and stays one.
     curve = simplified(context.drawn.points, points)
     path = regularisation.line(points, settings.beautify) if curve is None else curve
     corners = list(map(point_of, path))
-    corners[0] = snapping.wall_end(corners[0], scene, settings)
-    end = snapping.wall_end(corners[-1], scene, settings)
+    corners[0] = snapping.wall_end(corners[0], context)
+    end = snapping.wall_end(corners[-1], context)
     if end != corners[0]:
         # Of a short wall, both ends would go to the same point.
         corners[-1] = end
@@ -102,7 +100,7 @@ def wall(points: Floats, context: Context) -> Outcome:
 
 def join(kind: JointKind, points: Floats, context: Context) -> Outcome:
     """Return a joint between the bodies at the first and the last point."""
-    ends = joint_ends(points, context)
+    ends = snapping.joint_ends(points, context)
     if ends is None:
         raise NothingThere(
             f'a {kind} joins two bodies, one of which moves; there are none at its ends',
@@ -134,13 +132,6 @@ def join_at(kind: JointKind, point: Point, under: tuple[str, ...], context: Cont
     """
     a, b = under if len(under) == 2 else (under[0], WORLD)
     return Join(name=context.scene.next_joint(), kind=kind, points=(point,), a=a, b=b)
-
-
-def joint_ends(points: Floats, context: Context) -> tuple[End, End] | None:
-    """Return the ends of a joint along points, as `snapping.joint_ends` does."""
-    return snapping.joint_ends(
-        point_of(points[0]), point_of(points[-1]), context.scene, context.settings
-    )
 
 
 def circle_outline(center: Point, radius: float) -> Floats:

@@ -15,8 +15,8 @@ import math
 
 import numpy as np
 from physsim_ros.drawing.strokes.cleaning import clean_samples
-from physsim_ros.drawing.strokes.plane import angles
-from physsim_ros.drawing.strokes.polyline import COUNT, spaced
+from physsim_ros.drawing.strokes.plane import angles, norms
+from physsim_ros.drawing.strokes.polyline import COUNT, path_length, size_of, spaced
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.checks import FARTHEST
 from physsim_ros.model.errors import BadSize, Malformed
@@ -67,7 +67,7 @@ def resample_stroke(samples: Floats) -> Stroke:
     :raises BadSize: all are at one point, or one is too far away
     """
     cleaned = clean_samples(_checked(samples))
-    if np.hypot(*np.ptp(cleaned, axis=0)) < SMALLEST:
+    if size_of(cleaned) < SMALLEST:
         raise BadSize(
             f'the stroke is smaller than {SMALLEST:g} m: a point draws nothing', field='poses'
         )
@@ -78,8 +78,8 @@ def resample_stroke(samples: Floats) -> Stroke:
         points=points,
         outline=outline,
         gap=gap,
-        size=float(np.hypot(*np.ptp(points, axis=0))),
-        length=float(np.hypot(*np.diff(points, axis=0).T).sum()),
+        size=size_of(points),
+        length=path_length(points),
     )
 
 
@@ -130,8 +130,8 @@ def _outline(points: Floats, path: Floats) -> tuple[Floats | None, float]:
     """
     first, last = _repeated_round(points) or _seam(points)
     once = path[slice(FINER * first, FINER * last + 1)]
-    step = float(np.hypot(*np.diff(points, axis=0).T).mean())
-    gap = float(np.hypot(*(points[last] - points[first]))) / (step * (last - first))
+    step = float(norms(np.diff(points, axis=0)).mean())
+    gap = float(norms(points[last] - points[first])) / (step * (last - first))
     if gap > GAP:
         return None, gap
     return spaced(np.vstack((once, once[:1])), FINELY)[:-1], gap
@@ -140,10 +140,10 @@ def _outline(points: Floats, path: Floats) -> tuple[Floats | None, float]:
 def _seam(points: Floats) -> tuple[int, int]:
     """Return the first and the last point of an outline whose ends overlap by `OVERLAP`."""
     count = len(points)
-    step = float(np.hypot(*np.diff(points, axis=0).T).mean())
+    step = float(norms(np.diff(points, axis=0)).mean())
     ends = int(OVERLAP * count)
     head, tail = points[:ends], points[-ends:]
-    gaps = np.hypot(*(head[:, None] - tail[None]).transpose(2, 0, 1))
+    gaps = norms(head[:, None] - tail[None])
     # Number of points before a point of the head and after a point of the tail.
     cut = np.arange(ends)[:, None] + np.arange(ends)[None, ::-1]
     best = int((gaps + CUT_COST * step * cut).argmin())
@@ -162,12 +162,12 @@ def _repeated_round(points: Floats) -> tuple[int, int] | None:
     lengths = np.arange(int(0.75 * usual), min(int(1.25 * usual), count - 1))
     firsts = np.arange(count)[:, None]
     lasts = np.minimum(firsts + lengths, count - 1)
-    gaps = np.hypot(*(points[lasts] - points[firsts]).transpose(2, 0, 1))
+    gaps = norms(points[lasts] - points[firsts])
     gaps[firsts + lengths > count - 1] = np.inf
     first, length = divmod(int(gaps.argmin()), len(lengths))
     last = first + int(lengths[length])
     # An outline is drawn again if the rest of the stroke lies along it; a star is not.
     kept, rest = points[first:last], np.vstack((points[:first], points[last:]))
-    off = np.hypot(*(rest[:, None] - kept[None]).transpose(2, 0, 1)).min(axis=1)
-    again = float(off.mean()) < AGAIN * float(np.hypot(*np.ptp(points, axis=0)))
+    off = norms(rest[:, None] - kept[None]).min(axis=1)
+    again = float(off.mean()) < AGAIN * size_of(points)
     return (first, last) if again else None

@@ -15,9 +15,9 @@ from collections.abc import Iterator
 from typing import Protocol
 
 from physsim_ros.drawing.strokes.features import Features
-from physsim_ros.drawing.strokes.glyphs import arrow, cross, round_arrow, scribble, zigzag
 from physsim_ros.drawing.strokes.hypothesis import Hypothesis
 from physsim_ros.drawing.strokes.meanings import Context, Interpretation
+from physsim_ros.drawing.strokes.signs import arrow, cross, round_arrow, scribble, zigzag
 
 
 class Sign(Protocol):

@@ -8,12 +8,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import partial
 
-from physsim_ros.drawing.strokes import overlap, request_builder
+from physsim_ros.drawing.strokes import overlap, request_builder, snapping
 from physsim_ros.drawing.strokes.corner_detection import bends_of
 from physsim_ros.drawing.strokes.features import Features
-from physsim_ros.drawing.strokes.glyphs import hatching
 from physsim_ros.drawing.strokes.hypothesis import falls, Hypothesis, rises
 from physsim_ros.drawing.strokes.meanings import Context, Interpretation
+from physsim_ros.drawing.strokes.signs import hatching
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
 
@@ -37,7 +37,7 @@ def hypothesis(features: Features) -> Hypothesis:
 def interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[Interpretation]:
     """Yield hatching, spring and wall."""
     drawn, weight = context.drawn, hypothesis.weight
-    ends = request_builder.joint_ends(hypothesis.points, context)
+    ends = snapping.joint_ends(hypothesis.points, context)
     spring = 0.0
     if ends is not None:
         # A spring leaves the bodies that it joins.

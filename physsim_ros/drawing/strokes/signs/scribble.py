@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import partial
 
-from physsim_ros.drawing.strokes import overlap, request_builder
+from physsim_ros.drawing.strokes import overlap, request_builder, snapping
 from physsim_ros.drawing.strokes.features import Features
 from physsim_ros.drawing.strokes.hypothesis import falls, Hypothesis, rises
 from physsim_ros.drawing.strokes.meanings import (
@@ -39,7 +39,7 @@ def hypothesis(features: Features) -> Hypothesis:
 
 def interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[Interpretation]:
     """Yield spring and deletion."""
-    ends = request_builder.joint_ends(hypothesis.points, context)
+    ends = snapping.joint_ends(hypothesis.points, context)
     crossed = overlap.crossed_bodies(context.drawn.points, context.scene)
     covered = overlap.covered_bodies(context.drawn.points, crossed, context.scene)
     spring = 0.0

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Snapping: ends of drawn joints and walls move onto the bodies that they were drawn to.
+Snapping: the ends of drawn joints and walls move onto the bodies to which they were drawn.
 
 Law: a point moves by no more than `snap`, and only onto a body.
 """
@@ -13,9 +13,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 import math
 
-import numpy as np
 from physsim_ros.drawing.scene_query import nearest_on_segment, SceneQuery
-from physsim_ros.drawing.settings import DrawingSettings
+from physsim_ros.drawing.strokes.meanings import Context
+from physsim_ros.drawing.strokes.plane import norms
+from physsim_ros.drawing.strokes.polyline import point_of
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.shapes import Capsule, Chain, Circle, Convex, Disc, Piece
@@ -43,20 +44,21 @@ class End:
     body: str
 
 
-def joint_ends(
-    start: Point, end: Point, scene: SceneQuery, settings: DrawingSettings
-) -> tuple[End, End] | None:
+def joint_ends(points: Floats, context: Context) -> tuple[End, End] | None:
     """
     Return the ends of a joint between the bodies at two points, the first on a dynamic body.
 
+    :param points: (n, 2) float64: the first and the last one are those points [m]
     :return: None where no body at either point is dynamic, or it is the same body at both
     """
-    first, last = _bodies_near(start, scene, settings), _bodies_near(end, scene, settings)
+    start, end = point_of(points[0]), point_of(points[-1])
+    scene, snap = context.scene, context.settings.snap
+    first, last = _bodies_near(start, scene, snap), _bodies_near(end, scene, snap)
     pairs = [(a, b) for a in first or (WORLD,) for b in last or (WORLD,) if a != b]
     for a, b in pairs:
         ends = (
-            End(_snapped(start, a, scene, settings), a),
-            End(_snapped(end, b, scene, settings), b),
+            End(_snapped(start, a, scene, snap), a),
+            End(_snapped(end, b, scene, snap), b),
         )
         if a != WORLD and scene.body(a).dynamic:
             return ends
@@ -65,45 +67,43 @@ def joint_ends(
     return None
 
 
-def axle_pivot(
-    center: Point, drawn: Floats, scene: SceneQuery, settings: DrawingSettings
-) -> tuple[Point, tuple[str, ...]]:
+def axle_pivot(center: Point, context: Context) -> tuple[Point, tuple[str, ...]]:
     """
     Return the pivot of an axle [m], and the one or two bodies that it joins, the topmost first.
 
-    :param center: of the circle, on a body [m]
-    :param drawn: (k, 2) float64: the circle [m]
+    :param center: of the circle that was drawn, on a body [m]
     """
-    under = crossed_pair(center, drawn, scene)
+    scene, snap = context.scene, context.settings.snap
+    under = crossed_pair(center, context)
     if len(under) == 1 or scene.body(under[1]).anchored:
-        carrier = _carrier_of(under[0], center, settings.snap, scene)
+        carrier = _carrier_of(under[0], center, snap, scene)
         if carrier is not None:
             return scene.centroid(under[0]), (under[0], carrier)
     for name in under:
         if isinstance(scene.body(name).shape, Disc):
             x, y, _ = scene.pose(name)
-            if math.dist((x, y), center) > settings.snap:
+            if math.dist((x, y), center) > snap:
                 continue
             # The middle of a wheel, where it lies on the same bodies or near the other one.
-            near = scene.bodies_at((x, y), settings.snap)
+            near = scene.bodies_at((x, y), snap)
             if scene.bodies_at((x, y))[:2] == under or (len(under) == 2 and set(under) <= {*near}):
                 return (x, y), under
     return center, under
 
 
-def crossed_pair(center: Point, drawn: Floats, scene: SceneQuery) -> tuple[str, ...]:
+def crossed_pair(center: Point, context: Context) -> tuple[str, ...]:
     """
     Return the two topmost bodies at a point, or one and a second one that the stroke overlaps.
 
     :param center: of a small closed stroke [m]
-    :param drawn: (k, 2) float64: the stroke [m]
     :return: at most two names, the topmost first
     """
+    scene, drawn = context.scene, context.drawn.points
     under = scene.bodies_at(center)[:2]
     if len(under) != 1:
         return under
     (name,) = under
-    radius = float(np.hypot(*(drawn - center).T).max())
+    radius = float(norms(drawn - center).max())
     near = scene.bodies_at(center, radius)
     shares = {each: float(scene.covers(each, drawn).mean()) for each in near if each != name}
     beside = max(shares, key=shares.__getitem__, default=name)
@@ -137,33 +137,34 @@ def _carrier_of(wheel: str, center: Point, snap: float, scene: SceneQuery) -> st
     return min(dynamic, key=distance, default=None)
 
 
-def wall_end(point: Point, scene: SceneQuery, settings: DrawingSettings) -> Point:
+def wall_end(point: Point, context: Context) -> Point:
     """Return the snapped end of a wall: an end of another wall, or a point on a body [m]."""
-    near = scene.bodies_at(point, settings.snap)
+    scene, snap = context.scene, context.settings.snap
+    near = scene.bodies_at(point, snap)
     for name in near:
         shape = scene.body(name).shape
         if isinstance(shape, Chain):
             for end in (shape.points[0], shape.points[-1]):
                 there = scene.in_world(name, end)
-                if math.dist(there, point) <= settings.snap:
+                if math.dist(there, point) <= snap:
                     return there
     covering = scene.bodies_at(point)
     return point if covering or not near else _surface(point, near[0], scene)
 
 
-def _bodies_near(point: Point, scene: SceneQuery, settings: DrawingSettings) -> tuple[str, ...]:
+def _bodies_near(point: Point, scene: SceneQuery, snap: float) -> tuple[str, ...]:
     """Return the bodies that cover a point, or else those within `snap`, topmost first."""
-    return scene.bodies_at(point) or scene.bodies_at(point, settings.snap)
+    return scene.bodies_at(point) or scene.bodies_at(point, snap)
 
 
-def _snapped(point: Point, name: str, scene: SceneQuery, settings: DrawingSettings) -> Point:
+def _snapped(point: Point, name: str, scene: SceneQuery, snap: float) -> Point:
     """Return the snapped end of a joint: the middle of a body, the point, or the nearest one."""
     if name == WORLD:
         return point
     body = scene.body(name)
     # A body joined exactly at its middle does not turn under gravity.
     middle = scene.centroid(name)
-    if body.dynamic and math.dist(point, middle) <= min(settings.snap, body.shape.form.inner):
+    if not body.fixed and math.dist(point, middle) <= min(snap, body.shape.form.inner):
         return middle
     return point if name in scene.bodies_at(point) else _surface(point, name, scene)
 

@@ -14,7 +14,7 @@ from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.strokes.features import Features
 from physsim_ros.drawing.strokes.hypothesis import falls, Hypothesis, rises
 from physsim_ros.drawing.strokes.meanings import Context, Interpretation, MISPLACED, Outcome
-from physsim_ros.drawing.strokes.plane import angles, least_squares
+from physsim_ros.drawing.strokes.plane import angles, least_squares, norms
 from physsim_ros.drawing.strokes.polyline import point_of, smoothed
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NothingThere
@@ -61,7 +61,7 @@ def _round_arrow_from_tail(points: Floats) -> Hypothesis | None:
     center, radius, error = _circle(arc)
     sweep = abs(_sweep(arc, center))
     # The head, outwards of the arc by the radius.
-    out = np.hypot(*(head - center).T) / radius - 1.0
+    out = norms(head - center) / radius - 1.0
     inner, outer = float(-out.min()), float(out.max())
     weight = (
         falls(error / radius, 0.07, 0.008)
@@ -114,7 +114,7 @@ def _drive_axle(axle: Joint | None, sweep: float, context: Context) -> Outcome:
 
 def _nearest_axle(center: Floats, arc: Floats, scene: SceneQuery) -> Joint | None:
     """Return the axle inside an arc that is nearest to its centre."""
-    radius = float(np.hypot(*(arc - center).T).mean())
+    radius = float(norms(arc - center).mean())
     axles = [each for each in scene.joints if each.kind is JointKind.AXLE]
     distances = [math.dist(point_of(center), _pivot(each, scene)) for each in axles]
     near = [pair for pair in zip(distances, range(len(axles)), strict=True) if pair[0] <= radius]
@@ -147,7 +147,7 @@ def _circle(points: Floats) -> tuple[Floats, float, float]:
     x, y = least_squares(2.0 * away, squares)
     radius = math.sqrt(max(float(squares.mean()) + x * x + y * y, 1e-300))
     center = middle + np.array((x, y))
-    residual = np.hypot(*(points - center).T) - radius
+    residual = norms(points - center) - radius
     return center, radius, float(np.sqrt((residual**2).mean()))
 
 

@@ -8,8 +8,7 @@ from __future__ import annotations
 from functools import partial
 import math
 
-from physsim_ros.drawing import snapping
-from physsim_ros.drawing.strokes import request_builder
+from physsim_ros.drawing.strokes import request_builder, snapping
 from physsim_ros.drawing.strokes.hypothesis import falls
 from physsim_ros.drawing.strokes.meanings import Context, Interpretation, Outcome
 from physsim_ros.model.arrays import Floats
@@ -28,7 +27,7 @@ def interpretation(corners: Floats, context: Context, *, weight: float) -> Inter
     :param weight: of the rectangle; the weld has a share of it
     """
     x, y = corners.mean(axis=0).tolist()
-    under = snapping.crossed_pair((x, y), context.drawn.points, context.scene)
+    under = snapping.crossed_pair((x, y), context)
     return Interpretation(
         meaning='pin',
         weight=weight * _share_of(corners, under, context),

@@ -9,8 +9,7 @@ from functools import partial
 import math
 
 import numpy as np
-from physsim_ros.drawing import snapping
-from physsim_ros.drawing.strokes import request_builder
+from physsim_ros.drawing.strokes import request_builder, snapping
 from physsim_ros.drawing.strokes.hypothesis import falls
 from physsim_ros.drawing.strokes.meanings import Context, Interpretation, Outcome
 from physsim_ros.model.joints import JointKind
@@ -62,8 +61,7 @@ def interpretation(
 
 
 def _build_axle(center: Point, radius: float, context: Context) -> Outcome:
-    scene = context.scene
-    point, under = snapping.axle_pivot(center, context.drawn.points, scene, context.settings)
+    point, under = snapping.axle_pivot(center, context)
     request = request_builder.join_at(JointKind.AXLE, point, under, context)
     between = ' and '.join(under) if len(under) == 2 else f'{under[0]} and the background'
     return Outcome(

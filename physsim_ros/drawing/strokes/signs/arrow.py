@@ -22,8 +22,8 @@ from physsim_ros.drawing.strokes.meanings import (
     MISPLACED,
     Outcome,
 )
-from physsim_ros.drawing.strokes.plane import dot
-from physsim_ros.drawing.strokes.polyline import point_of, smoothed, turns
+from physsim_ros.drawing.strokes.plane import dot, norms
+from physsim_ros.drawing.strokes.polyline import path_length, point_of, smoothed, turns
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NotRecognised
 from physsim_ros.model.requests import Command, Configure
@@ -68,13 +68,13 @@ def _arrow_from_tail(points: Floats) -> Hypothesis:
     end = int(over.argmax()) if over.any() else len(points) - 1
     # The head is symmetric about the last half of the shaft, which may be bowed.
     head = _in_frame(points[end:], points[end // 2], tip) - (1.0, 0.0)
-    head *= float(np.hypot(*(tip - points[end // 2])) / np.hypot(*(tip - tail)))
+    head *= float(norms(tip - points[end // 2]) / norms(tip - tail))
     left, right = int(head[:, 1].argmax()), int(head[:, 1].argmin())
     up, down = float(head[left, 1]), -float(head[right, 1])
-    path = float(np.hypot(*np.diff(head, axis=0).T).sum())
+    path = path_length(head)
     # The pen leaves the tip again, unlike at the end of a zigzag.
     at_tip = int((np.hypot(x - 1.0, y) < _AT_TIP).argmax())
-    after = float(np.hypot(*np.diff(frame[at_tip:], axis=0).T).sum())
+    after = path_length(frame[at_tip:])
     factors = (
         falls(float(np.abs(y[:end]).max(initial=0.0)), 0.2, 0.015),
         rises(min(up, down) / max(up, down, 1e-12), 0.2, 0.03),
