@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The tools of drawing by clicks: each maps the clicks of a gesture to requests.
+The tools of drawing by clicks: each is a function from the clicks of a gesture to requests.
 
-Law: a tool changes neither clicks nor scene. It returns a message about the next click, or, with
-the last one, the requests; a gesture that has no valid geometry is refused.
+Law: a tool changes neither clicks nor scene. With the last click it returns the requests, before
+that a message about the next click. Clicks without a valid geometry are refused.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
+from functools import partial
 import math
 
 import numpy as np
@@ -125,7 +126,7 @@ def polygon(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSetting
         corners = without_repeats(points[:-1], settings)
         return _finished(body_requests.polygon(scene.next_body(), corners, settings))
     if len(points) > MOST_POINTS:
-        # Each click costs as much as there are; so many could not be closed.
+        # No polygon of more corners could be closed, and each click looks at all points.
         raise BadOutline(f'a polygon has at most {MOST_POINTS} corners', field='point')
     count = len(without_repeats(points, settings))
     done = 'a corner is set' if count == 1 else f'{count} corners are set'
@@ -141,46 +142,9 @@ def wall(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings) 
     return _finished(body_requests.wall(scene.next_body(), (start, end), settings))
 
 
-def anchor(clicks: Sequence[Click], _scene: SceneQuery, _settings: DrawingSettings) -> ClickResult:
-    """Fix the body under the click to the background."""
-    return _finished(Anchor(point=clicks[0].point))
-
-
-def release(
-    clicks: Sequence[Click], _scene: SceneQuery, _settings: DrawingSettings
-) -> ClickResult:
-    """Free the body under the click from the background, pins and axles."""
-    return _finished(Release(point=clicks[0].point))
-
-
-def pin(clicks: Sequence[Click], _scene: SceneQuery, _settings: DrawingSettings) -> ClickResult:
-    """Weld the two bodies under the click, or the one to the background."""
-    return _finished(Pin(point=clicks[0].point))
-
-
-def axle(clicks: Sequence[Click], _scene: SceneQuery, _settings: DrawingSettings) -> ClickResult:
-    """Join the two bodies under the click by an axle, or the one to the background."""
-    return _finished(Axle(point=clicks[0].point))
-
-
 def delete(clicks: Sequence[Click], scene: SceneQuery, _settings: DrawingSettings) -> ClickResult:
     """Delete the body under the click."""
     return _finished(Delete(name=clicks[0].hit_body(scene)))
-
-
-def spring(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings) -> ClickResult:
-    """Join two points by a spring: one end, then the other."""
-    return _join(JointKind.SPRING, clicks, scene, settings)
-
-
-def rod(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings) -> ClickResult:
-    """Join two points by a rod: one end, then the other."""
-    return _join(JointKind.ROD, clicks, scene, settings)
-
-
-def rope(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings) -> ClickResult:
-    """Join two points by a rope: one end, then the other."""
-    return _join(JointKind.ROPE, clicks, scene, settings)
 
 
 def velocity(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings) -> ClickResult:
@@ -208,28 +172,17 @@ def gravity(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSetting
     return _finished(Configure(changes={'gravity': turned}))
 
 
-Draw = Callable[[Sequence[Click], SceneQuery, DrawingSettings], ClickResult]
-
-TOOLS: dict[Tool, Draw] = {
-    Tool.CIRCLE: circle,
-    Tool.CIRCLE_DIAMETER: circle_diameter,
-    Tool.RECTANGLE: rectangle,
-    Tool.POLYGON: polygon,
-    Tool.WALL: wall,
-    Tool.ANCHOR: anchor,
-    Tool.RELEASE: release,
-    Tool.PIN: pin,
-    Tool.AXLE: axle,
-    Tool.DELETE: delete,
-    Tool.SPRING: spring,
-    Tool.ROD: rod,
-    Tool.ROPE: rope,
-    Tool.VELOCITY: velocity,
-    Tool.GRAVITY: gravity,
-}
+def request_at(
+    request: Callable[..., Request],
+    clicks: Sequence[Click],
+    _scene: SceneQuery,
+    _settings: DrawingSettings,
+) -> ClickResult:
+    """Make a request about the bodies under the click; the world resolves the point."""
+    return _finished(request(point=clicks[0].point))
 
 
-def _join(
+def join(
     kind: JointKind, clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings
 ) -> ClickResult:
     """Join the body, or the background, under the first click to that under the second."""
@@ -245,6 +198,27 @@ def _join(
         raise NothingThere(f'there is no body at either end of the {kind}', field='point')
     checked_distance(start, end, settings, f'the {kind}')
     return _finished(Join(name=scene.next_joint(), kind=kind, points=(start, end), a=a, b=b))
+
+
+Draw = Callable[[Sequence[Click], SceneQuery, DrawingSettings], ClickResult]
+
+TOOLS: dict[Tool, Draw] = {
+    Tool.CIRCLE: circle,
+    Tool.CIRCLE_DIAMETER: circle_diameter,
+    Tool.RECTANGLE: rectangle,
+    Tool.POLYGON: polygon,
+    Tool.WALL: wall,
+    Tool.ANCHOR: partial(request_at, Anchor),
+    Tool.RELEASE: partial(request_at, Release),
+    Tool.PIN: partial(request_at, Pin),
+    Tool.AXLE: partial(request_at, Axle),
+    Tool.DELETE: delete,
+    Tool.SPRING: partial(join, JointKind.SPRING),
+    Tool.ROD: partial(join, JointKind.ROD),
+    Tool.ROPE: partial(join, JointKind.ROPE),
+    Tool.VELOCITY: velocity,
+    Tool.GRAVITY: gravity,
+}
 
 
 def _points(clicks: Sequence[Click]) -> list[Point]:

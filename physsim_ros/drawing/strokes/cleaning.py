@@ -2,14 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Cleaning of the samples of a pen: rests, spikes and late first samples.
+Cleaning of the samples of a pen: rests, spikes, and late first samples.
 
-Law: nothing that was drawn is cut off. A stroke that was sampled well loses nothing but samples
-closer together than `GRAIN`.
+Law: no part of the drawn line is cut off. A stroke that was sampled well loses only samples that
+are closer together than `GRAIN`.
 
 Samples close together are replaced by their mean (radial distance simplification), so that a pen
-that rests draws no length. A jump is a step much longer than all others: pens hurry, and what
-sends their strokes leaves samples out, on straight lines most of all.
+that rests draws no length. A jump is a step much longer than all others. It may be drawn: fast
+pens make long steps, and programs that send strokes omit samples of straight lines.
 """
 
 from __future__ import annotations
@@ -21,16 +21,16 @@ from physsim_ros.drawing.strokes.plane import norms
 from physsim_ros.drawing.strokes.polyline import size_of
 from physsim_ros.model.arrays import Floats
 
-# The distance at which samples are distinct, in shares of the stroke's size: a pen that rests
+# The least distance of two samples that are kept, in shares of the stroke's size: a resting pen
 # jitters by some 0.2 % (standard deviation), and no side of a figure is shorter than 4 %.
 GRAIN = 0.01
-# The least step that is a jump, in longest other steps and in shares of the size.
+# The least length of a jump: in lengths of the longest other step, and in shares of the size.
 _JUMP, _FAR = 2.0, 0.15
-# The least number of samples of a stroke with jumps: those of fewer are clicks.
+# The least number of samples of a stroke with jumps: strokes of fewer are clicks.
 _FEWEST = 12
-# The greatest distance of a first sample from where the stroke comes from, in shares of the size:
-# a touch screen reports a finger late, at up to 35 % of the size. The number of steps by which
-# the direction there is known.
+# The greatest distance of a first sample from the line that the stroke continues, in shares of the
+# size: a touch screen reports a finger late, at up to 35 % of the size. The number of steps that
+# give the direction of that line.
 _ASTRAY, _AHEAD = 0.3, 3
 
 
@@ -70,28 +70,33 @@ def _merged(points: Floats, grain: float) -> Floats:
 
 
 def _without_jumps(points: Floats) -> Floats:
-    """Return points without single ones to which the pen jumps, and from there back or on."""
+    """Return points without spikes, and without ends that belong to another stroke."""
     if len(points) < _FEWEST:
         return points
     size = _robust_size(points)
     steps = norms(np.diff(points, axis=0))
-    # A jump at an end is the longest step, those of a spike are the two longest.
+    last = len(steps) - 1
+    # A jump at an end is the longest step, the two jumps of a spike are the two longest.
     but_two, but_one = (_JUMP * np.sort(steps)[-3:-1]).tolist()
     kept = np.ones(len(points), np.bool_)
     for at in np.flatnonzero(steps > max(_FAR * size, but_two)).tolist():
-        if at + 1 < len(steps) and steps[at + 1] > _FAR * size:
-            back = math.dist(points[at], points[at + 2])
-            there = min(float(steps[at]), float(steps[at + 1]))
+        if at < last and steps[at + 1] > _FAR * size:
+            # To one point and from it; it is a spike if the pen comes back.
+            there, back = float(min(steps[at : at + 2])), math.dist(points[at], points[at + 2])
             kept[at + 1] = there <= but_two or back >= 0.5 * there
-        elif at in {0, len(steps) - 1} and kept[at]:
-            # The pen came from its last stroke, or went on to its next.
-            path = points if at == 0 else points[::-1]
-            kept[at and at + 1] = steps[at] <= but_one or _goes_on(path, _ASTRAY * size)
+        elif at == 0:
+            kept[0] = steps[0] <= but_one or _goes_on(points, _ASTRAY * size)
+        elif at == last and kept[last]:
+            kept[-1] = steps[last] <= but_one or _goes_on(points[::-1], _ASTRAY * size)
     return points[kept]
 
 
 def _goes_on(points: Floats, astray: float) -> bool:
-    """Return whether a stroke comes from its first point, no farther off [m], or ends near it."""
+    """
+    Return whether the first step of a stroke belongs to it: it has its direction, or closes it.
+
+    :param astray: greatest distance of the first point from the line of the next steps [m]
+    """
     first, second, ahead = points[[0, 1, 1 + _AHEAD]]
     step, along = second - first, ahead - second
     along = along * (math.hypot(*step) / max(math.hypot(*along), 1e-300))
