@@ -4,8 +4,8 @@
 """
 Spawn requests of drawn bodies, from their geometry in the world.
 
-Density, friction and elasticity are the defaults of the world at the time at which the request is
-applied. The origin of a body lies at its centre of mass.
+A request leaves density, friction and elasticity to the defaults of the world. The origin of a
+body lies at its centre of mass.
 """
 
 from __future__ import annotations
@@ -81,10 +81,10 @@ def wall(name: str, points: Sequence[Point], settings: DrawingSettings) -> Spawn
 
 def copy(name: str, body: Body, pose: Pose) -> Spawn:
     """
-    Return the request for a body like another one, at rest and for ever.
+    Return the request for a copy of a body, at rest and without a lifetime.
 
     :param name: of the new body
-    :param body: the other one
+    :param body: that is copied
     :param pose: of the new body's origin [m, rad]
     """
     return Spawn(

@@ -28,7 +28,7 @@ from physsim_ros.model.transform import Point, Pose, rotated, Twist
 
 # The namespace of drawn bodies and joints.
 DRAWN = 'drawn'
-# Numbers from here on, which other nodes may choose, do not count as drawn.
+# Other nodes may spawn into the namespace too: numbers from this one on are not counted.
 _NUMBER_LIMIT = 10**9
 
 

@@ -65,9 +65,9 @@ class DrawingSession:
         self.settings = settings
         self.preview: Preview = NO_PREVIEW
         self._gesture = Gesture(tool)
-        # The last things that were drawn by strokes.
+        # The last figures, the earliest first.
         self._figures: deque[Figure] = deque(maxlen=MOST_STROKES)
-        # The lowest numbers that no body and no joint of this session has had.
+        # The lowest numbers that this session has not yet given to a body or joint.
         self._next_body = self._next_joint = 0
 
     @property
@@ -103,8 +103,8 @@ class DrawingSession:
         """
         Return the reading of a stroke, with its requests.
 
-        Where it is something better together with the strokes just before, that is the reading,
-        and its requests replace those of the earlier ones.
+        A stroke may make a better figure together with the strokes just before it. The reading is
+        then that of the figure, and its requests replace those of the earlier strokes.
 
         :param samples: (n, 3) float64: x, y [m], time from any start [s]
         :param frame: of the samples: '' for the world, or the name of a body
@@ -219,7 +219,9 @@ def submit_reading(
     asker: str = '',
 ) -> None:
     """
-    Answer a stroke by its reading, and submit its requests as one gesture, or amend earlier ones.
+    Answer a stroke by its reading, and submit its requests as one gesture.
+
+    The requests of a reading that amends earlier gestures replace those.
 
     :param session: whose last reading it is
     :param topic: of the stroke
@@ -265,7 +267,7 @@ def _line(points: Floats) -> Line:
 
 
 def _mark_reading(figure: Figure) -> Reading:
-    """Return the reading of a line through a solid: a mark on it, which asks for nothing."""
+    """Return the reading of a line through a solid: a mark, which has no requests."""
     mark = Guess(
         meaning='mark',
         confidence=figure.guesses[0].confidence if figure.guesses else 1.0,

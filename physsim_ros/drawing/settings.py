@@ -21,15 +21,15 @@ class DrawingSettings:
     :param snap: the greatest distance at which an end of a stroke, or a click, snaps to a body, an
         end of a wall or a first corner [m], 0 .. 10
     :param sketch_confidence: the least confidence with which a stroke is accepted, 0 .. 1; for a
-        closed outline, the confidence in it being a solid, whichever
-    :param regroup: the longest time between strokes that are read together [s], 0 .. 10; 0 reads
-        each by itself
+        closed outline, the confidence that it is a solid of any kind
+    :param regroup: the longest time between strokes that are read together [s], 0 .. 10; with 0
+        each stroke is read by itself
     :param beautify: tolerance of regularisation, 0 .. 0.5: an angle [rad] from right, horizontal
         or vertical, a length in shares of its neighbour; 0 keeps the geometry as it was drawn
     :param wall_thickness: of drawn walls [m], 0.001 .. 10
     :param draw_velocity: of drawn bodies [m/s]
-    :param draw_color: of drawn bodies, red, green, blue, alpha, each 0 .. 1; None chooses one for
-        each
+    :param draw_color: of drawn bodies, red, green, blue, alpha, each 0 .. 1; None chooses a colour
+        for each body
     :raises Malformed: a number is not finite
     :raises BadProperty: a value is out of range
     """

@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Waiting joints: a joint that was drawn before its second body waits for that at the background.
+Waiting joints: a joint that is drawn before its second body is fixed to the background until then.
 
-Law: a new body that can move, drawn over the end that a drawn joint has on the background, takes
-that end; otherwise the two bodies of one machine would push each other apart.
+Law: a movable body that is drawn over the background end of a drawn joint becomes the second body
+of that joint. Otherwise the two bodies of one machine would collide.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ _KINDS = {JointKind.AXLE, JointKind.WELD, JointKind.ROD, JointKind.ROPE, JointKi
 def requests_with_waiting_joints(
     requests: tuple[Request, ...], scene: SceneQuery
 ) -> tuple[Request, ...]:
-    """Return requests, and those that join each body which they spawn to joints that wait."""
+    """Return requests, followed by those that join each spawned body to its waiting joints."""
     spawned = [each for each in requests if isinstance(each, Spawn) and _moves(each)]
     return (*requests, *(join for body in spawned for join in _joins_of(body, scene)))
 

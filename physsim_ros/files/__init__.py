@@ -4,8 +4,8 @@
 """
 World files, drawing files, and the files that ship with the package.
 
-Nothing here knows ROS or Rerun. The state of a world is a value of `model.checkpoint`; strokes are
-recognised in `drawing`. Start with `world_file`, then `world_reader` and `world_writer`.
+Not here: ROS and Rerun; the state of a world (`model.checkpoint`); the recognition of strokes
+(`drawing`). Start with `world_file`, then `world_reader` and `world_writer`.
 """
 
 from physsim_ros.files.drawing_file import BadDrawing, drawings, find_drawing, load_drawing, Pace

@@ -4,8 +4,8 @@
 """
 The joints of a world file.
 
-Laws: a joint is joined by a world, so that a file is held to the rules of a message; a saved seat
-is kept to the bit where nobody has edited the joint or moved its bodies.
+Laws: joints are made by requests to a world, so that files obey the rules of messages. A saved
+seat is kept to the bit where nobody has edited the joint or moved its bodies.
 """
 
 from __future__ import annotations

@@ -4,8 +4,8 @@
 """
 Reading and writing regular files: bounded, whole, and without waiting.
 
-Law: what is no regular file (a FIFO, a device, a directory), what is larger than its limit and
-what has no data yet is an error at once.
+Law: reading never waits. A FIFO, a device, a directory, and a file that is larger than its limit
+are errors at once.
 """
 
 from __future__ import annotations

@@ -4,8 +4,9 @@
 """
 The state of a world from the mapping of its file.
 
-Laws: bodies are those of requests, so that a file is held to the rules of a message; numbers that
-only the node writes count where nobody has edited the values that they belong to.
+Laws: a body is read as a request that spawns it, so that files obey the rules of messages. The
+numbers of `motion`, which only the node writes, count where nobody has edited the pose or the
+velocity.
 """
 
 from __future__ import annotations

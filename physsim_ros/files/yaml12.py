@@ -55,11 +55,11 @@ class Loader(Composer, yaml.CSafeLoader):
     """
     PyYAML's safe loader with the types of the YAML 1.2 core schema; duplicate keys are refused.
 
-    It scans with libyaml, in a quarter of the time, but composes in Python: the composer of
-    PyYAML 6.0's CParser overflows the stack where brackets are nested by tens of thousands.
+    libyaml scans the text, in a quarter of the time of Python. Nodes are composed in Python, since
+    the composer in C (PyYAML 6.0) overflows the stack at tens of thousands of nested brackets.
 
-    PyYAML's own constructors raise ValueError and others at a scalar that does not fit its tag, as
-    in `!!bool maybe`; these raise ConstructorError only.
+    A scalar that does not fit its tag, as in `!!bool maybe`, is a ConstructorError; PyYAML's own
+    constructors raise ValueError and others.
     """
 
     yaml_implicit_resolvers: dict[str, list[tuple[str, re.Pattern[str]]]] = {}  # noqa: RUF012
@@ -165,8 +165,8 @@ def first_value(text: str, key: str) -> str | None:
     """
     Return the scalar of a key of the mapping in a YAML text; None where there is none.
 
-    The text is read up to it and no further, and as far as its brackets are nested by `_DEEPEST`:
-    libyaml takes a time that grows with the square of that.
+    The text is read up to that scalar, and no further than to brackets nested `_DEEPEST` deep: the
+    time of libyaml grows with the square of the depth.
     """
     depth = nodes = 0
     named = False

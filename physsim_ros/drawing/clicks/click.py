@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Clicks with the bodies that they hit, and the least lengths that clicks can draw.
+Clicks with the bodies that they hit, and the least length that clicks can draw.
 
-Law: a click is fixed to the body that it hit; the body may move, or be deleted, before the next.
+Law: a click is a point of the body that it hit. That body may move, or be deleted, before the next
+click.
 """
 
 from __future__ import annotations

@@ -4,8 +4,8 @@
 """
 A gesture: the clicks of one tool, from the first to the one that ends it.
 
-Laws: a click is resolved in the world at the time at which it is made. A gesture that cannot be
-drawn is dropped as a whole; a click that is not a finite point leaves the gesture as it was.
+Laws: the body under a click is looked up when the click is made. A gesture that cannot be drawn is
+dropped as a whole. A click that is not a finite point leaves the gesture as it was.
 """
 
 from __future__ import annotations

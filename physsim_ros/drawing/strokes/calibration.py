@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Calibration: the share of guesses that are right, of the weights that they have.
+Calibration: a weight becomes a confidence, the share of guesses of that weight that are right.
 
 Platt scaling (Platt, 1999): a logistic function of the log odds of a weight against the others.
 The constants were fitted to the strokes of the tuning half of `make evaluate`, all kinds and all
@@ -13,19 +13,19 @@ from __future__ import annotations
 
 import math
 
-# The weight of no meaning at all.
+# Weight of the possibility that a stroke means nothing.
 DOUBT = 0.12
 # Log odds of a group being right at equal weights, and their growth with the log odds of weights.
 GROUP_BIAS, GROUP_SLOPE = 0.2, 2.4
-# The same of a meaning within its group.
+# The same for a meaning within its group.
 SHARE_BIAS, SHARE_SLOPE = 0.36, 0.86
-# The least share of a doubt that is left, so that log odds are finite.
+# The least share of either side, so that log odds are finite.
 _LEAST = 1e-3
 
 
 def group_confidence(weight: float, total: float) -> float:
     """
-    Return the share of groups of such a weight that are right, 0 .. 1.
+    Return the confidence in a group of meanings, 0 .. 1.
 
     :param weight: of the group
     :param total: of all groups
@@ -35,9 +35,9 @@ def group_confidence(weight: float, total: float) -> float:
 
 def share_confidence(share: float) -> float:
     """
-    Return the share of meanings that are right, where the group is, 0 .. 1.
+    Return the confidence in a meaning where its group is right, 0 .. 1.
 
-    :param share: of the weight of the group that is the meaning's
+    :param share: weight of the meaning, as a share of the weight of its group
     """
     return _platt(share, SHARE_BIAS, SHARE_SLOPE)
 

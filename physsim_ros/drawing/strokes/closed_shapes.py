@@ -4,8 +4,8 @@
 """
 Closed strokes: disc, oval, rectangle and polygon, or, small and on a body, an axle or a weld.
 
-Law: every closed outline is a solid. One that is neither round nor made of straight sides is a
-polygon along the stroke; one that crosses itself is its outer boundary.
+Law: every closed outline is a solid. An outline that is neither round nor made of straight sides
+becomes a polygon along the stroke; an outline that crosses itself becomes its outer boundary.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ from physsim_ros.model.arrays import Floats
 from physsim_ros.model.shapes import crosses_itself, is_convex, signed_area
 from physsim_ros.model.transform import cross, Point, rotated_each
 
-# Of the forms, only this is no meaning too.
+# The name of a form whose meaning is a polygon.
 OVAL = 'oval'
 # The greatest gap of a closed outline, in shares of its length: 99 of 100 people leave less than
 # 11.5 %, and a question mark has 17 %.
@@ -47,7 +47,7 @@ _SQUARE, _SQUARER = 0.022, 0.22
 # The least aspect of a circle as people draw it, and the number of sides of an oval, which rolls.
 _CIRCULAR, _OVAL_SIDES = 0.68, 48
 # Evidence for a circle: a constant, the factors of the logarithm of its error and of the number of
-# corners of a convex outline, and the number of those that is no evidence.
+# corners of a convex outline, and the number of corners that speaks neither for nor against it.
 _EVIDENCE, _ERROR, _CORNER, _FEW = 1.1, 1.18, 0.5, 5.0
 # The least aspect of the corners of a polygon that may be a small circle.
 _LEAST_ROUND = 0.4
@@ -77,7 +77,7 @@ def hypotheses(features: Features, plain: float) -> Iterator[Hypothesis]:
 
 
 def _shapes(outline: Floats, gap: float) -> Iterator[Hypothesis]:
-    """Yield the shapes that an outline may have, with weights that do not add up to anything."""
+    """Yield the shapes that an outline may have, with relative weights."""
     center, radius, error, aspect = roundness(outline)
     wide, narrowed = widened(outline)
     at = corner_detection.corners(wide, closed=True, gap=gap)
@@ -90,7 +90,7 @@ def _shapes(outline: Floats, gap: float) -> Iterator[Hypothesis]:
     convex = len(at) > 3 and is_convex(_counterclockwise(found))
     circle = rises(evidence + (_CORNER * (len(at) - _FEW) if convex else 0.0), 0.0, 0.31)
     if len(at) >= MANY and convex:
-        # Corners that many and that equal are the samples of a circle that was drawn quickly.
+        # Many equal corners are the samples of a circle that was drawn quickly.
         circle = max(circle, falls(error, 0.04, 0.004))
     edgeless = circle
     sided = (1.0 - edgeless) * falls(residual, 0.022, 0.003)
@@ -102,7 +102,7 @@ def _shapes(outline: Floats, gap: float) -> Iterator[Hypothesis]:
     broad = rises(aspect, 0.02, 0.003)
     ellipse = fitting.ellipse(outline, _OVAL_SIDES)
     yield Hypothesis(primitive=OVAL, weight=broad * circle * (1.0 - circular), points=ellipse)
-    # Whatever corners were found: a bent side or a round corner leaves it a rectangle.
+    # Independent of the corners: a rectangle may have a bent side or a round corner.
     corners, off = fitting.rectangle_of(wide)
     off /= size
     square = falls(off, _SQUARE, 0.0015) * falls(off / max(error, 1e-6), _SQUARER, 0.015)

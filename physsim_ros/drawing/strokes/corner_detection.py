@@ -31,17 +31,17 @@ CANDIDATE_TURN, CORNER_TURN = 0.25, 0.42
 SHARPEST = 2.6
 # The greatest number of candidates: the cost of the search grows with its square.
 CANDIDATES = 28
-# Cost of a corner, in powers of e by which it must lessen the residual (mean square distance), and
-# the wobble of a careful hand, which no corner explains, in shares of the size.
+# Cost of a corner: the decrease of the logarithm of the residual (mean square distance) that is
+# worth one. The wobble of a careful hand, in shares of the size, which is worth no corner.
 CORNER_COST, WOBBLE = 0.4, 0.008
 # The greatest number of sides of an outline with corners.
 MOST_SIDES = 20
 # The least distance between the ends of a side, in shares of the length along the stroke.
 ASTRAY = 0.75
-# The greatest length of an end that bends off by mistake, in shares of the length.
+# The greatest length of an end that bends aside by mistake, in shares of the length.
 STUB = 0.07
-# The greatest distance from the gap of a closed stroke at which a side that only bridges it begins
-# and ends, and the greatest overlap of the ends, in shares of the length.
+# A side that only bridges the gap of a closed stroke: its greatest distance from the gap; the
+# greatest overlap of the ends, both in shares of the length.
 SEAM, SLIP = 0.03, 0.045
 
 
@@ -112,7 +112,7 @@ def side_error(outline: Floats, at: list[int]) -> float:
 
 
 def _without_stubs(points: Floats, at: list[int]) -> list[int]:
-    """Return the corners of an open stroke without those of ends that bend off by mistake."""
+    """Return the corners of an open stroke without those of ends that bend aside by mistake."""
     kept = list(at)
     for _ in range(2):
         # Each round reverses the order: one end each, and the order is restored.

@@ -5,10 +5,10 @@
 Figures: the last things that a person drew, each of one or several strokes, with their guesses.
 
 People draw one thing in several strokes, in any order: an x or an arrow of two, a square of four
-lines. Strokes that touch and follow one another within `regroup` seconds are read together, and
-where they are something better than open lines, that reading replaces what the strokes alone were.
+lines. Strokes that touch and follow one another within `regroup` seconds are read together. If
+that reading is better than open lines, it replaces the readings of the single strokes.
 
-Law: a figure remembers; it asks nothing of the world.
+Law: a figure changes nothing in the world.
 """
 
 from __future__ import annotations
@@ -64,8 +64,8 @@ class Figure:
     :param began: when its first stroke began [s]
     :param ended: when its last stroke ended [s]
     :param scene: over which the first one was drawn
-    :param guesses: at its meaning, the likeliest first
-    :param chosen: which of the guesses it was read with; None is none
+    :param guesses: its possible meanings, the likeliest first
+    :param chosen: index of the guess that was taken; None where it was not recognised
     :param requests: of that reading
     :param gestures: numbers of the gestures with which these were submitted
     """
@@ -86,13 +86,13 @@ class Figure:
 
     @property
     def is_open(self) -> bool:
-        """Return whether it is an open line, or nothing yet, that joins no two bodies."""
+        """Return whether it is an open line, or not recognised, and joins no two bodies."""
         to_background = any(isinstance(each, Join) and each.b == WORLD for each in self.requests)
         return self.is_line and (self.meaning in {'', *_LOOSE} or to_background)
 
     @property
     def is_line(self) -> bool:
-        """Return whether it is an open line, or nothing yet, whatever that line joins."""
+        """Return whether it is an open line, or not recognised."""
         return not self.meaning or self.meaning in OPEN
 
     @property
@@ -102,7 +102,7 @@ class Figure:
 
     @property
     def other_guesses(self) -> list[int]:
-        """Return the numbers of the guesses but the chosen one, that after it first."""
+        """Return the indices of the other guesses, beginning with the next likely one."""
         count = len(self.guesses)
         if self.chosen is None:
             return list(range(count))
@@ -113,10 +113,10 @@ def likeliest_group(
     figures: Sequence[Figure], last: Figure, settings: DrawingSettings
 ) -> Figure | None:
     """
-    Return the figure of the last strokes together, where that is better than each by itself.
+    Return the last strokes as one figure, if that is better than each stroke by itself.
 
     :param figures: drawn before, the earliest first
-    :param last: the new one, as it is alone
+    :param last: the new one, of a single stroke
     """
     if not last.is_line:
         return None
@@ -159,7 +159,7 @@ def marked_solid(figures: Sequence[Figure], last: Figure, settings: DrawingSetti
 def marks_inside(
     figures: Sequence[Figure], solid: Figure, settings: DrawingSettings
 ) -> tuple[int, ...]:
-    """Return the gestures of the lines drawn just before a solid that lie in it: its marks."""
+    """Return the gestures of the marks of a solid: lines in it, drawn just before it."""
     gestures: list[int] = []
     later = solid
     for figure in reversed(figures):
@@ -202,9 +202,9 @@ def _follows(figure: Figure, later: Figure, settings: DrawingSettings) -> bool:
 
 
 def _leaves_its_bodies(figure: Figure) -> bool:
-    """Return whether a figure is a joint between two bodies that does not lie on them alone."""
+    """Return whether a figure is a joint of two bodies that also lies beside them."""
     if not figure.requests:
-        # A stroke that is not built yet.
+        # The requests of the new stroke are not made yet.
         return figure.is_line and not figure.is_open
     points, scene = np.vstack([_few_points(stroke) for stroke in figure.strokes]), figure.scene
     return any(
@@ -215,7 +215,7 @@ def _leaves_its_bodies(figure: Figure) -> bool:
 
 
 def _is_side(line: Figure, figure: Figure, settings: DrawingSettings) -> bool:
-    """Return whether a line is one more side of several: it joins the two ends of their solid."""
+    """Return whether a line is one more side of a solid: it joins the ends of its strokes."""
     if len(figure.strokes) < 2 or not figure.is_solid:
         return False
     (stroke,) = line.strokes
@@ -248,7 +248,7 @@ def _is_connected(touching: Flags) -> bool:
 
 
 def _touch(one: Floats, other: Floats, size: float, settings: DrawingSettings) -> bool:
-    """Return whether points are as near to others as those of strokes of a size that touch."""
+    """Return whether points of two strokes of a size are near enough to touch."""
     x, y = (one[:, None] - other[None]).transpose(2, 0, 1)
     return float(np.hypot(x, y).min()) <= min(_TOUCHING * size, max(settings.snap, size / 20))
 

@@ -4,7 +4,7 @@
 """
 Least-squares fits to points: a straight line, a rectangle, a curve of few points.
 
-Law: a fit does not judge itself; the caller measures the residual.
+Law: a fit is always returned; the caller decides by its residual whether it is good.
 """
 
 from __future__ import annotations

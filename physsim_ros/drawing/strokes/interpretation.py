@@ -7,10 +7,10 @@ Interpretation: the likeliest meanings of a stroke in the scene that it was draw
 Law: interpretation changes nothing; a reading holds ordinary requests, to be submitted.
 
 Each form that the stroke may have has a weight, and the scene divides that weight among the
-meanings of the form. Closed outlines are a group, since circles, ovals and rounded polygons run
-into each other; so are open lines; every sign is a group of its own. The group is chosen first,
-and whether there is a reading at all depends on the confidence in the group alone; then the
-likeliest meaning in the group is taken.
+meanings of the form. Meanings are chosen by group: closed outlines are one group, since circles,
+ovals and rounded polygons look alike; open lines are another; every sign is a group of its own.
+The likeliest group is chosen first, and then the likeliest meaning in it. A stroke is refused when
+the confidence in the group is too small.
 """
 
 from __future__ import annotations
@@ -63,8 +63,8 @@ class Guess:
     A meaning that a stroke may have.
 
     :param meaning: name of it, as `~/events` reports it: `disc`, `anchor` and so on
-    :param confidence: share of such guesses that are right, 0 .. 1
-    :param group_confidence: the same of its group, 0 .. 1
+    :param confidence: in the meaning: the share of such guesses that are right, 0 .. 1
+    :param group_confidence: in its group, 0 .. 1
     :param build: returns the outcome, or raises a Refusal; changes nothing
     """
 
@@ -79,7 +79,7 @@ class Reading(Outcome):
     """
     The meaning that a stroke was read with, and its outcome.
 
-    :param guesses: one to three, that of the reading first, then the most likely
+    :param guesses: one to three: first that of the reading, then the others, the likeliest first
     :param amends: numbers of earlier gestures that the requests replace: the stroke was read
         together with earlier ones, or anew
     """

@@ -19,8 +19,8 @@ from physsim_ros.drawing.strokes.stroke import Stroke
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.requests import Request
 
-# Factor on the weight of a sign that was drawn beside the bodies it is for: any other
-# interpretation of nearly the same weight wins.
+# Factor on the weight of a sign that was drawn where there is nothing that it could change: an
+# interpretation that can be carried out is taken before it.
 MISPLACED = 0.5
 # Share of the weight of a line between two bodies that is a joint's; the rest is a wall's.
 BETWEEN = 0.9
@@ -28,8 +28,8 @@ BETWEEN = 0.9
 
 # Meanings of closed outlines.
 DISC, RECTANGLE, POLYGON = 'disc', 'rectangle', 'polygon'
-# Groups of meanings: whether a stroke is closed, open or a sign is clearer than which of them. A
-# meaning in neither is a group of its own.
+# Groups of meanings: a stroke is more clearly closed or open than a certain one of these meanings.
+# Every other meaning is a group of its own.
 CLOSED = frozenset({DISC, RECTANGLE, POLYGON, 'axle', 'pin'})
 OPEN = frozenset({'wall', 'rod', 'rope', 'spring', 'hatching'})
 # Meanings that destroy what was drawn before, or change the whole world.
@@ -54,7 +54,7 @@ class Context:
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Outcome:
     """
-    The result of a stroke, as in `Reading`.
+    The requests of a stroke, with words and a line that tell about them.
 
     :param requests: to be submitted, in this order
     :param subject: the body or joint concerned; '' where there is none or there are several

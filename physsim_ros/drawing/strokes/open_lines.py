@@ -29,7 +29,7 @@ from physsim_ros.model.names import WORLD
 from physsim_ros.model.transform import cross
 
 LINE = 'line'
-# The longest loop that counts as a mistake of the hand, in shares of the length.
+# The greatest length of a loop that is a mistake of the hand, in shares of the length.
 _LOOP = 0.15
 # The greatest area of a loop that is the tip of a brace, by its length squared; the loop of an x
 # has 0.037 and more, that of a pigtail 0.07.

@@ -4,8 +4,8 @@
 """
 Recognition: the forms that a stroke may have, each with a weight.
 
-Law: nothing is decided here; the scene that the stroke was drawn over decides as well, in
-`interpretation`.
+Law: every likely form is returned. `interpretation` chooses among these forms, by the scene over
+which the stroke was drawn.
 """
 
 from __future__ import annotations
@@ -24,11 +24,10 @@ def recognise_form(stroke: Stroke) -> tuple[Hypothesis, ...]:
     features = Features.of(stroke)
     signs = {sign.PRIMITIVE: sign.hypothesis(features) for sign in SIGNS}
     for head in (arrow.PRIMITIVE, round_arrow.PRIMITIVE):
-        # The second line of an x lies about the end of the first as a head does about a tip, but
-        # the barbs of an arrow do not go on beyond the shaft.
+        # The second line of an x looks like the head of an arrow, but no arrow is an x.
         weight = signs[head].weight * (1.0 - signs[cross.PRIMITIVE].weight)
         signs[head] = replace(signs[head], weight=weight)
-    # Each sign is a line or an outline too; a stroke that fits a sign is taken for the sign.
+    # Each sign is a line or an outline too; a stroke that fits a sign is that sign.
     plain = 1.0 - max(each.weight for each in signs.values())
     shapes = [
         *open_lines.hypotheses(features, plain),

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Outcomes that several forms have: bodies, walls and joints, regularised, as requests.
+Outcomes of several forms: requests for regularised bodies, walls and joints.
 
 Law: an outcome that the world cannot have is refused here, before any request is submitted.
 """

@@ -25,7 +25,7 @@ from physsim_ros.model.transform import Point
 # The least share of a circle on a second body, across whose edge it was drawn.
 _ACROSS = 0.25
 # The greatest distance of a wheel's middle from the body that carries it, in radii of the wheel:
-# beyond it the two hardly overlap, and would be drawn apart if they did not touch.
+# bodies farther apart overlap by accident.
 _CARRIED = 0.9
 # The least area of a wheel, as a share of the circle about it; a pentagon's is 0.76.
 _ROUND = 0.75
@@ -114,12 +114,13 @@ def crossed_pair(center: Point, context: Context) -> tuple[str, ...]:
 
 def _carrier_of(wheel: str, center: Point, snap: float, scene: SceneQuery) -> str | None:
     """
-    Return the dynamic body that a wheel overlaps and that is nearest to its middle, if any.
+    Return the movable body that a wheel overlaps and that is nearest to its middle.
 
     A wheel may stand half below its chassis; it never turns about the road on which it stands.
 
     :param wheel: name of the topmost body at the centre of the drawn circle
-    :return: None also where that body is not about round, or the circle is not about its middle
+    :return: None where there is none, where the wheel is not round, or where the circle is not
+        about its middle
     """
     form = scene.body(wheel).shape.form
     x, y = scene.centroid(wheel)

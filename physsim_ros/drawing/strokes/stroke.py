@@ -4,8 +4,8 @@
 """
 Resampling of a stroke: evenly spaced points without hooks, and the outline where it is closed.
 
-Law: number and spacing of the samples do not matter. The path of a mouse that is sampled at 200 Hz
-is the same square as that of one sampled at 20 Hz.
+Law: the result does not depend on the number and spacing of the samples. A square that is sampled
+at 200 Hz is the same as one that is sampled at 20 Hz.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ HOOK, HOOK_TURN = 0.1, 1.2
 # The least number of rounds of an outline that was drawn more than once, and the greatest mean
 # distance of the other rounds from one, in shares of the size: that of a five-pointed star is 0.1.
 ROUNDS, AGAIN = 1.25, 0.065
-# The longest overlap that is cut off at either end of a closed stroke, and the greatest gap
+# The greatest overlap that is cut off at either end of a closed stroke, and the greatest gap
 # between its ends, in shares of its length.
 OVERLAP, GAP = 0.14, 0.18
 # Cost of a length that is cut off, in lengths of gap.

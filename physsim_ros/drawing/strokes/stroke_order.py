@@ -4,9 +4,9 @@
 """
 The order of several strokes that are one figure, as if the pen had not been lifted.
 
-Law: the shape of a figure does not depend on the order and the directions of its strokes. Of all
-orders and directions, the one with the least way between the strokes is taken; of many strokes,
-always the nearest next one.
+Law: the shape of a figure does not depend on the order and the directions of its strokes. The
+strokes are joined in the order and the directions with the shortest way between them. Of more than
+four strokes, each is followed by the one that begins nearest to its end.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from physsim_ros.model.arrays import Floats
 
 # The greatest number of strokes of which all orders are compared: 4! · 2⁴ = 384.
 _COMPARED = 4
-# The number of points between two strokes, so that the way between is no jump of the pen.
+# The number of points along the way between two strokes, which is then no jump of the pen.
 _BETWEEN = 32
 
 

@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""The small circle on a body: an axle between it and the body, or the background, behind it."""
+"""The small circle on a body: an axle to the body behind that one, or to the background."""
 
 from __future__ import annotations
 

@@ -32,7 +32,7 @@ def interpretation(body: str, lines: int, context: Context, *, weight: float) ->
     Return the interpretation of a line as hatching.
 
     :param body: that the stroke lies on
-    :param lines: count of them
+    :param lines: number of lines of the hatching
     """
     return Interpretation(
         meaning='hatching', weight=weight, build=partial(_make_heavier, body, lines, context)
