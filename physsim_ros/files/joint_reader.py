@@ -16,8 +16,7 @@ import math
 from typing import Any
 
 from physsim_ros.engine.body_table import LOST
-from physsim_ros.files.entries import is_same, naming, ROUNDING
-from physsim_ros.files.world_schema import OWN_JOINT_KEYS
+from physsim_ros.files.world_schema import is_same, naming, OWN_JOINT_KEYS, ROUNDING
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.checks import point_list, Within
 from physsim_ros.model.errors import BadProperty

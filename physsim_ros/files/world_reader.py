@@ -19,15 +19,18 @@ from typing import Any
 import numpy as np
 from physsim_ros.engine.body import lead_of, offset_of
 from physsim_ros.engine.body_table import LOST
-from physsim_ros.files.entries import count_from, entries_of, naming, ROUNDING
 from physsim_ros.files.impulse_cache import cache_from
 from physsim_ros.files.joint_reader import joints_from
 from physsim_ros.files.robots import with_shipped_robot
 from physsim_ros.files.world_schema import (
     BODY_KEYS,
+    count_from,
+    entries_of,
     FORMAT,
+    naming,
     PARAMETERS,
     PROPERTIES,
+    ROUNDING,
     SETTINGS,
     WORLD_KEYS,
 )

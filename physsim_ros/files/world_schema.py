@@ -1,15 +1,27 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Keys of world files."""
+"""
+The schema of world files: their keys, and what the entries of bodies and joints have in common.
+
+A refusal within an entry names the body or joint, and its line.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import fields
+from typing import Any
 
+import numpy as np
+from physsim_ros.files.yaml12 import Located
 from physsim_ros.model.body_properties import Properties
+from physsim_ros.model.checks import shown
+from physsim_ros.model.errors import BadProperty, BadWorldFile, Refusal
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import SHAPES
+from physsim_ros.model.transform import Point
 
 FORMAT = 1
 # Limits protect the node, whatever files say.
@@ -52,3 +64,61 @@ PARAMETERS = frozenset(
         'world_file',
     }
 )
+# Tolerance between a saved number and the same number recomputed [m, rad, relative]: more than
+# rounding means that somebody has edited the file.
+ROUNDING = 1e-9
+
+
+def entries_of(value: object, name: str) -> list[dict[Any, Any]]:
+    """
+    Return a list of mappings; None is an empty one.
+
+    :param name: of the field, for the refusal
+    :raises BadProperty: it is no list of mappings
+    """
+    if value is None:
+        return []
+    if not isinstance(value, list) or not all(isinstance(each, dict) for each in value):
+        raise BadProperty(f'{name} must be a list of mappings', field=name)
+    return value
+
+
+@contextmanager
+def naming(entry: Mapping[Any, Any], noun: str = 'body', count: int = 0) -> Iterator[None]:
+    """
+    Add the name and the line of a body or joint to a refusal.
+
+    :param entry: of it in the file
+    :param count: of it in the file, from 1, for entries without a name
+    :raises BadWorldFile: a refusal was raised within
+    """
+    try:
+        yield
+    except Refusal as refusal:
+        name = entry.get('name')
+        which = f'number {count}' if name is None else shown(name)
+        raise BadWorldFile(
+            f'{noun} {which}: {refusal}',
+            field=refusal.field,
+            line=entry.line if isinstance(entry, Located) else None,
+            cause=refusal.code,
+        ) from refusal
+
+
+def is_same(
+    saved: Sequence[float] | Sequence[Point], written: Sequence[float] | Sequence[Point]
+) -> bool:
+    """Return whether numbers differ by no more than rounding."""
+    return bool(np.allclose(saved, written, rtol=ROUNDING, atol=ROUNDING))
+
+
+def count_from(value: object, name: str) -> int:
+    """
+    Return a whole number that is not negative.
+
+    :param name: of the field, for the refusal
+    :raises BadProperty: it is none
+    """
+    if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value < 2**62:
+        raise BadProperty(f'{name} must be a whole number, not negative', field=name)
+    return value

@@ -16,17 +16,16 @@ from physsim_ros.model.settings import Bounds
 from physsim_ros.view.blueprint import HEIGHT, WIDTH
 import rerun as rr
 
-# Focal length of the pinhole: a unit at `DISTANCE` units is drawn as so many pixels, whatever the
-# size of the world.
+# Length of a unit of the view in the image [pixels], for worlds of any size.
 PIXELS = 50
 # Distance of the camera from the plane [units].
 DISTANCE = 20.0
 # Area before there are bodies: left, bottom, right, top [m].
 _EMPTY = (-10.0, 0.0, 10.0, 12.0)
-# Margin around bounds or bodies [units]: the coordinates of the grid are left of it and below, the
-# legend above.
+# Margin around bounds or bodies [units]: it has the coordinates of the grid at the left and below,
+# and the legend above.
 MARGIN = 1.2
-# Room of bodies to move, where there are no bounds, in shares of the longer side of their area.
+# Room for bodies to move where there are no bounds, in shares of the longer side of their area.
 _ROOM = 0.05
 # Distance from the area at which a body moves the camera, in shares of the longer side.
 _TOLERANCE = 0.5
@@ -54,7 +53,7 @@ class Camera:
 
     @property
     def area(self) -> Bounds:
-        """Left, bottom, right, top of what it shows, with the margin [m]."""
+        """Left, bottom, right, top of the area that it shows, with the margin [m]."""
         return _widened(self._content, MARGIN * self.unit)
 
     def show_bounds(self, bounds: Bounds) -> None:

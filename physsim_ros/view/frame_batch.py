@@ -22,9 +22,9 @@ import rerun as rr
 RECORDED = 'recorded'
 Times = list[rr.TimeColumn]
 
-# Time between two frames of which nothing better is known [ns].
+# Time between two frames where stamps and speed do not give it [ns]: a period of 60 Hz.
 _PERIOD = 16_666_667
-# Shortest and longest time between two frames [ns]: a seek is no long time for the picture.
+# Shortest and longest time between two frames [ns]: after a seek the picture does not wait.
 _SHORTEST, _LONGEST = 1_000_000, 1_000_000_000
 
 
@@ -33,8 +33,8 @@ class FrameBatch:
     Frames of one scene.
 
     :param frames: at least one, in order
-    :param numbers: of them, without gaps
-    :param recorded: (f,) int64: time of the picture of each [ns]
+    :param numbers: of the frames in the recording, without gaps
+    :param recorded: (f,) int64: times of the frames on the timeline `recorded` [ns]
 
     :ivar poses: (f, n, 3) float64: of the bodies, x, y [m], yaw [rad]
     """

@@ -22,8 +22,8 @@ _LABELLED = 5
 # Half the width and height of the grid [units]: twice what the camera shows, in narrow views too.
 _ACROSS, _UP = 32.0, 26.0
 _FAINT, _CLEAR = (228, 229, 224), (203, 205, 200)
-# Places of the labels in the margin of the camera: of the upper edges of those below, over the
-# lower edge of the area; of the middles of those at the left, from its left edge [units].
+# Places of the labels in the margin of the camera [units]: of the upper edges of the labels below,
+# over the lower edge of the area; of the middles of the labels at the left, from its left edge.
 _ABOVE, _ASIDE = 0.85, 0.55
 # Half the height of a label, which hangs below its point [units].
 _HALF = 0.27

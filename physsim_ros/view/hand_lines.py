@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Hands: a line from the grip of each on a body to the hand, and its name there."""
+"""Hands: a line from each grip on a body to its hand, with the name of the hand."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""The legend of forces in the picture: of contacts by an arrow, of joints by a bar of colours."""
+"""The legend of forces: an arrow for those of contacts, a bar of colours for those of joints."""
 
 from __future__ import annotations
 

@@ -21,7 +21,8 @@ import rerun.blueprint as rrb
 SAMPLE = 6
 # Time span of the plots [s].
 _SPAN = 15.0
-# Period at which values that do not change are sent [frames]: a plot has those of its span only.
+# Period at which values that do not change are sent again [frames]: a plot has only the values
+# within its time span.
 _REPEAT = 60
 _BLUE, _ORANGE, _GREEN, _PURPLE, _GREY = (
     (76, 120, 168),

@@ -4,8 +4,8 @@
 """
 The tracks of time: run states, courses, past and present, and what changed the world last.
 
-Law: words are short, and each stays until the next, so that they are seen whole; sentences are in
-the log.
+Law: a word is short and stays until the next one, so that it can be read. Sentences are in the
+log.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Chosen bodies: the way that they went, and their height beside that of free flight.
+Traces of chosen bodies: their paths, and their heights beside those of free flight.
 
 Free flight begins with the last frame in which a body touched something: from there its height
 follows y0 + v0 t + g t² / 2.
@@ -38,7 +38,7 @@ class _Trace:
 
 class Traces:
     """
-    Sends the ways and flights of chosen bodies.
+    Sends the paths and heights of chosen bodies.
 
     :param recording: stream to log to
     """
@@ -55,8 +55,8 @@ class Traces:
         """
         Send the frames of a batch.
 
-        :param names: of the bodies; those that there are not are ignored
-        :param height: z of the ways [m]
+        :param names: of the bodies; unknown names are ignored
+        :param height: z of the paths [m]
         """
         rows = {name: row for row, name in enumerate(batch.scene.names)}
         for name in list(self._traces):
@@ -84,7 +84,7 @@ class Traces:
     def _segments(
         self, frame: Frame, traced: dict[str, int], height: float
     ) -> Iterator[tuple[tuple[float, float, float], tuple[float, float, float]]]:
-        """Yield the way of each body since the frame before, and note its height."""
+        """Yield the path of each body since the frame before, and note its height."""
         now = frame.snapshot
         for name, row in traced.items():
             x, y = now.centers[row].tolist()
@@ -104,7 +104,7 @@ class Traces:
             trace.position, trace.stamp = (x, y), now.stamp
 
     def _send_heights(self, batch: FrameBatch, name: str) -> None:
-        """Send the heights of a body in a batch, and forget them."""
+        """Send the noted heights of a body."""
         plot = f'{PLOTS}/{name}'
         if name not in self._styled:
             self._styled.add(name)
@@ -120,7 +120,7 @@ class Traces:
 
     @staticmethod
     def _flight_height(frame: Frame, row: int, trace: _Trace) -> float | None:
-        """Return the height of a body by its flight [m]; None where a flight begins anew."""
+        """Return the height of a body in free flight [m]; None where another flight begins."""
         now = frame.snapshot
         if now.stamp < trace.stamp or _is_touched(frame, row) or _is_joined(now, row):
             return None

@@ -29,8 +29,7 @@ ROOT = 'world/bodies'
 # Depth over which later bodies lie above earlier ones [units]: enough for the renderer's depth
 # buffer, too little for a difference in perspective.
 DEPTH = 0.02
-# Ratio of two sizes up to which boxes or discs share a scaled mesh: their outlines differ in width
-# by as much.
+# Greatest ratio of two boxes or discs that share a scaled mesh: it scales their outlines too.
 _SIZE_RATIO = 1.5
 
 
@@ -39,7 +38,7 @@ class BodyGroup(MeshGroup):
     """
     The bodies that share a mesh.
 
-    :param first: of the bodies, the one that the mesh is made for
+    :param first: the body for which the mesh is made
     """
 
     first: Body
@@ -47,7 +46,7 @@ class BodyGroup(MeshGroup):
 
 @dataclass(slots=True)
 class _Members:
-    """Rows and scales of the bodies of a group, and the group of the same key before."""
+    """The bodies of a group that is being made, and the group of that key in the scene before."""
 
     first: Body
     before: BodyGroup | None
@@ -133,7 +132,7 @@ def _appearance(body: Body) -> Hashable:
 
 
 def _look(body: Body) -> tuple[Hashable, ...]:
-    """Return what decides how a body of some shape looks."""
+    """Return the properties of a body, beside its shape, on which its look depends."""
     return body.color, body.anchored, body.kinematic, body.sensor
 
 

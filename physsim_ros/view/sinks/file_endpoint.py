@@ -56,7 +56,7 @@ class FileEndpoint(Endpoint):
         return Sink(rr.FileSink(self._path, write_footer=False))
 
     def check(self) -> None:
-        """Look whether the file is still there: a deleted one would be written on."""
+        """Check that the file is still there: Rerun would go on writing to a deleted file."""
         try:
             found = self._path.stat()
         except OSError as error:

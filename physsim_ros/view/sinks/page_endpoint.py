@@ -4,11 +4,10 @@
 """
 The pages that show a recording: each is sent one of its own, which begins when it opens.
 
-Law: a page is sent the next batch when it shows the one before, so that it is behind by one of its
-own frames, however long that takes; what it has no time for is dropped here, and nothing piles up
-in the browser. The web viewer of Rerun (0.41) reads for 10 ms in each of its frames: without a
-graphics card these take half a second, and a stream that does not wait would leave it behind ever
-farther.
+Law: a page is sent the next batch when it shows the one before. So it is late by one of its own
+frames, and nothing piles up in the browser; frames for which the page is too slow are dropped
+here. The web viewer of Rerun (0.41) reads for 10 ms in each of its frames. Without a graphics card
+these take half a second, so that it could not follow a stream that does not wait.
 """
 
 from __future__ import annotations
@@ -32,7 +31,7 @@ class PageEndpoint(Endpoint):
     """
 
     kind, where = 'page', 'the recording in a browser'
-    # A second of frames; what a page that draws slower leaves out is dropped.
+    # A second of frames; a page that draws slower misses frames.
     period, capacity, closing, reopens = 1 / 60, 60, 0.5, False
 
     def __init__(self, send: Send) -> None:

@@ -91,8 +91,8 @@ class Endpoint(ABC):
     :cvar code: of the event when it is lost
     :cvar period: time for which frames are gathered into a batch [s]
     :cvar capacity: greatest number of frames in the queue
-    :cvar patience: time without an answer at which it is reported [s]; with `reopens`, it may
-        answer later, else it is lost
+    :cvar patience: time without an answer after which that is reported [s]; an endpoint that does
+        not reopen is lost then
     :cvar closing: longest time for the last frames [s]
     :cvar reopens: whether it may be opened again after it was lost
     """
