@@ -105,10 +105,6 @@ def segment_corners(lengths: Sequence[int]) -> NDArray[np.intp]:
 
     :param lengths: number of corners of each strip
     """
-    pairs: list[int] = []
-    first = 0
-    for length in lengths:
-        for number in range(first, first + length - 1):
-            pairs += (number, number + 1)
-        first += length
-    return np.array(pairs, np.intp)
+    ends = np.cumsum(lengths)
+    first = np.delete(np.arange(ends[-1]), ends - 1)
+    return np.column_stack((first, first + 1)).ravel()

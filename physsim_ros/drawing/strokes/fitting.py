@@ -65,7 +65,7 @@ def rectangle_of(outline: Floats) -> tuple[Floats, float]:
     """
     steps = np.roll(outline, -max(len(outline) // 40, 1), axis=0) - outline
     angle = quarter_heading(steps, norms(steps))
-    local = turned(outline, -angle)
+    local = rotated_each(outline, -angle)
     # Left, right, lower and upper side.
     sides = np.concatenate((local.min(axis=0), local.max(axis=0)))[[0, 2, 1, 3]]
     across = local[:, [0, 0, 1, 1]]

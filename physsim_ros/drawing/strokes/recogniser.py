@@ -10,28 +10,22 @@ which the stroke was drawn.
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from physsim_ros.drawing.strokes import closed_shapes, open_lines
 from physsim_ros.drawing.strokes.features import Features
 from physsim_ros.drawing.strokes.hypothesis import Hypothesis, LEAST
-from physsim_ros.drawing.strokes.signs import arrow, cross, round_arrow, SIGNS
+from physsim_ros.drawing.strokes.signs import SIGNS
 from physsim_ros.drawing.strokes.stroke import Stroke
 
 
 def recognise_form(stroke: Stroke) -> tuple[Hypothesis, ...]:
     """Return the forms that a stroke may have, by falling weight."""
     features = Features.of(stroke)
-    signs = {sign.PRIMITIVE: sign.hypothesis(features) for sign in SIGNS}
-    for head in (arrow.PRIMITIVE, round_arrow.PRIMITIVE):
-        # The second line of an x looks like the head of an arrow, but no arrow is an x.
-        weight = signs[head].weight * (1.0 - signs[cross.PRIMITIVE].weight)
-        signs[head] = replace(signs[head], weight=weight)
+    signs = [sign.hypothesis(features) for sign in SIGNS]
     # Each sign is a line or an outline too; a stroke that fits a sign is that sign.
-    plain = 1.0 - max(each.weight for each in signs.values())
+    plain = 1.0 - max(each.weight for each in signs)
     shapes = [
         *open_lines.hypotheses(features, plain),
         *closed_shapes.hypotheses(features, plain),
     ]
-    likely = (each for each in (*signs.values(), *shapes) if each.weight >= LEAST)
+    likely = (each for each in (*signs, *shapes) if each.weight >= LEAST)
     return tuple(sorted(likely, key=lambda each: -each.weight))

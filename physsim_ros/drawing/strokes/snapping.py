@@ -165,7 +165,7 @@ def _snapped(point: Point, name: str, scene: SceneQuery, snap: float) -> Point:
     body = scene.body(name)
     # A body joined exactly at its middle does not turn under gravity.
     middle = scene.centroid(name)
-    if not body.fixed and math.dist(point, middle) <= min(snap, body.shape.form.inner):
+    if body.dynamic and math.dist(point, middle) <= min(snap, body.shape.form.inner):
         return middle
     return point if name in scene.bodies_at(point) else _surface(point, name, scene)
 

@@ -24,6 +24,7 @@ from physsim_ros.drawing.strokes.meanings import (
 )
 from physsim_ros.drawing.strokes.plane import dot, norms
 from physsim_ros.drawing.strokes.polyline import path_length, point_of, smoothed, turns
+from physsim_ros.drawing.strokes.signs.cross import absence as no_x
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NotRecognised
 from physsim_ros.model.requests import Command, Configure
@@ -45,7 +46,7 @@ def hypothesis(features: Features) -> Hypothesis:
         return Hypothesis(primitive=PRIMITIVE, weight=0.0, points=stroke.points[[0, -1]])
     orders = stroke.points, stroke.points[::-1]
     best = max((_arrow_from_tail(points) for points in orders), key=lambda each: each.weight)
-    return replace(best, weight=best.weight * absence)
+    return replace(best, weight=best.weight * absence * no_x(features))
 
 
 def _sharpness(points: Floats) -> float:

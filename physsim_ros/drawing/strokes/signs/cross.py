@@ -54,6 +54,16 @@ def hypothesis(features: Features) -> Hypothesis:
     return best
 
 
+def absence(features: Features) -> float:
+    """
+    Return the weight of the stroke being no x, 0 .. 1.
+
+    The second line of an x looks like the head of an arrow, but the barbs of an arrow do not go on
+    beyond its shaft.
+    """
+    return 1.0 - hypothesis(features).weight
+
+
 def interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[Interpretation]:
     """Yield an anchor."""
     points = hypothesis.points

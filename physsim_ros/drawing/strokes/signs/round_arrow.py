@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import partial
 import math
 
@@ -16,6 +17,7 @@ from physsim_ros.drawing.strokes.hypothesis import falls, Hypothesis, rises
 from physsim_ros.drawing.strokes.meanings import Context, Interpretation, MISPLACED, Outcome
 from physsim_ros.drawing.strokes.plane import angles, least_squares, norms
 from physsim_ros.drawing.strokes.polyline import point_of, smoothed
+from physsim_ros.drawing.strokes.signs.cross import absence as no_x
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NothingThere
 from physsim_ros.model.joints import JointKind, JointProperties
@@ -43,7 +45,7 @@ def hypothesis(features: Features) -> Hypothesis:
         each = _round_arrow_from_tail(points)
         if each is not None and each.weight > best.weight:
             best = each
-    return best
+    return replace(best, weight=best.weight * no_x(features))
 
 
 def _round_arrow_from_tail(points: Floats) -> Hypothesis | None:
