@@ -13,7 +13,7 @@ from .scenes import DT, G, NOWHERE, run, simulation, spawn, steps, turned, walls
 from ..slow import slow
 
 
-@pytest.mark.parametrize('side', [0, 40, 90, 180, 270])
+@pytest.mark.parametrize('side', [0, 40, 270])
 @pytest.mark.parametrize('shape', [Disc(radius=0.1), Disc(radius=0.5), Box(width=0.4, height=0.4)])
 @pytest.mark.parametrize('elasticity', [0.9, 0.5])
 def test_a_body_bounces_to_the_square_of_its_elasticity(report, elasticity, shape, side):
@@ -56,7 +56,7 @@ FLAT = {
 
 @pytest.mark.parametrize('below', ['ground', 'turned ground', 'body', 'posts'])
 @pytest.mark.parametrize('name', FLAT)
-@pytest.mark.parametrize('elasticity', [0.0, 0.5, 0.7])
+@pytest.mark.parametrize('elasticity', [0.0, 0.7])
 def test_a_body_that_falls_flat_bounces_flat(report, elasticity, name, below):
     angle = 0.7 if below == 'turned ground' else 0.0
     up, along = turned((0.0, 1.0), angle), turned((1.0, 0.0), angle)

@@ -28,7 +28,8 @@ from .scenes import (
 )
 
 ELASTICITIES = [1.0, 0.5, 0.0]
-HEADINGS = [math.radians(angle) for angle in (0, 37, 90, 180, 270)]
+# Along an axis, backward along the other, and along neither.
+HEADINGS = [math.radians(angle) for angle in (0, 37, 270)]
 
 
 @pytest.mark.parametrize('heading', HEADINGS)
@@ -298,7 +299,7 @@ def _angular_momentum(snapshot):
 
 @pytest.mark.parametrize('elasticity', ELASTICITIES)
 @pytest.mark.parametrize('height', [1.0, 5.0, 20.0])
-@pytest.mark.parametrize('side', range(0, 360, 45))
+@pytest.mark.parametrize('side', [0, 45, 180, 315])
 @pytest.mark.parametrize('yaw', [0, 20])
 def test_a_disc_dropped_on_a_box_bounces_off_the_side_it_came_from(
     report, yaw, side, height, elasticity
@@ -325,7 +326,7 @@ def test_a_disc_dropped_on_a_box_bounces_off_the_side_it_came_from(
 
 
 @pytest.mark.parametrize('speed', [1.0, 10.0, 25.0, 100.0])
-@pytest.mark.parametrize('side', range(0, 360, 45))
+@pytest.mark.parametrize('side', [0, 45, 180, 315])
 @pytest.mark.parametrize('elasticity', [1.0, 0.5])
 def test_a_disc_thrown_at_a_loose_box_never_enters_it(report, elasticity, side, speed):
     box = Box(width=1.0, height=1.0)
@@ -440,7 +441,7 @@ def test_an_anchored_body_does_not_move_at_all(report, elasticity, hitter, side)
 
 @pytest.mark.parametrize('side', HEADINGS)
 @pytest.mark.parametrize('angle', [0, 30, 60])
-@pytest.mark.parametrize('start', np.linspace(1.0, 1.15, 7))
+@pytest.mark.parametrize('start', np.linspace(1.0, 1.15, 4))
 @pytest.mark.parametrize('elasticity', [1.0, 0.0])
 def test_a_fast_disc_does_not_pass_a_thin_wall(report, elasticity, start, angle, side):
     sim = simulation(elasticity=elasticity)

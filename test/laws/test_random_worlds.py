@@ -11,6 +11,7 @@ from physsim_ros.model.shapes import Box, Disc
 import pytest
 
 from .scenes import energy, G, join, simulation, spawn, steps
+from ..slow import slow
 
 KINDS = ('axle', 'pin', 'rod', 'slider', 'rope', 'gear')
 # Bodies may fall from the middle of the bounds to their floor [m].
@@ -55,7 +56,8 @@ def random_world(seed):
     return sim
 
 
-@pytest.mark.parametrize('seed', range(30))
+# The first four have far and near points, in bounds and without.
+@pytest.mark.parametrize('seed', [*range(4), *map(slow, range(4, 30))])
 def test_a_random_machine_gains_no_energy(report, seed):
     sim = random_world(seed)
     start = sim.world.snapshot()

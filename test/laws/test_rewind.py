@@ -268,8 +268,8 @@ class Player:
         )
 
 
-# Scenes of many bodies.
-CROWDS = ('100 discs', 'pyramid of 105', 'walls, thin ones too')
+# Scenes of many contacts.
+CROWDS = ('100 discs', '10 boxes', 'bounces', 'pyramid of 105', 'walls, thin ones too')
 
 
 @pytest.fixture(params=[slow(name) if name in CROWDS else name for name in SCENES])

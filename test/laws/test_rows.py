@@ -14,6 +14,7 @@ from physsim_ros.simulation.simulation import Simulation
 import pytest
 
 from .scenes import NOWHERE
+from ..slow import slow
 
 HALF = 0.1
 COUNT = 5
@@ -63,7 +64,7 @@ def _crowd(sim):
 
 @pytest.mark.parametrize('kind', ROWS)
 @pytest.mark.parametrize('gap', [0.0, 0.001], ids=['touching', '1 mm apart'])
-@pytest.mark.parametrize('rate', [240.0, 480.0])
+@pytest.mark.parametrize('rate', [240.0, slow(480.0)])
 @pytest.mark.parametrize('struck', [1, 2, 3])
 def test_as_many_leave_a_row_as_came(report, struck, rate, gap, kind):
     for speed, flight in itertools.product((1.0, 2.0, 5.0), FLIGHTS):

@@ -206,11 +206,8 @@ def test_light_planks_stay_joined_and_carry_a_heavy_disc_that_rolls_over_them(
         assert state.poses[-1, 1] > 5.55
 
 
-@pytest.mark.parametrize('seed', range(3))
-def test_joints_that_contradict_each_other_give_no_energy(
-    observed_world: ObservedWorld, seed: int
-) -> None:
-    pick = random.Random(seed)
+def test_joints_that_contradict_each_other_give_no_energy(observed_world: ObservedWorld) -> None:
+    pick = random.Random(0)
     sizes = [(pick.uniform(0.3, 1.0), pick.uniform(0.3, 1.0)) for _ in range(6)]
     masses = np.array([10 ** pick.uniform(-1, 1) for _ in sizes])
     places = [(pick.uniform(-2.0, 2.0), pick.uniform(2.0, 5.0)) for _ in sizes]

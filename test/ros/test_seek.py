@@ -9,7 +9,7 @@ import math
 import random
 from typing import Any
 
-from physsim_ros.testing import delete, disc
+from physsim_ros.testing import disc
 import pytest
 from std_msgs.msg import Float64
 
@@ -47,17 +47,6 @@ def test_any_time_is_sought_and_played_on_from(journey: Journey) -> None:
         journey.compare(journey.shown(), 0)
 
 
-def test_every_frame_is_sought_in_any_order(journey: Journey) -> None:
-    journey.live(150)
-    stamps = sorted(journey.first)
-    random.Random(4).shuffle(stamps)
-    journey.shown()
-
-    for stamp in stamps[:30]:
-        assert journey.seek(stamp).code == 'ok'
-        assert journey.shown() == [(stamp, journey.first[stamp])]
-
-
 def test_a_seek_while_time_runs_lets_it_run_on(journey: Journey) -> None:
     journey.live(100)
     succeeded(journey.client.call('~/play'))
@@ -85,9 +74,8 @@ def test_a_seek_while_time_runs_back_lets_it_run_on_back(journey: Journey) -> No
     journey.compare(frames, 18)
 
 
-@pytest.mark.parametrize(
-    'off', [-1_000_000_000, -3_000_000, 3_000_000, 10**9, 2_000_000_000 * 10**9]
-)
+# Just before the oldest step, just after the newest, and as far off as a clock tells.
+@pytest.mark.parametrize('off', [-3_000_000, 3_000_000, 2_000_000_000 * 10**9])
 def test_a_seek_out_of_history_is_refused_and_changes_nothing(journey: Journey, off: int) -> None:
     journey.live(60)
     before, speed = journey.physsim.digest(), parameter(journey.physsim, 'speed')
@@ -106,8 +94,6 @@ def test_a_seek_out_of_history_is_refused_and_changes_nothing(journey: Journey, 
     ('topic', 'message'),
     [
         ('~/seek', clock_of(0)),
-        ('~/seek', clock_of(10**15)),
-        ('~/speed', Float64(data=0.0)),
         ('~/speed', Float64(data=math.nan)),
     ],
 )
@@ -131,15 +117,11 @@ def test_what_was_asked_before_is_answered_before(
 # Something else in the past
 
 
-@pytest.mark.parametrize('way', ['seek', 'rewind'])
-def test_a_request_in_the_past_begins_a_branch(journey: Journey, way: str) -> None:
+def test_a_request_in_the_past_begins_a_branch(journey: Journey) -> None:
     journey.live(120)
-    if way == 'seek':
-        journey.seek(SECOND)
-    else:
-        succeeded(journey.client.call('~/rewind'))
-        journey.tick(60)
-        succeeded(journey.client.call('~/pause'))
+    succeeded(journey.client.call('~/rewind'))
+    journey.tick(60)
+    succeeded(journey.client.call('~/pause'))
     now = journey.physsim.node.simulation.step * STEP
 
     events = journey.client.ask('~/spawn', disc('new/0', at=(0.0, 9.0)))
@@ -155,23 +137,6 @@ def test_a_request_in_the_past_begins_a_branch(journey: Journey, way: str) -> No
     journey.compare(journey.shown(), 8)
 
 
-def test_a_branch_is_a_past_of_its_own(journey: Journey) -> None:
-    journey.live(100)
-    journey.seek(SECOND)
-    journey.client.ask('~/spawn', disc('new/0', at=(0.0, 9.0)))
-    journey.shown()
-    journey.first = {}
-    journey.run(100)
-
-    journey.client.ask('~/speed', Float64(data=-1.0))
-    back = journey.tick(99)
-    journey.client.ask('~/speed', Float64(data=1.0))
-    on = journey.tick(90)
-
-    journey.compare(back, 90)
-    journey.compare(on, 85)
-
-
 def test_a_parameter_set_in_the_past_begins_a_branch(journey: Journey) -> None:
     journey.live(60)
     journey.seek(0.5 * SECOND)
@@ -182,18 +147,6 @@ def test_a_parameter_set_in_the_past_begins_a_branch(journey: Journey) -> None:
 
     assert [event.name for event in journey.client.events] == ['branch']
     assert journey.seek(journey.end).code == 'out_of_history'
-
-
-def test_a_refused_request_in_the_past_begins_none(journey: Journey) -> None:
-    journey.live(60)
-    journey.seek(0.5 * SECOND)
-
-    events = journey.client.ask('~/spawn', delete('nobody/0'))
-
-    assert [(event.name, event.code) for event in events] == [('~/spawn', 'unknown_body')]
-    journey.shown()
-    assert journey.seek(journey.end).code == 'ok'
-    journey.compare(journey.shown(), 1)
 
 
 def test_looking_and_changing_pace_in_the_past_begins_none(journey: Journey) -> None:
@@ -234,18 +187,6 @@ def test_history_is_how_far_back_it_goes(journey: Journey) -> None:
     assert parameter(journey.physsim, 'speed') == 0.0
 
 
-def test_a_short_history_moves_along(journey: Journey) -> None:
-    set_parameter(journey.physsim, 'history', 1.0)
-    journey.live(260)
-
-    assert journey.seek(journey.end - 1.1 * SECOND).code == 'out_of_history'
-    journey.shown()
-    assert journey.seek(journey.end - SECOND).code == 'ok'
-    journey.physsim.step(60)
-
-    journey.compare(journey.shown(), 60)
-
-
 def test_no_history_is_a_world_without_a_past(journey: Journey) -> None:
     set_parameter(journey.physsim, 'history', 0.0)
     journey.live(100)
@@ -257,29 +198,3 @@ def test_no_history_is_a_world_without_a_past(journey: Journey) -> None:
     assert parameter(journey.physsim, 'speed') == 0.0
     journey.physsim.step(10)
     assert seconds(journey.end) + 10 / 60 == pytest.approx(journey.physsim.time)
-
-
-@pytest.mark.parametrize('way', ['seek', 'rewind'])
-def test_a_moment_that_is_dropped_while_it_is_shown_can_be_left(
-    journey: Journey, way: str
-) -> None:
-    journey.live(300)
-    if way == 'seek':
-        journey.seek(0.5 * SECOND)
-    else:
-        journey.client.ask('~/speed', Float64(data=-8.0))
-        journey.tick(33)
-        succeeded(journey.client.call('~/pause'))
-        assert journey.physsim.node.simulation.step < 240
-    journey.shown()
-
-    set_parameter(journey.physsim, 'history', 1.0)
-    journey.tick(3)
-    succeeded(journey.client.call('~/play'))
-    journey.tick(20)
-    succeeded(journey.client.call('~/pause'))
-
-    # Wherever it goes from there, it is what was so then.
-    journey.compare(journey.shown(), 0)
-    assert journey.seek(journey.end).code == 'ok'
-    journey.compare(journey.shown(), 1)

@@ -157,7 +157,7 @@ def test_a_paused_world_takes_and_answers_requests(wall: Wall, client: Client) -
 # Speed
 
 
-@pytest.mark.parametrize('speed', [0.25, 0.5, 1.0, 2.0, 3.0, 10.0, 64.0])
+@pytest.mark.parametrize('speed', [0.25, 1.0, 64.0])
 def test_time_runs_at_the_speed_that_is_set(wall: Wall, client: Client, speed: float) -> None:
     (event,) = client.ask('~/speed', Float64(data=speed))
     assert event == Event(0, '~/speed', '', event.message, 'ok', '')
@@ -245,18 +245,6 @@ def test_reset_returns_to_the_loaded_world_at_time_0(physsim: PhysSim, client: C
     assert physsim.digest() == began
 
 
-def test_a_second_run_after_reset_is_the_first_to_the_bit(
-    physsim: PhysSim, client: Client
-) -> None:
-    physsim.load('demo')
-    digests = []
-    for _ in range(2):
-        physsim.run(3.0)
-        digests.append(physsim.digest())
-        succeeded(client.call('~/reset'))
-    assert digests[0] == digests[1]
-
-
 def test_what_was_asked_before_a_reset_is_answered(physsim: PhysSim, client: Client) -> None:
     client.publish('~/spawn', box('a/0'))
     succeeded(client.call('~/reset'))
@@ -313,24 +301,11 @@ def test_a_world_is_loaded_by_the_path_of_its_file(
         succeeded(client.call('~/clear'))
 
 
+# What else is refused: `test/files/test_world_file_refusals.py`.
 BAD = {
     'no YAML': 'bodies: [',
-    'no mapping': '- 1',
-    'no format': 'bodies: []',
-    'another format': 'format: 2',
     'an unknown key': 'format: 1\nbodys: []',
-    'a bad setting': 'format: 1\ngravity: [0]',
-    'no list': 'format: 1\nbodies: 3',
-    'no name': 'format: 1\nbodies: [{circle: {radius: 1}}]',
-    'a bad name': 'format: 1\nbodies: [{name: a, circle: {radius: 1}}]',
-    'a name twice': 'format: 1\nbodies: [&a {name: a/0, circle: {radius: 1}}, *a]',
-    'no shape': 'format: 1\nbodies: [{name: a/0}]',
-    'two shapes': 'format: 1\nbodies: [{name: a/0, circle: {radius: 1}, chain: {}}]',
     'a bad size': 'format: 1\nbodies: [{name: a/0, circle: {radius: 0}}]',
-    'a bad outline': 'format: 1\nbodies: [{name: a/0, polygon: [[0, 0], [1, 1], [1, 0], [0, 1]]}]',
-    'a bad place': 'format: 1\nbodies: [{name: a/0, circle: {radius: 1}, at: [.nan, 0]}]',
-    'a bad colour': 'format: 1\nbodies: [{name: a/0, circle: {radius: 1}, color: red}]',
-    'an unknown property': 'format: 1\nbodies: [{name: a/0, circle: {radius: 1}, fricton: 1}]',
     'a good one first': 'format: 1\nbodies: [{name: a/0, circle: {radius: 1}}, {name: b/0}]',
     'bytes': '\x00\x01',
 }

@@ -36,6 +36,19 @@ def test_redo_returns_to_where_undo_was_asked_for(driven: Driven) -> None:
     assert (driven.simulation.step, driven.simulation.world.digest()) == (step, digest)
 
 
+def test_redo_in_the_past_returns_to_the_past_and_to_what_lay_ahead(driven: Driven) -> None:
+    end, last = driven.simulation.step, driven.simulation.world.digest()
+    driven.simulation.seek(4 * SECOND)
+    asked = driven.simulation.world.digest()
+    driven.simulation.undo()
+    with pytest.raises(OutOfHistory):
+        driven.simulation.seek(4 * SECOND)
+    driven.simulation.redo()
+    assert driven.simulation.world.digest() == asked
+    driven.simulation.seek(round(end / 240 * SECOND))
+    assert driven.simulation.world.digest() == last
+
+
 def test_redo_shows_the_contacts_of_one_frame(driven: Driven) -> None:
     driven.simulation.reports_contacts = True
     before = driven.run(1.0, 1.0)[-1].contacts
@@ -112,6 +125,19 @@ def test_reset_is_undone_too(driven: Driven) -> None:
     driven.simulation.redo()
     assert later > 100
     assert (driven.simulation.step, driven.names) == (later, ())
+
+
+def test_a_reset_in_the_past_is_undone_to_there_and_to_what_lay_ahead(driven: Driven) -> None:
+    end, last = driven.simulation.step, driven.simulation.world.digest()
+    driven.simulation.seek(2 * SECOND)
+    asked = driven.simulation.world.digest()
+    driven.simulation.reset()
+    with pytest.raises(OutOfHistory):
+        driven.simulation.seek(SECOND // 60)
+    driven.simulation.undo()
+    assert driven.simulation.world.digest() == asked
+    driven.simulation.seek(round(end / 240 * SECOND))
+    assert driven.simulation.world.digest() == last
 
 
 def test_what_followed_a_reset_comes_back_with_it(driven: Driven) -> None:

@@ -26,8 +26,10 @@ ROOT = Path(__file__).parents[2]
 PROCESSORS = {
     'AMD, and Intel without AVX-512': {'OPENBLAS_CORETYPE': 'Haswell'},
     'Intel with AVX-512': {'OPENBLAS_CORETYPE': 'SkylakeX'},
-    'before AVX': {'OPENBLAS_CORETYPE': 'Nehalem'},
-    'NumPy without vectors': {'NPY_DISABLE_CPU_FEATURES': ' '.join(dispatched())},
+    'before AVX, and NumPy without vectors': {
+        'OPENBLAS_CORETYPE': 'Nehalem',
+        'NPY_DISABLE_CPU_FEATURES': ' '.join(dispatched()),
+    },
 }
 # Scenes that are played, and replayed, for less than eight seconds.
 QUICK = {

@@ -31,6 +31,7 @@ from ...laws.scenes import (
     turned,
     walls,
 )
+from ...slow import slow
 
 ELL = Polygon(outline=((0.0, 0.0), (0.5, 0.0), (0.5, 0.1), (0.1, 0.1), (0.1, 0.5), (0.0, 0.5)))
 SHAPES = {
@@ -76,8 +77,7 @@ class Overlaps:
 @each_shape
 @pytest.mark.parametrize('wall', WALLS.values(), ids=WALLS.keys())
 @pytest.mark.parametrize('speed', [10.0, 40.0, 150.0, 1000.0])
-@pytest.mark.parametrize('angle', [0, 50])
-@pytest.mark.parametrize('spin', [0.0, 30.0])
+@pytest.mark.parametrize(('angle', 'spin'), [(0, 0.0), (50, 30.0)])
 def test_a_fast_body_stays_on_its_side_of_a_wall(shape, wall, speed, angle, spin):
     sim = simulation(gravity=NOWHERE)
     spawn(sim, 'wall/0', wall, anchored=True)
@@ -169,8 +169,7 @@ def test_fast_bodies_that_fly_together_do_not_stop_each_other():
 
 
 @each_shape
-@pytest.mark.parametrize('speed', [100.0, 1000.0])
-@pytest.mark.parametrize('elasticity', [1.0, 0.5])
+@pytest.mark.parametrize(('speed', 'elasticity'), [(100.0, 0.5), slow(1000.0, 1.0)])
 def test_a_fast_body_stays_in_closed_walls_for_10_s(shape, speed, elasticity):
     sim = simulation(elasticity=elasticity)
     walls(sim, -2.0, -1.0, 2.0, 3.0)
@@ -203,7 +202,7 @@ def test_many_fast_bodies_stay_in_closed_walls():
 
 @each_shape
 @pytest.mark.parametrize('speed', [40.0, 120.0])
-@pytest.mark.parametrize('start', [1.0, 1.07, 1.12])
+@pytest.mark.parametrize('start', [1.0, 1.07])
 def test_a_fast_paddle_takes_along_what_it_hits(shape, speed, start):
     sim = simulation(gravity=NOWHERE)
     body = spawn(sim, 'body/0', shape, (0.0, 0.0, 0.3))
