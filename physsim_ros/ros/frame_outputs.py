@@ -37,14 +37,14 @@ class FrameOutputs:
 
     :param node: that owns the publishers
     :param values: of the parameters of the node, by name, always up to date
-    :param session: whose preview frames have
+    :param session: the drawing session, whose preview is added to each frame
 
     :ivar topics: the publishers of the world
     :ivar viewer: of the world
     :ivar sketchpad: of the world; None where it is not served
     :ivar statistics: cost of the frames
     :ivar frame: the last frame that was shown; None before the first
-    :ivar records_contacts: whether `frame` has contacts though nobody else receives them
+    :ivar records_contacts: whether `frame` has contacts even without subscriber, viewer and page
     """
 
     def __init__(self, node: Node, values: Mapping[str, Any], session: DrawingSession) -> None:
@@ -67,7 +67,7 @@ class FrameOutputs:
 
     @property
     def wants_contacts(self) -> bool:
-        """Whether contacts have a reader, a subscriber, a viewer or a page."""
+        """Whether a test, a subscriber, the viewer or a page reads contacts."""
         return (
             self.records_contacts
             or self.topics.contacts.subscriptions > 0
@@ -87,8 +87,8 @@ class FrameOutputs:
         self.topics.timeline.publish(status, moving=frame.moved)
         self._show(frame)
 
-    def publish_nothing_new(self) -> None:
-        """Publish the last frame to late subscribers; called at ticks without a frame."""
+    def republish(self) -> None:
+        """Publish the last frame to late subscribers; called at ticks without a new frame."""
         if self.frame is not None and self.frame.preview != self._session.preview:
             # Only the preview has changed: an unfinished gesture was dropped.
             self._show(replace(self.frame, answers=(), moved=False))

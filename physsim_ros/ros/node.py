@@ -39,8 +39,8 @@ from physsim_ros.sketchpad import WorldControl
 from rclpy.context import Context
 from rclpy.parameter import Parameter
 
-# Time of a tick after which no further publish period is simulated in it [ns]: requests, services
-# and signals wait so long at most, which a person hardly notices. At speed 64 a frame has 64.
+# Time after which a tick simulates no further publish period [ns]: requests, services and signals
+# wait at most so long, which a person hardly notices. At speed 64 a frame has 64 periods.
 MOST_TICK_NS = 100_000_000
 
 
@@ -265,7 +265,7 @@ class PhysSimNode(NodeWithoutQosEvents):
             self.publish_frame(frame)
         if not frames:
             self._report_answers()
-            self.outputs.publish_nothing_new()
+            self.outputs.republish()
             return
         last = frames[-1]
         if last.moved:

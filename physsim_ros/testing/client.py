@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""The node by which a test publishes requests, and hears the answers."""
+"""The node that publishes the requests of a test and receives the answers."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ class RequestClient:
         self._topic = ''
         self._received: list[DiagnosticStatus] = []
         executor.add_node(self.node)
-        executor.spin_until(self._is_matched, 'the world did not appear')
+        executor.spin_until(self._is_matched, 'the world was not discovered')
 
     def _is_matched(self) -> bool:
         """Return whether publishers and subscriptions are matched with those of the world."""

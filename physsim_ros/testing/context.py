@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""A context of ROS for one test, which no other process discovers."""
+"""A context of ROS for one test, which no other process can discover."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _PEERS = ('ROS_DISCOVERY_SERVER', 'ROS_STATIC_PEERS')
 
 @contextmanager
 def own_context(monkeypatch: pytest.MonkeyPatch) -> Iterator[Context]:
-    """Yield a context whose nodes find each other and no others, whatever their domain is."""
+    """Yield a context whose nodes discover each other and no others, whatever their domain is."""
     # Endpoints of one participant are matched without discovery.
     monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'OFF')
     for name in _PEERS:

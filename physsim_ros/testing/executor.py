@@ -45,12 +45,12 @@ class SettlingExecutor:
         """
         Spin until all messages have arrived, those in reaction to them too.
 
-        :raises TimeoutError: nodes answer each other without end
+        :raises TimeoutError: nodes keep answering each other
         """
         for _ in range(_MOST_ROUNDS):
             if self._spin_to_barrier() <= 1:
                 return
-        raise TimeoutError('nodes answer each other without end while time stands still')
+        raise TimeoutError('nodes keep answering each other while time is paused')
 
     def spin_until(
         self, predicate: Callable[[], object], otherwise: str, timeout: float = TIMEOUT

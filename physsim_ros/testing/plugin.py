@@ -62,7 +62,7 @@ def physsim(
 def pytest_runtest_makereport(
     item: pytest.Item, call: pytest.CallInfo[None]
 ) -> Generator[None, pytest.TestReport, pytest.TestReport]:
-    """Tell in the report of a failed test where bodies are, and where its recording is."""
+    """Add the poses of bodies and the path of the recording to the report of a failed test."""
     report = yield
     run = item.stash.get(_RUN, None)
     if call.when == 'call' and report.failed and run is not None:

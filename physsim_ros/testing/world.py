@@ -89,7 +89,7 @@ class PhysSim(ObservedWorld):
         :raises ValueError: the count is below 0
         """
         if frames < 0:
-            raise ValueError(f'time goes on by 0 frames or more, not by {frames}; seek goes back')
+            raise ValueError(f'frames must be >= 0; got {frames}; seek goes back')
         # Messages of the test's own publishers come first.
         self.settle()
         for _ in range(frames):
@@ -105,15 +105,15 @@ class PhysSim(ObservedWorld):
         frames = self._frames(seconds)
         if seconds and not frames:
             period = self.node.frame_period
-            raise ValueError(f'{seconds:g} s are not half a frame, which lasts {period:g} s')
+            raise ValueError(f'{seconds:g} s are less than half a frame of {period:g} s')
         self.step(frames)
 
     def until(self, predicate: Callable[[], object], *, timeout: float = 10.0) -> None:
         """
-        Advance by single frames until a predicate is true.
+        Advance frame by frame until a predicate is true.
 
-        :param timeout: simulation time after which it must be true [s]
-        :raises TimeoutError: it is not
+        :param timeout: simulation time [s]
+        :raises TimeoutError: it is not true after that time
         :raises ValueError: the timeout is below 0, or not finite
         """
         # The traceback of a failed test ends at its own line.
@@ -124,13 +124,13 @@ class PhysSim(ObservedWorld):
             self.step()
         if not predicate():
             raise TimeoutError(
-                f'not so within {timeout:g} simulated seconds\n{self.describe_state()}'
+                f'not true within {timeout:g} simulated seconds\n{self.describe_state()}'
             )
 
     def _frames(self, seconds: float) -> int:
         frames = seconds / self.node.frame_period
         if not 0.0 <= frames < math.inf:
-            raise ValueError(f'time goes on by 0 s or more, not for ever; so not by {seconds:g} s')
+            raise ValueError(f'seconds must be finite and >= 0; got {seconds:g} s')
         return round(frames)
 
     def seek(self, seconds: float) -> None:
@@ -153,7 +153,10 @@ class PhysSim(ObservedWorld):
 
     def spawn(self, marker: Marker | MarkerArray) -> str:
         """
-        Publish a marker, or an array of them, and return the name of the (last) body.
+        Publish a marker, or an array of markers, and return the name of the (last) body.
+
+        Many bodies are faster in one array: each request makes a frame of all bodies, which takes
+        7 µs a body.
 
         :raises Refused: with the code; of an array, the first refusal
         """
@@ -219,9 +222,9 @@ class PhysSim(ObservedWorld):
 
     def record_past(self, path: Path) -> None:
         """
-        Record all frames of the history in a `.rrd` file; nothing but this can be done after it.
+        Record all frames of the history in a `.rrd` file; the world cannot be used after it.
 
-        Other nodes hear nothing of it: the past is repeated from the log of requests.
+        Other nodes receive none of these frames: the past is replayed from the logged requests.
         """
         simulation = self.node.simulation
         status = simulation.status
@@ -235,7 +238,7 @@ class PhysSim(ObservedWorld):
         return self
 
     def __exit__(self, *_: object) -> None:
-        # Before its nodes, whose waitables it holds.
+        # The executor goes before its nodes, whose waitables it has.
         self._executor.shutdown()
         self._client.node.destroy_node()
         self.node.destroy_node()

@@ -174,8 +174,8 @@ def test_a_message_that_is_too_large_is_refused_before_it_is_decoded(
 
 # The beginning of a message, up to the number of elements of its first sequence.
 BEGINNINGS = {
-    MarkerArray: (b'', 'markers', cdr_reader.MOST_OF_MANY),
-    MultiDOFJointState: (bytes(12), 'joint_names', cdr_reader.MOST_OF_MANY),
+    MarkerArray: (b'', 'markers', cdr_reader.MOST_ELEMENTS),
+    MultiDOFJointState: (bytes(12), 'joint_names', cdr_reader.MOST_ELEMENTS),
     Path: (bytes(12), 'poses', MOST_SAMPLES),
 }
 

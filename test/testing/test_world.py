@@ -44,7 +44,7 @@ def test_time_that_cannot_pass_is_no_time(physsim: PhysSim, seconds: float) -> N
 def test_time_does_not_go_on_by_less_than_nothing(physsim: PhysSim) -> None:
     with pytest.raises(ValueError, match='seek'):
         physsim.step(-1)
-    with pytest.raises(ValueError, match='for ever'):
+    with pytest.raises(ValueError, match='finite'):
         physsim.until(lambda: False, timeout=math.inf)
     physsim.step(0)
     physsim.run(0.0)
@@ -199,5 +199,5 @@ def test_nodes_that_answer_each_other_for_ever_are_found_out(physsim: PhysSim) -
     physsim.add(one)
     physsim.add(Echo(physsim.context, 'other', 'pong', 'ping'))
     one.publisher.publish(Float64())
-    with pytest.raises(TimeoutError, match='without end'):
+    with pytest.raises(TimeoutError, match='keep answering'):
         physsim.step()

@@ -156,7 +156,7 @@ def _cross(body: Body, key: Key) -> Symbol:
 
 
 def hands_symbol(count: int) -> Symbol:
-    """Return the marker of so many hands: lines from their bodies, whose points a frame writes."""
+    """Return the marker of hands: a line from each dragged body; a frame writes the points."""
     points = ((0.0, 0.0),) * (2 * count)
     key = (HANDS, 0)
     return Symbol(key, Marker.LINE_LIST, (_HAND_WIDTH, 0.0, 0.0), points, _RAISED, _HAND)

@@ -81,13 +81,13 @@ _OF_NODE = {
     'frame_id': Spec(default='world', meaning='name of the world frame', read_only=True),
     'world_file': Spec(
         default='',
-        meaning='world loaded at start and by ~/load_world, written by ~/save_world: a path, or a '
-        'name: of a world in world_dir, else of a shipped one',
+        meaning='world loaded at start and by ~/load_world, written by ~/save_world: a path, or '
+        'the name of a world in world_dir, else of a shipped one',
     ),
     'world_dir': Spec(
         default='',
         meaning='after start, worlds are read and written only below this directory; empty is '
-        'physsim_ros/worlds in $XDG_DATA_HOME (~/.local/share), made when first needed',
+        'physsim_ros/worlds in $XDG_DATA_HOME (~/.local/share), created when first needed',
         read_only=True,
     ),
     'physics_rate': Spec(
@@ -115,55 +115,55 @@ _OF_NODE = {
     ),
     'tool': Spec(
         default='none',
-        meaning='what a click on clicked_point does; another one drops what is half drawn',
+        meaning='what a click on clicked_point does; setting it drops an unfinished gesture',
         choices=tuple(Tool),
     ),
     'history': Spec(
         default=600.0,
-        meaning='how far back the world can be rewound [s]; older steps are dropped',
+        meaning='how far back time can go [s]; older steps are dropped',
         low=0.0,
         high=86400.0,
     ),
     'history_memory': Spec(
         default=DEFAULT_MEMORY,
-        meaning='memory of the past [MB]: log, checkpoints, frames, courses that were left, what '
-        'was undone; when it is spent the oldest goes, and an event (history) says so',
+        meaning='memory of the past [MB]: requests, checkpoints, frames, courses that were left, '
+        'undone requests; when it is full the oldest is dropped, with an event (history)',
         low=LEAST_MEMORY,
         high=MOST_MEMORY,
     ),
     'publish_clock': Spec(default=True, meaning='whether the clock is published'),
     'publish_tf': Spec(
         default=False,
-        meaning='whether the pose of every body is published on /tf, too; needs tf2_msgs',
+        meaning='whether the pose of every body is also published on /tf; needs tf2_msgs',
         read_only=True,
     ),
     'viewer': Spec(
         default='auto',
         meaning='none, spawn (native Rerun), web (served on localhost), connect (to viewer_url), '
-        'auto (spawn where there is a display, else web); set again, it begins a recording '
-        'that has failed anew, in a file beside it',
+        'auto (spawn if there is a display, else web); setting it again restarts a recording '
+        'that has failed, in a new file beside the old one',
         choices=tuple(mode.value for mode in ViewerMode),
     ),
     'trace': Spec(
         default='',
-        meaning='names of bodies, separated by commas, whose way and flight the viewer shows',
+        meaning='names of bodies, separated by commas, whose path and flight the viewer shows',
     ),
     'viewer_url': Spec(default='', meaning='Rerun server to connect to', read_only=True),
     'record_file': Spec(default='', meaning='.rrd file written beside any viewer', read_only=True),
     'sketchpad': Spec(
         default='none',
-        meaning='none, or serve: the page in the browser, to draw on',
+        meaning='serve: the page in the browser is served, to draw on; none: it is not',
         choices=('none', 'serve'),
     ),
     'sketchpad_address': Spec(
         default='127.0.0.1',
-        meaning='address that the page is served on; another one than of loopback shows it to '
-        'the network',
+        meaning='address that the page is served on; any other than loopback exposes it to the '
+        'network',
         read_only=True,
     ),
     'sketchpad_port': Spec(
         default=8765,
-        meaning='port of the page; where it is taken, one of the next 20; 0 is any',
+        meaning='port of the page; if it is taken, one of the next 20; 0 is any free port',
         low=0,
         high=65535,
         read_only=True,
@@ -172,27 +172,27 @@ _OF_NODE = {
 # Parameters of the world and of drawing, whose defaults and ranges are those of the settings.
 _MEANINGS = {
     'iterations': 'solver iterations',
-    'gravity': f'of a length up to {STRONGEST:g} [m/s²]',
+    'gravity': f'acceleration, of a length up to {STRONGEST:g} [m/s²]',
     'damping': 'share of velocity lost to the air each second',
     'bounds': '[xmin, ymin, xmax, ymax] of walls around the world, each '
     f'{-LARGEST:g} .. {LARGEST:g} [m]; [] is none',
-    'density': 'of what is made next without saying [kg/m²]',
-    'friction': 'of what is made next without saying',
-    'elasticity': 'of what is made next without saying',
-    'draw_velocity': f'of what is drawn next, of a length up to {FASTEST:g} [m/s]',
-    'draw_color': f"of what is drawn next: '#rrggbb', '#rrggbbaa', or {AUTO}, one for each",
-    'snap': 'what is drawn as near as this to something is meant to meet it [m]',
-    'sketch_confidence': 'least confidence with which a stroke is taken for something',
-    'regroup': 'strokes that follow one another within this time are read together [s]; 0: none',
-    'beautify': 'how far a stroke may be from regular and still be meant so: angles [rad], '
-    'lengths as a share; 0 keeps it as it was drawn',
-    'wall_thickness': 'of walls that are drawn [m]',
+    'density': 'default of new bodies [kg/m²]',
+    'friction': 'default coefficient of new bodies',
+    'elasticity': 'default coefficient of restitution of new bodies',
+    'draw_velocity': f'of new drawn bodies, of a length up to {FASTEST:g} [m/s]',
+    'draw_color': f"of new drawn bodies: '#rrggbb', '#rrggbbaa', or {AUTO}, another one for each",
+    'snap': 'drawn ends move onto bodies within this distance [m]',
+    'sketch_confidence': 'least confidence at which a stroke is recognised',
+    'regroup': 'strokes within this time of one another are read together [s]; 0: each alone',
+    'beautify': 'tolerance of regularisation: angles [rad], lengths as a share; 0 keeps a stroke '
+    'as it was drawn',
+    'wall_thickness': 'of drawn walls [m]',
     'drag_force': 'greatest force of a hand, in weights of the body',
-    'command_timeout': 'of a wrench [s of simulation time]; 0 means no limit',
-    'max_bodies': 'a request past it is refused',
-    'max_shapes': 'convex pieces of all bodies; a request past it is refused',
-    'max_overlaps': 'pairs of pieces that would overlap at once; a request past it is refused',
-    'max_joints': 'a joint past it is refused',
+    'command_timeout': 'duration of a commanded wrench [s of simulation time]; 0 means no limit',
+    'max_bodies': 'most bodies; a request beyond it is refused',
+    'max_shapes': 'most convex pieces of all bodies; a request beyond it is refused',
+    'max_overlaps': 'most pairs of pieces that overlap at once; a request beyond it is refused',
+    'max_joints': 'most joints; a joint beyond it is refused',
 }
 
 

@@ -91,8 +91,8 @@ def _options(arguments: Sequence[str]) -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         prog='physsim_draw',
         description='Draw a drawing into a running world, stroke by stroke.',
-        epilog='It ends with 1 where a stroke was refused. '
-        f'Shipped drawings, as --list tells them: {", ".join(drawings())}.',
+        epilog='The exit code is 1 if a stroke was refused. '
+        f'Shipped drawings (--list): {", ".join(drawings())}.',
     )
     parser.add_argument(
         'drawing',
@@ -100,7 +100,7 @@ def _options(arguments: Sequence[str]) -> argparse.Namespace:
         'shipped drawing',
     )
     parser.add_argument(
-        '--list', action=_List, help='tell the shipped drawings and where they are, and exit'
+        '--list', action=_List, help='list the shipped drawings and their directory, and exit'
     )
     parser.add_argument(
         '--scale',
@@ -113,7 +113,7 @@ def _options(arguments: Sequence[str]) -> argparse.Namespace:
         nargs=2,
         default=(0.0, 0.0),
         metavar=('X', 'Y'),
-        help='where the lower left corner of the page lies [m] (default: the origin)',
+        help='position of the lower left corner of the drawing [m] (default: the origin)',
     )
     parser.add_argument(
         '--speed', type=_positive, default=4.0, help='of the pen [m/s] (default: %(default)g)'
@@ -122,11 +122,11 @@ def _options(arguments: Sequence[str]) -> argparse.Namespace:
         '--rate', type=_positive, default=100.0, help='of its samples [Hz] (default: %(default)g)'
     )
     parser.add_argument(
-        '--once', action='store_true', help='draw each stroke at once, not at the speed of the pen'
+        '--once',
+        action='store_true',
+        help='publish each stroke at once, not at the speed of the pen',
     )
-    parser.add_argument(
-        '--pause', action='store_true', help='let time stand still meanwhile, and play then'
-    )
+    parser.add_argument('--pause', action='store_true', help='pause time while drawing, then play')
     parser.add_argument(
         '--world', default='/physsim', help="the name of the world's node (default: %(default)s)"
     )
@@ -135,7 +135,7 @@ def _options(arguments: Sequence[str]) -> argparse.Namespace:
         '--patience',
         type=_positive,
         default=20.0,
-        help='how long to wait for the world, and for each answer [s] (default: %(default)g)',
+        help='timeout for finding the world, and for each answer [s] (default: %(default)g)',
     )
     return parser.parse_args(arguments)
 

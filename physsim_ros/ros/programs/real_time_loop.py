@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The loop of the program: ticks on time, and what others send in between.
+The loop of the program: ticks at the publish rate, and messages in between.
 
 Laws: a flood of messages does not stop time, and a world that is too slow for real time does not
 stop the answers. A timer of rclpy would wait behind all messages that have arrived before it:
@@ -17,15 +17,15 @@ import time
 from physsim_ros.ros.node import PhysSimNode
 from rclpy.executors import Executor
 
-# The longest time without looking for the end [s].
-_LOOK_OUT = 0.1
+# The longest wait for messages before the loop checks whether it is over [s].
+_LONGEST_SPIN = 0.1
 
 
 class RealTimeLoop:
     """
-    Advances a node and spins it in turns, on one thread.
+    Alternates between ticks of a node and the handling of its messages, on one thread.
 
-    :param node: that is advanced
+    :param node: whose ticks advance the world
     :param executor: that has the node
     :param is_over: whether the loop is to end
     """
@@ -60,7 +60,7 @@ class RealTimeLoop:
     def _spin_until(self, due: int) -> None:
         """Handle messages as they come, until a steady time [ns]."""
         while (left := (due - time.monotonic_ns()) * 1e-9) > 0.0 and not self._is_over():
-            self._executor.spin_once(timeout_sec=min(left, _LOOK_OUT))
+            self._executor.spin_once(timeout_sec=min(left, _LONGEST_SPIN))
 
     def _handle_waiting(self, latest: int) -> None:
         """Handle the messages that have arrived, at most until a steady time [ns]."""

@@ -70,7 +70,7 @@ class LatchedStream(Stream):
         self._age = 0
 
     def publish(self, frame: Frame) -> None:
-        """Publish a new frame; without subscribers, too, where the latched one has aged."""
+        """Publish a new frame; without subscribers only if the latched one is outdated."""
         super().publish(frame)
         self._age += 1
         changed = self._latched is None or self._latched.snapshot.scene is not frame.snapshot.scene

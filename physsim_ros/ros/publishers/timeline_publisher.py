@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-`~/timeline`: diagnostic_msgs/DiagnosticStatus, where the world is in its time.
+`~/timeline`: diagnostic_msgs/DiagnosticStatus, the time that is shown, and the history.
 
-Law: the last message is that of the last frame, but for times of a running world.
+Law: the last message is that of the last frame; while time runs, its times may be 15 frames old.
 """
 
 from __future__ import annotations

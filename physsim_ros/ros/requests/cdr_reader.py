@@ -2,12 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Values of a serialised message (CDR) one after the other, without a message object for each part.
+A reader of serialised messages (CDR), one value after the other, without an object for each part.
 
-Laws: what lies beyond the end of the message is `Truncated`, never read; the elements of a
-sequence are counted before the first is read. rclpy makes objects of
-100,000 poses, or of a command of 10,000 bodies, in tenths of seconds and more, during which the
-node does nothing else.
+Law: nothing beyond the end of the message is read; a value that is not whole is `Truncated`.
 """
 
 from __future__ import annotations
@@ -19,9 +16,9 @@ import numpy as np
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import Malformed
 
-# Bodies that one message may be about: as many as a world has at most by default (`max_bodies`).
-# rclpy takes 60 µs for each marker of an array, during which the node does nothing else.
-MOST_OF_MANY = 20_000
+# Greatest number of elements of a sequence: the default of parameter `max_bodies`. rclpy takes
+# 60 µs for each marker of an array, during which the node does nothing else.
+MOST_ELEMENTS = 20_000
 # Size of the header of CDR, from whose end on values are aligned to their size [bytes].
 _HEADER = 4
 # Size of a double [bytes].
@@ -29,7 +26,7 @@ _DOUBLE = 8
 
 
 class Truncated(ValueError):
-    """A message that breaks off."""
+    """A message that ends within a value."""
 
 
 class CdrReader:
@@ -56,13 +53,13 @@ class CdrReader:
         seconds, nanoseconds = self._stamp.unpack_from(self._data, begin)
         return int(seconds * 1_000_000_000 + nanoseconds)
 
-    def count(self, sequence: str, most: int = MOST_OF_MANY) -> int:
+    def count(self, sequence: str, most: int = MOST_ELEMENTS) -> int:
         """
         Return the number of elements of a sequence.
 
         :param sequence: its name in the message
         :param most: elements that it may have
-        :raises Truncated: there are more than bytes
+        :raises Truncated: there are more of them than bytes
         :raises Malformed: there are more than it may have
         """
         count = self._read_number()
@@ -81,7 +78,7 @@ class CdrReader:
         return bytes(self._data[begin:last]).decode(errors='replace')
 
     def doubles(self, rows: int, columns: int) -> Floats:
-        """Return (rows, columns) float64: as many doubles, read-only."""
+        """Return the next doubles, (rows, columns) float64, read-only."""
         if not rows:
             # Without a double there is nothing to align.
             return np.empty((0, columns))
@@ -96,9 +93,11 @@ class CdrReader:
 
     def _begin(self, alignment: int, size: int) -> int:
         """
-        Return where a value of so many bytes begins, and skip it.
+        Return the offset of the next value, and skip the value.
 
-        :raises Truncated: it is not all there
+        :param alignment: of the value [bytes]
+        :param size: of the value [bytes]
+        :raises Truncated: the message ends before the value does
         """
         begin = self._at + -self._at % alignment
         self._at = begin + size

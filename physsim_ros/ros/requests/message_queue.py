@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The queue of messages that have been taken from the middleware and wait to be decoded.
+The queue of messages that the middleware has delivered and that wait to be decoded.
 
 Laws: messages and calls of services are handled in the order in which they came; what waits is
 bounded in memory. The middleware itself bounds it by count alone (5,000 of Fast DDS, KEEP_ALL):
-arrays of 2 MB that came faster than they were decoded took a gigabyte, and keep it for ever.
+arrays of 2 MB that came faster than they were decoded took a gigabyte, which is never freed.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ _ENTRY = 512
 
 class MessageQueue:
     """
-    Messages that wait to be decoded, and what waits behind them.
+    Messages that wait to be decoded, and calls that wait behind them.
 
     :param node: whose executor handles one after the other, behind all messages that have arrived
     """
@@ -52,7 +52,7 @@ class MessageQueue:
 
     def add_call(self, call: Callable[[], None]) -> None:
         """
-        Call something behind the messages that wait; at once where none does.
+        Make a call behind the messages that wait; at once if no message waits.
 
         :raises Busy: too many wait; it is not called
         """
@@ -60,12 +60,12 @@ class MessageQueue:
         self._add(call, 0)
 
     def add_call_behind_arrived(self, call: Callable[[], None]) -> None:
-        """Call something behind the messages that the middleware has, and those that wait."""
+        """Make a call behind the messages of the middleware and those that wait."""
         if self._node.executor is not None:
             self._node.executor.create_task(self._add, call, 0)
 
     def _check_memory(self, size: int) -> None:
-        """Refuse as `Busy` what would not fit behind those that wait."""
+        """Raise `Busy` if an entry of a size [bytes] does not fit into the memory."""
         if self._waiting and self._size + size + _ENTRY > MOST_WAITING:
             raise Busy(f'{self._size / 2**20:.0f} MiB of messages wait to be decoded')
 

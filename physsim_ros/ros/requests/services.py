@@ -4,8 +4,8 @@
 """
 The services of the world, all std_srvs/Trigger.
 
-Laws: a service that is refused changes nothing, and its message says why; what it did, or why not,
-is told on `~/events`, too.
+Laws: a service that is refused changes nothing, and its message says why; `~/events` has the same
+message.
 """
 
 from __future__ import annotations
@@ -89,7 +89,7 @@ def create_services(
     on_success: Callable[[], None],
 ) -> None:
     """
-    Create services, which reply and tell the same sentence as an event.
+    Create services, whose response and event have the same message.
 
     :param node: that offers them
     :param services: by their names

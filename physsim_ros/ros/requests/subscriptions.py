@@ -4,9 +4,9 @@
 """
 Subscriptions of requests.
 
-Law: no message is lost in a burst, and one that cannot be decoded is answered, too. rclpy drops
-such a message without a word, so that messages arrive as bytes here and are decoded in the
-callback, or, large ones, one by one behind what has arrived.
+Law: no message of a burst is lost, and a message that cannot be decoded is answered. rclpy drops
+such a message silently; so messages arrive as bytes here. Small ones are decoded in the callback,
+large ones one at a time, behind all messages that have arrived (`message_queue`).
 """
 
 from __future__ import annotations
