@@ -67,7 +67,7 @@ class History:
     def oldest(self) -> int:
         """Return the oldest step that can be shown."""
         root, first = self.nodes[0], self.keyframes[0].step
-        # The step was shown before the request of the root, and with requests that are dropped.
+        # The root's step was shown without its request, and so it cannot be shown again.
         begins_later = root.step == first and not root.shown
         return min(self.head, max(first + begins_later, self.head - self._length))
 
@@ -309,6 +309,6 @@ class History:
         del self.keyframes[:place]
         del self.nodes[: root.serial - self._first]
         self.tree.make_root(root, keyframe)
-        # Also gestures that began before the root: their opening is no longer kept.
+        # A gesture that began before the root keeps its opening, the serial of a dropped node.
         self._openings = {each.gesture: each.opening for each in self.nodes}
         self._partings.clear()
