@@ -26,17 +26,16 @@ Ids = NDArray[np.uint64]
 _STATE = batch.BodyFields.POSITION | batch.BodyFields.ANGLE
 _STATE |= batch.BodyFields.VELOCITY | batch.BodyFields.ANGULAR_VELOCITY
 _ID_AND_STATE = (batch.BodyFields.BODY_ID | _STATE).value
-# Called by the engine for each body, for each pair of shapes that touch.
+# Functions of Pymunk that the engine calls for each body, and for each pair of touching shapes.
 _READ_BODY = ffi.addressof(lib, 'pmSpaceBodyGetIteratorFuncBatched')
 _READ_ARBITER = ffi.addressof(lib, 'pmSpaceArbiterIteratorFuncBatched')
-# Of all spaces: the memory that is written from is numpy's, which the engine may neither grow nor
-# free.
+# Shared by all spaces: its memory is NumPy's, which the engine may neither grow nor free.
 _WRITTEN = batch.Buffer()
 
 
 class _Numbers:
     """
-    Memory that Pymunk writes numbers to, freed with this; `batch.Buffer` of Pymunk 7.3 never is.
+    Memory that Pymunk writes numbers to, freed with this; `batch.Buffer` of Pymunk 7.3 leaks.
 
     :param memory: `pmFloatArray` or `pmIntArray`
     :param free: frees it
@@ -46,7 +45,7 @@ class _Numbers:
     def __init__(self, memory: Any, free: Any, kind: type[np.float64 | np.uint64]) -> None:
         self.memory = ffi.gc(memory, free)
         self._kind = kind
-        # The numbers as of the last reading, and where they lay.
+        # The numbers of the last reading, and their address.
         self._array: NDArray[Any] = np.empty(0, kind)
         self._place: Any = None
 
@@ -61,13 +60,13 @@ class _Numbers:
 
 class _Reading:
     """
-    Fields of all bodies, or of all contacts, in memory that stays from reading to reading.
+    Fields of all bodies or of all contacts, in memory that is used from reading to reading.
 
     `batch.get_space_bodies` and `get_space_arbiters` of Pymunk make a request and views anew each
     time, which takes three times as long for a few bodies.
 
-    :param each: calls a function for each of them
-    :param function: reads the fields of one
+    :param each: function of Chipmunk that iterates over bodies or contacts
+    :param function: function of Pymunk that reads the fields of one
     """
 
     def __init__(self, each: Callable[..., None], function: Any) -> None:
@@ -79,11 +78,11 @@ class _Reading:
         self._request.intArray = self._ints.memory
         self._request.floatArray = self._floats.memory
 
-    def read(self, space: pymunk.Space, fields: int) -> tuple[Ids, Floats]:
+    def read(self, pm_space: pymunk.Space, fields: int) -> tuple[Ids, Floats]:
         """Return the fields that are ids or counts, and those that are numbers."""
         self._ints.memory.num = self._floats.memory.num = 0
         self._request.fields = fields
-        self._each(space._space, self._function, self._request)  # noqa: SLF001
+        self._each(pm_space._space, self._function, self._request)  # noqa: SLF001
         return self._ints.array(), self._floats.array()
 
 
@@ -91,11 +90,11 @@ class BatchIO:
     """
     Reads and writes the bodies and contacts of a space as arrays.
 
-    :param space: of the engine
+    :param pm_space: of the engine
     """
 
-    def __init__(self, space: pymunk.Space) -> None:
-        self._space = space
+    def __init__(self, pm_space: pymunk.Space) -> None:
+        self._pm_space = pm_space
         self._bodies = _Reading(lib.cpSpaceEachBody, _READ_BODY)
         self._contacts = _Reading(lib.cpSpaceEachCachedArbiter, _READ_ARBITER)
 
@@ -107,7 +106,7 @@ class BatchIO:
             float64: x, y [m], yaw [rad], velocity [m/s], spin [rad/s], a view that the next
             reading overwrites
         """
-        ids, states = self._bodies.read(self._space, _ID_AND_STATE)
+        ids, states = self._bodies.read(self._pm_space, _ID_AND_STATE)
         return ids.tobytes(), states.reshape(-1, 6)
 
     def read_contacts(self, fields: batch.ArbiterFields) -> tuple[Ids, Floats]:
@@ -118,7 +117,7 @@ class BatchIO:
 
         :return: the fields that are ids or counts, and those that are numbers, pair after pair
         """
-        return self._contacts.read(self._space, fields.value)
+        return self._contacts.read(self._pm_space, fields.value)
 
     def write_states(self, states: Floats) -> None:
         """
@@ -128,4 +127,4 @@ class BatchIO:
         slots of those behind it.
         """
         _WRITTEN.set_float_buf(np.ascontiguousarray(states))
-        batch.set_space_bodies(self._space, _STATE, _WRITTEN)
+        batch.set_space_bodies(self._pm_space, _STATE, _WRITTEN)

@@ -7,7 +7,8 @@ One body in the engine: a description and its Pymunk objects.
 Laws: the engine's body has its origin at the centre of mass, so that a state is saved and restored
 without rounding (anchored bodies keep their own origin). The engine moves a body with the velocity
 of the step before; a velocity that leads by half a step of its acceleration makes free flight
-exact, so the engine's velocity leads while a body is in free flight, and what is reported never.
+exact, so the engine's velocity leads while a body is in free flight. Reported velocities never
+lead.
 """
 
 from __future__ import annotations
@@ -24,9 +25,9 @@ from physsim_ros.model.transform import NO_WRENCH, Point, Pose, REST, rotated, T
 import pymunk
 from pymunk._chipmunk_cffi import lib
 
-# Discs are smaller by this [m]: those that are placed side by side would overlap by rounding, and
-# an impact on a row of them would act on all at once. Ten times the rounding of a position within
-# a kilometre of the origin (1.1e-13 m).
+# Discs are made smaller by this [m]. Otherwise discs side by side overlap by rounding, and an
+# impact on a row acts on all discs at once. Ten times the rounding of a position within a
+# kilometre of the origin (1.1e-13 m).
 GRAZE = 1e-12
 
 
@@ -36,18 +37,18 @@ class RigidBody:
     A body and its engine objects; made by `build`.
 
     :param body: its description
-    :param engine: the Pymunk body
+    :param pm_body: the Pymunk body
     :param serial: number of the spawn; the body that is spawned later is the topmost one
-    :param first: the engine's number of its first shape
+    :param first_shape: the engine's number of its first shape
     :param free: in free flight, so that the engine's velocity leads
     :param wrench: force [N] and torque [N m] that act on the centre of mass
     :param wrench_until: step at which the wrench ends; None is never
     """
 
     body: Body
-    engine: pymunk.Body
+    pm_body: pymunk.Body
     serial: int
-    first: int = 0
+    first_shape: int = 0
     free: bool = True
     wrench: Wrench = NO_WRENCH
     wrench_until: int | None = None
@@ -60,8 +61,8 @@ class RigidBody:
     @property
     def pose(self) -> Pose:
         """Return the body's origin in the world [m, rad]."""
-        x, y = self.engine.position
-        yaw = self.engine.angle
+        x, y = self.pm_body.position
+        yaw = self.pm_body.angle
         offset_x, offset_y = rotated(self.offset, yaw)
         return x - offset_x, y - offset_y, yaw
 
@@ -69,8 +70,8 @@ class RigidBody:
     def pose(self, pose: Pose) -> None:
         x, y, yaw = pose
         offset_x, offset_y = rotated(self.offset, yaw)
-        self.engine.angle = yaw
-        self.engine.position = x + offset_x, y + offset_y
+        self.pm_body.angle = yaw
+        self.pm_body.position = x + offset_x, y + offset_y
         self._reindex()
 
     def lead(self, gravity: Point, dt: float) -> Twist:
@@ -81,11 +82,11 @@ class RigidBody:
         """
         Return the true velocity of the centre of mass [m/s] and spin [rad/s].
 
-        :param free: whether it is in free flight
+        :param free: whether the body is in free flight
         """
         ahead = self.lead(gravity, dt) if free else REST
-        vx, vy = self.engine.velocity
-        return vx - ahead[0], vy - ahead[1], self.engine.angular_velocity - ahead[2]
+        vx, vy = self.pm_body.velocity
+        return vx - ahead[0], vy - ahead[1], self.pm_body.angular_velocity - ahead[2]
 
     def set_twist(self, twist: Twist, gravity: Point, dt: float, *, free: bool = True) -> None:
         """
@@ -96,31 +97,31 @@ class RigidBody:
         if self.body.anchored:
             return
         ahead = self.lead(gravity, dt) if free else REST
-        self.engine.velocity = twist[0] + ahead[0], twist[1] + ahead[1]
-        self.engine.angular_velocity = twist[2] + ahead[2]
+        self.pm_body.velocity = twist[0] + ahead[0], twist[1] + ahead[1]
+        self.pm_body.angular_velocity = twist[2] + ahead[2]
         self.free = free
 
     def _reindex(self) -> None:
-        """Let queries and contacts find the body where it is now."""
-        if self.engine.space is not None:
-            index_at_rest(self.engine)
+        """Index the body in the broad phase where it is now."""
+        if self.pm_body.space is not None:
+            index_at_rest(self.pm_body)
 
 
-def index_at_rest(engine: pymunk.Body, *, ahead: float = 0.0) -> None:
+def index_at_rest(pm_body: pymunk.Body, *, ahead: float = 0.0) -> None:
     """
     Index the shapes of a body in its space as if it were at rest (see `stages.tight_boxes`).
 
     Pymunk's own attributes would take five times as long.
 
-    :param ahead: where it is after so long [s]
+    :param ahead: time after which it is where it is indexed [s]
     """
-    raw, space = engine._body, engine.space  # noqa: SLF001
+    raw, space = pm_body._body, pm_body.space  # noqa: SLF001
     if space is None:
         return
-    x, y, angle, velocity = *engine.position, engine.angle, lib.cpBodyGetVelocity(raw)
+    x, y, angle, velocity = *pm_body.position, pm_body.angle, lib.cpBodyGetVelocity(raw)
     lib.cpBodySetVelocity(raw, (0.0, 0.0))
     if ahead:
-        spin = engine.angular_velocity
+        spin = pm_body.angular_velocity
         lib.cpBodySetPosition(raw, (x + velocity.x * ahead, y + velocity.y * ahead))
         lib.cpBodySetAngle(raw, angle + spin * ahead)
         lib.cpSpaceReindexShapesForBody(space._space, raw)  # noqa: SLF001
@@ -161,44 +162,44 @@ def engine_motion(state: BodyState, settings: WorldSettings, dt: float) -> Motio
 def build(body: Body, serial: int) -> RigidBody:
     """Make the engine objects of a body, outside any space, at the origin and at rest."""
     if body.anchored:
-        engine = pymunk.Body(body_type=pymunk.Body.STATIC)
+        pm_body = pymunk.Body(body_type=pymunk.Body.STATIC)
     elif body.kinematic:
-        engine = pymunk.Body(body_type=pymunk.Body.KINEMATIC)
+        pm_body = pymunk.Body(body_type=pymunk.Body.KINEMATIC)
     else:
-        engine = pymunk.Body(body.total_mass, body.total_mass * body.shape.form.gyration)
-    rigid = RigidBody(body, engine, serial)
-    shapes = [_shape(piece, engine, rigid.offset) for piece in body.shape.form.pieces]
+        pm_body = pymunk.Body(body.total_mass, body.total_mass * body.shape.form.gyration)
+    rigid = RigidBody(body, pm_body, serial)
+    shapes = [_shape(piece, pm_body, rigid.offset) for piece in body.shape.form.pieces]
     _set_neighbors([shape for shape in shapes if isinstance(shape, pymunk.Segment)])
     for shape in shapes:
-        # The engine multiplies the two bodies' values; their square roots give the pair its
+        # The engine multiplies the values of two bodies. By their square roots a pair has the
         # geometric mean.
         shape.friction = math.sqrt(body.friction)
         shape.elasticity = math.sqrt(body.elasticity)
         shape.sensor = body.sensor
-        # Engine groups are unsigned; a negative group becomes a word of its own.
+        # Groups of the engine are unsigned.
         shape.filter = pymunk.ShapeFilter(group=body.group % 2**32)
     return rigid
 
 
-def _shape(piece: Piece, engine: pymunk.Body, offset: Point) -> pymunk.Shape:
+def _shape(piece: Piece, pm_body: pymunk.Body, offset: Point) -> pymunk.Shape:
     def local(point: Point) -> Point:
         return point[0] - offset[0], point[1] - offset[1]
 
     match piece:
         case Circle(center, radius):
-            return pymunk.Circle(engine, radius - GRAZE, local(center))
+            return pymunk.Circle(pm_body, radius - GRAZE, local(center))
         case Capsule(start, end, radius):
-            return pymunk.Segment(engine, local(start), local(end), radius)
+            return pymunk.Segment(pm_body, local(start), local(end), radius)
         case Convex(vertices):
-            return pymunk.Poly(engine, [local(vertex) for vertex in vertices])
+            return pymunk.Poly(pm_body, [local(vertex) for vertex in vertices])
 
 
 def _set_neighbors(segments: list[pymunk.Segment]) -> None:
     """
-    Tell segments which others begin and end where they do.
+    Set the neighbours of the segments of a chain.
 
-    The engine lets a round end push along the chain otherwise: a ball that rolls through a bend
-    meets the end of the next segment before its face, and is thrown off.
+    Without them a ball that rolls through a bend hits the round end of the next segment before its
+    face, and is thrown off.
     """
     before = {segment.b: segment.a for segment in segments}
     after = {segment.a: segment.b for segment in segments}

@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Body pool: engine bodies made ready for the next rebuild of the world, a few in every frame.
+Body pool: Pymunk's bodies for the next rebuild of the world, made a few in each frame.
 
-To build a thousand bodies at once, and to throw as many away, takes three times as long as all the
-rest of a checkpoint. The bodies of the space before this one are used again.
+To make a thousand bodies at once and to free as many takes three times as long as the rest of a
+checkpoint. Bodies of the space before this one are used again.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ class BodyPool:
     """
     Bodies outside any space, at rest and without contacts.
 
-    :param retired: a space that is used no more; None is none
+    :param retired: a space that is not used any more; None if there is none
     """
 
     def __init__(self, retired: Space | None = None) -> None:
@@ -32,12 +32,12 @@ class BodyPool:
         self._retired = retired
         if retired is not None:
             _clear_contacts(retired)
-        # The scene that is being built, and the row of the next body to look for.
+        # The scene of the next rebuild, and the row of the next body to make.
         self._scene: Scene | None = None
         self._row = 0
 
     def build_bodies(self, scene: Scene, count: int) -> None:
-        """Build up to a number of further bodies of a scene."""
+        """Make up to a number of further bodies of a scene."""
         while count and self._retired is not None and self._retired.bodies.by_name:
             rigid = _extract_body(self._retired)
             self.bodies[rigid.body.name] = rigid
@@ -55,27 +55,27 @@ class BodyPool:
 
 def _clear_contacts(space: Space) -> None:
     """
-    Clear the contacts of the engine, by a step with all bodies far from each other.
+    Clear the engine's contacts, by a step with all bodies far from each other.
 
-    For each shape that is removed it goes through all contacts that it remembers.
+    For each shape that is removed, Chipmunk searches all contacts that it caches.
     """
     space.joints.clear()
     rigids = space.bodies.by_name.values()
-    wake_bodies(rigid.engine for rigid in rigids)
+    wake_bodies(rigid.pm_body for rigid in rigids)
     state = np.zeros((len(rigids), 6))
-    # In an order at random, since those in ascending order make the engine's tree as deep as there
-    # are bodies: 20,000 took 4 s.
+    # In random order: in ascending order the engine's tree is as deep as there are bodies, and
+    # 20,000 took 4 s.
     state[:, 0] = np.random.default_rng(0).permutation(len(rigids)) * 1e6
     space.table.write_state(state)
-    space.engine.step(space.dt)
+    space.pm_space.step(space.dt)
 
 
 def _extract_body(space: Space) -> RigidBody:
     """Remove a body from a retired space and return it, at rest and without a wrench."""
     rigid = space.bodies.by_name.popitem()[1]
-    space.shapes.remove(rigid.engine.shapes)
-    space.engine.remove(rigid.engine)
-    # The last step has left a velocity by which the next one pushes overlaps apart.
-    pymunk.Body.update_position(rigid.engine, 0.0)
+    space.shapes.remove(rigid.pm_body.shapes)
+    space.pm_space.remove(rigid.pm_body)
+    # The last step left a bias velocity, by which the next one would push overlaps apart.
+    pymunk.Body.update_position(rigid.pm_body, 0.0)
     rigid.wrench, rigid.wrench_until, rigid.free = NO_WRENCH, None, True
     return rigid

@@ -18,7 +18,7 @@ from physsim_ros.engine.warm_start import ShapeIds
 from physsim_ros.model.transform import Point
 import pymunk
 
-# A point so near counts as inside [m]: on the seam of two pieces it lies inside neither.
+# Distance at which a point counts as inside [m]: on the seam of two pieces it lies inside neither.
 SEAM = 1e-9
 EVERYTHING = pymunk.ShapeFilter()
 
@@ -27,41 +27,41 @@ class BodySet:
     """
     Bodies in the engine.
 
-    :param engine: Pymunk's space
+    :param pm_space: Pymunk's space
     :param shapes: numbers of its shapes
 
     :ivar by_name: the bodies, in spawn order
     """
 
-    def __init__(self, engine: pymunk.Space, shapes: ShapeIds) -> None:
+    def __init__(self, pm_space: pymunk.Space, shapes: ShapeIds) -> None:
         self.by_name: dict[str, RigidBody] = {}
         self._names: dict[pymunk.Body, str] = {}
-        self._engine = engine
+        self._pm_space = pm_space
         self._shapes = shapes
 
     def add_without_shapes(self, rigids: Sequence[RigidBody]) -> None:
-        """Add bodies all at once, whose shapes are added under their old numbers later."""
+        """Add bodies at once; their shapes are added later, under their old numbers."""
         for rigid in rigids:
             self.by_name[rigid.body.name] = rigid
-            self._names[rigid.engine] = rigid.body.name
-        self._engine.add(*(rigid.engine for rigid in rigids))
+            self._names[rigid.pm_body] = rigid.body.name
+        self._pm_space.add(*(rigid.pm_body for rigid in rigids))
 
     def add(self, rigid: RigidBody) -> None:
-        """Add a body, in the place in the order that its name had if it was removed before."""
+        """Add a body; a name that was taken out before keeps its place in the order."""
         self.add_without_shapes([rigid])
-        rigid.first = self._shapes.add(rigid.engine.shapes)
+        rigid.first_shape = self._shapes.add(rigid.pm_body.shapes)
         self.wake_around(rigid)
 
     def take_out(self, rigid: RigidBody) -> None:
         """Remove a body from the engine; its name keeps its place in the order."""
-        self._shapes.remove(rigid.engine.shapes)
-        self._engine.remove(rigid.engine)
-        del self._names[rigid.engine]
+        self._shapes.remove(rigid.pm_body.shapes)
+        self._pm_space.remove(rigid.pm_body)
+        del self._names[rigid.pm_body]
 
     def at(self, point: Point) -> list[str]:
         """Return the bodies that cover a point of the world [m], the highest serial first."""
         names = set()
-        for hit in self._engine.point_query(point, SEAM, EVERYTHING):
+        for hit in self._pm_space.point_query(point, SEAM, EVERYTHING):
             if hit.shape is not None and hit.shape.body in self._names:
                 names.add(self._names[hit.shape.body])
         return sorted(names, key=lambda name: -self.by_name[name].serial)
@@ -78,40 +78,43 @@ class BodySet:
         Count the pairs of a box and a piece whose box overlaps it.
 
         :param boxes: left, bottom, right, top of each [m]
-        :param most: the count ends when it is greater
-        :param without: a body whose pieces do not count
-        :param moving_only: whether those of anchored bodies do not count
+        :param most: the count ends once it exceeds this
+        :param without: a body whose pieces are left out
+        :param moving_only: whether pieces of anchored bodies are left out
         """
         # All other shapes in the engine are those of bodies.
-        ignored = {*self._engine.static_body.shapes, *(() if without is None else without.shapes)}
+        ignored = {
+            *self._pm_space.static_body.shapes,
+            *(() if without is None else without.shapes),
+        }
         count = 0
         for box in boxes:
-            near = set(self._engine.bb_query(pymunk.BB(*box), EVERYTHING)) - ignored
+            near = set(self._pm_space.bb_query(pymunk.BB(*box), EVERYTHING)) - ignored
             if moving_only:
-                near = {shape for shape in near if _may_move(shape)}
+                near = {shape for shape in near if not _is_anchored(shape)}
             count += len(near)
             if count > most:
                 break
         return count
 
-    def touching(self, engine: pymunk.Body) -> list[RigidBody]:
-        """Return a body and those that touched it in the last step; none is the background."""
+    def touching(self, pm_body: pymunk.Body) -> list[RigidBody]:
+        """Return a body and those that touched it in the last step, but not the background."""
         found: list[pymunk.Body] = []
-        engine.each_arbiter(lambda arbiter: found.extend(arbiter.bodies))
+        pm_body.each_arbiter(lambda arbiter: found.extend(arbiter.bodies))
         names = dict.fromkeys(self._names[each] for each in found if each in self._names)
         return [self.by_name[name] for name in names]
 
     def wake_around(self, rigid: RigidBody, touching: Sequence[RigidBody] = ()) -> None:
         """
-        Wake what a body overlaps that does not move by itself, and what it touched before.
+        Wake what an anchored or kinematic body overlaps, and what it touched before.
 
-        :param touching: before it was moved
+        :param touching: bodies that it touched before it was moved
         """
         if not rigid.body.dynamic:
-            wake_bodies(each.engine for each in touching)
-            wake_overlapping(self._engine, rigid.engine)
+            wake_bodies(each.pm_body for each in touching)
+            wake_overlapping(self._pm_space, rigid.pm_body)
 
 
-def _may_move(shape: pymunk.Shape) -> bool:
-    """Return whether a shape is not that of an anchored body."""
-    return shape.body is not None and shape.body.body_type != pymunk.Body.STATIC
+def _is_anchored(shape: pymunk.Shape) -> bool:
+    """Return whether a shape is that of an anchored body."""
+    return shape.body is None or shape.body.body_type == pymunk.Body.STATIC

@@ -11,8 +11,8 @@ from physsim_ros.engine.warm_start import ShapeIds
 from physsim_ros.model.settings import WorldSettings
 import pymunk
 
-# Thickness [m]: the engine pushes a body out through the nearer face of a wall, so that one which
-# is up to half of this deep comes back in.
+# Thickness [m]: the engine pushes a body out through the nearer face of a wall, so that a body
+# that is up to half as deep comes back in.
 THICKNESS = 10.0
 
 
@@ -25,15 +25,15 @@ class Boundary:
     """
     Walls around a space.
 
-    :param space: that they are in, on its static body
+    :param pm_space: that they are in, on its static body
     :param shapes: numbers of its shapes
 
-    :ivar first: number of the first wall; 0 if there are none
+    :ivar first_shape: number of the first wall; 0 if there are none
     """
 
-    def __init__(self, space: pymunk.Space, shapes: ShapeIds) -> None:
-        self.first = 0
-        self._space = space
+    def __init__(self, pm_space: pymunk.Space, shapes: ShapeIds) -> None:
+        self.first_shape = 0
+        self._pm_space = pm_space
         self._shapes = shapes
         self._walls: list[pymunk.Shape] = []
 
@@ -44,7 +44,7 @@ class Boundary:
             # Pymunk 7.3: Body.shapes lists shapes that are not in the space any more, too.
             wall.body = None
         self._walls = []
-        self.first = 0
+        self.first_shape = 0
         if settings.bounds is None:
             return
         left, bottom, right, top = settings.bounds
@@ -54,8 +54,8 @@ class Boundary:
             pymunk.BB(left - THICKNESS, bottom - THICKNESS, right + THICKNESS, bottom),
             pymunk.BB(left - THICKNESS, top, right + THICKNESS, top + THICKNESS),
         ):
-            wall = pymunk.Poly.create_box_bb(self._space.static_body, box)
+            wall = pymunk.Poly.create_box_bb(self._pm_space.static_body, box)
             wall.friction = math.sqrt(settings.friction)
             wall.elasticity = math.sqrt(settings.elasticity)
             self._walls.append(wall)
-        self.first = self._shapes.add(self._walls)
+        self.first_shape = self._shapes.add(self._walls)

@@ -29,9 +29,9 @@ from physsim_ros.model.transform import NO_WRENCH
 
 def take_checkpoint(space: Space, step: int) -> Checkpoint:
     """
-    Return the checkpoint of a space.
+    Return the checkpoint of a space, which stays as it is.
 
-    Nothing in the space changes. Sleeping bodies have no velocity in it; in a space that is built
+    Sleeping bodies have no velocity in it; in a space that is built
     from it all bodies are awake.
 
     :param step: steps that the world has made
@@ -50,7 +50,7 @@ def take_checkpoint(space: Space, step: int) -> Checkpoint:
         memory=read_impulses(
             space.shapes,
             rigids,
-            space.boundary.first,
+            space.boundary.first_shape,
             without=shape_numbers(unsupported),
             joints=space.joints.impulses(),
         ),
@@ -153,7 +153,7 @@ def restore_checkpoint(
     for rigid, first, free in zip(
         rigids, checkpoint.memory.ids.tolist(), checkpoint.free.tolist(), strict=True
     ):
-        rigid.first, rigid.free = first, free
+        rigid.first_shape, rigid.free = first, free
     for row, wrench, until in checkpoint.wrenches:
         space.pipeline.wrenches.set_wrench(rigids[row], wrench, until)
     space.bodies.add_without_shapes(rigids)
@@ -161,8 +161,8 @@ def restore_checkpoint(
     at_rest = checkpoint.state.copy()
     at_rest[:, 3:] = 0.0
     table.write_state(at_rest)
-    space.shapes.put_back((rigid.first, rigid.engine.shapes) for rigid in rigids)
-    write_impulses(space.engine, space.shapes, checkpoint.memory, dt)
+    space.shapes.put_back((rigid.first_shape, rigid.pm_body.shapes) for rigid in rigids)
+    write_impulses(space.pm_space, space.shapes, checkpoint.memory, dt)
     table.write_state(checkpoint.state)
     for joint in checkpoint.scene.joints:
         space.joints.add(joint)

@@ -24,7 +24,7 @@ def reachable(marked: Flags, pairs: Rows) -> Flags:
     """
     Return (n,) bool: marked nodes, and all that are connected with one by pairs.
 
-    It takes as many rounds as the longest shortest path has pairs (breadth-first search).
+    Breadth-first search, in as many rounds as the longest shortest path has pairs.
 
     :param marked: (n,) bool
     :param pairs: (k, 2) intp: nodes that are connected

@@ -20,15 +20,15 @@ _REGULARISATION = 1e-10
 # Share of the greatest rate that is rounding, or comes from the regularisation.
 _ROUNDING = 1e-8
 # Greatest λ in units of the effective masses, as a multiple of the greatest rate. A single point
-# has 1, a body on another of an eighth of its mass 9. Without a bound is what no λ satisfies, as
-# the contacts of a body that is wedged between two that do not move.
+# has 1, a body on another of an eighth of its mass 9. A problem that no λ solves exceeds it, as
+# that of a body wedged between two that do not move.
 _GREATEST = 10.0
-# Exchanges at most: nearly all impacts take one or two, and no more than five were seen.
+# Greatest count of exchanges: nearly all impacts take one or two, and at most five were seen.
 _EXCHANGES = 10
 
 
 def product(a: Sequence[float], b: Sequence[float]) -> float:
-    """Return the sum of products, as far as both go."""
+    """Return the sum of products, up to the end of the shorter sequence."""
     total = 0.0
     for x, y in zip(a, b, strict=False):
         total += x * y

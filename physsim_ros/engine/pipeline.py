@@ -14,7 +14,7 @@ The pipeline: one step of the engine, stage by stage in this order.
 7. Joints: constraints are prepared for the poses of the step.
 8. Pymunk moves bodies, and finds contacts (broad and narrow phase).
 9. First touch: contacts that begin get the normal and the depth of their impact.
-10. Impact propagation: elastic contacts next to a faster impact are left open.
+10. Impact propagation: elastic contacts next to a faster impact are deferred.
 11. Block solver: points that are hit at once are solved together.
 12. Pymunk solves velocities, and puts islands to sleep.
 13. Joints: rows of joints and of contacts on jointed bodies are solved together, in velocities
@@ -55,17 +55,17 @@ class Pipeline:
     """
     The stages of a space.
 
-    :param engine: Pymunk's space
-    :param io: of it
+    :param pm_space: Pymunk's space
+    :param io: reads and writes its arrays
     :param shapes: numbers of its shapes
-    :param bodies: in it, by name
-    :param joints: in it
-    :param dt: of a step [s]
+    :param bodies: the bodies in it, by name
+    :param joints: the joints in it
+    :param dt: length of a step [s]
     """
 
     def __init__(
         self,
-        engine: pymunk.Space,
+        pm_space: pymunk.Space,
         io: BatchIO,
         shapes: ShapeIds,
         bodies: Mapping[str, RigidBody],
@@ -75,15 +75,15 @@ class Pipeline:
     ) -> None:
         self.wrenches = Wrenches()
         self.mouse_joints = MouseJoints(bodies)
-        self.half_step = HalfStep(engine, io)
+        self.half_step = HalfStep(pm_space, io)
         self.resting_damping = RestingDamping(io, dt)
-        self.continuous_collision = ContinuousCollision(engine, Hulls())
-        self._impact_propagation = ImpactPropagation(engine, io)
-        self._block_solver = BlockSolver(engine)
+        self.continuous_collision = ContinuousCollision(pm_space, Hulls())
+        self._impact_propagation = ImpactPropagation(pm_space, io)
+        self._block_solver = BlockSolver(pm_space)
         self.contact_report = ContactReport(io)
         self._joints = joints
-        self._engine = engine
-        self._hook = PreSolveHook(engine)
+        self._pm_space = pm_space
+        self._hook = PreSolveHook(pm_space)
         self._shapes = shapes
         self._dt = dt
 
@@ -94,8 +94,8 @@ class Pipeline:
         Make a step.
 
         :param table: the bodies
-        :param settings: of the world
-        :param age: steps made since the space was built
+        :param settings: settings of the world
+        :param age: count of steps since the space was built
         :param reports_contacts: whether contacts are reported
         """
         self.wrenches.apply_wrenches()
@@ -124,8 +124,8 @@ class Pipeline:
 
     def _before_solving(self, context: StepContext) -> None:
         """Correct the contacts that the engine has found, before it solves them."""
-        touches = correct_first_touches(self._engine, context)
-        self._impact_propagation.leave_open(context.table)
+        touches = correct_first_touches(self._pm_space, context)
+        self._impact_propagation.defer_contacts(context.table)
         if touches is None:
             return
         self._block_solver.solve_impacts(touches)

@@ -10,6 +10,8 @@ a wrench changes.
 
 from __future__ import annotations
 
+import math
+
 from physsim_ros.engine import body as rigid_body
 from physsim_ros.engine.batch_io import BatchIO
 from physsim_ros.engine.body import RigidBody, same_in_engine
@@ -18,13 +20,14 @@ from physsim_ros.engine.body_table import BodyTable
 from physsim_ros.engine.boundary import Boundary
 from physsim_ros.engine.joints.joint_set import JointSet
 from physsim_ros.engine.pipeline import Pipeline
-from physsim_ros.engine.settings import apply_settings, make_engine
+from physsim_ros.engine.settings import make_space
 from physsim_ros.engine.stages.half_step import StartState
-from physsim_ros.engine.warm_start import ShapeIds
+from physsim_ros.engine.stages.sleeping import wake_bodies
+from physsim_ros.engine.warm_start import scale_impulses, ShapeIds
 from physsim_ros.model.scene import Body, Joint, Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Grip
-from physsim_ros.model.transform import NO_WRENCH, Pose, REST, Twist, Wrench
+from physsim_ros.model.transform import NO_WRENCH, Point, Pose, REST, Twist, Wrench
 
 
 class Space:
@@ -35,25 +38,25 @@ class Space:
     :param dt: of a step [s]
     :param first_shape: number of the first wall of the boundary
 
-    :ivar engine: Pymunk's space
+    :ivar pm_space: Pymunk's space
     :ivar bodies: in it
     :ivar joints: between them
-    :ivar broken: joints that have broken, and the force that each bore then [N]; whoever reads it
-        empties it
-    :ivar changes: number of changes by everything but steps of the engine
+    :ivar broken: joints that have broken, with the force at which each did [N]; its reader empties
+        it
+    :ivar changes: count of changes other than steps
     """
 
     def __init__(self, settings: WorldSettings, dt: float, *, first_shape: int = 0) -> None:
         self.dt = dt
-        self.engine = make_engine()
-        self.shapes = ShapeIds(self.engine)
+        self.pm_space = make_space()
+        self.shapes = ShapeIds(self.pm_space)
         self.shapes.following = first_shape
-        self.bodies = BodySet(self.engine, self.shapes)
-        self.boundary = Boundary(self.engine, self.shapes)
-        self.joints = JointSet(self.engine, self.bodies.by_name, dt)
-        self._io = BatchIO(self.engine)
+        self.bodies = BodySet(self.pm_space, self.shapes)
+        self.boundary = Boundary(self.pm_space, self.shapes)
+        self.joints = JointSet(self.pm_space, self.bodies.by_name, dt)
+        self._io = BatchIO(self.pm_space)
         self.pipeline = Pipeline(
-            self.engine, self._io, self.shapes, self.bodies.by_name, self.joints, dt=dt
+            self.pm_space, self._io, self.shapes, self.bodies.by_name, self.joints, dt=dt
         )
         self.broken: list[tuple[str, float]] = []
         self.changes = 0
@@ -69,7 +72,7 @@ class Space:
 
     @property
     def age(self) -> int:
-        """Return how many steps were made in it."""
+        """Return the count of steps made in this space."""
         return self._age
 
     @property
@@ -85,7 +88,7 @@ class Space:
 
     def lay_out(self, scene: Scene) -> BodyTable:
         """Return a new table of the bodies."""
-        rigids, background = self.bodies.by_name.values(), self.engine.static_body
+        rigids, background = self.bodies.by_name.values(), self.pm_space.static_body
         self._table = BodyTable(scene, tuple(rigids), background, self._io, self.dt)
         return self._table
 
@@ -96,16 +99,23 @@ class Space:
 
     def twist_of(self, rigid: RigidBody) -> Twist:
         """Return the true velocity of a body."""
-        if rigid.engine.is_sleeping:
+        if rigid.pm_body.is_sleeping:
             return REST
         return rigid.twist(self._settings.gravity, self.dt, free=self._is_free(rigid))
 
     def configure(self, settings: WorldSettings) -> None:
-        """Replace the settings."""
+        """Replace the settings: gravity, damping, iterations, and the walls of `bounds`."""
         self._drop_table()
         old, self._settings = self._settings, settings
         self.changes += old != settings
-        apply_settings(self, old, settings)
+        if old.gravity != settings.gravity:
+            self._change_gravity(old.gravity, settings.gravity)
+        self.pm_space.damping = 1.0 - settings.damping
+        self.pm_space.iterations = settings.iterations
+        walls = (settings.bounds, settings.friction, settings.elasticity)
+        if walls != (old.bounds, old.friction, old.elasticity):
+            # A rebuilt wall has no cached impulses; bodies on it would lose their warm start.
+            self._rebuild_boundary()
 
     # Bodies
 
@@ -135,7 +145,7 @@ class Space:
             return
         rigid = rigid_body.build(body, old.serial)
         pose = self.joints.with_turns(old, pose)
-        touching = self.bodies.touching(old.engine)
+        touching = self.bodies.touching(old.pm_body)
         self.joints.detach(body.name)
         self._take_out(old)
         self._insert(rigid, pose, twist)
@@ -149,7 +159,7 @@ class Space:
     def remove(self, name: str) -> None:
         """Remove a body and its joints for good."""
         rigid = self.bodies.by_name[name]
-        touching = self.bodies.touching(rigid.engine)
+        touching = self.bodies.touching(rigid.pm_body)
         for joint in self.joints.names_on(name):
             self.unjoin(joint)
         self._take_out(rigid)
@@ -159,7 +169,7 @@ class Space:
 
     def set_pose(self, rigid: RigidBody, pose: Pose) -> None:
         """Set the pose of a body."""
-        touching = self.bodies.touching(rigid.engine)
+        touching = self.bodies.touching(rigid.pm_body)
         rigid.pose = self.joints.with_turns(rigid, pose)
         self.bodies.wake_around(rigid, touching)
         self.pipeline.continuous_collision.invalidate()
@@ -167,7 +177,7 @@ class Space:
         self._note_motion()
 
     def set_twist(self, rigid: RigidBody, twist: Twist) -> None:
-        """Set the velocity of a body: it flies freely then, unless joints bear it."""
+        """Set the velocity of a body, which is in free flight then unless it has joints."""
         free = self._is_free(rigid) or not self.joints.has_joints(rigid.body.name)
         rigid.set_twist(twist, self._settings.gravity, self.dt, free=free)
         self.pipeline.resting_damping.exempt_body(rigid)
@@ -176,7 +186,7 @@ class Space:
         self._note_motion()
 
     def set_wrench(self, rigid: RigidBody, wrench: Wrench, until: int | None) -> None:
-        """Let a wrench act from now on, to the step `until`; None is for ever."""
+        """Set the wrench on a body until a step; None is for ever."""
         twist, free = self.twist_of(rigid), self._is_free(rigid)
         self.pipeline.wrenches.set_wrench(rigid, wrench, until)
         if self._table is not None:
@@ -226,9 +236,9 @@ class Space:
         """
         Make a step.
 
-        :param number: steps that the world has made
+        :param number: count of steps of the world
         :param reports_contacts: whether contacts are reported
-        :return: bodies that have left the range of numbers, and were removed after it
+        :return: bodies that left the range of numbers, and were removed
         """
         for rigid in self.pipeline.wrenches.ended(number):
             self.set_wrench(rigid, NO_WRENCH, None)
@@ -249,6 +259,30 @@ class Space:
 
     # Inside
 
+    def _change_gravity(self, old: Point, new: Point) -> None:
+        """
+        Replace gravity: bodies wake, and true velocities stay.
+
+        A pile presses otherwise then; with its cached impulses the solver would throw it up.
+        """
+        rigids = list(self.bodies.by_name.values())
+        wake_bodies(rigid.pm_body for rigid in rigids)
+        share = _pressing_share(old, new)
+        if share < 1.0:
+            scale_impulses(self.shapes, share)
+        for rigid in rigids:
+            # If no share is left, nothing rests on anything any more.
+            if rigid.free or not (share or self.joints.has_joints(rigid.body.name)):
+                rigid.set_twist(rigid.twist(old, self.dt, free=rigid.free), new, self.dt)
+        self.pm_space.gravity = new
+
+    def _rebuild_boundary(self) -> None:
+        background = self.pm_space.static_body
+        touching = self.bodies.touching(background)
+        self.boundary.rebuild(self._settings)
+        self.pipeline.forget_body(background.id)
+        self.pipeline.half_step.release_bodies(touching)
+
     def _is_free(self, rigid: RigidBody) -> bool:
         """Return whether a body is in free flight."""
         if self._table is None:
@@ -268,7 +302,7 @@ class Space:
         self.changes += 1
         self.bodies.take_out(rigid)
         self.pipeline.wrenches.forget_body(rigid)
-        self.pipeline.forget_body(rigid.engine.id)
+        self.pipeline.forget_body(rigid.pm_body.id)
 
     def _note_motion(self) -> None:
         self.changes += 1
@@ -280,3 +314,13 @@ class Space:
         if self._table is not None:
             self._table.store_flags()
         self._table = None
+
+
+def _pressing_share(old: Point, new: Point) -> float:
+    """Return the share of the impulses under one gravity that bodies press with under another."""
+    before = math.hypot(*old)
+    if before == 0.0:
+        return 1.0
+    along = old[0] / before * new[0] + old[1] / before * new[1]
+    # No more than all of it: the pull of springs, and impacts, do not grow with gravity.
+    return min(max(along / before, 0.0), 1.0)

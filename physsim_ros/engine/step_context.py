@@ -20,10 +20,10 @@ class StepContext:
     :param table: the bodies
     :param settings: of the world
     :param dt: length of the step [s]
-    :param age: steps made since the space was built; stages that act every so many steps count
-        by it, so that a space restored from a checkpoint goes on alike
+    :param age: count of steps since the space was built; stages that act every n steps count by
+        it, so that a space restored from a checkpoint goes on alike
     :param reports_contacts: whether contacts are reported
-    :param poses: (n, 3) float64: of the engine's origins as the step begins [m, rad]
+    :param poses: (n, 3) float64: poses of Pymunk's bodies as the step begins [m, rad]
     :param twists: (n, 3) float64: velocities [m/s] and spins [rad/s] that the engine begins the
         step with; a stage that changes one in the engine changes it here too
     """

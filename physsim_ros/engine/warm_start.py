@@ -5,7 +5,7 @@
 Warm start: the engine's impulse cache, read for a checkpoint and written to a rebuilt space.
 
 The solver starts a step with the impulses of the step before. A space built anew from poses and
-velocities alone does not have them, and what rests stirs until the solver has found them again.
+velocities alone does not have them, and what rests moves until the solver has found them again.
 Pymunk 7.3 has no public way to read or set them; this goes the way of its own pickling, through
 `Space._get_arbiters` and Chipmunk's `cpArbiter.contacts` (`cpContact.jnAcc`, `jtAcc`, `hash`). It
 can go when Pymunk reads and writes contact impulses.
@@ -43,11 +43,11 @@ class ShapeIds:
     """
     The numbers by which the engine's contacts name the shapes of a space.
 
-    :param space: where they are
+    :param pm_space: where they are
     """
 
-    def __init__(self, space: pymunk.Space) -> None:
-        self._space = space
+    def __init__(self, pm_space: pymunk.Space) -> None:
+        self._pm_space = pm_space
         self._numbers: dict[Any, int] = {}
 
     def __len__(self) -> int:
@@ -56,17 +56,17 @@ class ShapeIds:
     @property
     def following(self) -> int:
         """Return the number that the next shape gets."""
-        number: int = lib.cpSpaceGetShapeIDCounter(self._space._space)
+        number: int = lib.cpSpaceGetShapeIDCounter(self._pm_space._space)
         return number
 
     @following.setter
     def following(self, number: int) -> None:
-        lib.cpSpaceSetShapeIDCounter(self._space._space, number)
+        lib.cpSpaceSetShapeIDCounter(self._pm_space._space, number)
 
     def add(self, shapes: Collection[pymunk.Shape]) -> int:
         """Add shapes to the space, and return the number of the first."""
         first = self.following
-        self._space.add(*shapes)
+        self._pm_space.add(*shapes)
         for number, shape in enumerate(shapes, first):
             self._numbers[shape._shape] = number
         return first
@@ -88,7 +88,7 @@ class ShapeIds:
         """Remove shapes from the space."""
         for shape in shapes:
             del self._numbers[shape._shape]
-        self._space.remove(*shapes)
+        self._pm_space.remove(*shapes)
 
     def contacts(self, sleeping: Iterable[pymunk.Body] = ()) -> _Points:
         """
@@ -99,7 +99,7 @@ class ShapeIds:
         listed: dict[Any, Any] = {}
         for body in sleeping:
             body.each_arbiter(lambda arbiter: listed.setdefault(arbiter._arbiter))
-        arbiters = [*self._space._get_arbiters(), *listed]
+        arbiters = [*self._pm_space._get_arbiters(), *listed]
         numbers = [(self._numbers[each.a], self._numbers[each.b]) for each in arbiters]
         # The lesser one first, whichever way round the engine has a pair.
         pairs = np.sort(np.array(numbers, dtype=np.int64).reshape(-1, 2), axis=1)
@@ -134,7 +134,7 @@ class _Points(NamedTuple):
             self.points[impulse][parted] = 0.0
 
     def write(self) -> None:
-        """Hand the points back to the engine."""
+        """Write the points to the memory of the engine."""
         data, begin = self.points.tobytes(), 0
         for block in self.blocks:
             end = begin + len(block)
@@ -143,7 +143,7 @@ class _Points(NamedTuple):
 
 
 def scale_impulses(shapes: ShapeIds, share: float) -> None:
-    """Let the engine start its next step with a share of all cached impulses."""
+    """Scale all cached impulses, from which the engine starts its next step."""
     found = shapes.contacts()
     found.scale(share)
     found.write()
@@ -152,13 +152,14 @@ def scale_impulses(shapes: ShapeIds, share: float) -> None:
 def shape_numbers(rigids: Iterable[RigidBody]) -> Ints:
     """Return the engine's numbers of all shapes of some bodies, (k,) int64."""
     numbers = (
-        range(rigid.first, rigid.first + len(rigid.body.shape.form.pieces)) for rigid in rigids
+        range(rigid.first_shape, rigid.first_shape + len(rigid.body.shape.form.pieces))
+        for rigid in rigids
     )
     return np.fromiter(itertools.chain.from_iterable(numbers), np.int64)
 
 
 def clear_impulses(shapes: ShapeIds, rigids: Iterable[RigidBody]) -> None:
-    """Let the engine start its next step without the cached impulses of some bodies."""
+    """Clear the cached impulses of some bodies, from which the engine starts its next step."""
     found = shapes.contacts()
     found.forget(shape_numbers(rigids))
     found.write()
@@ -176,7 +177,7 @@ def read_impulses(
     :param without: numbers of the shapes whose impulses count as zero
     :param joints: (c, 2) float64: impulses of the constraints
     """
-    found = shapes.contacts(rigid.engine for rigid in rigids if rigid.engine.is_sleeping)
+    found = shapes.contacts(rigid.pm_body for rigid in rigids if rigid.pm_body.is_sleeping)
     found.forget(without)
     _, pairs, points = found
     # The engine lists by address, which is never the same twice.
@@ -186,7 +187,7 @@ def read_impulses(
     order = order[(points['jnAcc'][order] != 0.0) | (points['jtAcc'][order] != 0.0)]
     points = points[order]
     return ImpulseCache(
-        ids=np.array([rigid.first for rigid in rigids], dtype=np.int64),
+        ids=np.array([rigid.first_shape for rigid in rigids], dtype=np.int64),
         walls=walls,
         following=shapes.following,
         pairs=pairs[order],
@@ -196,19 +197,21 @@ def read_impulses(
     )
 
 
-def write_impulses(space: pymunk.Space, shapes: ShapeIds, memory: ImpulseCache, dt: float) -> None:
+def write_impulses(
+    pm_space: pymunk.Space, shapes: ShapeIds, memory: ImpulseCache, dt: float
+) -> None:
     """
     Set the cached impulses of a space that has not stepped yet.
 
-    :param space: its bodies where they were, and without velocities, which are spoiled
+    :param pm_space: its bodies where they were, and without velocities, which are spoiled
     :param shapes: in it, under the numbers that they had
     :param dt: of its steps [s]
     """
     # A step in which nothing moves and nothing is pushed apart has the engine find the contacts.
-    gravity, iterations, bias = space.gravity, space.iterations, space.collision_bias
-    space.gravity, space.iterations, space.collision_bias = (0.0, 0.0), 1, 1.0
-    space.step(dt)
-    space.gravity, space.iterations, space.collision_bias = gravity, iterations, bias
+    gravity, iterations, bias = pm_space.gravity, pm_space.iterations, pm_space.collision_bias
+    pm_space.gravity, pm_space.iterations, pm_space.collision_bias = (0.0, 0.0), 1, 1.0
+    pm_space.step(dt)
+    pm_space.gravity, pm_space.iterations, pm_space.collision_bias = gravity, iterations, bias
     found = shapes.contacts()
     known, now = _same(memory, found)
     impulses = np.zeros((len(found.points), 2))

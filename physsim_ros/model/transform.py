@@ -64,6 +64,21 @@ def dots(a: Floats, b: Floats) -> Floats:
     return product
 
 
+def dot(a: complex, b: complex) -> float:
+    """
+    Return the dot product of two plane vectors as complex numbers, x + y i.
+
+    They are built into Python: for a few vectors ten times as fast as Pymunk's `Vec2d` or arrays.
+    """
+    return a.real * b.real + a.imag * b.imag
+
+
+def lengths(vectors: Floats) -> Floats:
+    """Return (...) float64: the lengths of plane vectors (..., 2)."""
+    length: Floats = np.hypot(vectors[..., 0], vectors[..., 1])
+    return length
+
+
 def next_vertices(vertices: Floats) -> Floats:
     """
     Return the vertex after each of a polygon, (n, 2) float64; the first follows the last.

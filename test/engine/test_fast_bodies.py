@@ -9,7 +9,7 @@ from collections.abc import Iterator
 
 import numpy as np
 from physsim_ros.engine.body_table import BodyTable
-from physsim_ros.engine.fast_bodies import EXTENSION, fast_bodies, fast_in_crowd
+from physsim_ros.engine.ccd.fast_bodies import EXTENSION, fast_bodies, fast_in_crowd
 from physsim_ros.model.arrays import Floats
 from physsim_ros.simulation.world import World
 

@@ -230,7 +230,7 @@ def test_a_body_that_is_faster_than_any_number_is_lost() -> None:
     world = World(settings=WorldSettings(gravity=(0.0, 0.0)))
     for number in range(3):
         spawn(world, f'a/{number}', BOX, (1.0 * number, 0.0, 0.0))
-    world.space.bodies.by_name['a/1'].engine.velocity = (1e300, 0.0)
+    world.space.bodies.by_name['a/1'].pm_body.velocity = (1e300, 0.0)
     assert 'a/1' in world.step(1)
     world.step(100)
     assert world.snapshot().scene.names[0] == 'a/0'

@@ -54,8 +54,8 @@ def put_load(sim, shape, ratio, middle, **said):
 def depth(sim):
     """Return how deep the load lies in a plank [m], by the engine's shapes."""
     bodies = sim.world.space.bodies.by_name
-    planks = [bodies[f'plank/{number}'].engine for number in range(PLANKS)]
-    (load,) = bodies['load/0'].engine.shapes
+    planks = [bodies[f'plank/{number}'].pm_body for number in range(PLANKS)]
+    (load,) = bodies['load/0'].pm_body.shapes
     return max(_overlap(load, shape) for plank in planks for shape in plank.shapes)
 
 

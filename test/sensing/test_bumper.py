@@ -16,7 +16,7 @@ from ..building import spawn
 
 def bumped(world, row, *bumpers):
     """Return what bumpers have felt in the frame of the next steps."""
-    world.watching = True
+    world.reports_contacts = True
     world.step(8)
     snapshot = world.snapshot()
     contacts = world.contacts(snapshot)

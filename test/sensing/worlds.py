@@ -42,7 +42,7 @@ def add_robot(world, name='robot/0', pose=(0.0, 0.0, 0.0), shape=None, **propert
 
 def engine_rays(world, origin, angles, reach):
     """Return (k,) float64: distances along rays by Chipmunk's own query [m]."""
-    space, everything = world.space.engine, pymunk.ShapeFilter()
+    space, everything = world.space.pm_space, pymunk.ShapeFilter()
     distances = []
     for angle in angles:
         x, y = reach * math.cos(angle), reach * math.sin(angle)

@@ -103,7 +103,7 @@ WORDS |= {
     for node in ast.walk(tree)
     if isinstance(node, ast.Constant) and isinstance(node.value, str)
 }
-WORDS |= {path.stem for path in (ROOT / 'test').rglob('*.py')}
+WORDS |= {path.stem for folder in ('test', 'config') for path in (ROOT / folder).rglob('*.*')}
 
 
 def _found_in(value, rest):

@@ -124,8 +124,8 @@ STAGES = (
     ),
     Stage(
         'impact propagation',
-        (((ImpactPropagation, 'leave_open'), _nothing),),
-        ((ImpactPropagation, 'leave_open'),),
+        (((ImpactPropagation, 'defer_contacts'), _nothing),),
+        ((ImpactPropagation, 'defer_contacts'),),
     ),
     Stage(
         'block solver',

@@ -105,7 +105,7 @@ class Bare:
     """
 
     def __init__(self, world: World) -> None:
-        ours = world.space.engine
+        ours = world.space.pm_space
         self.space = pymunk.Space()
         self.space.gravity, self.space.collision_slop = ours.gravity, ours.collision_slop
         for body in ours.bodies:

@@ -11,28 +11,27 @@ rest of the step the two move as one rigid body with their common momentum and a
 and by a kinematic one, and stops at an anchored one. The engine then finds the contact where the
 step ends, and resolves it from the velocities, which stay as they are.
 
-Laws: a centre of mass keeps its way but at what is anchored; a pair that overlaps is stopped only
-where it would come deeper; islands that do not meet do not know of each other.
+Laws: bodies that meet keep the displacement of their common centre of mass, unless one is anchored
+or kinematic; a pair that overlaps is stopped only where it would come deeper; islands that do not
+meet do not depend on each other.
 """
 
 from __future__ import annotations
 
 import numpy as np
-from physsim_ros.engine import chipmunk_memory as memory
+from physsim_ros.engine import memory
 from physsim_ros.engine.body_table import BodyTable
 from physsim_ros.engine.ccd.broad_phase import boxes_overlap
-from physsim_ros.engine.ccd.hulls import Hulls
+from physsim_ros.engine.ccd.fast_bodies import fast_bodies
+from physsim_ros.engine.ccd.hulls import Hulls, static_shapes, StaticShapes
 from physsim_ros.engine.ccd.impact_islands import ImpactIslands
-from physsim_ros.engine.ccd.static_shapes import static_shapes, StaticShapes
-from physsim_ros.engine.fast_bodies import fast_bodies
-from physsim_ros.engine.memory import indices_of
 from physsim_ros.engine.step_context import StepContext
-from physsim_ros.engine.work_correction import are_jointed, take_back_work
+from physsim_ros.engine.work_correction import are_jointed, corrected_twists
 from physsim_ros.model.arrays import Floats, Ints
 from physsim_ros.model.transform import dots
 import pymunk
 
-# So few fast bodies have their boxes compared first: it saves the rest, and changes no result.
+# Up to this many fast bodies, boxes are compared first: it saves time, and changes no result.
 FEW = 8
 
 
@@ -40,22 +39,22 @@ class ContinuousCollision:
     """
     Ends the coming step of fast bodies where they first hit something.
 
-    :param space: of the engine
+    :param pm_space: of the engine
     :param hulls: of its shapes
     """
 
-    def __init__(self, space: pymunk.Space, hulls: Hulls) -> None:
-        self._space = space
+    def __init__(self, pm_space: pymunk.Space, hulls: Hulls) -> None:
+        self._pm_space = pm_space
         self._hulls = hulls
         self._table: BodyTable | None = None
         self._static: StaticShapes | None = None
 
     def invalidate(self) -> None:
-        """Read shapes anew: a body that never moves by itself has been moved."""
+        """Read static shapes anew, since one of them has been moved."""
         self._table = None
 
     def clamp_moves(self, context: StepContext) -> None:
-        """Set back bodies by what they may not go in the coming step of the engine."""
+        """Set bodies back, so that the engine moves them to their first impact and no further."""
         table = context.table
         if table.all_slow:
             return
@@ -64,7 +63,7 @@ class ContinuousCollision:
         if not fast.any():
             return
         if self._table is not table or self._static is None:
-            static = static_shapes(self._space, table, self._hulls)
+            static = static_shapes(self._pm_space, table, self._hulls)
             self._table, self._static = table, static
         rows = np.flatnonzero(fast)
         if len(rows) <= FEW and not _boxes_meet(table, self._static, moves, rows):
@@ -77,21 +76,21 @@ class ContinuousCollision:
         """
         Set bodies back.
 
-        :param shifts: (k, 3) by how far [m, rad]
-        :param ways: (k, 2) of their centres of mass in the step [m]
+        :param shifts: (k, 3) displacements [m, rad]
+        :param ways: (k, 2) displacements of the centres of mass in the step [m]
         """
         if not len(rows):
             return
-        engines = [context.table.bodies[row].engine for row in rows.tolist()]
-        for engine, (x, y, turn) in zip(engines, shifts.tolist(), strict=True):
-            engine.position += (x, y)
-            engine.angle += turn
-        # As far as another body carries it, that is none of its own way.
+        pm_bodies = [context.table.bodies[row].pm_body for row in rows.tolist()]
+        for pm_body, (x, y, turn) in zip(pm_bodies, shifts.tolist(), strict=True):
+            pm_body.position += (x, y)
+            pm_body.angle += turn
+        # Correct only a body's own motion, not motion imparted by another body.
         shares = -dots(ways, shifts[:, :2]) / np.maximum(dots(ways, ways), 1e-300)
         backs = -ways * np.clip(shares, 0.0, 1.0)[:, None]
-        places = indices_of(engines)
+        places = memory.places_of(pm_bodies)
         states = memory.read_numbers(places, memory.BODY_WORDS)
-        twists = take_back_work(context, states, backs)
+        twists = corrected_twists(context, states, backs)
         loose = ~are_jointed(context, rows)
         context.twists[rows[loose]] = twists[loose]
         memory.write_numbers(places[loose], memory.BODY_TWIST, twists[loose])

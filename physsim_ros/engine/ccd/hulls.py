@@ -1,8 +1,11 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
+"""
+Hulls: the convex shapes of the engine as arrays, each made when it is first needed.
 
-"""Hulls: the convex shapes of the engine as arrays, each made when it is first needed."""
+Those of shapes that never move are in world coordinates.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +13,9 @@ from typing import cast, NamedTuple
 from weakref import WeakKeyDictionary
 
 import numpy as np
-from physsim_ros.model.arrays import Floats
+from physsim_ros.engine.body_table import BodyTable
+from physsim_ros.engine.scene_columns import ROUND_COST
+from physsim_ros.model.arrays import Floats, Ints
 from physsim_ros.model.transform import next_vertices, rotated_each
 import pymunk
 
@@ -69,3 +74,35 @@ def hull_of(shape: pymunk.Shape) -> Hull:
     lengths = np.hypot(edges[:, 0], edges[:, 1])[:, None]
     normals = np.column_stack((edges[:, 1], -edges[:, 0])) / np.where(lengths, lengths, 1.0)
     return Hull(corners, normals, radius, float(np.hypot(*corners.T).max()))
+
+
+class StaticShapes(NamedTuple):
+    """
+    Shapes that never move.
+
+    :ivar hulls: in the world
+    :ivar boxes: (s, 4) float64: left, bottom, right, top [m]
+    :ivar places: (s,) int64: rows of their bodies in the table; -1 is the background
+    :ivar corners: (s,) float64: of each, the cost of continuous collision
+    """
+
+    hulls: list[Hull]
+    boxes: Floats
+    places: Ints
+    corners: Floats
+
+
+def static_shapes(pm_space: pymunk.Space, table: BodyTable, hulls: Hulls) -> StaticShapes:
+    """Return all shapes that never move, but sensors."""
+    bodies = [(pm_space.static_body, -1)]
+    for row, rigid in enumerate(table.bodies):
+        if rigid.body.anchored and not rigid.body.sensor:
+            bodies.append((rigid.pm_body, row))
+    shapes = [(shape, body, place) for body, place in bodies for shape in body.shapes]
+    placed = [hulls.of_shape(shape).placed_on(body) for shape, body, _ in shapes]
+    return StaticShapes(
+        hulls=placed,
+        boxes=np.array([tuple(shape.bb) for shape, *_ in shapes], np.float64).reshape(-1, 4),
+        places=np.array([place for *_, place in shapes], np.int64),
+        corners=np.array([max(len(each.corners), ROUND_COST) for each in placed], np.float64),
+    )

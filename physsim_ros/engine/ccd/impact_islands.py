@@ -17,22 +17,21 @@ from typing import NamedTuple
 import numpy as np
 from physsim_ros.engine.body_table import BodyTable
 from physsim_ros.engine.ccd.broad_phase import boxes_overlap
-from physsim_ros.engine.ccd.hulls import Hull, Hulls
-from physsim_ros.engine.ccd.static_shapes import StaticShapes
+from physsim_ros.engine.ccd.hulls import Hull, Hulls, StaticShapes
 from physsim_ros.engine.ccd.swept_boxes import SweptBoxes
 from physsim_ros.engine.ccd.time_of_impact import first_impacts, Motions, Pairs
 from physsim_ros.engine.graph_search import ranges
-from physsim_ros.engine.tolerances import COLLISION_SLOP
+from physsim_ros.engine.settings import COLLISION_SLOP
 from physsim_ros.model.arrays import Flags, Floats, Ints
 from physsim_ros.model.transform import cross, dots
 
-# Impacts one after the other in a step that a body takes part in, at most: so many may touch in a
-# row before a wall. The engine's own result holds for what is left.
+# Greatest count of successive impacts of a body in a step, as in a row of bodies before a wall.
+# Beyond it the engine's own result holds.
 ROUNDS = 10
 
 
 class Impact(NamedTuple):
-    """Two rows that meet, and at which share of the step."""
+    """Two rows that meet, and the share of the step at which they do."""
 
     share: float
     one: int
@@ -55,7 +54,7 @@ class ImpactIslands:
         moves: Floats,
         hulls: Hulls,
     ) -> None:
-        self._engines = [rigid.engine for rigid in table.bodies]
+        self._pm_bodies = [rigid.pm_body for rigid in table.bodies]
         self._columns = columns = table.columns
         poses = table.state[:, :3]
         self._static = static
@@ -84,7 +83,7 @@ class ImpactIslands:
 
     def shifts(self, fast: Flags) -> tuple[Ints, Floats]:
         """
-        Return the places of bodies that end elsewhere than in the engine, and by how far.
+        Return the rows of bodies that end elsewhere than in the engine, and their shifts.
 
         :param fast: (m,) bool: bodies that could meet others unseen by the engine
         :return: (k,) rows, and (k, 3) float64 shifts [m, rad]
@@ -147,7 +146,7 @@ class ImpactIslands:
     def _hulls_of(self, row: int) -> list[Hull]:
         if row >= self._count:
             return [self._static.hulls[row - self._count]]
-        return self._hulls.of_body(self._engines[row])
+        return self._hulls.of_body(self._pm_bodies[row])
 
     def _collide(self, one: Ints, other: Ints) -> Flags:
         """Tell which pairs do not pass through each other, and are not one island yet."""
@@ -219,7 +218,7 @@ class ImpactIslands:
         motions = self._motions
         poses, pivots = motions.poses_at(members, shares)
         if leaders:
-            # Anchored bodies come last, and hold what a kinematic one pushes against them.
+            # Anchored shapes come last: they stop what a kinematic body pushes against them.
             leader = max(leaders)
             _, (pivot,) = motions.poses_at(np.array([leader]), shares[:1])
             rate = motions.rates[leader]
@@ -241,9 +240,9 @@ class ImpactIslands:
 
         :return: (2,) their centre of mass [m], and (3,) its way and their turn in a step [m, rad]
         """
-        engines = [self._engines[row] for row in rows.tolist()]
-        mass = np.array([engine.mass for engine in engines])[:, None]
-        moment = np.array([engine.moment for engine in engines])
+        pm_bodies = [self._pm_bodies[row] for row in rows.tolist()]
+        mass = np.array([pm_body.mass for pm_body in pm_bodies])[:, None]
+        moment = np.array([pm_body.moment for pm_body in pm_bodies])
         moment[self._turning[rows] == 0.0] = 0.0
         rates = self._motions.rates[rows]
         arms = poses[:, :2] - pivots

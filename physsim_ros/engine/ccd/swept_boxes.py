@@ -27,8 +27,8 @@ from physsim_ros.model.arrays import Flags, Floats, Ints
 # Pairs of corners that an island may compare in a round of impacts: those of 125 boxes that
 # all may meet each other, or of one box and 15,000 others.
 BUDGET = 250_000
-# Times that a horizon is brought nearer, before a body is not followed at all. The count of pairs
-# grows with the fourth power of the way or less.
+# Greatest count of cuts of a horizon, after which a body is not followed at all. The count of
+# pairs grows with the fourth power of the displacement or less.
 _CUTS = 8
 # Pairs of boxes that are compared at once: some 30 MB.
 _PART = 100_000

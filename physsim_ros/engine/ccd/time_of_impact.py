@@ -18,18 +18,13 @@ from typing import NamedTuple
 
 import numpy as np
 from physsim_ros.engine.ccd.hulls import Hull
+from physsim_ros.engine.scene_columns import SAFE_SHARE
 from physsim_ros.model.arrays import Flags, Floats, Ints
-from physsim_ros.model.transform import cross, dots, rotated_each
+from physsim_ros.model.transform import cross, dots, lengths, rotated_each
 
-# A pair that approaches by less than this share of the lesser inner radius in a step needs no time
-# of impact: each keeps its centre well on the side it came from.
-SAFE_SHARE = 0.25
 # Advances of a pair in a step, at most: straight motion takes two or three, a fast turning stick
 # that grazes a disc about twenty. A pair that takes more ends its step as far as it has come.
 _ADVANCES = 24
-# Corners of a polygon whose time of impact costs as much as that of a round shape, most of which
-# does not depend on the corners (measured: a disc 36 us, a square 56 us).
-ROUND_COST = 4
 # Products of the corners of two shapes that are compared at once: some 30 MB.
 _PART = 200_000
 # Shapes have met when they overlap to within this share of the skin.
@@ -127,7 +122,7 @@ def _advance(motions: Motions, pairs: Pairs) -> Floats:
     radii = radii[pairs.shapes[0]] + radii[pairs.shapes[1]]
     reaches = np.array([each.reach for each in pairs.hulls])[np.stack(pairs.shapes)]
     for rows, reach in zip(pairs.rows, reaches, strict=True):
-        np.add(reach, _length(motions.poses[rows, :2] - motions.pivots[rows]), out=reach)
+        np.add(reach, lengths(motions.poses[rows, :2] - motions.pivots[rows]), out=reach)
     target, live = -skin, np.arange(len(one))
     for advance in range(_ADVANCES):
         now, rows_a, rows_b = shares[live], one[live], other[live]
@@ -212,7 +207,7 @@ def _speed_bound(
     :param lapse: (k,) what is left of the step
     """
     relative = rates[0][:, :2] - rates[1][:, :2]
-    length = _length(relative)
+    length = lengths(relative)
     turns = np.abs(rates[0][:, 2]), np.abs(rates[1][:, 2])
     bound: Floats = (relative * axis).sum(axis=1) + turns[0] * reaches[0] + turns[1] * reaches[1]
     for side in (0, 1):
@@ -223,14 +218,8 @@ def _speed_bound(
 
 def _farthest(side: _Side, points: Floats) -> Floats:
     """Return (k,) the greatest distance of a corner from a point [m]."""
-    distance: Floats = _length(side.corners - points[:, None]).max(axis=1)
+    distance: Floats = lengths(side.corners - points[:, None]).max(axis=1)
     return distance
-
-
-def _length(vectors: Floats) -> Floats:
-    """Return (...) the lengths of vectors (..., 2)."""
-    length: Floats = np.hypot(vectors[..., 0], vectors[..., 1])
-    return length
 
 
 def _contact_points(a: _Side, b: _Side, axis: Floats, of_a: Flags) -> Floats:

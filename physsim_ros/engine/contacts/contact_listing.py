@@ -169,7 +169,7 @@ def set_wall_manifolds(
         return
     for overlap in overlaps.tolist():
         row = contacts.pairs[overlap, 0]
-        boxes = [shape.bb for shape in table.bodies[row].engine.shapes]
+        boxes = [shape.bb for shape in table.bodies[row].pm_body.shapes]
         depths = (
             bounds[0] - min(box.left for box in boxes),
             bounds[1] - min(box.bottom for box in boxes),

@@ -25,7 +25,12 @@ from physsim_ros.engine.contacts.contact_listing import (
     set_overlap_manifolds,
     set_wall_manifolds,
 )
-from physsim_ros.engine.contacts.manifolds import LastManifolds, NO_MANIFOLDS
+from physsim_ros.engine.contacts.manifolds import (
+    LastManifolds,
+    NO_MANIFOLDS,
+    read_sleeping_pairs,
+    SleepingPairs,
+)
 from physsim_ros.engine.contacts.pair_ids import (
     find_pairs,
     NO_PAIRS,
@@ -33,7 +38,6 @@ from physsim_ros.engine.contacts.pair_ids import (
     Renaming,
     same_ids,
 )
-from physsim_ros.engine.contacts.sleeping_pairs import read_sleeping_pairs, SleepingPairs
 from physsim_ros.engine.contacts.touches import Touches
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.snapshot import Contacts, NO_CONTACTS
@@ -43,7 +47,7 @@ _F = batch.ArbiterFields
 _PAIRS_AND_IMPULSES = _F.BODY_A_ID | _F.BODY_B_ID | _F.TOTAL_IMPULSE
 _MANIFOLDS = _F.BODY_A_ID | _F.NORMAL | _F.CONTACT_COUNT
 _MANIFOLDS |= _F.POINT_A_1 | _F.POINT_B_1 | _F.POINT_A_2 | _F.POINT_B_2
-# Greatest count of steps whose parted pairs are kept apart before they are merged.
+# Greatest count of steps whose parted pairs are listed by step before they are merged.
 _MOST_STEPS = 16
 
 

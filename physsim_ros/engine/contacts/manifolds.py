@@ -4,30 +4,40 @@
 """
 Manifolds: the contact points of two bodies, with their normal.
 
-A manifold is a column of five numbers: normal, from the body of the lesser id to the other one;
+The engine does not list pairs that sleep or have parted; those keep their last known manifolds. A
+manifold is a column of five numbers: normal, from the body of the lesser id to the other one;
 count of points; mean point [m].
 """
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from physsim_ros.engine.batch_io import Ids
-from physsim_ros.engine.contacts.contact import Contact
+from physsim_ros.engine.body_table import BodyTable
 from physsim_ros.engine.contacts.pair_ids import find_pairs, NO_PAIRS, Renaming
-from physsim_ros.model.arrays import Floats
+from physsim_ros.model.arrays import Floats, Ints
+import pymunk
+from pymunk._chipmunk_cffi import lib
+
+# ruff: noqa: SLF001 - Pymunk reads a manifold in a microsecond only so
 
 NO_MANIFOLDS: Floats = np.empty((5, 0))
 
 
-def manifold_of(contact: Contact, sign: int) -> tuple[float, ...]:
+def _read_manifold(arbiter: pymunk.Arbiter, sign: int) -> tuple[float, ...]:
     """
-    Return the manifold of a contact.
+    Return the manifold of two shapes that touch.
 
     :param sign: -1 where the engine has the body of the greater id first, else 1
     """
-    normal, count = sign * contact.normal, len(contact.points)
-    mean = sum((each.a + each.b) / 2 for each in contact.points) / max(1, count)
-    return normal.real, normal.imag, count, mean.real, mean.imag
+    found = lib.cpArbiterGetContactPointSet(arbiter._arbiter)
+    points = [found.points[number] for number in range(found.count)]
+    count = max(1, found.count)
+    x = sum((point.pointA.x + point.pointB.x) / 2 for point in points) / count
+    y = sum((point.pointA.y + point.pointB.y) / 2 for point in points) / count
+    return sign * found.normal.x, sign * found.normal.y, found.count, x, y
 
 
 class LastManifolds:
@@ -83,3 +93,48 @@ def _renamed(pairs: Ids, manifolds: Floats, renaming: Renaming) -> tuple[Ids, Fl
     """Return pairs under their other ids, with their manifolds."""
     ids, rows = renaming.rename_pairs(pairs, manifolds.T)
     return ids, rows.T
+
+
+class SleepingPairs(NamedTuple):
+    """
+    Touching pairs of which a body sleeps.
+
+    :ivar ids: (k, 2) uint64: the engine's ids of the bodies, the lesser one first
+    :ivar impulses: (k, 2) float64: of their last step awake [N s]
+    :ivar manifolds: (5, k) float64: their last ones
+    """
+
+    ids: Ids = NO_PAIRS
+    impulses: Floats = np.empty((0, 2))
+    manifolds: Floats = NO_MANIFOLDS
+
+    def without_body(self, body: int) -> SleepingPairs:
+        """Return the pairs without those of a body, by its id."""
+        stays = (self.ids != body).all(axis=1)
+        return SleepingPairs(self.ids[stays], self.impulses[stays], self.manifolds[:, stays])
+
+
+def read_sleeping_pairs(table: BodyTable, rows: Ints) -> SleepingPairs:
+    """
+    Return the sleeping pairs as the engine keeps them, shape by shape.
+
+    :param rows: of sleeping bodies; the pairs of other ones are left out
+    """
+    found: dict[object, tuple[tuple[int, int], tuple[float, float], tuple[float, ...]]] = {}
+
+    def add_arbiter(arbiter: pymunk.Arbiter) -> None:
+        a, b = (body.id for body in arbiter.bodies)
+        sign = 1 if a < b else -1
+        impulse = sign * arbiter.total_impulse
+        manifold = _read_manifold(arbiter, sign)
+        # By the pair of shapes.
+        found[arbiter._arbiter] = (min(a, b), max(a, b)), (impulse.x, impulse.y), manifold
+
+    for row in rows.tolist():
+        table.bodies[row].pm_body.each_arbiter(add_arbiter)
+    if not found:
+        return SleepingPairs()
+    ids, impulses, manifolds = zip(*found.values(), strict=True)
+    return SleepingPairs(
+        np.array(ids, np.uint64), np.array(impulses, np.float64), np.array(manifolds, np.float64).T
+    )

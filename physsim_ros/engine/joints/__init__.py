@@ -7,5 +7,5 @@ Joints: Pymunk's constraints without their bias, and a direct solve after the en
 A file a kind has its constraints and its constraint rows; `joint_solver` solves them together
 with the contacts of jointed bodies. Not here: properties and ranges of a kind (`model.joints`),
 and which bodies a joint is between (`simulation.world.joint_requests`). Start with `joint_set`,
-then `kind` and `axle`.
+then `constraint_rows` and `axle`.
 """

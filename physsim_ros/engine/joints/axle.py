@@ -12,8 +12,9 @@ from __future__ import annotations
 
 import math
 
-from physsim_ros.engine.joints import rows
-from physsim_ros.engine.joints.kind import Batch, Ends, EQUAL, Kind
+from physsim_ros.engine.joints import constraint_rows as rows
+from physsim_ros.engine.joints.constraint_rows import Batch, EQUAL, Kind
+from physsim_ros.engine.joints.engine_joint import Ends
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.scene import Joint
 import pymunk

@@ -13,54 +13,19 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+from physsim_ros.engine import memory
 from physsim_ros.engine.body_table import BodyTable
-from physsim_ros.engine.graph_search import Rows
-from physsim_ros.engine.joints.rows import across, along, dot
-from physsim_ros.engine.memory import (
-    ARBITERS,
-    follow,
-    integers,
-    NUMBERS,
-    SHAPE_NUMBER,
-    vectors,
-    words,
-)
+from physsim_ros.engine.graph_search import ranges, Rows
+from physsim_ros.engine.joints.constraint_rows import across, along
 from physsim_ros.model.arrays import Floats, Ints
-from pymunk._chipmunk_cffi import ffi
-
-
-def _places(struct: str, *names: str) -> list[int]:
-    """Return the places of fields of a struct, in words."""
-    return [ffi.offsetof(struct, name) // 8 for name in names]
-
-
-(
-    _FRICTION,
-    _SURFACE,
-    _SHAPE_A,
-    _SHAPE_B,
-    _BODY_A,
-    _BODY_B,
-    _THREAD_A,
-    _THREAD_B,
-    _CONTACTS,
-    _NORMAL,
-) = _places(
-    'struct cpArbiter',
-    *('u', 'surface_vr', 'a', 'b', 'body_a', 'body_b', 'thread_a', 'thread_b', 'contacts', 'n'),
-)
-_COUNT = ffi.offsetof('struct cpArbiter', 'count')
-_ARM_A, _ARM_B, _BOUNCE, _ALONG, _ACROSS, _BIAS = _places(
-    'struct cpContact', 'r1', 'r2', 'bounce', 'jnAcc', 'jtAcc', 'jBias'
-)
-_SIZE = ffi.sizeof('struct cpContact') // 8
+from physsim_ros.model.transform import dots
 
 
 class ContactRows(NamedTuple):
     """
     Points in which jointed bodies touch others, or each other.
 
-    :ivar points: (c,) int64: index of each `cpContact` in the engine's memory
+    :ivar points: (c,) int64: places of `cpContact`
     :ivar ends: (c, 2) intp: rows of the two bodies in the body table
     :ivar normals: (c, 2, 3) float64: J of the velocity along the normal
     :ivar tangents: (c, 2, 3) float64: J of the velocity across it
@@ -83,21 +48,21 @@ class ContactRows(NamedTuple):
     @property
     def bounce(self) -> Floats:
         """Return (c,) float64: least velocity along the normal that the engine seeks [m/s]."""
-        return -NUMBERS[self.points + _BOUNCE]
+        return -memory.read_numbers(self.points, memory.CONTACT_BOUNCE)
 
     @property
-    def impulses(self) -> tuple[Floats, Floats]:
-        """Return (c,) float64 each: impulses along and across the normal [N s]."""
-        return NUMBERS[self.points + _ALONG], NUMBERS[self.points + _ACROSS]
+    def impulses(self) -> Floats:
+        """Return (2, c) float64: impulses along and across the normal [N s]."""
+        return memory.read_numbers(self.points, memory.CONTACT_IMPULSES).T
 
     @property
     def bias(self) -> Floats:
         """Return (c,) float64: impulses by which the engine pushes them out [N s]."""
-        return NUMBERS[self.points + _BIAS]
+        return memory.read_numbers(self.points, memory.CONTACT_BIAS)
 
-    def write_impulses(self, normal: Floats, tangent: Floats) -> None:
-        """Set the impulses along and across the normal, (c,) float64 each [N s]."""
-        NUMBERS[self.points + _ALONG], NUMBERS[self.points + _ACROSS] = normal, tangent
+    def write_impulses(self, impulses: Floats) -> None:
+        """Set the impulses along and across the normal, (2, c) float64 [N s]."""
+        memory.write_numbers(self.points, memory.CONTACT_IMPULSES, impulses.T)
 
 
 def read_contacts(table: BodyTable, jointed: Rows) -> ContactRows:
@@ -106,22 +71,19 @@ def read_contacts(table: BodyTable, jointed: Rows) -> ContactRows:
 
     :param jointed: (k,) intp: rows of the bodies in the table
     """
-    arbiters = _arbiters_of(table.memory[jointed])
-    if not len(arbiters):
-        return _NONE
-    counts = integers(arbiters, _COUNT)
-    arbiters = np.repeat(arbiters, counts)
-    place = np.arange(len(arbiters)) - np.repeat(np.cumsum(counts) - counts, counts)
-    points = follow(arbiters + _CONTACTS) + place * _SIZE
-    bodies = [follow(arbiters + body) for body in (_BODY_A, _BODY_B)]
-    ends = np.stack([table.rows_in_memory(each) for each in bodies], axis=1)
-    arms = vectors(points + _ARM_A), vectors(points + _ARM_B)
+    arbiters = _arbiters_of(table.places[jointed])
+    counts = memory.point_counts(arbiters)
+    words = memory.read_words(np.repeat(arbiters, counts), memory.ARBITER_WORDS)
+    number = ranges(np.zeros_like(counts), counts)
+    points = memory.places_in(words[:, memory.ARBITER_CONTACTS]) + number * memory.CONTACT_SIZE
+    ends = table.rows_at(memory.places_in(words[:, memory.ARBITER_BODIES]))
+    arms = memory.read_numbers(points, memory.CONTACT_ARMS)
     # By bodies, shapes and points: a disc can touch two segments of a chain in one point.
-    shapes = [words(follow(arbiters + shape) + SHAPE_NUMBER) for shape in (_SHAPE_A, _SHAPE_B)]
-    order = np.lexsort((*arms[0].T, *shapes, *ends.T))
-    arbiters, points, ends = arbiters[order], points[order], ends[order]
-    arm_a, arm_b = (arm[order] for arm in arms)
-    normal = vectors(arbiters + _NORMAL)
+    shapes = memory.places_in(words[:, memory.ARBITER_SHAPES])
+    shapes = memory.read_words(shapes, memory.SHAPE_NUMBER)
+    order = np.lexsort((*arms[:, :2].T, *shapes.T, *ends.T))
+    points, ends, arms, numbers = points[order], ends[order], arms[order], words[order].view(float)
+    arm_a, arm_b, normal = arms[:, :2], arms[:, 2:], numbers[:, memory.ARBITER_NORMAL]
     tangent = across(normal)
     state = table.state_with_background
     apart = state[ends[:, 1], :2] + arm_b - (state[ends[:, 0], :2] + arm_a)
@@ -130,32 +92,22 @@ def read_contacts(table: BodyTable, jointed: Rows) -> ContactRows:
         ends=ends,
         normals=along(-normal, arm_a, arm_b).reshape(-1, 2, 3),
         tangents=along(-tangent, arm_a, arm_b).reshape(-1, 2, 3),
-        friction=NUMBERS[arbiters + _FRICTION],
-        slide=dot(vectors(arbiters + _SURFACE), tangent),
-        distance=dot(apart, normal),
+        friction=numbers[:, memory.ARBITER_FRICTION],
+        slide=dots(numbers[:, memory.ARBITER_SURFACE], tangent),
+        distance=dots(apart, normal),
     )
 
 
 def _arbiters_of(bodies: Ints) -> Ints:
-    """Return (a,) int64: indices of the `cpArbiter` in the lists of bodies, each of them once."""
+    """Return (a,) int64: places of the `cpArbiter` in the lists of bodies, each of them once."""
     found = [np.empty(0, np.int64)]
-    arbiters = follow(bodies + ARBITERS)
+    arbiters = memory.places_in(memory.read_words(bodies, memory.BODY_ARBITERS))
     while True:
         listed = arbiters >= 0
         arbiters, bodies = arbiters[listed], bodies[listed]
         if not len(arbiters):
             return np.unique(np.concatenate(found))
         found.append(arbiters)
-        first = follow(arbiters + _BODY_A) == bodies
-        arbiters = follow(arbiters + np.where(first, _THREAD_A, _THREAD_B))
-
-
-_NONE = ContactRows(
-    points=np.empty(0, np.int64),
-    ends=np.empty((0, 2), np.intp),
-    normals=np.empty((0, 2, 3)),
-    tangents=np.empty((0, 2, 3)),
-    friction=np.empty(0),
-    slide=np.empty(0),
-    distance=np.empty(0),
-)
+        is_second = (memory.bodies_of(arbiters)[:, 1] == bodies).astype(np.intp)
+        following = arbiters + memory.ARBITER_NEXT[is_second]
+        arbiters = memory.places_in(memory.read_words(following, 0))

@@ -21,11 +21,10 @@ import math
 import numpy as np
 from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.joints import spring
+from physsim_ros.engine.joints.build_joint import build_joint
+from physsim_ros.engine.joints.engine_joint import EngineJoint
 from physsim_ros.engine.joints.joint_solver import JointSolver
 from physsim_ros.engine.joints.joint_table import JointTable
-from physsim_ros.engine.joints.kind import EngineJoint
-from physsim_ros.engine.joints.kinds import build_joint
-from physsim_ros.engine.joints.pull import impulse_on_b
 from physsim_ros.engine.memory import impulse_places, NUMBERS
 from physsim_ros.engine.step_context import StepContext
 from physsim_ros.model.arrays import Flags, Floats
@@ -40,14 +39,14 @@ class JointSet:
     """
     Joints in the engine.
 
-    :param space: of the engine
-    :param bodies: by name; kept by the space
-    :param dt: of a step [s]
+    :param pm_space: of the engine
+    :param bodies: the bodies of the space by name
+    :param dt: length of a step [s]
     """
 
-    def __init__(self, space: pymunk.Space, bodies: Mapping[str, RigidBody], dt: float) -> None:
+    def __init__(self, pm_space: pymunk.Space, bodies: Mapping[str, RigidBody], dt: float) -> None:
         self.by_name: dict[str, EngineJoint] = {}
-        self._space = space
+        self._pm_space = pm_space
         self._bodies = bodies
         self._dt = dt
         # Names of the joints of each body.
@@ -71,7 +70,7 @@ class JointSet:
         return body in self._on
 
     def count_on(self, body: str, joint: Joint) -> int:
-        """Return the number of a body's joints once a joint on it has come, or is replaced."""
+        """Return the count of a body's joints after a joint on it is added or replaced."""
         names = self._on.get(body, {})
         return len(names) + (joint.name not in names)
 
@@ -79,9 +78,9 @@ class JointSet:
         """
         Refuse a change by which springs would be too stiff for the steps.
 
-        :param bodies: that are to change, as they will be
-        :param joint: that is to come; None is none
-        :raises BadProperty: of the greatest stiffness that can be had
+        :param bodies: bodies that change, as they will be
+        :param joint: a joint to be added or replaced; None if there is none
+        :raises BadProperty: with the greatest stiffness that is possible
         """
         joints = self._joints_on(bodies, joint)
         ends = {name for each in joints for name in (each.a, each.b)} - {WORLD}
@@ -89,10 +88,10 @@ class JointSet:
         spring.check_stiffness(joints, known, self._dt)
 
     def with_turns(self, rigid: RigidBody, pose: Pose) -> Pose:
-        """Return a pose with as many whole turns as a jointed body has made: joints count them."""
+        """Return a pose with the whole turns that a jointed body has made, which joints count."""
         if not self.has_joints(rigid.body.name):
             return pose
-        turns = round((rigid.engine.angle - pose[2]) / math.tau)
+        turns = round((rigid.pm_body.angle - pose[2]) / math.tau)
         return pose[0], pose[1], pose[2] + turns * math.tau
 
     def add(self, joint: Joint) -> None:
@@ -113,7 +112,7 @@ class JointSet:
 
     def clear(self) -> None:
         """Remove all joints from the engine, before its bodies are used in another space."""
-        self._space.remove(*self._constraints())
+        self._pm_space.remove(*self._constraints())
         self._drop_table()
         self.by_name.clear()
         self._on.clear()
@@ -123,7 +122,7 @@ class JointSet:
         """Remove the joints of a body from the engine, before its engine objects are replaced."""
         for name in self.names_on(body):
             engine_joint = self.by_name[name]
-            self._space.remove(*engine_joint.constraints)
+            self._pm_space.remove(*engine_joint.constraints)
             self.by_name[name] = EngineJoint(engine_joint.joint, engine_joint.ends, ())
         self._drop_table()
 
@@ -155,7 +154,7 @@ class JointSet:
 
     def pulls(self) -> Floats:
         """Return (j, 2) float64: force of each joint on its body b in the last step [N]."""
-        pulls = [impulse_on_b(engine_joint) for engine_joint in self.by_name.values()]
+        pulls = [engine_joint.pull for engine_joint in self.by_name.values()]
         return np.array(pulls).reshape(-1, 2) / self._dt
 
     def compressed(self) -> Flags:
@@ -210,9 +209,9 @@ class JointSet:
         """
         Return the joints on some bodies, in the order in which they were made.
 
-        :param bodies: names of these
-        :param joint: one that is to come, or to replace one of its name, and counts with all
-            joints on its bodies; None is none
+        :param bodies: names of the bodies
+        :param joint: a joint to be added or replaced, which counts with all joints on its bodies;
+            None if there is none
         """
         names = {*bodies, *(() if joint is None else (joint.a, joint.b))} - {WORLD}
         on = {name for body in names for name in self._on.get(body, ())}
@@ -228,14 +227,14 @@ class JointSet:
 
     def _add_constraints(self, joint: Joint) -> None:
         other = None if joint.b == WORLD else self._bodies[joint.b]
-        engine_joint = build_joint(joint, self._bodies[joint.a], other, self._space.static_body)
-        self._space.add(*engine_joint.constraints)
+        engine_joint = build_joint(joint, self._bodies[joint.a], other, self._pm_space.static_body)
+        self._pm_space.add(*engine_joint.constraints)
         self._drop_table()
         self.by_name[joint.name] = engine_joint
         self._unstepped.add(joint.name)
 
     def _remove_constraints(self, engine_joint: EngineJoint) -> None:
-        self._space.remove(*engine_joint.constraints)
+        self._pm_space.remove(*engine_joint.constraints)
         for body in (engine_joint.joint.a, engine_joint.joint.b):
             self._on[body].pop(engine_joint.joint.name, None)
             if not self._on[body]:
@@ -249,5 +248,5 @@ class JointSet:
     def _joint_table(self) -> JointTable:
         if self._table is None:
             engine_joint = list(self.by_name.values())
-            self._table = JointTable(engine_joint, self._space.static_body, self._dt)
+            self._table = JointTable(engine_joint, self._pm_space.static_body, self._dt)
         return self._table

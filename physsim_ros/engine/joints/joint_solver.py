@@ -5,8 +5,8 @@
 Joint solver: jointed bodies and the contacts that they bear, solved directly after the engine.
 
 **Problem.** Ten iterations of the engine's solver do not carry a load over a chain of light
-bodies; what is drawn straight carries by a tension alone that no row of velocities asks for; and a
-gap that is closed by velocities is energy, where joints and contacts contradict each other.
+bodies. A straight chain carries by tension alone, which no row of velocities asks for. A gap that
+is closed by a velocity becomes energy where joints and contacts contradict each other.
 
 **Method.** All rows of a joint, and those of the contacts of jointed bodies, are solved together
 (`saddle_point`), in velocities and then in positions.
@@ -28,8 +28,8 @@ gap that is closed by velocities is energy, where joints and contacts contradict
 
 **Cost.** 0.2 to 0.5 ms a step for one machine; a factorisation of 100 rows takes 10 us.
 
-Without it laws 14 to 16, 20, 22, 23, 33 and 34 fail. Impulses of the engine stay its first guess,
-those of springs and motors stay as they are, and contacts between bodies without joints too.
+Without it laws 14 to 16, 20, 22, 23, 33 and 34 fail. The engine's impulses are the first guess.
+Impulses of springs and motors, and contacts between bodies without joints, stay the engine's.
 """
 
 from __future__ import annotations
@@ -37,41 +37,33 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+from physsim_ros.engine import memory
 from physsim_ros.engine.body_table import BodyTable
-from physsim_ros.engine.graph_search import components, Rows
+from physsim_ros.engine.graph_search import Rows
 from physsim_ros.engine.joints.contact_rows import ContactRows, read_contacts
 from physsim_ros.engine.joints.joint_table import JointRows, JointTable
 from physsim_ros.engine.joints.saddle_point import Problem, SaddlePoint, Solution
-from physsim_ros.engine.memory import (
-    IDLE_TIME,
-    INVERSE_MASS,
-    INVERSE_MOMENT,
-    NUMBERS,
-    PUSH,
-    SPIN,
-    VELOCITY,
-)
-from physsim_ros.engine.tolerances import COLLISION_BIAS, COLLISION_SLOP
-from physsim_ros.model.arrays import Floats, Ints
+from physsim_ros.engine.settings import COLLISION_BIAS, COLLISION_SLOP
+from physsim_ros.model.arrays import Flags, Floats, Ints
 
 # Violated limits are closed but for this [m, rad]: Chipmunk stops a limit while it is violated.
 LIMIT_SLOP = 1e-4
 # The fastest that a gap is closed at [m/s, rad/s]: a body that is put elsewhere comes back like a
 # thrown one, and joints that contradict each other move their bodies no further than that.
 FASTEST_CORRECTION = 20.0
-# E, as a share of the diagonal of J M^-1 J^T. Of velocities: their impulses are the engine's next
-# guess, and those of joints that contradict each other would be of any size.
+# E of velocities, as a share of the diagonal of J M^-1 J^T. The impulses are the engine's next
+# guess; without E those of joints that contradict each other would be of any size.
 VELOCITY_REGULARISATION = 1e-4
-# Of positions: joints, ...
+# E of positions: of joints, ...
 POSITION_REGULARISATION = 1e-7
-# ... and contacts, which give way where joints contradict them.
+# ... and of contacts, which yield where joints contradict them.
 CONTACT_REGULARISATION = 1e-3
-# An island with a gap wider than this after a Newton step gets another one [m, rad]: ten planks
-# that are straight sag by 7 mm with a gap of 1e-6 m each ...
+# A Newton step is followed by another one in islands with a wider gap than this [m, rad]: ten
+# planks in a straight row sag by 7 mm with a gap of 1e-6 m each.
 CLOSED = 1e-5
-# ... the first one from this on [m, rad] ...
+# The first Newton step is made in islands with a wider gap than this [m, rad].
 NEGLIGIBLE = 1e-7
-# ... and at most so many in a step of the engine.
+# Greatest count of Newton steps in a step of the engine.
 MOST_STEPS = 16
 # The furthest that a body turns in a Newton step [rad]: rows are linear for small turns only, and
 # points may be metres off.
@@ -79,7 +71,9 @@ MOST_TURN = 0.25
 # The furthest that a body moves in a Newton step, in sums of all gaps of its island: joints that
 # contradict each other have nearly singular equations, whose solutions are of any size.
 MOST_LEVERAGE = 10.0
-# Factorisations for friction at most; rows that are on the wrong side then get none.
+# Inverse masses of x, y and yaw.
+_INVERSES = np.array([memory.BODY_INVERSE_MASS] * 2 + [memory.BODY_INVERSE_MOMENT])
+# Greatest count of factorisations for friction; rows that are on the wrong side then have none.
 FRICTION_ROUNDS = 10
 
 
@@ -89,7 +83,7 @@ class Bodies(NamedTuple):
 
     :ivar rows: (b,) intp: in the body table
     :ivar jointed: count of the jointed bodies with the background, which come first
-    :ivar memory: (b,) int64: indices in the engine's memory
+    :ivar places: (b,) int64: of `cpBody`
     :ivar inverse: (b, 3) float64: inverse masses, masses and moments; 0 is not dynamic
     :ivar poses: (b, 3) float64: [m, rad]
     :ivar velocities: (b, 3) float64: [m/s, rad/s]
@@ -97,7 +91,7 @@ class Bodies(NamedTuple):
 
     rows: Rows
     jointed: int
-    memory: Ints
+    places: Ints
     inverse: Floats
     poses: Floats
     velocities: Floats
@@ -106,9 +100,7 @@ class Bodies(NamedTuple):
         """Add (b, 3) changes to the velocities, here and in the engine."""
         self.velocities[:] += changes
         moved = changes.any(axis=1)
-        places, velocities = self.memory[moved], self.velocities[moved]
-        for place, axis in zip((VELOCITY, VELOCITY + 1, SPIN), velocities.T, strict=True):
-            NUMBERS[places + place] = axis
+        memory.write_numbers(self.places[moved], memory.BODY_TWIST, self.velocities[moved])
 
 
 class JointSolver:
@@ -133,7 +125,7 @@ class JointSolver:
         self._system = step.use_system(self._system)
         # A slow swing would fall asleep at its turn. The idle time of static bodies is infinite.
         dynamic = step.bodies.inverse.any(axis=1)
-        NUMBERS[step.bodies.memory[dynamic] + IDLE_TIME] = 0.0
+        memory.write_numbers(step.bodies.places[dynamic], memory.BODY_IDLE_TIME, 0.0)
         step.solve_velocities()
         step.solve_positions()
         table.forget_state()
@@ -158,12 +150,6 @@ class _Step:
         self._tangents = slice(count + points, count + 2 * points)
         # Rows of joints that have not reached their greatest force.
         self._holding = np.ones(count, np.bool_)
-        dynamic = bodies.inverse[:, 0] > 0.0
-        both = dynamic[self._ends[:, 0]] & dynamic[self._ends[:, 1]]
-        # The island of each body, and of each row.
-        self._island = components(len(bodies.rows), self._ends[both])
-        of_first = dynamic[self._ends[:, 0]]
-        self._of_row = self._island[np.where(of_first, self._ends[:, 0], self._ends[:, 1])]
 
     def use_system(self, system: SaddlePoint | None) -> SaddlePoint:
         """Return the system of the rows: that of the last step, if it is the same."""
@@ -173,7 +159,7 @@ class _Step:
             or not np.array_equal(system.inverse, self.bodies.inverse)
         ):
             system = SaddlePoint(self._ends, self.bodies.inverse)
-        self._system = system
+        self._system, self._islands, self._of_row = system, system.islands, system.island_of_row
         return system
 
     def _per_row(
@@ -213,7 +199,7 @@ class _Step:
         bodies.write_velocities(without + changes + bent)
         impulses = solution.impulses + more
         joints.write_impulses(rows, impulses[self._of_joints])
-        contacts.write_impulses(impulses[self._normals], impulses[self._tangents])
+        contacts.write_impulses(impulses[self._normals.start :].reshape(2, -1))
         self._holding = joints.holding(joints.equal & (solution.sides[self._of_joints] != 0))
 
     def _joint_bounds(self, rows: JointRows) -> tuple[Floats, Floats]:
@@ -274,13 +260,13 @@ class _Step:
         share = np.sqrt(self._share(lost, gained))
         # Under a load rows can be singular, as those of a straight chain: there energy is lost.
         share[self._of_row[self._normals][solution.sides[self._normals] == 0]] = 0.0
-        return impulses * share[self._of_row], changes * share[self._island][:, None]
+        return impulses * share[self._of_row], changes * share[self._islands][:, None]
 
     def _share(self, lost: Floats, gained: Floats) -> Floats:
         """Return (b,) float64: of each island the share of a gain that what was lost pays."""
-        count = len(self._island)
-        paid = np.bincount(self._island, lost, count)
-        owed = np.maximum(np.bincount(self._island, gained, count), 1e-300)
+        count = len(self._islands)
+        paid = np.bincount(self._islands, lost, count)
+        owed = np.maximum(np.bincount(self._islands, gained, count), 1e-300)
         share: Floats = np.clip(paid / owed, 0.0, 1.0)
         return share
 
@@ -288,66 +274,81 @@ class _Step:
 
     def solve_positions(self) -> None:
         """Close gaps in positions, and remove the velocity that opened them."""
-        joints, contacts, bodies, system = self._joints, self._contacts, self.bodies, self._system
-        normals = np.concatenate(
-            (
-                np.zeros((len(joints.ends), 2, 3)),
-                contacts.normals,
-                np.zeros_like(contacts.tangents),
-            )
-        )
+        joints, contacts, bodies = self._joints, self._contacts, self.bodies
+        normals = np.zeros((len(self._ends), 2, 3))
+        normals[self._normals] = contacts.normals
         start = bodies.poses.copy()
         bodies.poses[:] += self._take_pushes(normals)
         pushed = bodies.poses.copy()
         # Of an overlap the engine's share of a step is pushed out; nothing gets deeper.
         apart = contacts.distance + COLLISION_SLOP
         apart = apart - np.minimum(apart, 0.0) * COLLISION_BIAS**self._dt
-        most = FASTEST_CORRECTION * self._dt
-        even = self._per_row(
-            POSITION_REGULARISATION, CONTACT_REGULARISATION, CONTACT_REGULARISATION
-        )
-        impulses, count = np.zeros(len(self._ends)), len(self._island)
+        rows, most = joints.read(bodies.poses), FASTEST_CORRECTION * self._dt
+        gaps = self._gaps(rows)
+        # Parts of gaps that are too wide to be closed in one step.
+        left = gaps - np.clip(gaps, -most, most)
+        impulses, count = np.zeros(len(self._ends)), len(self._islands)
         # Of each island the iterate of the least error.
         best, best_impulses = bodies.poses.copy(), impulses
         least = np.full(count, np.inf)
-        left = None
         for number in range(MOST_STEPS + 1):
-            rows = joints.read(bodies.poses)
-            gaps = np.where(self._holding, rows.excess, 0.0)
-            slop = np.where(joints.equal, 0.0, LIMIT_SLOP)
-            gaps = np.sign(gaps) * np.maximum(np.abs(gaps) - slop, 0.0)
-            # Parts of gaps that are too wide to be closed in one step.
-            left = gaps - np.clip(gaps, -most, most) if left is None else left
-            gaps -= left
-            distance = apart + system.rates(normals, bodies.poses - start)[self._normals]
+            gaps = self._gaps(rows) - left
+            ways = self._system.rates(normals, bodies.poses - start)
+            distance = apart + ways[self._normals]
             errors = np.concatenate((np.abs(gaps), -np.minimum(distance, 0.0)))
             of_row = self._of_row[: len(errors)]
             sums = np.zeros(count)
             np.add.at(sums, of_row, errors)
             better = sums < least
             least = np.minimum(sums, least)
-            best[better[self._island]] = bodies.poses[better[self._island]]
+            best[better[self._islands]] = bodies.poses[better[self._islands]]
             best_impulses = np.where(better[self._of_row], impulses, best_impulses)
             wide = np.zeros(count, np.bool_)
             wide[of_row[errors > (CLOSED if number else NEGLIGIBLE)]] = True
             if number == MOST_STEPS or not wide.any():
                 break
-            lower, upper = self._joint_bounds(JointRows(gaps, rows.jacobian))
-            now = wide[self._of_row]
-            problem = Problem(
-                np.concatenate((rows.jacobian, contacts.normals, contacts.tangents)),
-                -self._per_row(gaps, distance, 0.0),
-                np.where(now, self._per_row(lower, 0.0, 0.0), 0.0),
-                np.where(now, self._per_row(upper, np.inf, 0.0), 0.0),
+            solution = self._newton_step(
+                JointRows(gaps, rows.jacobian), distance, impulses, wide[self._of_row]
             )
-            solution = system.solve(problem, _first_sides(problem, impulses), even)
             share = self._trusted(solution.changes, sums)
-            bodies.poses[:] += solution.changes * share[self._island][:, None]
+            bodies.poses[:] += solution.changes * share[self._islands][:, None]
             impulses = impulses + solution.impulses * share[self._of_row]
+            rows = joints.read(bodies.poses)
         if not best_impulses.any():
             return
         bodies.poses[:] = best
         self._remove_velocity(best - pushed, rows, best_impulses)
+
+    def _gaps(self, rows: JointRows) -> Floats:
+        """Return (j,) float64: C of the rows of joints that hold, less the slop of limits."""
+        excess = np.where(self._holding, rows.excess, 0.0)
+        slop = np.where(self._joints.equal, 0.0, LIMIT_SLOP)
+        gaps: Floats = np.sign(excess) * np.maximum(np.abs(excess) - slop, 0.0)
+        return gaps
+
+    def _newton_step(
+        self, rows: JointRows, distance: Floats, impulses: Floats, open_rows: Flags
+    ) -> Solution:
+        """
+        Return the displacement that closes linear gaps and overlaps.
+
+        :param rows: of joints, with the gaps to close
+        :param distance: (c,) float64: of contacts, < 0 where they overlap [m]
+        :param impulses: (r,) float64: λ of the displacement so far, the first guess
+        :param open_rows: (r,) bool: rows of islands with gaps
+        """
+        contacts = self._contacts
+        lower, upper = self._joint_bounds(rows)
+        problem = Problem(
+            np.concatenate((rows.jacobian, contacts.normals, contacts.tangents)),
+            -self._per_row(rows.excess, distance, 0.0),
+            np.where(open_rows, self._per_row(lower, 0.0, 0.0), 0.0),
+            np.where(open_rows, self._per_row(upper, np.inf, 0.0), 0.0),
+        )
+        even = self._per_row(
+            POSITION_REGULARISATION, CONTACT_REGULARISATION, CONTACT_REGULARISATION
+        )
+        return self._system.solve(problem, _first_sides(problem, impulses), even)
 
     def _take_pushes(self, normals: Floats) -> Floats:
         """
@@ -356,14 +357,14 @@ class _Step:
         The pushes of the rows' own contacts are removed, since their overlaps are solved here.
         """
         bodies, contacts = self.bodies, self._contacts
-        places = bodies.memory[:, None] + np.arange(PUSH, PUSH + 3)
+        pushes = memory.read_numbers(bodies.places, memory.BODY_BIAS)
         bias = self._per_row(0.0, contacts.bias, 0.0)
-        pushes: Floats = NUMBERS[places] - self._system.momenta(normals, bias) * bodies.inverse
+        pushes -= self._system.momenta(normals, bias) * bodies.inverse
         pushes[~bodies.inverse.any(axis=1)] = 0.0
         jointed = (np.arange(len(pushes)) < bodies.jointed)[:, None]
         ways: Floats = np.where(jointed, pushes * self._dt, 0.0)
         # The engine moves what has no joints by the others itself, in the next step.
-        NUMBERS[places] = np.where(jointed, 0.0, pushes)
+        memory.write_numbers(bodies.places, memory.BODY_BIAS, np.where(jointed, 0.0, pushes))
         return ways
 
     def _trusted(self, changes: Floats, errors: Floats) -> Floats:
@@ -374,8 +375,8 @@ class _Step:
         :param errors: (b,) float64: sum of gaps and overlaps of each island [m, rad]
         """
         farthest, most_turn = np.zeros(len(errors)), np.zeros(len(errors))
-        np.maximum.at(farthest, self._island, np.hypot(changes[:, 0], changes[:, 1]))
-        np.maximum.at(most_turn, self._island, np.abs(changes[:, 2]))
+        np.maximum.at(farthest, self._islands, np.hypot(changes[:, 0], changes[:, 1]))
+        np.maximum.at(most_turn, self._islands, np.abs(changes[:, 2]))
         by_turn = MOST_TURN / np.maximum(most_turn, 1e-300)
         by_way = MOST_LEVERAGE * errors / np.maximum(farthest, 1e-300)
         trusted: Floats = np.minimum(1.0, np.minimum(by_turn, by_way))
@@ -393,13 +394,14 @@ class _Step:
         changes = moved / self._dt
         against = -system.products(bodies.velocities, changes)
         share = self._share(against, system.products(changes, changes))
-        bodies.write_velocities(changes * share[self._island][:, None])
+        bodies.write_velocities(changes * share[self._islands][:, None])
         given = impulses * share[self._of_row] / self._dt
         joints, contacts = self._joints, self._contacts
         before = joints.impulses(rows)
         joints.write_impulses(rows, before + given[self._of_joints])
-        normal, tangent = contacts.impulses
-        contacts.write_impulses(normal + given[self._normals], tangent)
+        impulses = contacts.impulses
+        impulses[0] += given[self._normals]
+        contacts.write_impulses(impulses)
 
 
 def _bodies_of(table: BodyTable, jointed: Rows, touching: Rows) -> Bodies:
@@ -410,11 +412,11 @@ def _bodies_of(table: BodyTable, jointed: Rows, touching: Rows) -> Bodies:
     :param touching: rows of bodies
     """
     rows = np.concatenate((jointed, np.setdiff1d(touching, jointed)))
-    memory, state = table.memory[rows], table.state_with_background[rows]
-    inverse = NUMBERS[memory[:, None] + (INVERSE_MASS, INVERSE_MASS, INVERSE_MOMENT)]
+    places, state = table.places[rows], table.state_with_background[rows]
+    inverse = memory.read_numbers(places, _INVERSES)
     inverse[~table.columns.dynamic[rows]] = 0.0
     poses, velocities = state[:, :3].copy(), state[:, 3:].copy()
-    return Bodies(rows, len(jointed), memory, inverse, poses, velocities)
+    return Bodies(rows, len(jointed), places, inverse, poses, velocities)
 
 
 def _first_sides(problem: Problem, guess: Floats) -> Ints:

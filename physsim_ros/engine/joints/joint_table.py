@@ -12,8 +12,9 @@ from typing import NamedTuple
 import numpy as np
 from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.graph_search import Rows
-from physsim_ros.engine.joints.kind import Batch, EngineJoint, Kind
-from physsim_ros.engine.joints.kinds import kind_of, KINDS
+from physsim_ros.engine.joints.build_joint import kind_of, KINDS
+from physsim_ros.engine.joints.constraint_rows import Batch, Kind
+from physsim_ros.engine.joints.engine_joint import EngineJoint
 from physsim_ros.engine.memory import impulse_places, NUMBERS
 from physsim_ros.model.arrays import Flags, Floats
 import pymunk
@@ -88,7 +89,7 @@ class JointTable:
     def rows(self, listed: Sequence[RigidBody]) -> Rows:
         """Return the rows of the jointed bodies in the body table, then that of the background."""
         if self._listed is not listed:
-            places = {each.engine: place for place, each in enumerate(listed)}
+            places = {each.pm_body: place for place, each in enumerate(listed)}
             members = (places[body] for body in self._members)
             self._rows, self._listed = np.array([*members, len(listed)], np.intp), listed
         return self._rows

@@ -5,8 +5,9 @@
 
 from __future__ import annotations
 
-from physsim_ros.engine.joints import rows
-from physsim_ros.engine.joints.kind import Ends, Kind
+from physsim_ros.engine.joints import constraint_rows as rows
+from physsim_ros.engine.joints.constraint_rows import Kind
+from physsim_ros.engine.joints.engine_joint import Ends
 from physsim_ros.model.scene import Joint
 import pymunk
 

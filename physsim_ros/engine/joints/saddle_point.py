@@ -20,9 +20,10 @@ or λ is at a bound and J v is on the other side of the target. Block principal 
 Júdice and F. M. Pires, "A block principal pivoting algorithm for large-scale strictly monotone
 linear complementarity problems", Computers & Operations Research 1994): all rows on the wrong side
 change it at once; after `ROUNDS` / 2 only the last of them, which comes to an end (K. G. Murty,
-1974).
+"Note on a Bard-type scheme for solving the complementarity problem", Opsearch 1974).
 
-Islands share no body, so that no entry of the matrix connects them.
+Islands share no dynamic body, so that no entry of the matrix connects them. Rounding, and which
+row is the last one, are decided island by island, so that none depends on another.
 """
 
 from __future__ import annotations
@@ -30,8 +31,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from physsim_ros.engine.graph_search import Rows
-from physsim_ros.model.arrays import Flags, Floats, greatest, Ints
+from physsim_ros.engine.graph_search import components, Rows
+from physsim_ros.model.arrays import Flags, Floats, Ints
 import qdldl
 from scipy.sparse import csc_array
 
@@ -39,7 +40,7 @@ from scipy.sparse import csc_array
 ROUNDS = 30
 # Rounding of J v: a row is on the wrong side of its target beyond that [m/s], or [m] of positions.
 ROUNDING = 1e-7
-# Rounding of λ, as a share of the greatest.
+# Rounding of λ, as a share of the greatest of its island.
 SHARE_OF_ROUNDING = 1e-9
 
 
@@ -82,11 +83,16 @@ class SaddlePoint:
     :param ends: (r, 2) intp: the two bodies of each row
     :param inverse: (b, 3) float64: inverse masses, masses and moments of the bodies [1/kg, 1/kg,
         1/(kg m²)]; 0 for those that forces do not move
+
+    :ivar islands: (b,) intp: the island of each body
+    :ivar island_of_row: (r,) intp: the island of each row
     """
 
     def __init__(self, ends: Rows, inverse: Floats) -> None:
         self.ends, self.inverse = ends, inverse
-        dynamic = inverse.any(axis=1)
+        dynamic: Flags = np.asarray(inverse.any(axis=1))
+        self.islands = components(len(inverse), ends[dynamic[ends].all(axis=1)])
+        self.island_of_row = self.islands[np.where(dynamic[ends[:, 0]], *ends.T)]
         self._moved = np.flatnonzero(np.isin(np.arange(len(inverse)), ends) & dynamic)
         place = np.full(len(inverse), -1, np.intp)
         place[self._moved] = np.arange(len(self._moved))
@@ -190,7 +196,7 @@ class SaddlePoint:
             momenta = self.momenta(jacobian, fixed) if fixed.any() else None
             found, changes = self.solve_active(np.where(active, wanted, 0.0), momenta)
             impulses = np.where(active, found, fixed)
-            rounding = SHARE_OF_ROUNDING * greatest(impulses)
+            rounding = SHARE_OF_ROUNDING * self._greatest(impulses)
             below, above = impulses < lower - rounding, impulses > upper + rounding
             beyond = self.rates(jacobian, changes) - wanted
             inward = np.where(sides < 0, beyond < -ROUNDING, (sides > 0) & (beyond > ROUNDING))
@@ -198,12 +204,23 @@ class SaddlePoint:
             wrong = below | above | inward
             if not following or not wrong.any():
                 break
-            changed = wrong
-            if following < rounds // 2:
-                changed = np.zeros_like(wrong)
-                changed[np.flatnonzero(wrong)[-1]] = True
+            changed = wrong if following >= rounds // 2 else self._last(wrong)
             sides[changed] = np.where(below, -1, np.where(above, 1, 0))[changed]
         return Solution(impulses, changes, sides, wrong)
+
+    def _greatest(self, values: Floats) -> Floats:
+        """Return (r,) float64: for each row the greatest absolute value in its island."""
+        greatest = np.zeros(len(self.islands))
+        np.maximum.at(greatest, self.island_of_row, np.abs(values))
+        return greatest[self.island_of_row]
+
+    def _last(self, rows: Flags) -> Flags:
+        """Return (r,) bool: of some rows, (r,) bool, the last one in each island."""
+        numbers = np.flatnonzero(rows)
+        places = np.unique(self.island_of_row[numbers][::-1], return_index=True)[1]
+        last = np.zeros_like(rows)
+        last[numbers[::-1][places]] = True
+        return last
 
     def refine(self, problem: Problem, solution: Solution) -> Solution:
         """Return a solution of `solve` that comes closer to the targets, which E keeps it from."""

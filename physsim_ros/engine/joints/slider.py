@@ -16,9 +16,10 @@ from __future__ import annotations
 
 import math
 
-from physsim_ros.engine.joints import rows
+from physsim_ros.engine.joints import constraint_rows as rows
+from physsim_ros.engine.joints.constraint_rows import Batch, EQUAL, Kind
+from physsim_ros.engine.joints.engine_joint import Ends
 from physsim_ros.engine.joints.gear import gear
-from physsim_ros.engine.joints.kind import Batch, Ends, EQUAL, Kind
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.scene import Joint
 from physsim_ros.model.shapes import SMALLEST
@@ -30,7 +31,7 @@ from pymunk._chipmunk_cffi import lib
 _ARM = 1.0
 
 
-def has_no_way(joint: Joint) -> bool:
+def is_locked(joint: Joint) -> bool:
     """Return whether the limits leave no way along the line, so that the joint is a pin."""
     lower, upper = joint.properties.lower, joint.properties.upper
     return lower is not None and upper is not None and upper - lower < SMALLEST

@@ -16,7 +16,8 @@ from collections.abc import Iterator, Mapping, Sequence
 import math
 
 import numpy as np
-from physsim_ros.engine.joints.kind import Ends, EngineJoint, Kind
+from physsim_ros.engine.joints.constraint_rows import Kind
+from physsim_ros.engine.joints.engine_joint import Ends, EngineJoint
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.scene import Body, Joint

@@ -5,10 +5,11 @@
 
 from __future__ import annotations
 
-from physsim_ros.engine.joints import rows
+from physsim_ros.engine.joints import constraint_rows as rows
 from physsim_ros.engine.joints.axle import pivot
+from physsim_ros.engine.joints.constraint_rows import Batch, EQUAL, Kind
+from physsim_ros.engine.joints.engine_joint import Ends
 from physsim_ros.engine.joints.gear import gear
-from physsim_ros.engine.joints.kind import Batch, Ends, EQUAL, Kind
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.scene import Joint
 import pymunk

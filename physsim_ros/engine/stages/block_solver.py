@@ -23,24 +23,25 @@ to the engine's solver: impulses from a part of a pile throw its light bodies ou
 
 **Cost.** Some 90 us for each pair of bodies that hit each other so, and 5 us for all others.
 
+Units of an impulse are [N s], a change by an impulse of 1 is [1/kg].
+
 Without it laws 8 (bodies that fall flat) and 21 (elastic polygons keep their energy) fail.
 """
 
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 import itertools
-from typing import Any
+from typing import Any, NamedTuple
 
-from physsim_ros.engine import chipmunk_memory as memory
+from physsim_ros.engine import memory
 from physsim_ros.engine.contacts.touches import Touches, velocities_at
 from physsim_ros.engine.lcp import product, solve_lcp
-from physsim_ros.engine.plane_vectors import dot
-from physsim_ros.engine.stages.impact_point import is_moved, MovedBody, points_of
 from physsim_ros.engine.stages.impact_propagation import SLOWEST
-from physsim_ros.model.transform import dots
+from physsim_ros.model.transform import dot, dots
 import pymunk
+from pymunk._chipmunk_cffi import ffi, lib
 
 # Points that are solved together at most: of four boxes on each other and the ground, eight are.
 MOST = 8
@@ -50,11 +51,11 @@ class BlockSolver:
     """
     Solves impacts of several points, before the engine does.
 
-    :param space: of the engine
+    :param pm_space: of the engine
     """
 
-    def __init__(self, space: pymunk.Space) -> None:
-        self._space = space
+    def __init__(self, pm_space: pymunk.Space) -> None:
+        self._pm_space = pm_space
 
     def solve_impacts(self, touches: Touches) -> None:
         """Solve the impacts among contacts that begin."""
@@ -80,28 +81,28 @@ class BlockSolver:
 
         :param contacts: `cpArbiter`
         """
-        dt = self._space.current_time_step
-        kept, gravity = self._space.damping**dt, complex(*self._space.gravity)
+        dt = self._pm_space.current_time_step
+        kept, gravity = self._pm_space.damping**dt, complex(*self._pm_space.gravity)
         if kept == 0.0:
             return
         pairs = [(contact.body_a, contact.body_b) for contact in contacts]
         bodies = {
-            body: MovedBody(body, gravity=gravity, kept=kept, dt=dt)
+            body: _MovedBody(body, gravity=gravity, kept=kept, dt=dt)
             for body in itertools.chain(*pairs)
         }
-        points = [point for contact in contacts for point in points_of(contact, bodies)]
+        points = [point for contact in contacts for point in _points_of(contact, bodies)]
         matrix = [[point.change_by(other) for other in points] for point in points]
         # By an impact next to it that has been solved in this step.
-        added = [point.memory.jnAcc if point.begins else 0.0 for point in points]
+        added = [point.struct.jnAcc if point.begins else 0.0 for point in points]
         rates = [
-            point.parting + point.memory.bounce - product(row, added)
+            point.parting + point.struct.bounce - product(row, added)
             for point, row in zip(points, matrix, strict=True)
         ]
         impulses = solve_lcp(matrix, rates)
         if impulses is None:
             return
         for point, impulse, before in zip(points, impulses, added, strict=True):
-            point.memory.jnAcc = impulse
+            point.struct.jnAcc = impulse
             # The engine applies that of other contacts itself (`cpArbiterApplyCachedImpulse`).
             if point.begins:
                 for body, push, turn in point.levers:
@@ -166,4 +167,108 @@ def _contacts_of(body: Any, contact: Any) -> Iterator[Any]:
 
 def _moved_by(contact: Any) -> list[Any]:
     """Return the bodies of a contact that forces move."""
-    return [body for body in (contact.body_a, contact.body_b) if is_moved(body)]
+    return [body for body in (contact.body_a, contact.body_b) if _is_moved(body)]
+
+
+def _is_moved(body: Any) -> bool:
+    """Return whether forces move a body."""
+    moves: bool = ffi.cast('double *', body)[memory.BODY_INVERSE_MASS] > 0.0
+    return moves
+
+
+class _MovedBody:
+    """
+    A body in the middle of a step.
+
+    :param struct: `cpBody`
+    :param gravity: of the space [m/s²]
+    :param kept: share of its velocities that it keeps in the step
+    :param dt: of the step [s]
+
+    :ivar inverse_mass: 0 for what forces do not move [1/kg]
+    :ivar inverse_moment: 0 for what forces do not turn [1/(kg m²)]
+    :ivar velocity: at the end of the step without impulses [m/s]
+    :ivar spin: at the end of the step without impulses [rad/s]
+    """
+
+    def __init__(self, struct: Any, *, gravity: complex, kept: float, dt: float) -> None:
+        self._numbers = numbers = ffi.cast('double *', struct)
+        self._kept = kept
+        self.inverse_mass = numbers[memory.BODY_INVERSE_MASS]
+        self.inverse_moment = numbers[memory.BODY_INVERSE_MOMENT]
+        self.velocity = complex(*numbers[memory.BODY_VELOCITY])
+        self.spin = numbers[memory.BODY_SPIN]
+        if _is_moved(struct):
+            force = complex(*numbers[memory.BODY_FORCE])
+            self.velocity = self.velocity * kept + (gravity + force * self.inverse_mass) * dt
+            self.spin = self.spin * kept + numbers[memory.BODY_TORQUE] * self.inverse_moment * dt
+
+    def apply_impulse(self, linear: complex, angular: float) -> None:
+        """Change the velocities with which the engine begins."""
+        change = linear * self.inverse_mass / self._kept
+        self._numbers[memory.BODY_VELOCITY.start] += change.real
+        self._numbers[memory.BODY_VELOCITY.start + 1] += change.imag
+        self._numbers[memory.BODY_SPIN] += angular * self.inverse_moment / self._kept
+
+
+class _Lever(NamedTuple):
+    """
+    The effect of an impulse of 1 in a point on a body.
+
+    :ivar body: one of the two that touch there
+    :ivar push: change of its momentum
+    :ivar turn: change of its angular momentum [m]
+    """
+
+    body: _MovedBody
+    push: complex
+    turn: float
+
+
+class _ImpactPoint(NamedTuple):
+    """
+    A point of a contact.
+
+    :ivar struct: `cpContact`
+    :ivar begins: whether the contact begins in this step
+    :ivar levers: on its two bodies
+    """
+
+    struct: Any
+    begins: bool
+    levers: tuple[_Lever, _Lever]
+
+    @property
+    def parting(self) -> float:
+        """Return the velocity at which the bodies part here, without impulses [m/s]."""
+        velocity = 0.0
+        for body, push, turn in self.levers:
+            velocity += dot(body.velocity, push) + body.spin * turn
+        return velocity
+
+    def change_by(self, other: _ImpactPoint) -> float:
+        """Return the change of that velocity by an impulse of 1 in another point [1/kg]."""
+        change = 0.0
+        for body, push, turn in self.levers:
+            for lever in other.levers:
+                if lever.body is body:
+                    change += body.inverse_mass * dot(push, lever.push)
+                    change += body.inverse_moment * turn * lever.turn
+        return change
+
+
+def _points_of(contact: Any, bodies: Mapping[Any, _MovedBody]) -> Iterator[_ImpactPoint]:
+    """Return the points of a contact."""
+    begins: bool = contact.state == lib.CP_ARBITER_STATE_FIRST_COLLISION
+    normal = complex(contact.n.x, contact.n.y)
+    for place in range(contact.count):
+        point = contact.contacts[place]
+        levers = (
+            _lever_of(bodies[contact.body_a], -normal, point.r1),
+            _lever_of(bodies[contact.body_b], normal, point.r2),
+        )
+        yield _ImpactPoint(point, begins, levers)
+
+
+def _lever_of(body: _MovedBody, push: complex, arm: Any) -> _Lever:
+    return _Lever(body, push, arm.x * push.imag - arm.y * push.real)

@@ -41,15 +41,19 @@ go when GJK is exact.
 from __future__ import annotations
 
 import numpy as np
-from physsim_ros.engine import chipmunk_memory as memory
-from physsim_ros.engine.contacts.pre_step import prepare_contacts
-from physsim_ros.engine.contacts.touches import read_touches, Shapes, Touches, velocities_at
-from physsim_ros.engine.plane_vectors import dot, vectors
+from physsim_ros.engine import memory
+from physsim_ros.engine.contacts.touches import (
+    prepare_contacts,
+    read_touches,
+    Shapes,
+    Touches,
+    velocities_at,
+)
+from physsim_ros.engine.settings import COLLISION_SLOP
 from physsim_ros.engine.step_context import StepContext
-from physsim_ros.engine.tolerances import COLLISION_SLOP
-from physsim_ros.engine.work_correction import are_jointed, take_back_work
+from physsim_ros.engine.work_correction import are_jointed, corrected_twists
 from physsim_ros.model.arrays import Flags, Floats, Ints
-from physsim_ros.model.transform import cross, dots, rotated_each
+from physsim_ros.model.transform import cross, dot, dots, lengths, rotated_each
 import pymunk
 
 # Distance from a corner within which overlaps of the slop along two faces lie [m]: the diagonal
@@ -63,13 +67,13 @@ _PART = 200_000
 _OUTWARDS = np.array((1.0, -1.0))
 
 
-def correct_first_touches(space: pymunk.Space, context: StepContext) -> Touches | None:
+def correct_first_touches(pm_space: pymunk.Space, context: StepContext) -> Touches | None:
     """
     Correct the contacts that begin in this step, between the engine's narrow phase and its solver.
 
     :return: these; None where there are none
     """
-    arbiters = memory.contacts_of_step(space)
+    arbiters = memory.contacts_of_step(pm_space)
     if not len(arbiters):
         return None
     begun = arbiters[memory.begins(arbiters)]
@@ -91,7 +95,7 @@ def correct_first_touches(space: pymunk.Space, context: StepContext) -> Touches 
     if len(moved):
         touched = np.isin(memory.bodies_of(arbiters), moved).any(axis=1)
         changed = np.union1d(changed, arbiters[touched])
-    prepare_contacts(space, changed)
+    prepare_contacts(pm_space, changed)
     return touches
 
 
@@ -140,7 +144,7 @@ def move_to_impact(touches: Touches, context: StepContext) -> None:
     shapes, dt = touches.shapes, context.dt
     arms = touches.places[:, :, 0] - touches.states[..., memory.BODY_POSITION]
     velocities = touches.states[..., memory.BODY_VELOCITY]
-    ways = _length(velocities) + np.abs(touches.states[..., memory.BODY_SPIN]) * _length(arms)
+    ways = lengths(velocities) + np.abs(touches.states[..., memory.BODY_SPIN]) * lengths(arms)
     # Pairs that are deeper than they can have approached overlapped before.
     discs = -touches.distances[:, 0] <= ways.sum(axis=0) * dt
     # The engine has the disc first.
@@ -227,12 +231,12 @@ def slide_over_edges(touches: Touches) -> None:
     """Replace contacts at seams by those with the face that the shapes approach slowest."""
     shapes, normals = touches.shapes, touches.shapes.normals
     points, reach = touches.places[:, :, :1], (_NEAR + shapes.radii)[..., None]
-    near = _length(shapes.corners - points) <= reach
+    near = lengths(shapes.corners - points) <= reach
     # At a corner of both; a disc is one.
     rows = np.flatnonzero(near.any(axis=2).all(axis=0) & normals.any(axis=(0, 2, 3)))
     if not len(rows):
         return
-    near |= _length(shapes.begins - points) <= reach
+    near |= lengths(shapes.begins - points) <= reach
     # The spin of a disc does not move its surface along a face.
     discs = shapes.kinds == memory.CIRCLE
     centers = touches.states[..., memory.BODY_POSITION]
@@ -240,7 +244,7 @@ def slide_over_edges(touches: Touches) -> None:
     a, b = velocities_at(touches, arms)[:, rows]
     velocity = b - a
     approach = -dots(velocity, touches.normals[rows])
-    slowest = np.minimum(approach, _GRAZING * _length(velocity))[:, None]
+    slowest = np.minimum(approach, _GRAZING * lengths(velocity))[:, None]
     approaches = -dots(normals[:, rows], velocity[:, None]) * _OUTWARDS[:, None, None]
     slides = near[:, rows] & normals[:, rows].any(axis=3) & (approaches < slowest)
     slides &= approach[:, None] > 0.0
@@ -261,12 +265,6 @@ def slide_over_edges(touches: Touches) -> None:
     half = (along * depth / 2.0)[:, None]
     touches.normals[rows] = along
     touches.places[0, rows], touches.places[1, rows] = middles + half, middles - half
-
-
-def _length(vectors: Floats) -> Floats:
-    """Return (...) the lengths of vectors (..., 2)."""
-    length: Floats = np.hypot(vectors[..., 0], vectors[..., 1])
-    return length
 
 
 def project_contacts(touches: Touches, context: StepContext) -> Ints:
@@ -305,7 +303,7 @@ def project_contacts(touches: Touches, context: StepContext) -> Ints:
     places = touches.bodies[:, rows].ravel()[first]
     moved = shifts.any(axis=1)
     shifts, states, places = shifts[moved], states[moved], places[moved]
-    twists = take_back_work(context, states, backs[moved])
+    twists = corrected_twists(context, states, backs[moved])
     motion = states[:, memory.BODY_MOTION]
     motion[:, :2] += shifts
     motion[:, 2:5] = twists
@@ -331,7 +329,7 @@ def _set_apart(
     columns = (
         bodies.T.tolist(),
         excess.tolist(),
-        vectors(normals),
+        normals.view(np.complex128).ravel().tolist(),
         shares.T.tolist(),
         ahead.T.tolist(),
     )

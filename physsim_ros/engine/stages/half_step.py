@@ -27,7 +27,7 @@ from physsim_ros.engine.step_context import StepContext
 from physsim_ros.model.arrays import Flags, Floats
 import pymunk
 
-# Rounding of the same sum in another order, as a share of the velocity.
+# Difference of a sum in another order, as a share of the velocity.
 ROUNDING = 1e-12
 
 
@@ -48,14 +48,14 @@ class StartState(NamedTuple):
 
 class HalfStep:
     """
-    Distinguishes free flight from all else.
+    Finds bodies in free flight, and keeps the lead of their velocities.
 
-    :param space: of the engine
+    :param pm_space: of the engine
     :param io: of the space
     """
 
-    def __init__(self, space: pymunk.Space, io: BatchIO) -> None:
-        self._space = space
+    def __init__(self, pm_space: pymunk.Space, io: BatchIO) -> None:
+        self._pm_space = pm_space
         self._io = io
         # Names of the bodies from which something was removed since the last step.
         self._released: set[str] = set()
@@ -78,7 +78,7 @@ class HalfStep:
         rows = [columns.rows[name] for name in self._released if name in columns.rows]
         released = sorted(row for row in rows if columns.dynamic[row])
         if released:
-            unsupported = find_unsupported(self._space, self._io, table, released)
+            unsupported = find_unsupported(self._pm_space, self._io, table, released)
             flies = flies | unsupported
         if not np.array_equal(flies, free):
             state = state.copy()
@@ -103,9 +103,9 @@ class HalfStep:
         self._released.clear()
         changed = np.flatnonzero(start.free != table.free).tolist()
         for row in changed:
-            engine = table.bodies[row].engine
-            vx, vy, engine.angular_velocity = start.state[row, 3:].tolist()
-            engine.velocity = vx, vy
+            pm_body = table.bodies[row].pm_body
+            vx, vy, pm_body.angular_velocity = start.state[row, 3:].tolist()
+            pm_body.velocity = vx, vy
         if changed:
             table.free = start.free
             table.forget_state()

@@ -12,21 +12,21 @@ converge, and energy is lost or gained.
 
 **Method.** Sequential impacts: pairwise Newton restitution, the fastest approach first, each round
 being one step of the engine. See Smith, Kaufman, Vouga, Tamstorf and Grinspun, *Reflections on
-Simultaneous Impact*, SIGGRAPH 2012, section 3 (Gauss-Seidel impacts). A contact is left open for a
-step while one of its bodies is in an impact that is faster. The next step finds the velocity that
-the impact has given, and passes it on.
+Simultaneous Impact*, SIGGRAPH 2012, section 3 (Gauss-Seidel impacts). A contact is deferred by
+a step while one of its bodies is in a faster impact. The next step finds the velocity that the
+impact has given, and passes it on.
 
 **Scope.** Contacts of a restitution from `ELASTIC` on. Contacts under load, as in a stack, and
-deep ones are not left open, nor contacts that are equally fast: what is symmetric stays so. Each
-decision depends on the contacts of the two bodies, on nothing further, and on no step before.
+deep ones are not deferred, nor contacts that are equally fast: what is symmetric stays so. Each
+decision depends on the contacts of the two bodies in this step alone.
 
 **Cost.** Nothing in a world without an elastic body; else the contacts of the step are read in
-batch, and those that are left open are visited one by one, about 5 us each.
+batch, and those that are deferred are visited one by one, about 5 us each.
 
 Without it laws 17 (Newton's cradle), 21 (elastic discs keep their energy) and 36 (elastic rows)
 fail.
 
-**Limits.** A contact that is left open sinks by a step of the impact: a pile of 1,000 bodies of
+**Limits.** A contact that is deferred sinks by a step of the impact: a pile of 1,000 bodies of
 restitution 0.8 comes to rest with contacts up to 33 mm deep, one in a hundred deeper than 21 mm,
 where the solver alone leaves 5 mm.
 """
@@ -38,7 +38,7 @@ from typing import Any
 import numpy as np
 from physsim_ros.engine.batch_io import BatchIO
 from physsim_ros.engine.body_table import BodyTable
-from physsim_ros.engine.tolerances import COLLISION_SLOP
+from physsim_ros.engine.settings import COLLISION_SLOP
 from physsim_ros.model.arrays import Floats, Ints
 import pymunk
 from pymunk import batch
@@ -55,12 +55,12 @@ SLOWEST = 0.05
 GRAZING = 1e-12
 # Approach velocities of this ratio are equal but for rounding.
 ALIKE = 1.0 - 1e-9
-# Impact velocities by which a contact that is left open may approach. Of a body of any mass the
-# velocity changes by at most two, so that of both bodies, and its own approach, make five.
+# Approach that a deferred contact permits, in velocities of the impact. That changes the velocity
+# of a body of any mass by two at most: two for each body and the contact's own approach make five.
 PERMITTED = 5.0
-# A contact whose impulse of the last step would stop less than this share of the impact next to it
-# is not under load.
-SHARE = 0.05
+# Share of the impact next to a contact that its impulse of the last step has to stop, so that it
+# is under load.
+LOAD_SHARE = 0.05
 
 _F = batch.ArbiterFields
 _FIELDS = _F.BODY_A_ID | _F.BODY_B_ID | _F.NORMAL | _F.CONTACT_COUNT
@@ -70,18 +70,18 @@ _FIELDS |= _F.POINT_A_2 | _F.POINT_B_2 | _F.DISTANCE_2
 
 class ImpactPropagation:
     """
-    Leaves contacts next to an impact open for a step.
+    Defers contacts next to an impact by a step.
 
-    :param space: of the engine, whose `collision_persistence` is 1
+    :param pm_space: of the engine, whose `collision_persistence` is 1
     :param io: of it
     """
 
-    def __init__(self, space: pymunk.Space, io: BatchIO) -> None:
-        self._space = space
+    def __init__(self, pm_space: pymunk.Space, io: BatchIO) -> None:
+        self._pm_space = pm_space
         self._io = io
 
-    def leave_open(self, table: BodyTable) -> None:
-        """Leave contacts open in the coming solve whose bodies are in a faster impact."""
+    def defer_contacts(self, table: BodyTable) -> None:
+        """Defer the contacts of bodies that are in a faster impact."""
         if table.columns.most_elastic < ELASTIC:
             return
         dynamic = table.columns.dynamic
@@ -100,8 +100,8 @@ class ImpactPropagation:
         nearby = np.where(grazing, 2.0 * approach, impacts[rows].max(axis=1))
         weaker = approach < ALIKE * nearby
         # One that is deeper than a step of the impact takes it is solved with the others.
-        weaker &= depths < COLLISION_SLOP + nearby * self._space.current_time_step
-        self._open(table, rows[weaker], nearby[weaker])
+        weaker &= depths < COLLISION_SLOP + nearby * self._pm_space.current_time_step
+        self._defer_all(table, rows[weaker], nearby[weaker])
 
     def _contacts(self, table: BodyTable) -> tuple[Ints, Floats, Floats] | None:
         """
@@ -131,41 +131,41 @@ class ImpactPropagation:
         speeds = ((velocities[:, :, 1] - velocities[:, :, 0]) * normals).sum(axis=-1)
         return rows, -speeds.min(axis=1), -distances.min(axis=1)
 
-    def _open(self, table: BodyTable, rows: Ints, impacts: Floats) -> None:
+    def _defer_all(self, table: BodyTable, rows: Ints, impacts: Floats) -> None:
         """
-        Leave contacts open that approach less fast than an impact next to them.
+        Defer contacts that approach less fast than an impact next to them.
 
         :param rows: (k, 2) of their bodies
         :param impacts: (k,) approach velocity of the impact [m/s]
         """
-        # By a body that forces move first, which has fewer contacts than the ground.
+        # A dynamic body comes first: it has fewer contacts than the ground.
         rows = np.where(table.columns.dynamic[rows[:, :1]], rows, rows[:, ::-1])
         found: dict[int, dict[Any, float]] = {}
         for (one, other), impact in zip(rows.tolist(), impacts.tolist(), strict=True):
-            found.setdefault(one, {})[self._engine(table, other)._body] = impact
+            found.setdefault(one, {})[self._pm_body(table, other)._body] = impact
         for one, others in found.items():
-            engine = self._engine(table, one)
+            pm_body = self._pm_body(table, one)
 
             def look(
                 arbiter: pymunk.Arbiter,
-                own: Any = engine._body,
+                own: Any = pm_body._body,
                 others: dict[Any, float] = others,
             ) -> None:
                 raw = arbiter._arbiter
                 impact = others.get(raw.body_b if raw.body_a == own else raw.body_a)
                 if impact is not None:
-                    _leave_open(raw, impact)
+                    _defer(raw, impact)
 
-            engine.each_arbiter(look)
+            pm_body.each_arbiter(look)
 
-    def _engine(self, table: BodyTable, row: int) -> pymunk.Body:
+    def _pm_body(self, table: BodyTable, row: int) -> pymunk.Body:
         """Return the engine's body of a row; of the last one, the background."""
-        return table.bodies[row].engine if row < len(table.bodies) else self._space.static_body
+        return table.bodies[row].pm_body if row < len(table.bodies) else self._pm_space.static_body
 
 
-def _leave_open(arbiter: Any, impact: float) -> None:
+def _defer(arbiter: Any, impact: float) -> None:
     """
-    Exclude a contact from this step, unless it is as fast as an impact or loaded.
+    Exclude a contact from this step, unless it is as fast as the impact or under load.
 
     Private fields of Chipmunk 7 as in Pymunk 7.3.1, `cpContact` of `cpArbiter.contacts`:
     `bounce` [m/s] is set to `e * v_n` by `cpArbiterPreStep`, `v_n < 0` being approach; the solver
@@ -182,7 +182,7 @@ def _leave_open(arbiter: Any, impact: float) -> None:
         if -point.bounce >= ALIKE * impact * arbiter.e:
             return
         # An impulse of the last step where bodies do not part is a load, as in a stack.
-        if point.bounce < SLOWEST * arbiter.e and point.jnAcc > SHARE * impact * point.nMass:
+        if point.bounce < SLOWEST * arbiter.e and point.jnAcc > LOAD_SHARE * impact * point.nMass:
             return
     for point in points:
         point.bounce = PERMITTED * impact

@@ -97,7 +97,7 @@ def _apply_to_body(rigid: RigidBody, grips: list[Grip], context: StepContext) ->
     kept = (1.0 - context.settings.damping) ** dt
     ax, ay, turning = (2.0 * table.leads[row]).tolist()
     vx, vy, spin = vx * kept + ax, vy * kept + ay, spin * kept + turning
-    mass, moment = rigid.engine.mass, rigid.engine.moment
+    mass, moment = rigid.pm_body.mass, rigid.pm_body.moment
     most = greatest_force(mass, context.settings) * dt
     bias_rate, mass_scale, impulse_scale = _softness(dt)
     arms = [_arm(rigid, grip, yaw) for grip in grips]
@@ -121,13 +121,13 @@ def _apply_to_body(rigid: RigidBody, grips: list[Grip], context: StepContext) ->
             dx, dy = jx - old_x, jy - old_y
             vx, vy = vx + dx / mass, vy + dy / mass
             spin += (rx * dy - ry * dx) / moment
-    force = rigid.engine.force
+    force = rigid.pm_body.force
     # Of commands and hands together.
-    rigid.engine.torque += (
+    rigid.pm_body.torque += (
         sum(rx * jy - ry * jx for (rx, ry), (jx, jy) in zip(arms, impulses, strict=True)) / dt
     )
     fx, fy = (sum(each) / dt for each in zip(*impulses, strict=True))
-    rigid.engine.force = force[0] + fx, force[1] + fy
+    rigid.pm_body.force = force[0] + fx, force[1] + fy
 
 
 def _arm(rigid: RigidBody, grip: Grip, yaw: float) -> Point:

@@ -23,20 +23,20 @@ class PreSolveHook:
     """
     The hook of a space.
 
-    :param space: of the engine
+    :param pm_space: of the engine
     """
 
-    def __init__(self, space: pymunk.Space) -> None:
-        self._space = space
+    def __init__(self, pm_space: pymunk.Space) -> None:
+        self._pm_space = pm_space
         # A massive body outside the space, whose angle stays 0 and within the limits.
         body = pymunk.Body(1.0, 1.0)
-        constraint = pymunk.RotaryLimitJoint(space.static_body, body, -1.0, 1.0)
+        constraint = pymunk.RotaryLimitJoint(pm_space.static_body, body, -1.0, 1.0)
         constraint.pre_solve = lambda *_: self._before_solving()
-        space.add(constraint)
+        pm_space.add(constraint)
         # In a step that is not made here, as for a warm start, there is nothing to do.
         self._before_solving: Callable[[], None] = lambda: None
 
     def step(self, dt: float, before_solving: Callable[[], None]) -> None:
         """Make a step of the engine, with a call before its contacts are solved."""
         self._before_solving = before_solving
-        self._space.step(dt)
+        self._pm_space.step(dt)

@@ -20,20 +20,21 @@ from __future__ import annotations
 import numpy as np
 from physsim_ros.engine.batch_io import BatchIO
 from physsim_ros.engine.body import RigidBody
-from physsim_ros.engine.body_table import BodyTable, SceneColumns
+from physsim_ros.engine.body_table import BodyTable
 from physsim_ros.engine.graph_search import reachable
-from physsim_ros.engine.stages.sleeping import IDLE_SPEED
+from physsim_ros.engine.scene_columns import SceneColumns
+from physsim_ros.engine.settings import IDLE_SPEED
 from physsim_ros.engine.step_context import StepContext
 from physsim_ros.model.arrays import Flags, Floats
 from pymunk import batch
 
-# Damped so often [Hz]: the solver itself ends within a second what sways faster than half of this.
+# Rate of the damping [Hz]: the solver itself damps faster swaying than half of this in a second.
 RATE = 8.0
-# That share of the velocity is removed each time, and so three quarters of a sway in a second.
-SHARE = 0.3
-# The fastest error [m/s]: what the worst orders of solving leave of a stack that is put down.
+# Share of the velocity that is removed each time: three quarters of a sway in a second.
+DAMPED_SHARE = 0.3
+# Greatest velocity of an error [m/s]: what the solver leaves of a stack that is put down.
 FASTEST_ERROR = 0.1
-# Slower bodies fall asleep by themselves [m/s].
+# Least velocity of an error that is damped [m/s]; slower bodies fall asleep by themselves.
 SLOWEST_ERROR = IDLE_SPEED / 20
 # Share of the friction cone inside which a contact sticks; one that slides lies on the cone to the
 # last bit.
@@ -60,7 +61,7 @@ class RestingDamping:
         self._thrown: set[str] = set()
 
     def exempt_body(self, rigid: RigidBody) -> None:
-        """Leave a body alone in the next step: its velocity has just been set."""
+        """Do not damp a body in the next step, since its velocity has just been set."""
         self._thrown.add(rigid.body.name)
 
     def damp_resting(self, context: StepContext) -> None:
@@ -77,12 +78,12 @@ class RestingDamping:
             return
         anchored = table.columns.anchored
         locked = self._locked(table, np.append(slow, False) | anchored)[:-1] & visible
-        twists[locked] *= 1.0 - SHARE
-        # One by one: batch writes are wrong where anything sleeps.
+        twists[locked] *= 1.0 - DAMPED_SHARE
+        # One by one: batch writes are wrong while any body sleeps.
         for row in np.flatnonzero(locked).tolist():
-            engine = table.bodies[row].engine
-            vx, vy, engine.angular_velocity = twists[row].tolist()
-            engine.velocity = vx, vy
+            pm_body = table.bodies[row].pm_body
+            vx, vy, pm_body.angular_velocity = twists[row].tolist()
+            pm_body.velocity = vx, vy
 
     def _locked(self, table: BodyTable, slow: Flags) -> Flags:
         """Return (n + 1,) bool: anchored bodies, and those that sticking faces tie to one."""

@@ -17,23 +17,13 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 import numpy as np
+from physsim_ros.engine.settings import IDLE_SPEED
 from physsim_ros.engine.step_context import StepContext
 import pymunk
 
-# An island sleeps when none of its bodies had more kinetic energy than at this speed [m/s]: a ball
-# that rolls at 1 cm/s stays awake. Pymunk's default, g dt, is 4 cm/s at 240 Hz.
-IDLE_SPEED = 0.005
-# For so long [s].
-IDLE_TIME = 0.5
 # A body on a spring that accelerates by no more than this is at rest [m/s², rad/s²]: one that
 # swings in 40 s is then within 1 mm of where it rests.
 REST_ACCELERATION = 2.5e-5
-
-
-def enable_sleeping(space: pymunk.Space) -> None:
-    """Let islands of a space fall asleep."""
-    space.sleep_time_threshold = IDLE_TIME
-    space.idle_speed_threshold = IDLE_SPEED
 
 
 def keep_flying_awake(context: StepContext) -> None:
@@ -46,7 +36,7 @@ def keep_flying_awake(context: StepContext) -> None:
     for row in np.flatnonzero(table.free & slow[:, 0] & slow[:, 1] & slow[:, 2]).tolist():
         if speeds[row].any():
             # Chipmunk begins to count idle time anew.
-            table.bodies[row].engine.activate()
+            table.bodies[row].pm_body.activate()
 
 
 def keep_swinging_awake(context: StepContext) -> None:
@@ -58,7 +48,7 @@ def keep_swinging_awake(context: StepContext) -> None:
     slow = np.abs(twists).max(axis=1, initial=0.0) < IDLE_SPEED
     changes = np.abs(twists - context.twists[rows]).max(axis=1, initial=0.0)
     for row in rows[slow & (changes > REST_ACCELERATION * context.dt)].tolist():
-        table.bodies[row].engine.activate()
+        table.bodies[row].pm_body.activate()
 
 
 def wake_bodies(bodies: Iterable[pymunk.Body]) -> None:
@@ -68,7 +58,7 @@ def wake_bodies(bodies: Iterable[pymunk.Body]) -> None:
             body.activate()
 
 
-def wake_overlapping(space: pymunk.Space, body: pymunk.Body) -> None:
+def wake_overlapping(pm_space: pymunk.Space, body: pymunk.Body) -> None:
     """Wake the bodies that overlap one: the engine compares static shapes with awake ones only."""
-    hits = (hit.shape for shape in body.shapes for hit in space.shape_query(shape))
+    hits = (hit.shape for shape in body.shapes for hit in pm_space.shape_query(shape))
     wake_bodies(shape.body for shape in hits if shape is not None and shape.body is not None)

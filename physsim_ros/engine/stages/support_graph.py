@@ -30,27 +30,33 @@ _PRESSING = _F.BODY_A_ID | _F.BODY_B_ID | _F.TOTAL_IMPULSE
 
 
 def find_unsupported(
-    space: pymunk.Space, io: BatchIO, table: BodyTable, released: Sequence[int]
+    pm_space: pymunk.Space, io: BatchIO, table: BodyTable, released: Sequence[int]
 ) -> Flags:
     """
     Return (n,) bool: which bodies have lost their support.
 
-    :param space: of the engine; its `collision_persistence` is 1, so that it lists only contacts
-        of the last step
+    :param pm_space: its `collision_persistence` is 1, so that it lists only contacts of the last
+        step
     :param io: of the space
     :param table: of its bodies
     :param released: rows of the dynamic bodies that lost a neighbour since that step
     """
     loose = np.zeros(len(table.ids), np.bool_)
     loose[list(released)] = True
-    engines = [table.bodies[row].engine for row in released]
-    pairs = np.concatenate((_contacts(space, io, table, loose, engines), table.columns.joined))
+    pm_bodies = [table.bodies[row].pm_body for row in released]
+    pairs = np.concatenate(
+        (_contacts(pm_space, io, table, loose, pm_bodies), table.columns.joined)
+    )
     supported = reachable(~table.columns.dynamic, pairs)
     return reachable(loose & ~supported, pairs)[:-1]
 
 
 def _contacts(
-    space: pymunk.Space, io: BatchIO, table: BodyTable, loose: Flags, engines: list[pymunk.Body]
+    pm_space: pymunk.Space,
+    io: BatchIO,
+    table: BodyTable,
+    loose: Flags,
+    pm_bodies: list[pymunk.Body],
 ) -> Rows:
     """
     Return (k, 2) intp: rows of the pairs of bodies that support each other.
@@ -61,17 +67,17 @@ def _contacts(
     ints, floats = io.read_contacts(_PRESSING)
     presses = floats.reshape(-1, 2).any(axis=1)
     pairs = table.rows_of(ints.reshape(-1, 2))
-    now = table.rows_of(np.array([*_touching(space, engines)], np.uint64).reshape(-1, 2))
+    now = table.rows_of(np.array([*_touching(pm_space, pm_bodies)], np.uint64).reshape(-1, 2))
     known, new = (_keys(each, len(loose)) for each in (pairs, now))
     now = now[np.isin(new, known[presses]) | ~np.isin(new, known)]
     return np.concatenate((pairs[presses & ~loose[pairs].any(axis=1)], now))
 
 
-def _touching(space: pymunk.Space, engines: list[pymunk.Body]) -> Iterator[tuple[int, int]]:
+def _touching(pm_space: pymunk.Space, pm_bodies: list[pymunk.Body]) -> Iterator[tuple[int, int]]:
     """Yield the engine's ids of pairs that touch where all is now, as the next step finds it."""
-    for body in engines:
+    for body in pm_bodies:
         for shape in body.shapes:
-            for hit in space.shape_query(shape):
+            for hit in pm_space.shape_query(shape):
                 other = hit.shape
                 if other and other.body and not (shape.sensor or other.sensor):
                     yield body.id, other.body.id

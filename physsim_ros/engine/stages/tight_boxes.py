@@ -30,12 +30,12 @@ from __future__ import annotations
 import numpy as np
 from physsim_ros.engine.body import index_at_rest
 from physsim_ros.engine.ccd.broad_phase import count_candidates
-from physsim_ros.engine.fast_bodies import EXTENSION, fast_in_crowd, MOST_PAIRS
+from physsim_ros.engine.ccd.fast_bodies import EXTENSION, fast_in_crowd, MOST_PAIRS
 from physsim_ros.engine.step_context import StepContext
 
 
 def tighten_boxes(context: StepContext) -> None:
-    """Have the engine's broad phase bound fast bodies in a crowd where the coming step ends."""
+    """Keep fast bodies' broad-phase boxes tight, so that only nearby pairs are listed."""
     table, columns = context.table, context.table.columns
     if table.all_slow:
         return
@@ -48,4 +48,4 @@ def tighten_boxes(context: StepContext) -> None:
     boxes = np.concatenate((low - reach, high + reach), axis=1)
     pairs = columns.pieces * count_candidates(boxes, fast, columns.pieces)
     for row in np.flatnonzero(pairs > MOST_PAIRS).tolist():
-        index_at_rest(table.bodies[row].engine, ahead=context.dt)
+        index_at_rest(table.bodies[row].pm_body, ahead=context.dt)

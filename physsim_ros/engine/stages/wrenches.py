@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Wrenches: forces and torques that commands let act on bodies, until a step.
+Wrenches: forces and torques of commands, which act on bodies until a step.
 
-The engine adds a body's force up from step to step only if it is set again for each.
+The engine clears forces after each step, so that they are set for each.
 """
 
 from __future__ import annotations
@@ -16,14 +16,14 @@ from physsim_ros.model.transform import NO_WRENCH, Wrench
 
 
 class Wrenches:
-    """The wrenches that act in a space; each stands with its body."""
+    """The wrenches that act in a space; each is stored with its body."""
 
     def __init__(self) -> None:
         self._acting: dict[str, RigidBody] = {}
 
     def set_wrench(self, rigid: RigidBody, wrench: Wrench, until: int | None) -> None:
         """
-        Let a wrench act in place of the one before.
+        Set the wrench on a body.
 
         :param wrench: force [N] and torque [N m] at the centre of mass
         :param until: step at which it ends; None is never
@@ -35,7 +35,7 @@ class Wrenches:
             self._acting[rigid.body.name] = rigid
 
     def forget_body(self, rigid: RigidBody) -> None:
-        """Drop a body that is removed from the space; its wrench stays with it."""
+        """Drop a body that is removed from the space; it keeps its wrench."""
         self._acting.pop(rigid.body.name, None)
 
     def acting(self) -> list[RigidBody]:
@@ -43,7 +43,7 @@ class Wrenches:
         return sorted(self._acting.values(), key=lambda rigid: rigid.serial)
 
     def ended(self, step: int) -> Iterator[RigidBody]:
-        """Yield the bodies whose wrench acts no longer than to a step."""
+        """Yield the bodies whose wrench ends at a step or before."""
         for rigid in list(self._acting.values()):
             if rigid.wrench_until is not None and rigid.wrench_until <= step:
                 yield rigid
@@ -51,5 +51,5 @@ class Wrenches:
     def apply_wrenches(self) -> None:
         """Set forces and torques for the coming step of the engine, which clears them after it."""
         for rigid in self._acting.values():
-            fx, fy, rigid.engine.torque = rigid.wrench
-            rigid.engine.force = fx, fy
+            fx, fy, rigid.pm_body.torque = rigid.wrench
+            rigid.pm_body.force = fx, fy

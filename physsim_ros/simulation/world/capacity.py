@@ -174,7 +174,7 @@ class Capacity:
             return int(boxes_overlap(self._boxes, np.array(boxes)).sum())
         return space.bodies.count_near(
             boxes,
-            without=None if old is None else old.engine,
+            without=None if old is None else old.pm_body,
             moving_only=body.anchored,
             most=space.settings.max_overlaps,
         )

@@ -9,7 +9,7 @@ import numpy as np
 from physsim_ros.engine import body as rigid_body
 from physsim_ros.engine.ccd import continuous, impact_islands
 from physsim_ros.engine.ccd.time_of_impact import Motions, Pairs
-from physsim_ros.engine.tolerances import COLLISION_SLOP
+from physsim_ros.engine.settings import COLLISION_SLOP
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.requests import Configure, Spawn
 from physsim_ros.model.settings import WorldSettings
@@ -58,7 +58,7 @@ class Overlaps:
         self._space = pymunk.Space()
         self._rigids = [rigid_body.build(body, row) for row, body in enumerate(scene.bodies)]
         for rigid in self._rigids:
-            self._space.add(rigid.engine, *rigid.engine.shapes)
+            self._space.add(rigid.pm_body, *rigid.pm_body.shapes)
 
     def deepest(self, snapshot):
         """Return the depth of the deepest overlap of two bodies [m]."""
@@ -66,9 +66,9 @@ class Overlaps:
             rigid.pose = pose
         deepest = 0.0
         for rigid in self._rigids:
-            for shape in rigid.engine.shapes:
+            for shape in rigid.pm_body.shapes:
                 for hit in self._space.shape_query(shape):
-                    if hit.shape.body is not rigid.engine:
+                    if hit.shape.body is not rigid.pm_body:
                         points = hit.contact_point_set.points
                         deepest = max(deepest, *(abs(point.distance) for point in points))
         return deepest
@@ -261,12 +261,12 @@ def test_what_hung_on_a_joint_once_bounces_as_if_it_never_had():
         world = World(settings=WorldSettings(bounds=(-1.0, 0.0, 1.0, 9.0), elasticity=0.9))
         world.apply(Spawn(name='body/0', shape=Disc(radius=0.2), pose=(0.0, 2.0, 0.0)))
         bodies = world.space.bodies.by_name
-        engine = bodies['body/0'].engine
+        pm_body = bodies['body/0'].pm_body
         # The body lists its joint for as long as this refers to it.
-        joint = hung and pymunk.PinJoint(engine, pymunk.Body())
+        joint = hung and pymunk.PinJoint(pm_body, pymunk.Body())
         world.step(240)
         landed.append(world.snapshot().twists.tolist())
-        assert bool(engine.constraints) is bool(joint)
+        assert bool(pm_body.constraints) is bool(joint)
 
     assert landed[0] == landed[1]
 

@@ -4,7 +4,7 @@
 """
 Sensors of robots: what is mounted where, and how well it measures; one file a kind.
 
-A sensor is a value. What it reads in a frame is a function in `sensing`, its message an encoder in
+A sensor is a value. What it reads in a frame is for the simulation, its message an encoder in
 `ros`. A new kind is a file here and a member of `SENSORS`. Start with `sensor`, then `laser`.
 """
 

@@ -2,8 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Constraint rows that several kinds of joints share: their values x and their Jacobians J.
+Constraint rows of joints: what a kind of joint provides, and the rows that several kinds share.
 
+A constraint row is a number x of the poses of two bodies with lower <= x <= upper; of an equality
+both bounds are the same. C is how far x lies outside its bounds [m, rad], J = dx/dq its Jacobian.
 Poses are (k, 3) float64: x, y [m], yaw [rad] of the centres of mass. The columns of J are x, y,
 yaw of the first body, then of the second.
 Source: Catto, "Modeling and Solving Constraints", GDC 2009.
@@ -11,12 +13,66 @@ Source: Catto, "Modeling and Solving Constraints", GDC 2009.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
-from physsim_ros.engine.joints.kind import Batch
+from physsim_ros.engine.graph_search import Rows
+from physsim_ros.engine.joints.engine_joint import Ends
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.transform import rotated_each
+from physsim_ros.model.scene import Joint
+from physsim_ros.model.transform import dots, rotated_each
+import pymunk
+
+# Bounds of an equality.
+EQUAL = (0.0, 0.0)
+
+
+class Batch(NamedTuple):
+    """
+    Joints of one kind, by column.
+
+    :ivar numbers: (k,) of the joints in their set
+    :ivar a: (k,) row of the first body in the states
+    :ivar b: (k,) row of the second body
+    :ivar at_a: (k, 2) float64: anchor in the frame of the first body [m]
+    :ivar at_b: (k, 2) float64: anchor in the frame of the second body [m]
+    :ivar axis: (k, 2) float64: unit vector of a slider in the frame of the second body
+    :ivar ratio: (k,) float64: of a gear
+    :ivar lower: (k, r) float64: least value of each row [m, rad]
+    :ivar upper: (k, r) float64: greatest value of each row [m, rad]
+    :ivar constraints: (k,) the engine's pointer to the first constraint of each
+    """
+
+    numbers: Rows
+    a: Rows
+    b: Rows
+    at_a: Floats
+    at_b: Floats
+    axis: Floats
+    ratio: Floats
+    lower: Floats
+    upper: Floats
+    constraints: list[Any]
+
+
+class Kind(NamedTuple):
+    """
+    The functions of one kind of joint.
+
+    :ivar constraints: makes the Pymunk constraints; their impulses, but those of motors and
+        springs, are those of the rows in the same order
+    :ivar bounds: returns (lower, upper) of each constraint row of a joint [m, rad]
+    :ivar rows: returns the (k, r) values x and the (k, r, 6) Jacobian J at the (k, 3) poses of the
+        first and the second bodies; None where the engine alone solves the joint
+    :ivar prepare: changes constraints before a step, at the poses that it will have; None where
+        they do not depend on poses
+    """
+
+    constraints: Callable[[Joint, Ends], list[pymunk.Constraint]]
+    bounds: Callable[[Joint], Sequence[tuple[float, float]]] = lambda _: ()
+    rows: Callable[[Batch, Floats, Floats], tuple[Floats, Floats]] | None = None
+    prepare: Callable[[Batch, Floats, Floats], None] | None = None
 
 
 def arms(batch: Batch, a: Floats, b: Floats) -> tuple[Floats, Floats, Floats]:
@@ -74,7 +130,7 @@ def _place_on_line(
     arm_a, arm_b, apart = arms(batch, a, b)
     direction = direction_of(rotated_each(batch.axis, b[:, 2]))
     # The line reaches from the second body to where the first anchor is.
-    return dot(direction, apart)[:, None], along(direction, arm_a, arm_b + apart)
+    return dots(direction, apart)[:, None], along(direction, arm_a, arm_b + apart)
 
 
 def both(first: tuple[Floats, Floats], second: tuple[Floats, Floats]) -> tuple[Floats, Floats]:
@@ -85,12 +141,6 @@ def both(first: tuple[Floats, Floats], second: tuple[Floats, Floats]) -> tuple[F
 def across(vectors: Floats) -> Floats:
     """Return (k, 2) vectors turned counter-clockwise by a quarter."""
     return np.stack((-vectors[:, 1], vectors[:, 0]), axis=1)
-
-
-def dot(a: Floats, b: Floats) -> Floats:
-    """Return (k,) float64: the scalar products of (k, 2) vectors."""
-    product: Floats = a[:, 0] * b[:, 0] + a[:, 1] * b[:, 1]
-    return product
 
 
 def along(direction: Floats, arm_a: Floats, arm_b: Floats) -> Floats:

@@ -1,13 +1,14 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""The kinds of joints in the engine, and a joint made of its kind."""
+"""The table of the kinds of joints, and a joint made of its kind."""
 
 from __future__ import annotations
 
 from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.joints import axle, gear, motor, rod, rope, slider, spring, weld
-from physsim_ros.engine.joints.kind import Ends, EngineJoint, Kind
+from physsim_ros.engine.joints.constraint_rows import Kind
+from physsim_ros.engine.joints.engine_joint import Ends, EngineJoint
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.scene import Joint
 import pymunk
@@ -26,7 +27,7 @@ KINDS: dict[JointKind, Kind] = {
 
 def kind_of(joint: Joint) -> Kind:
     """Return the kind of a joint; a slider whose limits are one point is welded there."""
-    if joint.kind is JointKind.SLIDER and slider.has_no_way(joint):
+    if joint.kind is JointKind.SLIDER and slider.is_locked(joint):
         return weld.KIND
     return KINDS[joint.kind]
 
@@ -46,11 +47,11 @@ def build_joint(
     """
     seat = joint.seat
     at_b = (seat.bx, seat.by) if b is None else (seat.bx - b.offset[0], seat.by - b.offset[1])
-    if joint.kind is JointKind.SLIDER and slider.has_no_way(joint):
+    if joint.kind is JointKind.SLIDER and slider.is_locked(joint):
         at_b = slider.stop(joint, at_b)
     ends = Ends(
-        a=a.engine,
-        b=background if b is None else b.engine,
+        a=a.pm_body,
+        b=background if b is None else b.pm_body,
         at_a=(seat.ax - a.offset[0], seat.ay - a.offset[1]),
         at_b=at_b,
     )

@@ -10,21 +10,17 @@ criteria are computed as soon as one body exceeds its bound.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from physsim_ros.engine.scene_columns import SceneColumns
 from physsim_ros.model.arrays import Flags, Floats
 
-if TYPE_CHECKING:
-    from physsim_ros.engine.body_table import SceneColumns
-
-# The engine extends a box by the way of so long [s].
+# The engine extends a box by the displacement in this time [s].
 EXTENSION = 0.1
-# Pairs of the pieces of a body and of what is near it, from which it is indexed anew: the engine
-# goes through so many in 3 to 5 us, and keeps 56 kB for them.
+# Count of pairs of a body's pieces with pieces nearby, beyond which its box is kept tight: the
+# engine goes through 1,000 pairs in 3 to 5 us, and stores 56 kB for them.
 MOST_PAIRS = 1000.0
-# Shares of the limit of a way that each coordinate and the turning may take within slow bounds:
-# together less than 1, by more than rounding.
+# Shares of the greatest displacement that each coordinate and the turning may take within slow
+# bounds: together less than 1, by more than rounding.
 _COORDINATE, _TURNING = 0.6, 0.15
 
 
