@@ -59,7 +59,7 @@ class LiveParameters:
         self._prepare = prepare
         self._on_change = on_change
         # The settings of the world that the parameters have; None where they may differ.
-        self._mirrored: WorldSettings | None = simulation.settings
+        self._mirrored: WorldSettings | None = None
         node.add_on_set_parameters_callback(self._check)
         node.add_post_set_parameters_callback(self._apply)
 

@@ -104,6 +104,11 @@ class PhysSimNode(NodeWithoutQosEvents):
         self.world_files = WorldFiles(self.simulation, self._values, self.get_logger().info)
         self.outputs = FrameOutputs(self, self._values, self._session)
         self._closing.callback(self.outputs.close)
+        if self._values['world_file']:
+            self.world_files.begin_with()
+        self.outputs.topics.timeline.publish(self.simulation.status, moving=False)
+        self._create_subscriptions()
+        self._create_services()
         self._live_parameters = LiveParameters(
             self,
             self._values,
@@ -111,20 +116,15 @@ class PhysSimNode(NodeWithoutQosEvents):
             self._session,
             effects={
                 'publish_clock': self.outputs.update_clock,
-                'sketchpad': self._update_pages,
+                'sketchpad': self._pages.update,
                 'viewer': self._open_viewer,
             },
-            prepare={'sketchpad': self._open_pages_for},
+            prepare={'sketchpad': self._pages.open_for},
             on_change=self.outputs.publish_preview,
         )
-        if self._values['world_file']:
-            self.world_files.begin_with()
-            self._live_parameters.mirror_settings()
-        self.outputs.topics.timeline.publish(self.simulation.status, moving=False)
-        self._create_subscriptions()
-        self._create_services()
-        self._open_pages_for(self._values['sketchpad'])
-        self._update_pages()
+        self._live_parameters.mirror_settings()
+        self._pages.open_for(self._values['sketchpad'])
+        self._pages.update()
 
     def _create_subscriptions(self) -> None:
         frame_id = self._values['frame_id']
@@ -217,12 +217,6 @@ class PhysSimNode(NodeWithoutQosEvents):
         """Open the viewer of parameter `viewer`, once the node has started."""
         if self._started:
             self.outputs.open_viewer()
-
-    def _open_pages_for(self, value: str) -> None:
-        self._pages.open_for(value)
-
-    def _update_pages(self) -> None:
-        self._pages.update(self._values['sketchpad'])
 
     def destroy_node(self) -> None:
         """Close the viewer and the sketchpad, and destroy the node."""

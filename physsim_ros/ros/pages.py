@@ -80,9 +80,9 @@ class Pages:
         if self._is_started():
             self.print_addresses()
 
-    def update(self, value: str) -> None:
+    def update(self) -> None:
         """Close the sketchpad, or show the world on it, as its parameter says."""
-        if value != 'serve':
+        if self._values['sketchpad'] != 'serve':
             self._outputs.close_sketchpad()
         elif self._outputs.frame is None:
             # A page shows the world before its time has begun.

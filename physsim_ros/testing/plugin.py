@@ -58,6 +58,11 @@ def physsim(
         del request.node.stash[_RUN]
 
 
+def pytest_configure(config: pytest.Config) -> None:
+    """Ignore two warnings of lark-parser 0.12, which ROS 2 Jazzy parses its interfaces with."""
+    config.addinivalue_line('filterwarnings', 'ignore:module .sre_:DeprecationWarning:lark')
+
+
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_makereport(
     item: pytest.Item, call: pytest.CallInfo[None]
