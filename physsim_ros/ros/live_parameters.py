@@ -4,9 +4,8 @@
 """
 The parameters of a running node.
 
-Laws: a parameter that is set has its effect before the next frame, and one that cannot have it is
-refused; after a frame, parameters and settings of the world are equal, whichever of them was
-changed.
+Laws: a parameter that is set takes effect before the next frame, and is refused if it cannot;
+after each frame the parameters equal the settings of the world, whichever of the two was changed.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""The control of time, the same by topic, service and page: speed, time, single frames."""
+"""The control of time by topics, services and pages: speed, seeks, single frames."""
 
 from __future__ import annotations
 
@@ -114,7 +114,7 @@ class TimeControl:
 
     def step(self) -> str:
         """
-        Advance a paused world by one frame, or have it made when a seek under way is done.
+        Advance a paused world by one frame; during a seek, queue that frame.
 
         :raises Running: time is running
         """

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Plain CDR, little endian: a writer of values, and templates of messages whose numbers change.
+CDR, little endian: a writer of messages, and templates of which a frame writes the numbers.
 
 A message is four bytes of header, then its values, each aligned to its own size counted from the
 end of the header; a string is its length with the NUL, its characters and the NUL. The parts of a

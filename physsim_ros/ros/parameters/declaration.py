@@ -32,8 +32,7 @@ def declare(node: Node) -> dict[str, Any]:
     values = {}
     for name, spec in SPECS.items():
         default = Parameter(name, spec.kind, spec.default).value
-        # Declared without type and range: initial values are converted and checked here, so that
-        # all refusals are alike.
+        # Declared without type and range: rclpy would refuse initial values without a code.
         node.declare_parameter(name, default, ParameterDescriptor(dynamic_typing=True))
         given = node.get_parameter(name)
         if given.type_ == Type.NOT_SET:

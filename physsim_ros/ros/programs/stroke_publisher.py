@@ -4,8 +4,8 @@
 """
 A node that publishes strokes to a running world, and receives the answers.
 
-Law: it uses topics and services only, and publishes a stroke after the answer to the one before.
-The world reads each stroke by itself: the stamps have a pause between two of them.
+Law: it uses topics and services only, and publishes a stroke after the answer to the last one. The
+world reads each stroke by itself, since the stamps of two strokes are far apart.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""`~/events`: diagnostic_msgs/DiagnosticStatus, the answers to requests, none of them lost."""
+"""`~/events`: diagnostic_msgs/DiagnosticStatus, the answers to requests; no answer is lost."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from physsim_ros.ros import encoders
 from rclpy.duration import Duration
 from rclpy.publisher import Publisher
 
-# Depth of `~/events`: a message that is not yet acknowledged is lost when the history is full, so
-# that in a longer burst answers wait until those before have been acknowledged.
+# Depth of `~/events`. A full history loses messages that are not yet acknowledged; so the answers
+# of a longer burst wait until earlier ones have been acknowledged.
 EVENTS_DEPTH = 1000
-# The longest wait for an acknowledgement [s]: 20 heartbeats of `fastdds_profiles.xml`, which ask
-# for one. With other profiles, each answer that displaces one before asks.
+# The longest wait for an acknowledgement [s]: 20 heartbeats of `fastdds_profiles.xml`, each of
+# which asks for one.
 ACK_TIMEOUT = 1.0
-# While a subscriber has stopped, so many answers are published each period [s]: ten times as many
-# as the node gives; a subscriber that reads has five heartbeats to ask for those that were lost.
+# Answers in each period [s] while a subscriber has stopped: ten times as many as the node
+# answers. A subscriber that reads has five heartbeats to ask for answers that it has missed.
 STOPPED_PERIOD, STOPPED_ANSWERS = 0.05, EVENTS_DEPTH // 2
 # Answers that wait for acknowledgements [1], of some 300 bytes each: 15 MB.
 MOST_WAITING = 50_000
@@ -81,7 +81,7 @@ class EventPublisher:
             self._unacknowledged, self.stopped = 0, False
 
     def _has_room(self) -> bool:
-        """Return whether one more answer displaces none that a subscriber may still ask for."""
+        """Return whether the history can take an answer and lose none that may be asked for."""
         if self._unacknowledged < EVENTS_DEPTH:
             return True
         self._look_up_acknowledgements()

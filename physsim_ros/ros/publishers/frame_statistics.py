@@ -15,9 +15,9 @@ from rclpy.time import Time
 _SMOOTHING = 1.0
 # Share of the last frame in the smoothed cost of a frame: a tenth of a second at 60 Hz.
 _COST_SHARE = 1 / 6
-# Wait of messages from which on it is a person's concern [s].
+# Wait of messages above which the diagnostics warn [s].
 LONG_DELAY = 1.0
-# Share of the speed that was set, below which the world does not keep up [1].
+# Real-time factor over speed, below which late frames are an error and not a warning [1].
 FAR_BEHIND = 0.5
 
 
@@ -42,7 +42,7 @@ class Backlog(NamedTuple):
 
 
 class FrameStatistics:
-    """Cost of frames and real-time factor; steady times are arguments."""
+    """Measures the cost of frames and the real-time factor; it reads no clock."""
 
     def __init__(self) -> None:
         self.real_time_factor = 0.0
@@ -105,7 +105,7 @@ class FrameStatistics:
         :param speed: simulation seconds a second
         :param late_frames: since the node started
         :param viewer: state of the viewer, in one sentence
-        :param viewer_failure: why a viewer or recording that was asked for has no frames
+        :param viewer_failure: why the viewer or the recording gets no frames; '' if it does
         :param backlog: of the node
         """
         late, self._late_reported = late_frames - self._late_reported, late_frames

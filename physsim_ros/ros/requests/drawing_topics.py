@@ -4,7 +4,7 @@
 """
 Clicks and strokes: `clicked_point`, `~/stroke`, and the reading that `~/instead` builds.
 
-Law: a click or stroke refers to the snapshot that is shown when it arrives.
+Law: a click or stroke refers to the snapshot that was shown when it arrived.
 """
 
 from __future__ import annotations
@@ -90,7 +90,7 @@ class DrawingTopics:
     @contextmanager
     def _drawing_on_snapshot(self, topic: str, field: str) -> Iterator[Snapshot]:
         """
-        Yield the snapshot that a click or stroke refers to, and refuse one that cannot be drawn.
+        Yield the snapshot that a click or stroke refers to; report its refusal and the preview.
 
         :param field: of the message, for the refusal
         """

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Service replies at a pace that all clients can read.
+Service replies, paced so that all clients can read them.
 
 DDS sends each reply to all clients of a service, and a client keeps the last ten that it has not
 read yet (`qos_profile_services_default` of rclpy), its own or not: of 20 clients with three calls
@@ -33,7 +33,7 @@ READING = 1e-3
 
 class ReplyPacer:
     """
-    Delays the replies of services, and not their actions.
+    Delays the replies of services; their actions are not delayed.
 
     :param node: that offers the services
     """

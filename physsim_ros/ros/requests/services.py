@@ -34,8 +34,8 @@ class Service(NamedTuple):
     """
     A service.
 
-    :ivar perform: carries it out
-    :ivar wait: time at which its calls may come
+    :ivar perform: performs it, and returns a message about it
+    :ivar wait: what its calls wait for
     """
 
     perform: Action
@@ -44,10 +44,10 @@ class Service(NamedTuple):
 
 class ServiceCalls:
     """
-    Calls of services: in the order of messages and requests, with replies at a pace.
+    Calls of services, in order with messages and requests, with paced replies.
 
-    :param queue: of messages, behind which a service comes that was called after them
-    :param calls: among the requests
+    :param queue: of messages; a call waits behind the messages that came before it
+    :param calls: the calls that wait among the requests
     :param pacer: of their replies
     """
 
@@ -59,9 +59,9 @@ class ServiceCalls:
 
     def add(self, response: Any, fill: Fill, wait: Wait) -> Future:
         """
-        Have a response filled in when its call may come, and return its future.
+        Fill in a response when the turn of its call comes, and return its future.
 
-        :param wait: time at which the call may come
+        :param wait: what the call waits for
         """
         reply = Future()
 
