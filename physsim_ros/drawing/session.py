@@ -29,8 +29,6 @@ from physsim_ros.drawing.strokes.figure import (
 )
 from physsim_ros.drawing.strokes.interpretation import (
     Guess,
-    guess_meanings,
-    is_likely,
     not_recognised,
     Reading,
     reading_of,
@@ -116,15 +114,14 @@ class DrawingSession:
         self.preview = NO_PREVIEW
         placed = _in_world(samples, frame, scene)
         drawn = resample_stroke(placed)
-        figure = Figure(
+        figure = Figure.read(
+            drawn,
             strokes=(drawn.points,),
             began=began,
             ended=began + (float(np.ptp(samples[:, 2])) if len(samples) else 0.0),
             scene=scene,
-            guesses=guess_meanings(drawn, scene, self.settings),
+            settings=self.settings,
         )
-        if is_likely(figure.guesses, self.settings):
-            figure.chosen = 0
         if marked_solid(self._figures, figure, self.settings):
             # The solid stays the last figure: another reading of it may follow.
             return self._shown(_mark_reading(figure))

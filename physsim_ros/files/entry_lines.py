@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The text of a world file as a mapping: lines of bodies and joints in JSON, all else in YAML.
+The mapping of a world file: lines of bodies and joints in JSON, all other text in YAML.
 
 Law: a line is read as JSON only where YAML reads the same from it. The node writes such lines.
 JSON is read in a thirtieth of the time that YAML takes, and with a tenth of the memory: PyYAML

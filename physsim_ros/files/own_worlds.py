@@ -4,7 +4,7 @@
 """
 The user's own worlds by plain names: whether one is there, renaming, deleting, putting back.
 
-Law: what is deleted or written over is kept, one file of each name, and can be put back.
+Law: the last world of each name that was deleted or written over is kept, and can be put back.
 """
 
 from __future__ import annotations

@@ -62,7 +62,7 @@ def is_plain(name: str) -> bool:
 
 def files_by_name(directory: Path, *suffixes: str) -> dict[str, Path]:
     """
-    Return the files of a directory by their plain names, in order; none where it cannot be read.
+    Return the files of a directory by their plain names, in order; empty where it cannot be read.
 
     :param suffixes: of the files, with the dot
     """

@@ -41,7 +41,7 @@ _LONGEST_LIST = 500
 _SUFFIX = '.yaml'
 # Greatest size of a world file [bytes]: 100,000 bodies have 30 MB.
 MOST_BYTES = 64 * 2**20
-# Length in which a file names its format [characters]: YAML takes half a second for so many.
+# Length of the part of a file in which its format is looked for [characters]: half a second.
 _HEAD = 2**20
 
 

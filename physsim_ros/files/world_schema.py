@@ -24,7 +24,7 @@ from physsim_ros.model.shapes import SHAPES
 from physsim_ros.model.transform import Point
 
 FORMAT = 1
-# Limits protect the node, whatever files say.
+# Limits protect the node: files do not change them.
 LIMITS = ('max_bodies', 'max_shapes', 'max_overlaps', 'max_joints')
 SETTINGS = [each.name for each in fields(WorldSettings) if each.name not in LIMITS]
 PROPERTIES = [each.name for each in fields(Properties)]

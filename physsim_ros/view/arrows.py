@@ -164,7 +164,7 @@ class VelocityArrows:
 
 
 def sampling_period(count: int) -> int:
-    """Return the period at which arrows are sent [frames], for a number of them."""
+    """Return the period at which arrows are sent [frames], by their number in a frame."""
     return max(1, math.ceil(count / _BUDGET))
 
 

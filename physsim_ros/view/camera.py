@@ -62,7 +62,7 @@ class Camera:
 
     def show_bodies(self, extent: Bounds, ends: Floats) -> None:
         """
-        Aim at bodies and joints, if one of them lies far outside the area.
+        Aim at bodies and joints, if a body or joint lies far outside the area.
 
         :param extent: of the bodies: left, bottom, right, top [m]
         :param ends: (j, 2, 2) float64: points of the joints [m]

@@ -92,7 +92,7 @@ class FrameRecorder:
         Log frames, except those that are equal to the one before.
 
         :param frames: in order; their arrays are not changed any more
-        :param context: of the last of them
+        :param context: of the last frame
         """
         layout = context.cost is not None, bool(context.traced)
         if frames and layout != self._layout:
@@ -185,7 +185,7 @@ class FrameRecorder:
 
 
 def wall_corners(bounds: Bounds | None, unit: float) -> Singles:
-    """Return the triangles of bars just outside the bounds, (24, 3) float32 [m]; none without."""
+    """Return the triangles of bars just outside the bounds, (24, 3) float32 [m]."""
     if bounds is None:
         return np.empty((0, 3), dtype=np.float32)
     left, bottom, right, top = bounds

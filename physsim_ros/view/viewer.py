@@ -71,7 +71,7 @@ class Viewer:
 
     @property
     def failure(self) -> str:
-        """Return why a viewer or file that was asked for has no frames; '' where none is."""
+        """Return the reason why a viewer or file has no frames; '' where there is none."""
         return '; '.join(filter(None, (worker.failure for worker in self._workers)))
 
     @property
@@ -154,7 +154,7 @@ class Viewer:
 
         Called at least every `CHANGE_PERIOD`.
 
-        :return: what happened since the last call
+        :return: the answers since the last call
         """
         self._open_wanted()
         for worker in self._workers:

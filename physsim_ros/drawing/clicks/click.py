@@ -49,7 +49,7 @@ class Click:
         """
         Return the name of the body that the click hit.
 
-        :raises NothingThere: it hit none
+        :raises NothingThere: it hit no body
         :raises UnknownBody: the body has been deleted since
         """
         if not self.body:

@@ -70,7 +70,7 @@ class ClickResult:
     """
     The result of a click.
 
-    :param requests: to be submitted; none while the gesture needs more clicks
+    :param requests: to be submitted; empty while the gesture needs more clicks
     :param message: the clicks so far, and the next click
     """
 

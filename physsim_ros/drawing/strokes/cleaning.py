@@ -56,7 +56,7 @@ def _robust_size(samples: Floats) -> float:
 
 
 def _merged(points: Floats, grain: float) -> Floats:
-    """Return the means of successive points within `grain` of the first of them."""
+    """Return the means of runs of points that lie within `grain` of the first of the run [m]."""
     firsts, (x0, y0) = [0], points[0].tolist()
     for row, (x, y) in enumerate(points.tolist()):
         if math.hypot(x - x0, y - y0) > grain:

@@ -84,8 +84,8 @@ def _shapes(outline: Floats, gap: float) -> Iterator[Hypothesis]:
     found = narrowed(corner_detection.vertices(wide, at, closed=True))
     size = size_of(wide)
     residual = corner_detection.side_error(wide, at) / size if len(at) >= 3 else 1.0
-    # Logistic regression on hands' circles and polygons: sides fit a circle badly, and there are
-    # many of them about it.
+    # Logistic regression on hand-drawn circles and polygons: sides fit a circle badly, and
+    # a circle has many corners.
     evidence = _EVIDENCE + math.log(max(residual, 1e-6)) - _ERROR * math.log(max(error, 1e-6))
     convex = len(at) > 3 and is_convex(_counterclockwise(found))
     circle = rises(evidence + (_CORNER * (len(at) - _FEW) if convex else 0.0), 0.0, 0.31)

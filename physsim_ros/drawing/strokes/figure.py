@@ -31,7 +31,7 @@ from physsim_ros.drawing.strokes.meanings import (
 )
 from physsim_ros.drawing.strokes.plane import norms
 from physsim_ros.drawing.strokes.polyline import COUNT, path_length, size_of
-from physsim_ros.drawing.strokes.stroke import resample_stroke
+from physsim_ros.drawing.strokes.stroke import resample_stroke, Stroke
 from physsim_ros.drawing.strokes.stroke_order import joined_strokes
 from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.errors import Refusal
@@ -78,6 +78,32 @@ class Figure:
     chosen: int | None = None
     requests: tuple[Request, ...] = ()
     gestures: tuple[int, ...] = ()
+
+    @classmethod
+    def read(
+        cls,
+        drawn: Stroke,
+        *,
+        strokes: tuple[Floats, ...],
+        began: float,
+        ended: float,
+        scene: SceneQuery,
+        settings: DrawingSettings,
+    ) -> Figure:
+        """
+        Return a figure with the guesses at its meaning; the first one is taken if it is likely.
+
+        :param drawn: its strokes as one
+        """
+        guesses = guess_meanings(drawn, scene, settings)
+        return cls(
+            strokes=strokes,
+            began=began,
+            ended=ended,
+            scene=scene,
+            guesses=guesses,
+            chosen=0 if is_likely(guesses, settings) else None,
+        )
 
     @property
     def meaning(self) -> str:
@@ -126,23 +152,22 @@ def likeliest_group(
             # Rods from body to body to body are a truss, no polygon.
             continue
         strokes = tuple(stroke for figure in group for stroke in figure.strokes)
-        first = group[0]
-        guesses = guess_meanings(resample_stroke(joined_strokes(strokes)), first.scene, settings)
-        if not is_likely(guesses, settings) or guesses[0].meaning in _SINGLE:
+        whole = Figure.read(
+            resample_stroke(joined_strokes(strokes)),
+            strokes=strokes,
+            began=group[0].began,
+            ended=last.ended,
+            scene=group[0].scene,
+            settings=settings,
+        )
+        if whole.chosen is None or whole.meaning in _SINGLE:
             continue
-        if not _can_be_built(guesses[0]):
+        if not _can_be_built(whole.guesses[0]):
             # Two walls that cross are no x in the open.
             continue
-        if guesses[0].meaning in CLOSED or not any(joints):
-            return Figure(
-                strokes=strokes,
-                began=first.began,
-                ended=last.ended,
-                scene=first.scene,
-                guesses=guesses,
-                chosen=0,
-                gestures=tuple(number for figure in group for number in figure.gestures),
-            )
+        if whole.meaning in CLOSED or not any(joints):
+            whole.gestures = tuple(number for figure in group for number in figure.gestures)
+            return whole
     return None
 
 

@@ -4,7 +4,7 @@
 """
 Polylines, (n, 2) float64 [m]: resampling, smoothing, stretching, turning angles.
 
-Law: every function returns a fresh array; none changes its arguments.
+Law: every function returns a fresh array, and leaves its arguments as they are.
 """
 
 from __future__ import annotations
@@ -70,7 +70,7 @@ def _gaussian(width: float) -> tuple[float, ...]:
 
 
 def _convolved(values: Floats, kernel: tuple[float, ...]) -> Floats:
-    """Return the convolution of values with a symmetric kernel, where it has all of them."""
+    """Return the convolution of values with a symmetric kernel, where that lies within them."""
     reach = len(kernel) - 1
     count = len(values) - 2 * reach
     result = kernel[0] * values[slice(reach, reach + count)]

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The mesh of a body: filled, with a darker outline, and symbols for what it is.
+The mesh of a body: filled, with a darker outline and symbols of its properties.
 
 A free disc has a radius as its turning mark, an anchored body an anchor, a kinematic body a wide
 outline, and a sensor is translucent.
@@ -23,7 +23,7 @@ from physsim_ros.view.meshes.mesh import inset, Mesh, MeshBuilder, Strips
 
 # Width of outlines [units], and as a share of the inner half width of a body at most.
 _OUTLINE, _OUTLINE_SHARE = 0.03, 0.25
-# The same of kinematic bodies.
+# Width of outlines of kinematic bodies [units].
 _WIDE = 0.08
 # Factor on the components of a colour for the outline.
 _DARKER = 0.6

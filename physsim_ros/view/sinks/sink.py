@@ -31,8 +31,8 @@ class Sink:
     """
     A recording stream of Rerun, and the recorder of frames on it.
 
-    :param sinks: of Rerun, that the stream is connected to; none for another connection
-    :raises ConnectionError: one of them cannot be opened
+    :param sinks: of Rerun, to which the stream is connected; empty for another connection
+    :raises ConnectionError: a sink cannot be opened
     """
 
     def __init__(self, *sinks: rr.GrpcSink | rr.GrpcServerSink | rr.FileSink) -> None:

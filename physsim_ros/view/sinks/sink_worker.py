@@ -69,7 +69,7 @@ class SinkWorker:
 
     @property
     def failure(self) -> str:
-        """Return why no frames are shown or recorded; '' where they are, or nobody asks."""
+        """Return the reason why no frames are shown or recorded; '' where there is none."""
         failed = self._status not in ('starting', 'nobody there', 'open', 'ended')
         return f'{self._endpoint.kind}: {self._status}' if failed else ''
 
