@@ -58,6 +58,8 @@ setup(
     # Packages that package.xml cannot name; those of ROS come with a sourced installation.
     install_requires=[
         'numpy>=2',
+        # Reads the images of maps; Rerun needs it, too.
+        'Pillow>=10',
         # As recent as Rerun wants it.
         'pyarrow',
         'pymunk>=7.3,<8',

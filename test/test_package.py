@@ -164,6 +164,7 @@ def test_pip_is_told_what_rosdep_cannot_bring(distribution):
 
     named = {
         'numpy',
+        'pillow',
         'pyarrow',
         'pymunk',
         'pyyaml',

@@ -26,6 +26,17 @@ def read_file(path: Path, most: int) -> str:
     :raises OSError: it cannot be read, is no regular file, or is larger
     :raises UnicodeDecodeError: it is no text
     """
+    return read_bytes(path, most).decode()
+
+
+def read_bytes(path: Path, most: int) -> bytes:
+    """
+    Return the content of a file.
+
+    :param path: of the file
+    :param most: greatest size [bytes]
+    :raises OSError: it cannot be read, is no regular file, or is larger
+    """
     # Looked at before it is opened too: opening a device may do something.
     _check_kind(path.stat())
     descriptor = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_NOCTTY | os.O_CLOEXEC)
@@ -38,7 +49,7 @@ def read_file(path: Path, most: int) -> str:
             left -= len(part)
     if left <= 0:
         raise OSError(errno.EFBIG, f'it is larger than {most / 2**20:g} MiB')
-    return b''.join(parts).decode()
+    return b''.join(parts)
 
 
 def write_file(path: Path, data: bytes, *, mode: int | None = None) -> None:

@@ -17,6 +17,7 @@ import re
 import textwrap
 
 from physsim_ros.files.entry_lines import load_entries
+from physsim_ros.files.map_file import with_map_walls
 from physsim_ros.files.regular_file import read_file, write_file
 from physsim_ros.files.resources import files_by_name, is_plain, shipped, user_directory
 from physsim_ros.files.world_reader import state_from
@@ -128,8 +129,11 @@ def load_world(
     except (OSError, UnicodeDecodeError) as error:
         raise _unreadable(path.name, error) from error
     try:
-        entries = load_entries(text, field=path.name)
-        return state_from(entries, settings or WorldSettings(), physics_rate, progress)
+        settings = settings or WorldSettings()
+        content = load_entries(text, field=path.name)
+        if 'map' in content:
+            content = with_map_walls(content, path.parent, settings.max_bodies)
+        return state_from(content, settings, physics_rate, progress)
     except OSError as error:
         raise _unreadable(path.name, error) from error
     except Malformed as error:

@@ -73,6 +73,8 @@ def state_from(
                 f'{key} is a parameter of the node, which no world file holds', field=key
             )
         check_key(key, WORLD_KEYS)
+    if 'map' in content:
+        raise BadProperty('a map lies beside a world file, and here is none', field='map')
     if content.get('format') != FORMAT or isinstance(content['format'], bool):
         raise BadProperty(f'format must be {FORMAT}', field='format')
     changes = {key: content[key] for key in SETTINGS if key in content}

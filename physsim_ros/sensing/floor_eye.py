@@ -15,12 +15,12 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
-from physsim_ros.model.arrays import Flags, Floats
+from physsim_ros.model.arrays import Floats
 from physsim_ros.model.robots.sensors import FloorEye
 from physsim_ros.model.scene import Scene
-from physsim_ros.model.shapes import Capsule, Circle, Convex, Piece
+from physsim_ros.model.shapes import contains
 from physsim_ros.model.snapshot import Snapshot
-from physsim_ros.model.transform import cross, dots, next_vertices, rotated_each
+from physsim_ros.model.transform import dots, rotated_each
 from physsim_ros.sensing.mounting import noise_of, placed
 
 _ROWS: WeakKeyDictionary[Scene, NDArray[np.int64]] = WeakKeyDictionary()
@@ -68,7 +68,7 @@ class FloorMarks:
             local = rotated_each(points - pose[:2], -pose[2])
             inside = np.zeros(len(points), dtype=np.bool_)
             for piece in body.shape.form.pieces:
-                inside |= _inside(piece, local)
+                inside |= contains(piece, local)
             alpha = body.color[3]
             colors[inside] = (1.0 - alpha) * colors[inside] + alpha * np.array(body.color[:3])
         return colors
@@ -94,23 +94,3 @@ def read_floor(marks: FloorMarks, row: int, eye: FloorEye, seed: int) -> NDArray
         noise = noise_of(snapshot, row, eye, seed, 3 * eye.pixels)
         colors += eye.noise * noise.reshape(-1, 3)
     return np.rint(255.0 * np.clip(colors, 0.0, 1.0)).astype(np.uint8)
-
-
-def _inside(piece: Piece, points: Floats) -> Flags:
-    """Return (k,) bool: whether points lie in a piece."""
-    inside: Flags
-    match piece:
-        case Circle(center, radius):
-            away = points - center
-            inside = dots(away, away) <= radius * radius
-        case Capsule(start, end, radius):
-            axis = np.subtract(end, start)
-            away = points - start
-            share = np.clip(dots(away, axis) / dots(axis, axis), 0.0, 1.0)
-            away -= share[:, None] * axis
-            inside = dots(away, away) <= radius * radius
-        case Convex(vertices):
-            corners = np.array(vertices)
-            edges = next_vertices(corners) - corners
-            inside = np.all(cross(edges, points[:, None] - corners) >= 0.0, axis=1)
-    return inside

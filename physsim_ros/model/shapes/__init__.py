@@ -14,6 +14,7 @@ from typing import get_args
 from physsim_ros.model.shapes.box import Box
 from physsim_ros.model.shapes.chain import Chain
 from physsim_ros.model.shapes.compound import Compound
+from physsim_ros.model.shapes.containment import contains
 from physsim_ros.model.shapes.disc import Disc
 from physsim_ros.model.shapes.form import Capsule, Circle, Convex, Form, Piece
 from physsim_ros.model.shapes.polygon import Polygon
@@ -42,6 +43,7 @@ __all__ = [
     'Polygon',
     'Shape',
     'Triangles',
+    'contains',
     'crosses_itself',
     'is_convex',
     'signed_area',

@@ -1,0 +1,170 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+Maps as `nav2_map_server` reads and writes them: a YAML file, and an image beside it.
+
+An image has its first row at the top. A cell is occupied where it is darker than
+`occupied_thresh`, transparency left aside, as in the server's mode `trinary`.
+
+Law: nothing is decoded before the image's size in pixels is known to fit.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+import io
+from pathlib import Path
+from typing import Any
+import warnings
+
+import numpy as np
+from numpy.typing import NDArray
+from physsim_ros.files.entries import entries_of
+from physsim_ros.files.regular_file import read_bytes, read_file
+from physsim_ros.files.yaml12 import load_mapping
+from physsim_ros.maps import MOST_CELLS, OccupancyGrid, walls_of
+from physsim_ros.model.arrays import Flags
+from physsim_ros.model.checks import number, shown, Within
+from physsim_ros.model.errors import BadProperty, Malformed
+from physsim_ros.model.shapes import LARGEST, SMALLEST
+from physsim_ros.model.transform import Pose
+from PIL import Image
+
+# Greatest size of the YAML file [bytes].
+_MOST_TEXT = 2**16
+# Greatest size of the image [bytes]: a PGM of MOST_CELLS has a quarter.
+_MOST_BYTES = 64 * 2**20
+# Pillow's names of PGM and PNG.
+_FORMATS = ('PPM', 'PNG')
+_NEEDED = ('image', 'resolution', 'origin', 'negate', 'occupied_thresh', 'free_thresh')
+_SHARE = Within(0.0, 1.0)
+
+
+def with_map_walls(content: Mapping[Any, Any], folder: Path, most: int) -> dict[Any, Any]:
+    """
+    Return the content of a world file with the walls of its map as its first bodies, `map/0` ...
+
+    :param content: with the key `map`
+    :param folder: in which the world file lies
+    :param most: greatest number of walls
+    :raises Refusal: the map cannot be read, or has too many cells or walls
+    """
+    walls = walls_of(load_map(content['map'], folder), 'map', most)
+    entries = [
+        {
+            'name': wall.name,
+            wall.shape.KEY: wall.shape.entry(),
+            'at': list(wall.pose),
+            'color': list(wall.color or ()),
+            'anchored': True,
+        }
+        for wall in walls
+    ]
+    bodies = entries + entries_of(content.get('bodies'), 'bodies')
+    return {**{key: content[key] for key in content if key != 'map'}, 'bodies': bodies}
+
+
+def load_map(name: object, folder: Path) -> OccupancyGrid:
+    """
+    Return the map of a file.
+
+    :param name: of the YAML file, below the folder
+    :param folder: below which both files lie, as paths without symbolic links
+    :raises BadProperty: there is no such file, or a value is missing or of the wrong kind
+    :raises Malformed: it is not YAML, or a number is not finite
+    :raises BadSize: cells or the whole are too small or too large
+    :raises WorldFull: it has too many cells
+    """
+    path = _file_in(folder.resolve(), name, 'map')
+    try:
+        text = read_file(path, _MOST_TEXT)
+    except (OSError, UnicodeDecodeError) as error:
+        raise _unreadable(path, error, 'map') from error
+    content = load_mapping(text, field='map')
+    for key in _NEEDED:
+        if content.get(key) is None:
+            raise BadProperty(f'the map {path.name} has no {key}', field=key)
+    if content.get('mode', 'trinary') != 'trinary':
+        raise BadProperty(f'mode is trinary, not {shown(content["mode"])}', field='mode')
+    resolution = Within(SMALLEST, LARGEST, 'm')(content['resolution'], 'resolution')
+    thresholds = [_SHARE(content[key], key) for key in ('free_thresh', 'occupied_thresh')]
+    if thresholds[0] > thresholds[1]:
+        raise BadProperty('free_thresh is above occupied_thresh', field='free_thresh')
+    image = _file_in(path.parent, content['image'], 'image', root=folder.resolve())
+    return OccupancyGrid(
+        occupied=_occupied(image, negate=_negate(content), threshold=thresholds[1]),
+        resolution=resolution,
+        origin=_origin(content['origin']),
+    )
+
+
+def _file_in(folder: Path, name: object, field: str, *, root: Path | None = None) -> Path:
+    """Return the path of a file below a root, the folder itself by default."""
+    if not isinstance(name, str):
+        raise BadProperty(f'{field} must be the name of a file, not {shown(name)}', field=field)
+    try:
+        path = (folder / name).resolve()
+    except (OSError, RuntimeError, ValueError) as error:
+        raise BadProperty(f'{field} {shown(name)} is no path', field=field) from error
+    if not path.is_relative_to(root or folder):
+        raise BadProperty(
+            f'{field} {shown(name)} does not lie beside the world file or below it', field=field
+        )
+    return path
+
+
+def _unreadable(path: Path, error: Exception, field: str) -> BadProperty:
+    reason = error.strerror if isinstance(error, OSError) and error.strerror else error
+    return BadProperty(f'cannot read {path.name}: {reason}', field=field)
+
+
+def _negate(content: Mapping[Any, Any]) -> bool:
+    negate = content['negate']
+    if negate not in (0, 1):
+        raise BadProperty(f'negate is 0 or 1, not {shown(negate)}', field='negate')
+    return bool(negate)
+
+
+def _origin(value: object) -> Pose:
+    if not isinstance(value, list):
+        raise BadProperty(f'origin must be [x, y, yaw], not {shown(value)}', field='origin')
+    if len(value) != 3:
+        raise Malformed(f'origin needs three numbers, not {len(value)}', field='origin')
+    x, y, yaw = (number(each, 'origin') for each in value)
+    return x, y, yaw
+
+
+def _occupied(path: Path, *, negate: bool, threshold: float) -> Flags:
+    """Return (rows, columns) bool: the occupied cells of an image, the lowest row first."""
+    try:
+        data = read_bytes(path, _MOST_BYTES)
+        with warnings.catch_warnings():
+            # Its size is checked here.
+            warnings.simplefilter('ignore', Image.DecompressionBombWarning)
+            with Image.open(io.BytesIO(data), formats=_FORMATS) as image:
+                _check_pixels(path, *image.size)
+                sums, most = _brightness(image)
+    except (OSError, SyntaxError, ValueError, Image.DecompressionBombError) as error:
+        raise _unreadable(path, error, 'image') from error
+    shades = np.arange(most + 1) / most
+    dark = (shades if negate else 1.0 - shades) > threshold
+    occupied: Flags = dark[sums][::-1]
+    return occupied
+
+
+def _check_pixels(path: Path, width: int, height: int) -> None:
+    if width * height > MOST_CELLS:
+        raise BadProperty(
+            f'{path.name} has {width} by {height} pixels; there may be {MOST_CELLS}', field='image'
+        )
+
+
+def _brightness(image: Image.Image) -> tuple[NDArray[Any], int]:
+    """Return the sum of the colours of each pixel, and the greatest that there can be."""
+    if image.mode.startswith('I'):
+        # 16 bits a pixel.
+        return np.clip(np.asarray(image, dtype=np.int64), 0, 2**16 - 1), 2**16 - 1
+    if image.mode in ('1', 'L', 'LA', 'La'):
+        return np.asarray(image.convert('L')), 2**8 - 1
+    return np.asarray(image.convert('RGB')).sum(axis=-1, dtype=np.uint16), 3 * (2**8 - 1)

@@ -1,0 +1,17 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+Maps: occupancy grids of worlds, and walls of occupancy grids.
+
+A grid becomes as few anchored boxes as there can be (`walls`, `rectangle_partition`); the anchored
+bodies of a world become a grid (`rasterisation`). Files of maps are read in `files`, messages in
+`ros`. Start with `occupancy_grid`.
+"""
+
+from physsim_ros.maps.occupancy_grid import MOST_CELLS, OccupancyGrid
+from physsim_ros.maps.rasterisation import anchored_grid
+from physsim_ros.maps.rectangle_partition import rectangles_of
+from physsim_ros.maps.walls import walls_of
+
+__all__ = ['MOST_CELLS', 'OccupancyGrid', 'anchored_grid', 'rectangles_of', 'walls_of']
