@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Maps as `nav2_map_server` reads and writes them: a YAML file, and an image beside it.
+Maps as map_server of Nav2 reads and writes them: a YAML file, and an image beside it.
 
 An image has its first row at the top. A cell is occupied where it is darker than
 `occupied_thresh`, transparency left aside, as in the server's mode `trinary`.
@@ -20,8 +20,8 @@ import warnings
 
 import numpy as np
 from numpy.typing import NDArray
-from physsim_ros.files.entries import entries_of
 from physsim_ros.files.regular_file import read_bytes, read_file
+from physsim_ros.files.world_schema import entries_of
 from physsim_ros.files.yaml12 import load_mapping
 from physsim_ros.maps import MOST_CELLS, OccupancyGrid, walls_of
 from physsim_ros.model.arrays import Flags

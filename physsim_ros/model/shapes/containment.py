@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 from physsim_ros.model.arrays import Flags, Floats
-from physsim_ros.model.shapes.pieces import Capsule, Circle, Convex, Piece
+from physsim_ros.model.shapes.form import Capsule, Circle, Convex, Piece
 from physsim_ros.model.transform import cross, dots, next_vertices
 
 
