@@ -14,7 +14,6 @@ from diagnostic_msgs.msg import DiagnosticArray
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.ros.frame_outputs import FrameOutputs
 from physsim_ros.ros.namesakes import count_nodes, REMEDY
-from physsim_ros.ros.publishers.frame_statistics import Backlog
 from physsim_ros.ros.requests.subscriptions import RequestSubscriptions
 from physsim_ros.simulation.simulation import Simulation
 from rclpy.node import Node
@@ -65,14 +64,6 @@ class DiagnosticsPublisher:
         if outputs.frame is None or self._publisher.get_subscription_count() == 0:
             return
         simulation, events = self._simulation, outputs.topics.events
-        backlog = Backlog(
-            message_delay=message_delay,
-            waiting_requests=len(simulation.requests),
-            undecodable=self._subscriptions.undecodable,
-            waiting_answers=events.waiting,
-            stopped_listener=events.stopped,
-            history_memory=simulation.past.memory.in_megabytes,
-        )
         self._publisher.publish(
             outputs.statistics.report(
                 outputs.frame.snapshot,
@@ -81,7 +72,12 @@ class DiagnosticsPublisher:
                 late_frames=simulation.playback.clock.late_frames,
                 viewer=outputs.viewer.state,
                 viewer_failure=outputs.viewer.failure,
-                backlog=backlog,
+                message_delay=message_delay,
+                waiting_requests=len(simulation.requests),
+                undecodable=self._subscriptions.undecodable,
+                waiting_answers=events.waiting,
+                stopped_subscriber=events.stopped,
+                memory=simulation.past.memory.in_megabytes,
             )
         )
 

@@ -5,8 +5,6 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from physsim_ros.model.snapshot import run_state, Snapshot
 from rclpy.time import Time
@@ -19,26 +17,6 @@ _COST_SHARE = 1 / 6
 LONG_DELAY = 1.0
 # Real-time factor over speed, below which late frames are an error and not a warning [1].
 FAR_BEHIND = 0.5
-
-
-class Backlog(NamedTuple):
-    """
-    Messages, requests and answers that wait in the node, and the memory of its past.
-
-    :ivar message_delay: time that messages wait before they are handled [s]
-    :ivar waiting_requests: number of requests that wait for the next frame
-    :ivar undecodable: number of messages that could not be decoded, since the node started
-    :ivar waiting_answers: number of answers that wait for acknowledgements
-    :ivar stopped_listener: whether a subscriber of `~/events` has stopped
-    :ivar history_memory: memory of the past, and its budget [MB]
-    """
-
-    message_delay: float = 0.0
-    waiting_requests: int = 0
-    undecodable: int = 0
-    waiting_answers: int = 0
-    stopped_listener: bool = False
-    history_memory: tuple[float, float] = (0.0, 0.0)
 
 
 class FrameStatistics:
@@ -96,7 +74,12 @@ class FrameStatistics:
         late_frames: int,
         viewer: str,
         viewer_failure: str = '',
-        backlog: Backlog = Backlog(),  # noqa: B008 - immutable
+        message_delay: float = 0.0,
+        waiting_requests: int = 0,
+        undecodable: int = 0,
+        waiting_answers: int = 0,
+        stopped_subscriber: bool = False,
+        memory: tuple[float, float] = (0.0, 0.0),
     ) -> DiagnosticArray:
         """
         Return the message of the last second, and begin the next.
@@ -106,11 +89,16 @@ class FrameStatistics:
         :param late_frames: since the node started
         :param viewer: state of the viewer, in one sentence
         :param viewer_failure: why the viewer or the recording gets no frames; '' if it does
-        :param backlog: of the node
+        :param message_delay: time that messages wait before they are handled [s]
+        :param waiting_requests: number of requests that wait for the next frame
+        :param undecodable: number of messages that could not be decoded, since the node started
+        :param waiting_answers: number of answers that wait for acknowledgements
+        :param stopped_subscriber: whether a subscriber of `~/events` has stopped
+        :param memory: memory of the past, and its budget [MB]
         """
         late, self._late_reported = late_frames - self._late_reported, late_frames
-        undecodable = backlog.undecodable - self._undecodable_reported
-        self._undecodable_reported = backlog.undecodable
+        lost = undecodable - self._undecodable_reported
+        self._undecodable_reported = undecodable
         factor = self._simulated_ns / self._elapsed_ns if self._elapsed_ns else 0.0
         count = self._frames
         frames = max(1, count)
@@ -125,11 +113,11 @@ class FrameStatistics:
             'late frames in this second': late,
             'step cost [ms]': f'{self._step_ns / frames * 1e-6:.3f}',
             'frame cost [ms]': f'{self._frame_ns / frames * 1e-6:.3f}',
-            'wait of requests [s]': f'{backlog.message_delay:.3f}',
-            'requests that wait': backlog.waiting_requests,
-            'undecodable messages': backlog.undecodable,
-            'answers that wait': backlog.waiting_answers,
-            'memory of the past [MB]': '{:.1f} of {:g}'.format(*backlog.history_memory),
+            'wait of requests [s]': f'{message_delay:.3f}',
+            'requests that wait': waiting_requests,
+            'undecodable messages': undecodable,
+            'answers that wait': waiting_answers,
+            'memory of the past [MB]': '{:.1f} of {:g}'.format(*memory),
             'kinetic energy [J]': f'{snapshot.kinetic_energy:.6g}',
             'potential energy [J]': f'{snapshot.potential_energy:.6g}',
             'elastic energy [J]': f'{snapshot.elastic_energy:.6g}',
@@ -146,11 +134,11 @@ class FrameStatistics:
                 f'{late} frames late, real-time factor {factor:.2f}: '
                 'fewer bodies, joints or viewers, or a lower speed'
             )
-        if backlog.message_delay > LONG_DELAY:
-            concerns.append(f'requests wait {backlog.message_delay:.1f} s: send fewer of them')
-        if undecodable > 0:
-            concerns.append(f'{undecodable} messages cannot be decoded: check their publishers')
-        if backlog.stopped_listener:
+        if message_delay > LONG_DELAY:
+            concerns.append(f'requests wait {message_delay:.1f} s: send fewer of them')
+        if lost > 0:
+            concerns.append(f'{lost} messages cannot be decoded: check their publishers')
+        if stopped_subscriber:
             concerns.append('a subscriber of ~/events has stopped and loses answers: end it')
         if viewer_failure:
             concerns.append(f'{viewer_failure}: set parameter viewer to open it again')
