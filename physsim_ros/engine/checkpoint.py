@@ -23,6 +23,7 @@ from physsim_ros.engine.space import Space
 from physsim_ros.engine.warm_start import read_impulses, shape_numbers, write_impulses
 from physsim_ros.model.checkpoint import BodyState, Checkpoint, ImpulseCache, Motion, WorldState
 from physsim_ros.model.garbage_collection import suspended_collection
+from physsim_ros.model.robot_states import RobotStates, SPAWNED
 from physsim_ros.model.scene import Body, Scene
 from physsim_ros.model.transform import NO_WRENCH
 
@@ -47,15 +48,19 @@ def take_checkpoint(space: Space, step: int) -> Checkpoint:
             (table.columns.rows[rigid.body.name], rigid.wrench, rigid.wrench_until)
             for rigid in space.pipeline.wrenches.acting()
         ),
-        memory=read_impulses(
-            space.shapes,
-            rigids,
-            space.boundary.first_shape,
-            without=shape_numbers(unsupported),
-            joints=space.joints.impulses(),
+        memory=replace(
+            read_impulses(
+                space.shapes,
+                rigids,
+                space.boundary.first_shape,
+                without=shape_numbers(unsupported),
+                joints=space.joints.impulses(),
+            ),
+            pushes=space.pipeline.floor.pushes(table).copy(),
         ),
         grips=space.pipeline.mouse_joints.grips(),
         unstepped=space.joints.unstepped(),
+        robots=space.robot_states.copy(),
     )
 
 
@@ -66,8 +71,11 @@ def saved_state(space: Space, step: int) -> WorldState:
     :param step: steps that the world has made
     """
     checkpoint, bodies = take_checkpoint(space, step), []
+    robots = zip(checkpoint.scene.robot_rows.tolist(), checkpoint.robots.driven(step), strict=True)
+    driven = dict(robots)
     motions = zip(checkpoint.state.tolist(), checkpoint.free.tolist(), strict=True)
-    for rigid, (state, free) in zip(space.bodies.by_name.values(), motions, strict=True):
+    rigids = enumerate(space.bodies.by_name.values())
+    for (row, rigid), (state, free) in zip(rigids, motions, strict=True):
         body, until = rigid.body, rigid.wrench_until
         if body.expires is not None:
             body = replace(body, expires=body.expires - step)
@@ -79,6 +87,7 @@ def saved_state(space: Space, step: int) -> WorldState:
                 motion=Motion._make((*state, free)),
                 wrench=rigid.wrench,
                 wrench_steps=None if until is None else until - step,
+                driven=driven.get(row),
             )
         )
     return WorldState(
@@ -118,6 +127,9 @@ def checkpoint_of(state: WorldState, step: int, dt: float) -> Checkpoint:
         ),
         memory=state.memory or _no_impulses(state),
         unstepped=frozenset(joint.name for joint in state.joints),
+        robots=RobotStates.of(
+            [each.driven or SPAWNED for each in state.bodies if each.body.robot is not None], step
+        ),
     )
 
 
@@ -170,6 +182,8 @@ def restore_checkpoint(
     space.joints.set_unstepped(checkpoint.unstepped)
     for grip in checkpoint.grips:
         space.pipeline.mouse_joints.set_grip(grip)
+    space.pipeline.floor.put_pushes(table, checkpoint.memory.pushes)
+    space.pipeline.floor.drives.put_states(checkpoint.scene, checkpoint.robots)
     return space
 
 

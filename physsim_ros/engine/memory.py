@@ -59,6 +59,8 @@ BODY_POSE, BODY_TWIST, BODY_BIAS = (
     np.array(each) for each in ((8, 9, 14), (10, 11, 15), (24, 25, 26))
 )
 BODY_ARBITERS, BODY_IDLE_TIME = 29, 33
+# Force and torque; inverse mass, twice, and inverse moment of inertia.
+BODY_FORCES, BODY_INVERSES = np.array((12, 13, 16)), np.array((3, 3, 5))
 # Position, velocity, spin, and the translation of its transform.
 BODY_MOTION = np.array((8, 9, 10, 11, 15, 21, 22))
 # `cpShape`, and what those of `cpCircleShape`, `cpSegmentShape` and `cpPolyShape` have behind it;
@@ -204,6 +206,8 @@ def _check_layout() -> None:
     bar = pymunk.Segment(ground, (-1.0, -0.25), (1.0, -0.25), 0.0625)
     pm_space.add(body, ground, disc, box, bar)
     pm_space.step(1e-3)
+    # The step has cleared them.
+    body.force, body.torque = (3.0, 2.0), 1.5
     shapes = np.array([place_of(each._shape) for each in (disc, bar, box)])
     kinds = shape_kinds(shapes)
     first, size, count = corner_places(shapes, kinds)
@@ -220,6 +224,8 @@ def _check_layout() -> None:
         numbers[BODY_POSE] - (*body.position, body.angle),
         numbers[BODY_TWIST] - twist,
         numbers[BODY_FORCE] - body.force,
+        numbers[BODY_FORCES] - (*body.force, body.torque),
+        numbers[BODY_INVERSES] - (0.5, 0.5, 0.25),
         numbers[[BODY_INVERSE_MASS, BODY_INVERSE_MOMENT]] - (0.5, 0.25),
     )
     if any(np.abs([*each]).max(initial=0.0) > 1e-12 for each in found):

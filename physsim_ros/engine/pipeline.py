@@ -8,20 +8,22 @@ The pipeline: one step of the engine, stage by stage in this order.
 2. Half-step velocity: bodies that have lost their support fall freely, without old impulses.
 3. Mouse joints: the forces of hands are added.
 4. Resting damping: the solver's error is removed from what friction locks in place.
-5. Continuous collision: fast bodies are advanced to where they first touch something.
-6. Tight boxes: fast bodies keep small boxes in the engine's broad phase, so that only nearby pairs
+5. Floor: bodies are pulled to the velocity of the floor under them; robots drive.
+6. Continuous collision: fast bodies are advanced to where they first touch something.
+7. Tight boxes: fast bodies keep small boxes in the engine's broad phase, so that only nearby pairs
    are listed.
-7. Joints: constraints are prepared for the poses of the step.
-8. Pymunk moves bodies, and finds contacts (broad and narrow phase).
-9. First touch: contacts that begin get the normal and the depth of their impact.
-10. Impact propagation: elastic contacts next to a faster impact are deferred.
-11. Block solver: points that are hit at once are solved together.
-12. Pymunk solves velocities, and puts islands to sleep.
-13. Joints: rows of joints and of contacts on jointed bodies are solved together, in velocities
+8. Joints: constraints are prepared for the poses of the step.
+9. Pymunk moves bodies, and finds contacts (broad and narrow phase).
+10. First touch: contacts that begin get the normal and the depth of their impact.
+11. Impact propagation: elastic contacts next to a faster impact are deferred.
+12. Block solver: points that are hit at once are solved together.
+13. Pymunk solves velocities, and puts islands to sleep.
+14. Joints: rows of joints and of contacts on jointed bodies are solved together, in velocities
     and positions.
-14. Half-step velocity: bodies in free flight are found.
-15. Sleeping: bodies that fly or swing slowly stay awake.
-16. Contact report: impulses are added up.
+15. Floor: the push of contacts and joints is kept for the next step; odometry.
+16. Half-step velocity: bodies in free flight are found.
+17. Sleeping: bodies that fly or swing slowly stay awake.
+18. Contact report: impulses are added up.
 """
 
 from __future__ import annotations
@@ -37,6 +39,7 @@ from physsim_ros.engine.contacts.contact_report import ContactReport
 from physsim_ros.engine.joints.joint_set import JointSet
 from physsim_ros.engine.stages.block_solver import BlockSolver
 from physsim_ros.engine.stages.first_touch import correct_first_touches
+from physsim_ros.engine.stages.floor import Floor
 from physsim_ros.engine.stages.half_step import HalfStep
 from physsim_ros.engine.stages.impact_propagation import ImpactPropagation
 from physsim_ros.engine.stages.mouse_joints import MouseJoints
@@ -77,6 +80,7 @@ class Pipeline:
         self.mouse_joints = MouseJoints(bodies)
         self.half_step = HalfStep(pm_space, io)
         self.resting_damping = RestingDamping(io, dt)
+        self.floor = Floor()
         self.continuous_collision = ContinuousCollision(pm_space, Hulls())
         self._impact_propagation = ImpactPropagation(pm_space, io)
         self._block_solver = BlockSolver(pm_space)
@@ -88,13 +92,20 @@ class Pipeline:
         self._dt = dt
 
     def step(
-        self, table: BodyTable, settings: WorldSettings, *, age: int, reports_contacts: bool
+        self,
+        table: BodyTable,
+        settings: WorldSettings,
+        *,
+        number: int,
+        age: int,
+        reports_contacts: bool,
     ) -> None:
         """
         Make a step.
 
         :param table: the bodies
         :param settings: settings of the world
+        :param number: number of steps that the world has made
         :param age: count of steps since the space was built
         :param reports_contacts: whether contacts are reported
         """
@@ -104,16 +115,18 @@ class Pipeline:
             clear_impulses(self._shapes, [table.bodies[row] for row in unsupported])
         state = table.state.copy()
         context = StepContext(
-            table, settings, self._dt, age, reports_contacts, state[:, :3], state[:, 3:]
+            table, settings, self._dt, number, age, reports_contacts, state[:, :3], state[:, 3:]
         )
         self.mouse_joints.apply_forces(context)
         self.resting_damping.damp_resting(context)
+        self.floor.pull_bodies(context)
         self.continuous_collision.clamp_moves(context)
         tighten_boxes(context)
         self._joints.begin_step(context)
         self._hook.step(self._dt, lambda: self._before_solving(context))
         table.forget_state()
         self._joints.end_step(context)
+        self.floor.end_step(context)
         self.half_step.find_free(context)
         keep_flying_awake(context)
         keep_swinging_awake(context)

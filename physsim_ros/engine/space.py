@@ -24,6 +24,7 @@ from physsim_ros.engine.settings import make_space
 from physsim_ros.engine.stages.half_step import StartState
 from physsim_ros.engine.stages.sleeping import wake_bodies
 from physsim_ros.engine.warm_start import scale_impulses, ShapeIds
+from physsim_ros.model.robot_states import RobotStates
 from physsim_ros.model.scene import Body, Joint, Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Grip
@@ -164,6 +165,7 @@ class Space:
             self.unjoin(joint)
         self._take_out(rigid)
         self.pipeline.mouse_joints.forget_body(name)
+        self.pipeline.floor.drives.forget_body(name)
         del self.bodies.by_name[name]
         self.pipeline.half_step.release_bodies(touching)
 
@@ -195,6 +197,19 @@ class Space:
         if free:
             self.set_twist(rigid, twist)
         self._note_motion()
+
+    # Robots
+
+    @property
+    def robot_states(self) -> RobotStates:
+        """Return drives and odometry of the robots, in the order of the scene; not copied."""
+        return self.pipeline.floor.drives.states(self.table.scene)
+
+    def drive(self, rigid: RigidBody, velocity: Twist, until: int) -> None:
+        """Have a robot drive at a velocity as seen from it [m/s, rad/s], up to a step."""
+        drives, name = self.pipeline.floor.drives, rigid.body.name
+        self.changes += drives.command(self.table.scene, name, velocity, until)
+        rigid.pm_body.activate()
 
     # Grips
 
@@ -245,7 +260,11 @@ class Space:
         table = self.table
         if table.columns.moving:
             self.pipeline.step(
-                table, self._settings, age=self._age, reports_contacts=reports_contacts
+                table,
+                self._settings,
+                number=number,
+                age=self._age,
+                reports_contacts=reports_contacts,
             )
         self._age += 1
         for name, force in self.joints.broken():

@@ -20,6 +20,7 @@ class StepContext:
     :param table: the bodies
     :param settings: of the world
     :param dt: length of the step [s]
+    :param step: number of steps that the world has made
     :param age: count of steps since the space was built; stages that act every n steps count by
         it, so that a space restored from a checkpoint goes on alike
     :param reports_contacts: whether contacts are reported
@@ -31,6 +32,7 @@ class StepContext:
     table: BodyTable
     settings: WorldSettings
     dt: float
+    step: int
     age: int
     reports_contacts: bool
     poses: Floats

@@ -32,7 +32,7 @@ _KEYS = [each.name for each in fields(ImpulseCache)]
 
 def cache_entry(cache: ImpulseCache) -> dict[str, object]:
     """Return the entry of an impulse cache: numbers, and packed arrays."""
-    values = {key: getattr(cache, key) for key in _KEYS}
+    values = {key: getattr(cache, key) for key in _KEYS if key != 'pushes' or len(cache.pushes)}
     return {
         key: pack(value) if isinstance(value, np.ndarray) else value
         for key, value in values.items()
@@ -53,11 +53,17 @@ def cache_from(entry: object, state: WorldState) -> ImpulseCache | None:
     hashes = unpack(values.get('hashes'), 'hashes', np.uint64)
     impulses = unpack(values.get('impulses'), 'impulses', np.float64, 2)
     joints = unpack(values.get('joints'), 'joints', np.float64, 2)
+    # Older files have none.
+    pushes = (
+        unpack(values['pushes'], 'pushes', np.float64, 3)
+        if 'pushes' in values
+        else np.empty((0, 3))
+    )
     # No other bound: the heaviest and fastest bodies make impulses of any size.
-    sound = bool(np.isfinite(impulses).all() and np.isfinite(joints).all())
+    sound = all(bool(np.isfinite(each).all()) for each in (impulses, joints, pushes))
     if not (len(pairs) == len(hashes) == len(impulses) and sound):
         raise BadProperty('memory is not what was saved', field='memory')
-    if len(ids) != len(state.bodies):
+    if len(ids) != len(state.bodies) or len(pushes) not in (0, len(ids)):
         return None
     # The shapes of a body, and the walls, have consecutive numbers; each number occurs once.
     counts = [len(each.body.shape.form.pieces) for each in state.bodies]
@@ -77,6 +83,7 @@ def cache_from(entry: object, state: WorldState) -> ImpulseCache | None:
         hashes=hashes,
         impulses=impulses,
         joints=joints,
+        pushes=pushes,
     )
 
 

@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 from physsim_ros.engine.body import lead_of, offset_of
 from physsim_ros.engine.body_table import LOST
+from physsim_ros.files.driven import driven_from
 from physsim_ros.files.impulse_cache import cache_from
 from physsim_ros.files.joint_reader import joints_from
 from physsim_ros.files.robots import with_shipped_robot
@@ -47,6 +48,7 @@ from physsim_ros.simulation.world import steps_in
 from physsim_ros.simulation.world.body_description import new_body
 from physsim_ros.simulation.world.body_requests import check_command
 from physsim_ros.simulation.world.capacity import check_count
+from physsim_ros.simulation.world.robot_requests import check_namespaces
 
 # Keys of a body whose values follow from `motion`.
 _MOTION_KEYS = ('at', 'velocity', 'spin')
@@ -83,6 +85,7 @@ def state_from(
     settings = replace(settings, **changes)
     entries = entries_of(content.get('bodies'), 'bodies')
     bodies, unmoved = _body_states(entries, settings, physics_rate, progress)
+    check_namespaces(state.body for state in bodies)
     unjoined = WorldState(settings=settings, bodies=bodies)
     # One edited body, and the impulses of all contacts are outdated.
     if 'memory' in content and all(state.motion is not None for state in bodies):
@@ -141,6 +144,8 @@ def _body_state(
     state = BodyState(
         body=body, pose=spawn.pose, twist=twist, wrench=wrench, wrench_steps=wrench_steps
     )
+    if 'driven' in entry:
+        state = replace(state, driven=driven_from(entry['driven'], body, physics_rate))
     if not saved:
         return state, False
     lead = lead_of(body, wrench, settings.gravity, 1.0 / physics_rate)

@@ -15,6 +15,7 @@ import json
 import math
 import re
 
+from physsim_ros.files.driven import driven_entry
 from physsim_ros.files.impulse_cache import cache_entry
 from physsim_ros.files.world_schema import FORMAT, SETTINGS
 from physsim_ros.model.checkpoint import BodyState, WorldState
@@ -98,6 +99,12 @@ def _entry(state: BodyState, physics_rate: float) -> dict[str, object]:
         entry['group'] = body.group
     if body.expires is not None:
         entry['lifetime'] = body.expires / physics_rate
+    return entry | _motion_entry(state, physics_rate)
+
+
+def _motion_entry(state: BodyState, physics_rate: float) -> dict[str, object]:
+    """Return what the node alone writes of a body: wrench, state of a robot, motion."""
+    entry: dict[str, object] = {}
     if state.wrench != NO_WRENCH:
         steps = state.wrench_steps
         entry['wrench'] = {
@@ -105,6 +112,8 @@ def _entry(state: BodyState, physics_rate: float) -> dict[str, object]:
             'torque': state.wrench[2],
             'seconds': None if steps is None else steps / physics_rate,
         }
+    if state.driven is not None:
+        entry['driven'] = driven_entry(state.driven, physics_rate)
     if state.motion is not None:
         entry['motion'] = [*state.motion[:6], state.motion.free]
     return entry

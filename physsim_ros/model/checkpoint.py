@@ -15,6 +15,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.model.arrays import Floats, Ints
+from physsim_ros.model.robot_states import Driven, NO_ROBOTS, RobotStates
 from physsim_ros.model.scene import Body, Joint, Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Grip
@@ -49,6 +50,7 @@ class BodyState:
     :param motion: the engine's numbers for these two; None in a file written by hand
     :param wrench: force [N] and torque [N m] that act on it
     :param wrench_steps: number of further steps in which the wrench acts; None is for ever
+    :param driven: of a robot, the state of its drive and odometry, whose `until` counts from now
     """
 
     body: Body
@@ -57,6 +59,7 @@ class BodyState:
     motion: Motion | None = None
     wrench: Wrench = NO_WRENCH
     wrench_steps: int | None = None
+    driven: Driven | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -88,6 +91,8 @@ class ImpulseCache:
     :param hashes: (k,) uint64: feature ids of the contact points (Chipmunk: cpContact.hash)
     :param impulses: (k, 2) float64: normal and tangential, of the last step [N s]
     :param joints: (c, 2) float64: of the engine's constraints, joint by joint [N s, N m s]
+    :param pushes: (n, 3) float64: changes of velocity [m/s] and spin [rad/s] by contacts and
+        joints, of bodies on a floor; (0, 3) where there is none
     """
 
     ids: Ints
@@ -97,6 +102,7 @@ class ImpulseCache:
     hashes: NDArray[np.uint64]
     impulses: Floats
     joints: Floats
+    pushes: Floats = field(default_factory=lambda: np.empty((0, 3)))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -112,6 +118,7 @@ class Checkpoint:
     :param memory: impulse cache
     :param grips: of hands on bodies
     :param unstepped: names of the joints whose first step is to come
+    :param robots: drives and odometry of the robots, in the order of the scene
     """
 
     step: int
@@ -122,3 +129,4 @@ class Checkpoint:
     memory: ImpulseCache
     grips: tuple[Grip, ...] = ()
     unstepped: frozenset[str] = frozenset()
+    robots: RobotStates = NO_ROBOTS

@@ -160,7 +160,7 @@ class BadWorldFile(Refusal):
 
 
 class Exists(Refusal):
-    """A name of a world that is taken."""
+    """A name of a world, or a namespace of a robot, that is taken."""
 
     code = 'exists'
 

@@ -168,17 +168,24 @@ class Scene:
     def key(self) -> bytes:
         """Its content as bytes, for digests; names of classes and fields are part of them."""
         parts = repr((self.bodies, self.settings, self.joints))
-        floor = [
+        robots = [
             (body.name, body.surface_velocity, body.robot)
             for body in self.bodies
             if body.robot is not None or any(body.surface_velocity)
         ]
-        return (parts + repr(floor) if floor else parts).encode()
+        floor = (self.settings.floor_friction, self.settings.seed, robots)
+        return (parts + repr(floor) if any(floor) else parts).encode()
 
     @cached_property
     def names(self) -> tuple[str, ...]:
         """Names of the bodies, in spawn order."""
         return tuple(body.name for body in self.bodies)
+
+    @cached_property
+    def robot_rows(self) -> Ints:
+        """(r,) int64: rows of the robots, in spawn order."""
+        rows = [row for row, body in enumerate(self.bodies) if body.robot is not None]
+        return np.array(rows, np.int64)
 
     @cached_property
     def inertia(self) -> Floats:

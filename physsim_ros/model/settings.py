@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 import math
 
 from physsim_ros.model.checks import Checks, HEAVIEST, LIGHTEST, pair, shown, Whole, Within
@@ -15,6 +15,9 @@ from physsim_ros.model.transform import Point
 
 Bounds = tuple[float, float, float, float]
 
+# Standard gravity [m/s²]: of weights on the floor of a world seen from above, and of the forces of
+# hands in worlds without gravity.
+STANDARD_GRAVITY = 9.81
 # Greatest gravity [m/s²]: a thousand times that of the earth, 40 m/s in a step.
 STRONGEST = 1e4
 # Greatest number of joints on one body [1]: a new joint takes a microsecond for each joint on its
@@ -38,6 +41,9 @@ class WorldSettings:
     :param density: of bodies by default [kg/m²]
     :param friction: coefficient of bodies by default
     :param elasticity: coefficient of restitution of bodies by default
+    :param floor_friction: coefficient of friction between bodies and the floor of a world that is
+        seen from above; 0 is a world that is seen from the side
+    :param seed: of all noise
     :param command_timeout: simulation time for which a wrench acts [s]; 0 is no limit
     :param drag_force: greatest force of a hand, in weights of the body
     :param max_bodies: greatest number of bodies
@@ -55,6 +61,9 @@ class WorldSettings:
     density: float = 1.0
     friction: float = 0.5
     elasticity: float = 0.5
+    # Not part of the text, so that digests of worlds without a floor are those of ever.
+    floor_friction: float = field(default=0.0, repr=False)
+    seed: int = field(default=0, repr=False)
     command_timeout: float = 0.5
     drag_force: float = 10.0
     max_bodies: int = 20000
@@ -96,6 +105,8 @@ RANGES: dict[str, Within | Whole] = {
     'density': Within(LIGHTEST, HEAVIEST, 'kg/m²'),
     'friction': Within(0.0, 10.0),
     'elasticity': Within(0.0, 1.0),
+    'floor_friction': Within(0.0, 10.0),
+    'seed': Whole(0, 2**31 - 1),
     'command_timeout': Within(0.0, 1e9, 's'),
     'drag_force': Within(0.0, 1000.0),
     'max_bodies': Whole(0, 1_000_000),

@@ -17,6 +17,7 @@ import numpy as np
 from physsim_ros.model.arrays import Flags, Floats, Ints
 from physsim_ros.model.errors import Refusal, UnknownBody
 from physsim_ros.model.names import shown_name
+from physsim_ros.model.robot_states import NO_ROBOTS, RobotStates
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.texts import nearest_name
 from physsim_ros.model.transform import Point, rotated_each
@@ -91,6 +92,7 @@ class Snapshot:
     :param grips: of hands on bodies
     :param pulls: (j, 2) float64: force of each joint on its body b in the last step, world axes
         [N]; empty if contacts were not requested
+    :param robots: drives and odometry of the robots, in the order of `scene.robot_rows`
     """
 
     step: int
@@ -103,6 +105,7 @@ class Snapshot:
     springs: Springs = NO_SPRINGS
     grips: tuple[Grip, ...] = ()
     pulls: Floats = field(default_factory=lambda: np.empty((0, 2)))
+    robots: RobotStates = NO_ROBOTS
 
     def row(self, name: str) -> int:
         """
@@ -119,7 +122,7 @@ class Snapshot:
     def nbytes(self) -> int:
         """Memory of its arrays [bytes], without cached properties."""
         arrays = (self.poses, self.twists, self.forces, self.compressed, self.pulls, *self.springs)
-        return sum(array.nbytes for array in arrays)
+        return sum(array.nbytes for array in arrays) + self.robots.nbytes
 
     @cached_property
     def centers(self) -> Floats:

@@ -21,6 +21,7 @@ from physsim_ros.model.requests import (
     ChangeBody,
     Command,
     Delete,
+    DriveRobot,
     Join,
     KeepHand,
     MoveHand,
@@ -122,6 +123,7 @@ def subject_of(request: Request | Amend) -> str:
             | Delete(name=name)
             | Join(name=name)
             | Unjoin(name=name)
+            | DriveRobot(name=name)
             | Command(names=(name,))
         ):
             return name

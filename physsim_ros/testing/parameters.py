@@ -70,6 +70,8 @@ class Parameters(TypedDict, total=False):
     beautify: float
     wall_thickness: float
     drag_force: float
+    floor_friction: float
+    seed: int
     command_timeout: float
     max_bodies: int
     max_shapes: int

@@ -129,6 +129,8 @@ def test_a_body_whose_idle_time_is_reset_stays_awake() -> None:
         ('_SPACE_ARBITERS', 19),
         ('BODY_POSE', np.array((9, 8, 14))),
         ('BODY_INVERSE_MASS', 2),
+        ('BODY_FORCES', np.array((12, 13, 17))),
+        ('BODY_INVERSES', np.array((3, 3, 6))),
         ('SHAPE_BOX', slice(7, 11)),
         ('_RADIUS', np.array((27, 36, 24))),
         ('_SEGMENT_ENDS', 24),

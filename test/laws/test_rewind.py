@@ -4,6 +4,7 @@
 """Law 26: rewound to any step, a world plays on as it did the first time, to the bit."""
 
 from hashlib import blake2b
+import math
 import os
 from pathlib import Path
 import random
@@ -12,7 +13,15 @@ import sys
 
 import numpy as np
 from physsim_ros.files import load_world, save_world
-from physsim_ros.model.requests import Anchor, Command, Configure, Delete, Release, Spawn
+from physsim_ros.model.requests import (
+    Anchor,
+    Command,
+    Configure,
+    Delete,
+    DriveRobot,
+    Release,
+    Spawn,
+)
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon
 from physsim_ros.simulation.simulation import Simulation
@@ -164,6 +173,29 @@ def _anchored():
     }
 
 
+def _robots():
+    """Laws 37 to 41: robots drive, push and stall on a floor with a conveyor."""
+    sim = _simulation(gravity=NOWHERE, floor_friction=0.3, seed=26)
+    belt = Box(width=1.0, height=0.5)
+    spawn(
+        sim, 'belt/0', belt, (0.5, 1.0, 0.3), anchored=True, sensor=True, surface_velocity=(0.3, 0)
+    )
+    spawn(sim, 'wall/0', Box(width=0.2, height=2.0), (1.5, 0.0, 0.0), anchored=True)
+    later = {}
+    for number, kind in enumerate(('differential', 'omni', 'car')):
+        robot = {'drive': {'kind': kind, 'timeout': 0.4}, 'odometry': {'slip': [0.02, 0.03]}}
+        pose = (0.0, 0.5 * number, 0.1 * number)
+        spawn(sim, f'robot/{number}', Disc(radius=0.105), pose, mass=1.0, robot=robot)
+        spawn(sim, f'box/{number}', Box(width=0.2, height=0.2), (0.4, 0.5 * number, 0.0), mass=0.6)
+        for step in range(10 + number, LENGTH, 37):
+            if step % 3 and (number != 1 or step < 400):
+                velocity = (0.4, 0.1, 0.3 * math.sin(step))
+                drive = DriveRobot(name=f'robot/{number}', velocity=velocity)
+                later.setdefault(step, []).append(drive)
+    later.setdefault(400, []).append(Delete(name='robot/1'))
+    return sim, later
+
+
 def _eventful():
     """Everything at once: bodies come and go, and the world itself is set otherwise."""
     sim = _simulation()
@@ -204,6 +236,7 @@ SCENES = {
     'pyramid of 105': _pyramid,
     '100 discs': _gas,
     'anchored body': _anchored,
+    'robots on a floor': _robots,
     'all kinds of requests': _eventful,
 }
 

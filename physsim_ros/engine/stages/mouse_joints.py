@@ -24,14 +24,12 @@ import math
 
 from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.step_context import StepContext
-from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.settings import STANDARD_GRAVITY, WorldSettings
 from physsim_ros.model.snapshot import Grip
 from physsim_ros.model.transform import Point, rotated
 
 # Undamped frequency of the spring [Hz], and its damping ratio: 1 is critical.
 FREQUENCY, DAMPING_RATIO = 5.0, 1.0
-# Standard gravity [m/s²], by which bodies are weighed in worlds without gravity.
-STANDARD_GRAVITY = 9.81
 
 
 class MouseJoints:

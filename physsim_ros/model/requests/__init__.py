@@ -40,6 +40,7 @@ from physsim_ros.model.requests.joints import (
     Unjoin,
     UnjoinAll,
 )
+from physsim_ros.model.requests.robots import DriveRobot
 from physsim_ros.model.requests.world import Configure, Restore
 
 HandRequest = Grab | GrabToPlace | MoveHand | PlaceHand | KeepHand | LetGo
@@ -59,6 +60,7 @@ Request = (
     | Pin
     | Axle
     | HandRequest
+    | DriveRobot
     | Configure
     | Restore
 )
@@ -73,6 +75,7 @@ __all__ = [
     'Delete',
     'DeleteAll',
     'DeleteBodies',
+    'DriveRobot',
     'Grab',
     'GrabToPlace',
     'HandRequest',

@@ -17,6 +17,7 @@ from physsim_ros.model.shapes.compound import Compound
 from physsim_ros.model.shapes.containment import contains
 from physsim_ros.model.shapes.disc import Disc
 from physsim_ros.model.shapes.form import Capsule, Circle, Convex, Form, Piece
+from physsim_ros.model.shapes.lever import lever_of
 from physsim_ros.model.shapes.polygon import Polygon
 from physsim_ros.model.shapes.polygon_geometry import crosses_itself, is_convex, signed_area
 from physsim_ros.model.shapes.triangles import Triangles
@@ -46,5 +47,6 @@ __all__ = [
     'contains',
     'crosses_itself',
     'is_convex',
+    'lever_of',
     'signed_area',
 ]

@@ -188,6 +188,9 @@ _MEANINGS = {
     'as it was drawn',
     'wall_thickness': 'of drawn walls [m]',
     'drag_force': 'greatest force of a hand, in weights of the body',
+    'floor_friction': 'coefficient of friction between bodies and the floor of a world that is '
+    'seen from above; 0 is a world that is seen from the side',
+    'seed': 'seed of all noise of robots',
     'command_timeout': 'duration of a commanded wrench [s of simulation time]; 0 means no limit',
     'max_bodies': 'most bodies; a request beyond it is refused',
     'max_shapes': 'most convex pieces of all bodies; a request beyond it is refused',

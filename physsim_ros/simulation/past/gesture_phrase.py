@@ -20,6 +20,7 @@ _PHRASES = {
     requests.Configure: ('change', 'settings'),
     requests.DeleteAll: ('delete', 'all bodies'),
     requests.DeleteBodies: ('delete', 'several bodies'),
+    requests.DriveRobot: ('drive', ''),
     requests.Grab: ('drag', ''),
     requests.GrabToPlace: ('place', ''),
     requests.LetGo: ('drag', ''),

@@ -116,7 +116,7 @@ def checkpoint_size(checkpoint: Checkpoint, before: Checkpoint | None = None) ->
         memory.hashes,
         memory.impulses,
     )
-    size = _CHECKPOINT + _nbytes((*arrays, memory.joints))
+    size = _CHECKPOINT + _nbytes((*arrays, memory.joints, memory.pushes, *checkpoint.robots))
     size += _WRENCH * len(checkpoint.wrenches) + _NAME * len(checkpoint.unstepped)
     if before is None or before.scene is not checkpoint.scene:
         # The digest of a checkpoint makes the scene's checkpoint.

@@ -49,6 +49,7 @@ from physsim_ros.simulation.world.lookup import (
     points_in_world,
     pose_in_world,
 )
+from physsim_ros.simulation.world.robot_requests import check_robot
 
 
 def spawn(live: LiveSpace, request: Spawn) -> Done:
@@ -61,6 +62,7 @@ def spawn(live: LiveSpace, request: Spawn) -> Done:
         _change(live, old, spawn_changes(request, expires), pose, request.properties)
         return Done(name, f'changed {name}')
     body, twist = new_body(request, live.settings, expires)
+    check_robot(space, body)
     live.capacity.check_body(body, pose)
     space.add(body, pose, twist)
     return Done(name, f'spawned {name}')
@@ -126,9 +128,12 @@ def anchor(live: LiveSpace, request: Anchor) -> Done:
     Anchor the topmost body at a point.
 
     :raises NothingThere: there is none
+    :raises BadProperty: it is a robot
     """
     space = live.space
     rigid, _ = _topmost(space, request)
+    if rigid.body.robot is not None:
+        raise BadProperty(f'{rigid.body.name} is a robot; it cannot be anchored', field='point')
     if not rigid.body.anchored:
         space.change(rigid, replace(rigid.body, anchored=True), rigid.pose, REST)
     return Done(rigid.body.name, f'anchored {rigid.body.name}')
@@ -218,6 +223,7 @@ def _change(
 ) -> None:
     """Change fields and properties of a body, and its pose."""
     body = changed_body(old.body, changes, properties)
+    check_robot(live.space, body)
     twist = REST if old.body.anchored else live.space.twist_of(old)
     twist = changed_twist(body, twist, properties)
     if (body.shape, body.anchored, pose) != (old.body.shape, old.body.anchored, old.pose):

@@ -155,10 +155,15 @@ def _members(
 
 
 def _check_members(space: Space, kind: JointKind, a: str, b: str) -> None:
-    """Refuse a joint of a body with itself, or of two bodies that are not dynamic."""
+    """Refuse a joint of a body with itself, of a robot, or of two bodies that are not dynamic."""
     if a == b:
         raise BadProperty(f'{a} cannot be joined to itself', field='b', body=a)
     bodies = [space.bodies.by_name[name].body for name in (a, b) if name != WORLD]
+    for field, body in zip('ab', bodies, strict=False):
+        if body.robot is not None:
+            raise BadProperty(
+                f'{body.name} is a robot; it has no joints', field=field, body=body.name
+            )
     if not any(body.dynamic for body in bodies):
         immovable = ' and '.join(
             f'{body.name} is {"anchored" if body.anchored else "kinematic"}' for body in bodies

@@ -27,6 +27,7 @@ from physsim_ros.simulation.world import (
     body_requests,
     hand_requests,
     joint_requests,
+    robot_requests,
     world_requests,
 )
 from physsim_ros.simulation.world.live_space import LiveSpace
@@ -54,6 +55,7 @@ HANDLERS: Mapping[type, Callable[[LiveSpace, Any], Done]] = {
     requests.PlaceHand: hand_requests.place_hand,
     requests.KeepHand: hand_requests.keep_hand,
     requests.LetGo: hand_requests.let_go,
+    requests.DriveRobot: robot_requests.drive,
     requests.Configure: world_requests.configure,
     requests.Restore: world_requests.restore,
 }
@@ -115,6 +117,7 @@ class World(LiveSpace):
             compressed=self.space.joints.compressed(),
             springs=self.space.joints.springs(),
             grips=self.grips,
+            robots=self.space.robot_states.copy(),
             pulls=self.space.joints.pulls() if self.reports_contacts else np.empty((0, 2)),
         )
 
@@ -128,7 +131,7 @@ class World(LiveSpace):
         self.space.pipeline.contact_report.clear()
 
     def digest(self) -> str:
-        """Return a hash of time, scene, poses, velocities, wrenches and grips, not of impulses."""
+        """Return a hash of time, scene, poses, velocities, wrenches, grips and robots."""
         digest = hashlib.blake2b(digest_size=16)
         digest.update(f'{self.step_count} {self.physics_rate!r}'.encode())
         acting = self.space.pipeline.wrenches.acting()
@@ -136,6 +139,8 @@ class World(LiveSpace):
             digest.update(part)
         for grip in self.grips:
             digest.update(repr(grip).encode())
+        for column in self.space.robot_states:
+            digest.update(column.tobytes())
         return digest.hexdigest()
 
     @property

@@ -36,7 +36,7 @@ class Drive(ABC):
     :param max_turn: greatest turn rate [rad/s]
     :param acceleration: greatest acceleration of the rim of a wheel [m/s²]
     :param traction: coefficient of friction between wheels and floor
-    :param timeout: simulation time after which it stops without another command [s]
+    :param timeout: simulation time after which it stops without another command [s]; 0 is no limit
     :param track: distance of its wheels from left to right [m]
     :param wheel_radius: [m]
     :raises Malformed: a number is not finite

@@ -1,0 +1,68 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""Requests for robots, and what a world refuses of them: no two robots have one namespace."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from physsim_ros.engine.space import Space
+from physsim_ros.model.errors import BadProperty, Exists
+from physsim_ros.model.requests import DriveRobot
+from physsim_ros.model.robot_states import NEVER
+from physsim_ros.model.scene import Body
+from physsim_ros.simulation.world.live_space import LiveSpace
+from physsim_ros.simulation.world.lookup import body_of_name, Done
+
+
+def drive(live: LiveSpace, request: DriveRobot) -> Done:
+    """
+    Have a robot drive at a velocity.
+
+    :raises UnknownBody: there is no such body
+    :raises BadProperty: it is no robot
+    """
+    name = request.name
+    rigid = body_of_name(live.space, name)
+    robot = rigid.body.robot
+    if robot is None:
+        raise BadProperty(f'{name} is no robot', field='name')
+    until = live.step_after(robot.drive.timeout)
+    live.space.drive(rigid, request.velocity, NEVER if until is None else until)
+    return Done(name, f'drives {name}')
+
+
+def check_robot(space: Space, body: Body) -> None:
+    """
+    Refuse a robot that has joints, or whose namespace another one has.
+
+    :raises BadProperty: it has joints
+    :raises Exists: the namespace is taken
+    """
+    if body.robot is None:
+        return
+    if space.joints.has_joints(body.name):
+        raise BadProperty(f'{body.name} has joints; it cannot be a robot', field='robot')
+    check_namespaces((body, *(rigid.body for rigid in space.bodies.by_name.values())))
+
+
+def check_namespaces(bodies: Iterable[Body]) -> None:
+    """
+    Refuse two robots of one namespace; of two bodies of one name the first counts.
+
+    :raises Exists: there are
+    """
+    taken: dict[str, str] = {}
+    seen: set[str] = set()
+    for body in bodies:
+        if body.robot is None or body.name in seen:
+            continue
+        seen.add(body.name)
+        namespace = body.robot.namespace_of(body.name)
+        other = taken.setdefault(namespace, body.name)
+        if other != body.name:
+            raise Exists(
+                f'the robots {other} and {body.name} have one namespace, /{namespace}',
+                field='namespace',
+            )

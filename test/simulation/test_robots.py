@@ -1,0 +1,239 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""Robots in a world: commands, what is refused, and what is kept of them."""
+
+import math
+
+import numpy as np
+from physsim_ros.files import load_world, save_world
+from physsim_ros.model.body_properties import Properties
+from physsim_ros.model.errors import BadProperty, Exists, Malformed, Refusal, UnknownBody
+from physsim_ros.model.joints import JointKind
+from physsim_ros.model.requests import (
+    Anchor,
+    ChangeBody,
+    Delete,
+    DriveRobot,
+    Join,
+    Restore,
+    Spawn,
+)
+from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.shapes import Box, Disc
+from physsim_ros.simulation.world import World
+import pytest
+
+SETTINGS = WorldSettings(gravity=(0.0, 0.0), floor_friction=0.5, seed=3)
+DRIVE = {'kind': 'differential', 'timeout': 0.5}
+SLIPPING = {'drive': DRIVE, 'odometry': {'slip': [0.02, 0.03]}}
+
+
+def _world():
+    return World(settings=SETTINGS)
+
+
+def _spawn(world, name, x=0.0, **properties):
+    spawn = Spawn(
+        name=name,
+        shape=Disc(radius=0.1),
+        pose=(x, 0.0, 0.0),
+        properties=Properties(**properties),
+    )
+    return world.apply(spawn)
+
+
+def _refused(world, request, refusal, field):
+    """Tell that a request is refused by the name of the field, and nothing is changed."""
+    before = world.digest()
+    with pytest.raises(refusal) as caught:
+        world.apply(request)
+    assert caught.value.field == field
+    assert world.digest() == before
+
+
+@pytest.mark.parametrize(
+    ('properties', 'field'),
+    [
+        ({'anchored': True}, 'anchored'),
+        ({'kinematic': True}, 'kinematic'),
+        ({'sensor': True}, 'sensor'),
+    ],
+)
+def test_a_robot_is_neither_anchored_nor_kinematic_nor_a_sensor(properties, field):
+    world = _world()
+    made = Properties(robot={'drive': DRIVE}, **properties)
+    _refused(world, Spawn(name='a/0', shape=Disc(radius=0.1), properties=made), BadProperty, field)
+    _spawn(world, 'b/0', robot={'drive': DRIVE})
+    changed = ChangeBody(name='b/0', properties=Properties(**properties))
+    _refused(world, changed, BadProperty, field)
+    _spawn(world, 'c/0', x=1.0, **properties)
+    becomes = ChangeBody(name='c/0', properties=Properties(robot={'drive': DRIVE}))
+    _refused(world, becomes, BadProperty, field)
+
+
+def test_a_robot_is_not_anchored_by_a_click():
+    world = _world()
+    _spawn(world, 'a/0', robot={'drive': DRIVE})
+
+    _refused(world, Anchor(point=(0.0, 0.0)), BadProperty, 'point')
+
+
+def test_a_robot_has_no_joints():
+    world = _world()
+    _spawn(world, 'a/0', robot={'drive': DRIVE})
+    _spawn(world, 'b/0', x=1.0)
+    points = ((0.0, 0.0), (1.0, 0.0))
+    join = Join(name='rod/0', kind=JointKind.ROD, a='a/0', b='b/0', points=points)
+    _refused(world, join, BadProperty, 'a')
+    _spawn(world, 'c/0', x=2.0)
+    points = ((1.0, 0.0), (2.0, 0.0))
+    world.apply(Join(name='rod/0', kind=JointKind.ROD, a='b/0', b='c/0', points=points))
+
+    becomes = ChangeBody(name='b/0', properties=Properties(robot={'drive': DRIVE}))
+    _refused(world, becomes, BadProperty, 'robot')
+
+
+def test_two_robots_have_two_namespaces():
+    world = _world()
+    _spawn(world, 'a/0', robot={'drive': DRIVE})
+    taken = Properties(robot={'drive': DRIVE, 'namespace': 'a_0'})
+    spawn = Spawn(name='b/0', shape=Disc(radius=0.1), pose=(1.0, 0.0, 0.0), properties=taken)
+    _refused(world, spawn, Exists, 'namespace')
+
+    world.apply(Delete(name='a/0'))
+    world.apply(spawn)
+    # Itself it may be spawned again.
+    world.apply(spawn)
+
+
+@pytest.mark.parametrize('name', ['7/0', 'a/-1', 'ä/0'])
+def test_a_name_that_is_no_namespace_needs_one(name):
+    world = _world()
+    made = Properties(robot={'drive': DRIVE})
+    spawn = Spawn(name=name, shape=Disc(radius=0.1), properties=made)
+    _refused(world, spawn, BadProperty, 'namespace')
+
+    _spawn(world, name, robot={'drive': DRIVE, 'namespace': 'r'})
+
+
+@pytest.mark.parametrize('velocity', [(math.nan, 0.0, 0.0), (0.0, math.inf, 0.0), (0.0, 1.0)])
+def test_a_command_is_three_finite_numbers(velocity):
+    with pytest.raises(Malformed) as caught:
+        DriveRobot(name='a/0', velocity=velocity)
+
+    assert caught.value.field == 'velocity'
+
+
+def test_a_command_that_is_too_fast_for_anything_is_refused():
+    with pytest.raises(BadProperty):
+        DriveRobot(name='a/0', velocity=(1e6, 0.0, 0.0))
+
+
+def test_only_robots_are_driven():
+    world = _world()
+    _spawn(world, 'a/0')
+    _refused(world, DriveRobot(name='b/0', velocity=(1.0, 0.0, 0.0)), UnknownBody, 'name')
+    _refused(world, DriveRobot(name='a/0', velocity=(1.0, 0.0, 0.0)), BadProperty, 'name')
+
+
+def test_only_a_sensor_is_a_conveyor():
+    world = _world()
+    made = Properties(surface_velocity=(1.0, 0.0), anchored=True)
+    spawn = Spawn(name='belt/0', shape=Box(width=1.0, height=1.0), properties=made)
+
+    _refused(world, spawn, BadProperty, 'surface_velocity')
+
+
+def test_a_robot_keeps_its_state_when_it_is_changed_and_loses_it_when_it_is_removed():
+    world = _world()
+    _spawn(world, 'a/0', robot={'drive': DRIVE})
+    _spawn(world, 'b/0', x=2.0, robot={'drive': DRIVE})
+    for name in ('a/0', 'b/0'):
+        world.apply(DriveRobot(name=name, velocity=(0.2, 0.0, 0.0)))
+    world.step(60)
+    before = world.snapshot().robots.copy()
+
+    world.apply(ChangeBody(name='a/0', properties=Properties(friction=0.9)))
+    kept = world.snapshot().robots
+    assert all(map(np.array_equal, kept, before))
+    spawn = Spawn(
+        name='a/0', shape=Disc(radius=0.1), properties=Properties(robot={'drive': DRIVE})
+    )
+    world.apply(Delete(name='a/0'))
+    world.apply(spawn)
+
+    # A body that is spawned anew is the last one.
+    assert world.scene.names == ('b/0', 'a/0')
+    last = world.snapshot().robots
+    assert np.array_equal(last.odometry[0], before.odometry[1])
+    assert not last.odometry[1].any()
+    assert not last.wheels[1].any()
+
+
+def test_a_sleeping_robot_is_woken_up_by_a_command():
+    world = _world()
+    _spawn(world, 'a/0', robot={'drive': DRIVE})
+    world.step(240)
+    assert world.space.table.asleep.all()
+
+    world.apply(DriveRobot(name='a/0', velocity=(0.2, 0.0, 0.0)))
+    world.step(60)
+
+    assert world.snapshot().twists[0, 0] == pytest.approx(0.2, abs=1e-9)
+
+
+def test_a_robot_that_creeps_does_not_fall_asleep():
+    world = _world()
+    _spawn(world, 'a/0', robot={'drive': {**DRIVE, 'timeout': 0}})
+    world.apply(DriveRobot(name='a/0', velocity=(0.001, 0.0, 0.0)))
+    world.step(480)
+
+    assert world.snapshot().poses[0, 0] == pytest.approx(0.002, rel=0.01)
+
+
+def test_motion_under_way_is_saved_and_loaded_to_the_bit(tmp_path):
+    world = _world()
+    _spawn(world, 'a/0', robot=SLIPPING)
+    _spawn(world, 'b/0', x=0.25, mass=0.02)
+    world.apply(DriveRobot(name='a/0', velocity=(0.3, 0.0, 0.4)))
+    world.step(50)
+
+    path = save_world(world.save(), 'robots', world_dir=tmp_path, physics_rate=240.0)
+    loaded = load_world(path, settings=WorldSettings(), physics_rate=240.0)
+    one, other = _world(), _world()
+    one.apply(Restore(state=world.save()))
+    other.apply(Restore(state=loaded))
+
+    for _ in range(5):
+        assert one.digest() == other.digest()
+        one.step(60)
+        other.step(60)
+    # The command ends when it would have.
+    assert not one.snapshot().robots.aim.any()
+
+
+@pytest.mark.parametrize(
+    ('body', 'code'),
+    [
+        (
+            '{name: b/0, circle: {radius: 1}, robot: {drive: {kind: omni}, namespace: a_0}}',
+            'exists',
+        ),
+        ('{name: b/0, circle: {radius: 1}, driven: {}}', 'bad_property'),
+        ('{name: b/0, circle: {radius: 1}, robot: car, driven: {aim: [1]}}', 'malformed'),
+        ('{name: b/0, circle: {radius: 1}, robot: car, driven: {aim: [1, 2, .nan]}}', 'malformed'),
+        ('{name: b/0, circle: {radius: 1}, robot: car, driven: {seconds: -1}}', 'bad_property'),
+        ('{name: b/0, circle: {radius: 1}, robot: car, driven: {wheel: 1}}', 'unknown_property'),
+        ('{name: b/0, circle: {radius: 1}, robot: car, anchored: true}', 'bad_property'),
+    ],
+)
+def test_a_file_with_a_robot_that_cannot_be_is_refused(tmp_path, body, code):
+    path = tmp_path / 'world.yaml'
+    first = '{name: a/0, circle: {radius: 0.1}, robot: {drive: {kind: omni}}}'
+    path.write_text(f'format: 1\nbodies:\n  - {first}\n  - {body}\n')
+
+    with pytest.raises(Refusal) as caught:
+        load_world(path, settings=WorldSettings(), physics_rate=240.0)
+
+    assert caught.value.cause == code
