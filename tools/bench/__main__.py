@@ -19,6 +19,7 @@ from . import (
     recording_page,
     resting,
     rewinding,
+    sensors,
     startup,
 )
 
@@ -32,6 +33,7 @@ resting.table()
 capacity.table()
 crowd.table()
 joints.table()
+sensors.table()
 rewinding.table()
 pages.table()
 chromium_page.table()
