@@ -35,7 +35,7 @@ from physsim_ros.files.world_schema import (
     SETTINGS,
     WORLD_KEYS,
 )
-from physsim_ros.model.body_properties import properties_from
+from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checkpoint import BodyState, Motion, WorldState
 from physsim_ros.model.checks import check_key, known_mapping, LONGEST, number, pair, Within
 from physsim_ros.model.colors import Color, color_from
@@ -176,7 +176,9 @@ def spawn_from(entry: Mapping[Any, Any]) -> Spawn:
         pose=_pose(entry),
         color=_color(entry['color']) if 'color' in entry else None,
         lifetime=number(entry.get('lifetime', 0.0), 'lifetime'),
-        properties=properties_from({key: entry[key] for key in PROPERTIES if key in entry}),
+        properties=Properties.from_mapping(
+            {key: entry[key] for key in PROPERTIES if key in entry}
+        ),
     )
 
 

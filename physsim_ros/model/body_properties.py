@@ -9,15 +9,12 @@ One table holds every property with its check; markers, world files and paramete
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import ClassVar
 
 from physsim_ros.model.checks import (
-    check_keys,
-    check_values,
+    Checked,
     Checks,
-    explicit_values,
     FASTEST,
     flag,
     HEAVIEST,
@@ -30,8 +27,17 @@ from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.robots import Robot, robot_from
 
 
+def _group(value: object, name: str) -> int:
+    if isinstance(value, bool) or not isinstance(value, int):
+        raise BadProperty(f'{name} must be a whole number, not {shown(value)}', field=name)
+    # Chipmunk's cpGroup is an unsigned 64-bit word; negative numbers wrap to distinct words.
+    if not -(2**31) <= value < 2**31:
+        raise BadProperty(f'{name} must fit into 32 bits', field=name)
+    return value
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Properties:
+class Properties(Checked):
     """
     The properties that a request sets; None leaves a property as it is, or at its default.
 
@@ -52,6 +58,21 @@ class Properties:
     :raises BadProperty: a value is of the wrong kind or out of range
     """
 
+    CHECKS: ClassVar[Checks] = {
+        'mass': Within(LIGHTEST, HEAVIEST, 'kg'),
+        'density': Within(LIGHTEST, HEAVIEST, 'kg/m²'),
+        'friction': Within(0.0, 10.0),
+        'elasticity': Within(0.0, 1.0),
+        'velocity': velocity,
+        'spin': Within(-FASTEST, FASTEST, 'rad/s'),
+        'anchored': flag,
+        'kinematic': flag,
+        'group': _group,
+        'sensor': flag,
+        'surface_velocity': velocity,
+        'robot': robot_from,
+    }
+
     mass: float | None = None
     density: float | None = None
     friction: float | None = None
@@ -66,47 +87,6 @@ class Properties:
     robot: Robot | None = None
 
     def __post_init__(self) -> None:
-        check_values(self, _CHECKS)
+        Checked.__post_init__(self)
         if self.mass is not None and self.density is not None:
             raise BadProperty('a body has a mass or a density, not both', field='mass')
-
-    def explicit(self) -> dict[str, Any]:
-        """Return the properties that are set, by name."""
-        return explicit_values(self, _CHECKS)
-
-
-def properties_from(mapping: Mapping[Any, Any]) -> Properties:
-    """
-    Return the properties that a YAML mapping sets.
-
-    :raises UnknownProperty: a key is not a property; the nearest one is named
-    :raises Malformed: a number is not finite or an array has the wrong length
-    :raises BadProperty: a value is null, of the wrong kind, or out of range
-    """
-    check_keys(mapping, _CHECKS)
-    return Properties(**mapping)
-
-
-def _group(value: object, name: str) -> int:
-    if isinstance(value, bool) or not isinstance(value, int):
-        raise BadProperty(f'{name} must be a whole number, not {shown(value)}', field=name)
-    # Chipmunk's cpGroup is an unsigned 64-bit word; negative numbers wrap to distinct words.
-    if not -(2**31) <= value < 2**31:
-        raise BadProperty(f'{name} must fit into 32 bits', field=name)
-    return value
-
-
-_CHECKS: Checks = {
-    'mass': Within(LIGHTEST, HEAVIEST, 'kg'),
-    'density': Within(LIGHTEST, HEAVIEST, 'kg/m²'),
-    'friction': Within(0.0, 10.0),
-    'elasticity': Within(0.0, 1.0),
-    'velocity': velocity,
-    'spin': Within(-FASTEST, FASTEST, 'rad/s'),
-    'anchored': flag,
-    'kinematic': flag,
-    'group': _group,
-    'sensor': flag,
-    'surface_velocity': velocity,
-    'robot': robot_from,
-}

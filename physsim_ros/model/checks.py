@@ -13,7 +13,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 import math
 import reprlib
-from typing import Any
+from typing import Any, ClassVar, Self
 
 from physsim_ros.model.errors import BadProperty, Malformed, UnknownProperty
 from physsim_ros.model.everyday_words import property_meant
@@ -249,33 +249,49 @@ def check_key(key: object, known: list[str]) -> None:
     raise UnknownProperty(f'there is no property {shown(word)}{hint}', field=word[:_LONGEST_SHOWN])
 
 
-def check_keys(mapping: Mapping[Any, Any], checks: Checks) -> None:
+@dataclass(frozen=True, slots=True)
+class Checked:
     """
-    Refuse keys that have no check, and keys without a value.
+    The base of values whose fields are checked.
 
-    :raises UnknownProperty: a key is not a property; the nearest one is named
-    :raises BadProperty: a value is null
-    """
-    known = list(checks)
-    for key, value in mapping.items():
-        check_key(key, known)
-        if value is None:
-            raise BadProperty(f'{key} has no value', field=str(key))
-
-
-def check_values(properties: object, checks: Checks) -> None:
-    """
-    Replace each property that is set by the value that its check returns.
-
-    :param properties: a frozen dataclass under construction, one field for each check
+    :cvar CHECKS: check of each field, in their order; a field that is None is not checked
     :raises Refusal: a check raised it
     """
-    for name, value in explicit_values(properties, checks).items():
-        # Frozen for everyone but its own constructor.
-        object.__setattr__(properties, name, checks[name](value, name))
 
+    CHECKS: ClassVar[Checks] = {}
 
-def explicit_values(properties: object, checks: Checks) -> dict[str, Any]:
-    """Return the properties that are set, by name, in the order of the checks."""
-    pairs = ((name, getattr(properties, name)) for name in checks)
-    return {name: value for name, value in pairs if value is not None}
+    def __post_init__(self) -> None:
+        for name, value in self.explicit().items():
+            # Frozen for everyone but its own constructor.
+            object.__setattr__(self, name, self.CHECKS[name](value, name))
+
+    def explicit(self) -> dict[str, Any]:
+        """Return the fields that are set, by name, in the order of the checks."""
+        pairs = ((name, getattr(self, name)) for name in self.CHECKS)
+        return {name: value for name, value in pairs if value is not None}
+
+    @classmethod
+    def from_mapping(cls, mapping: Mapping[Any, Any]) -> Self:
+        """
+        Return the value of a YAML mapping.
+
+        :raises UnknownProperty: a key is no field; the nearest one is named
+        :raises Malformed: a number is not finite or an array has the wrong length
+        :raises BadProperty: a value is null, of the wrong kind, or out of range
+        """
+        cls.check_keys(mapping)
+        return cls(**mapping)
+
+    @classmethod
+    def check_keys(cls, mapping: Mapping[Any, Any]) -> None:
+        """
+        Refuse keys that are no fields, and keys without a value.
+
+        :raises UnknownProperty: a key is no field; the nearest one is named
+        :raises BadProperty: a value is null
+        """
+        known = list(cls.CHECKS)
+        for key, value in mapping.items():
+            check_key(key, known)
+            if value is None:
+                raise BadProperty(f'{key} has no value', field=str(key))

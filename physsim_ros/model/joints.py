@@ -12,18 +12,9 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import Any
+from typing import ClassVar
 
-from physsim_ros.model.checks import (
-    check_keys,
-    check_values,
-    explicit_values,
-    FASTEST,
-    flag,
-    HEAVIEST,
-    shown,
-    Within,
-)
+from physsim_ros.model.checks import Checked, Checks, FASTEST, flag, HEAVIEST, shown, Within
 from physsim_ros.model.errors import BadProperty, UnknownProperty
 from physsim_ros.model.shapes import LARGEST, SMALLEST
 
@@ -74,7 +65,6 @@ PROPERTIES: Mapping[str, Property] = {
 }
 # The properties of every kind.
 _COMMON = ('max_force', 'break_force', 'collide')
-_CHECKS = {name: each.check for name, each in PROPERTIES.items()}
 # Keys of a joint in the text of a marker.
 JOINT_KEYS = ['kind', 'a', 'b', *PROPERTIES]
 
@@ -151,7 +141,7 @@ def kind_from(value: object) -> JointKind:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class JointProperties:
+class JointProperties(Checked):
     """
     The properties that a request sets; None leaves a property as it is, or at its default.
 
@@ -173,6 +163,8 @@ class JointProperties:
     :raises BadProperty: a value is of the wrong kind or out of range
     """
 
+    CHECKS: ClassVar[Checks] = {name: each.check for name, each in PROPERTIES.items()}
+
     lower: float | None = None
     upper: float | None = None
     rate: float | None = None
@@ -188,16 +180,12 @@ class JointProperties:
     collide: bool | None = None
 
     def __post_init__(self) -> None:
-        check_values(self, _CHECKS)
+        Checked.__post_init__(self)
         if self.lower is not None and self.upper is not None and self.lower > self.upper:
             raise BadProperty(
                 f'lower is {self.lower:g} and upper {self.upper:g}; lower is the lesser one',
                 field='lower',
             )
-
-    def explicit(self) -> dict[str, Any]:
-        """Return the properties that are set, by name."""
-        return explicit_values(self, _CHECKS)
 
     def check_kind(self, kind: JointKind) -> None:
         """
@@ -211,15 +199,3 @@ class JointProperties:
                 raise UnknownProperty(
                     f'a {kind} has no {name}; it has {", ".join(known)}', field=name
                 )
-
-
-def joint_properties_from(mapping: Mapping[Any, Any]) -> JointProperties:
-    """
-    Return the properties that a YAML mapping sets.
-
-    :raises UnknownProperty: a key is not a property; the nearest one is named
-    :raises Malformed: a number is not finite
-    :raises BadProperty: a value is null, of the wrong kind, or out of range
-    """
-    check_keys(mapping, _CHECKS)
-    return JointProperties(**mapping)

@@ -6,7 +6,7 @@
 import math
 from typing import Any
 
-from physsim_ros.model.body_properties import Properties, properties_from
+from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checks import (
     FASTEST,
     HEAVIEST,
@@ -139,7 +139,7 @@ def test_a_body_has_a_mass_or_a_density_and_not_both() -> None:
 
 
 def test_a_mapping_becomes_the_properties_that_it_names() -> None:
-    properties = properties_from(
+    properties = Properties.from_mapping(
         {'density': 2, 'elasticity': 0.9, 'velocity': [3, 0], 'anchored': False}
     )
 
@@ -154,17 +154,17 @@ def test_all_keys_of_the_contract_are_known_and_no_others() -> None:
         'anchored': False, 'kinematic': True, 'group': 1, 'sensor': True,
     }  # fmt: skip
 
-    assert set(properties_from(values).explicit()) == set(KEYS) - {'density'}
-    assert properties_from({'density': 1}).explicit() == {'density': 1.0}
+    assert set(Properties.from_mapping(values).explicit()) == set(KEYS) - {'density'}
+    assert Properties.from_mapping({'density': 1}).explicit() == {'density': 1.0}
     for key in ('color', 'name', 'shape', 'lifetime', 'MASS', ' mass', ''):
         with pytest.raises(UnknownProperty):
-            properties_from({key: 1})
+            Properties.from_mapping({key: 1})
 
 
 @pytest.mark.parametrize('key', KEYS)
 def test_a_key_without_a_value_is_bad(key: str) -> None:
     with pytest.raises(BadProperty) as refused:
-        properties_from({key: None})
+        Properties.from_mapping({key: None})
     assert refused.value.field == key
 
 
@@ -176,7 +176,7 @@ def test_a_key_without_a_value_is_bad(key: str) -> None:
 )  # fmt: skip
 def test_an_unknown_key_is_refused_and_the_nearest_named(key: str, near: str) -> None:
     with pytest.raises(UnknownProperty) as refused:
-        properties_from({key: 1})
+        Properties.from_mapping({key: 1})
 
     assert refused.value.field == key
     assert str(refused.value) == f"there is no property '{key}'; nearest is '{near}'"
@@ -185,7 +185,7 @@ def test_an_unknown_key_is_refused_and_the_nearest_named(key: str, near: str) ->
 @pytest.mark.parametrize('key', ['', 'zzz', 'wheel', 'loud', 7, None, math.nan, True, 1.5])
 def test_a_key_like_no_other_is_refused_and_no_key_named(key: object) -> None:
     with pytest.raises(UnknownProperty) as refused:
-        properties_from({key: 1})
+        Properties.from_mapping({key: 1})
 
     assert refused.value.field == str(key)
     assert str(refused.value) == f'there is no property {str(key)!r}'
@@ -193,7 +193,7 @@ def test_a_key_like_no_other_is_refused_and_no_key_named(key: object) -> None:
 
 def test_an_unknown_key_comes_before_a_bad_value() -> None:
     with pytest.raises(UnknownProperty):
-        properties_from({'mass': 'heavy', 'wheight': 1})
+        Properties.from_mapping({'mass': 'heavy', 'wheight': 1})
 
 
 def test_what_a_message_shows_is_short_whatever_was_given() -> None:
@@ -207,7 +207,7 @@ def test_what_a_message_shows_is_short_whatever_was_given() -> None:
         refusal_of(sensor=nested),
     ]
     with pytest.raises(UnknownProperty) as refused:
-        properties_from({'x' * 10**5: 1})
+        Properties.from_mapping({'x' * 10**5: 1})
 
     for refusal in (*refusals, refused.value):
         assert len(str(refusal)) < 1000

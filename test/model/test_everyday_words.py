@@ -9,9 +9,9 @@ from dataclasses import fields
 from typing import Any
 
 from physsim_ros.model import everyday_words
-from physsim_ros.model.body_properties import Properties, properties_from
+from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.errors import UnknownProperty
-from physsim_ros.model.joints import joint_properties_from, JointProperties
+from physsim_ros.model.joints import JointProperties
 import pytest
 
 PROPERTIES = {each.name for kind in (Properties, JointProperties) for each in fields(kind)}
@@ -27,7 +27,7 @@ PROPERTIES = {each.name for kind in (Properties, JointProperties) for each in fi
 )  # fmt: skip
 def test_an_everyday_word_for_a_property_of_a_body_is_told_its_name(word: str, name: str) -> None:
     with pytest.raises(UnknownProperty) as refused:
-        properties_from({word: 1})
+        Properties.from_mapping({word: 1})
 
     assert str(refused.value) == f"there is no property '{word}'; use '{name}'"
     assert refused.value.field == word
@@ -40,7 +40,7 @@ def test_an_everyday_word_for_a_property_of_a_body_is_told_its_name(word: str, n
 )  # fmt: skip
 def test_an_everyday_word_for_a_property_of_a_joint_is_told_its_name(word: str, name: str) -> None:
     with pytest.raises(UnknownProperty, match=f"; use '{name}'$"):
-        joint_properties_from({word: 1})
+        JointProperties.from_mapping({word: 1})
 
 
 def test_every_property_has_everyday_words_and_none_of_them_is_a_property() -> None:

@@ -14,7 +14,6 @@ from physsim_ros.model.checks import check_key, check_point, shown
 from physsim_ros.model.errors import BadProperty, BadSize, Malformed
 from physsim_ros.model.joints import (
     JOINT_KEYS,
-    joint_properties_from,
     JointKind,
     JointProperties,
     kind_from,
@@ -131,7 +130,7 @@ def joined_from(mapping: Mapping[Any, Any]) -> tuple[JointKind, str, str, JointP
     properties = {key: mapping[key] for key in mapping if key not in {'kind', 'a', 'b'}}
     a, b = _body_name(mapping, 'a'), _body_name(mapping, 'b')
     kind = kind_from(mapping.get('kind'))
-    return kind, a, WORLD if a and not b else b, joint_properties_from(properties)
+    return kind, a, WORLD if a and not b else b, JointProperties.from_mapping(properties)
 
 
 def _body_name(mapping: Mapping[Any, Any], key: str) -> str:

@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from physsim_ros.model.checks import check_keys, check_values, Checks, pair, shown, Within
+from physsim_ros.model.checks import Checked, Checks, pair, shown, Within
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.transform import Point
 
@@ -21,7 +21,7 @@ def _slip(value: object, name: str) -> Point:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Odometry:
+class Odometry(Checked):
     """
     Odometry, and its drift.
 
@@ -38,9 +38,6 @@ class Odometry:
 
     rate: float = 30.0
     slip: Point = (0.0, 0.0)
-
-    def __post_init__(self) -> None:
-        check_values(self, self.CHECKS)
 
     def entry(self) -> dict[str, object]:
         """Return the mapping that it is made from."""
@@ -60,5 +57,4 @@ def odometry_from(value: object, name: str) -> Odometry:
         return value
     if not isinstance(value, dict):
         raise BadProperty(f'{name} must be a mapping, not {shown(value)}', field=name)
-    check_keys(value, Odometry.CHECKS)
-    return Odometry(**value)
+    return Odometry.from_mapping(value)

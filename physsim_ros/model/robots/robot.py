@@ -12,8 +12,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 import re
+from typing import ClassVar
 
-from physsim_ros.model.checks import check_keys, check_values, Checks, shown
+from physsim_ros.model.checks import Checked, Checks, shown
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.robots.drives import Drive, drive_from
 from physsim_ros.model.robots.odometry import Odometry, odometry_from
@@ -57,7 +58,7 @@ def _sensors(value: object, name: str) -> tuple[Sensor, ...]:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Robot:
+class Robot(Checked):
     """
     That what makes a body a robot.
 
@@ -70,13 +71,20 @@ class Robot:
     :raises BadProperty: a value is of the wrong kind or out of range, or two topics have one name
     """
 
+    CHECKS: ClassVar[Checks] = {
+        'namespace': check_namespace,
+        'drive': drive_from,
+        'odometry': odometry_from,
+        'sensors': _sensors,
+    }
+
     drive: Drive
     odometry: Odometry = field(default_factory=Odometry)
     sensors: tuple[Sensor, ...] = ()
     namespace: str | None = None
 
     def __post_init__(self) -> None:
-        check_values(self, _CHECKS)
+        Checked.__post_init__(self)
         topics = [*OWN_TOPICS, *(sensor.name for sensor in self.sensors)]
         for topic in topics:
             if topics.count(topic) > 1:
@@ -99,14 +107,6 @@ class Robot:
         return entry
 
 
-_CHECKS: Checks = {
-    'namespace': check_namespace,
-    'drive': drive_from,
-    'odometry': odometry_from,
-    'sensors': _sensors,
-}
-
-
 def robot_from(value: object, name: str = 'robot') -> Robot:
     """
     Return the robot of a mapping.
@@ -121,7 +121,7 @@ def robot_from(value: object, name: str = 'robot') -> Robot:
         return value
     if not isinstance(value, dict):
         raise BadProperty(f'{name} must be a mapping, not {shown(value)}', field=name)
-    check_keys(value, _CHECKS)
+    Robot.check_keys(value)
     if 'drive' not in value:
         raise BadProperty(f'a {name} needs a drive', field='drive')
     return Robot(**value)

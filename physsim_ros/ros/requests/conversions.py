@@ -16,7 +16,7 @@ from typing import Any, TypeVar
 
 from geometry_msgs.msg import PointStamped
 from physsim_ros.files import load_mapping, PROPERTIES, with_shipped_robot
-from physsim_ros.model.body_properties import properties_from
+from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.colors import Color
 from physsim_ros.model.errors import (
     BadProperty,
@@ -101,7 +101,7 @@ def body_request(marker: Marker, *, frame_id: str) -> Spawn | Delete | DeleteAll
         frame=named_frame(marker.header.frame_id, frame_id),
         color=_color(marker),
         lifetime=marker.lifetime.sec + marker.lifetime.nanosec * 1e-9,
-        properties=properties_from(with_shipped_robot(_mapping(marker.text), PROPERTIES)),
+        properties=Properties.from_mapping(with_shipped_robot(_mapping(marker.text), PROPERTIES)),
     )
 
 

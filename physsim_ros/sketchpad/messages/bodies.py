@@ -8,10 +8,10 @@ from __future__ import annotations
 from typing import Any
 
 from physsim_ros.files import spawn_from, with_shipped_robot
-from physsim_ros.model.body_properties import properties_from
+from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checks import pair
 from physsim_ros.model.errors import UnknownJoint
-from physsim_ros.model.joints import joint_properties_from, JointProperties
+from physsim_ros.model.joints import JointProperties
 from physsim_ros.model.names import shown_name
 from physsim_ros.model.requests import (
     ChangeBody,
@@ -43,11 +43,11 @@ def _changes(value: object, name: str) -> dict[str, Any]:
         changes['color'] = fields.color(given.pop('color'), 'color')
     if 'at' in given:
         changes['pose'] = fields.pose(given.pop('at'), 'at')
-    return changes | {'properties': properties_from(with_shipped_robot(given, ['robot']))}
+    return changes | {'properties': Properties.from_mapping(with_shipped_robot(given, ['robot']))}
 
 
 def _joint_properties(value: object, name: str) -> JointProperties:
-    return joint_properties_from(fields.mapping(value, name))
+    return JointProperties.from_mapping(fields.mapping(value, name))
 
 
 # Bodies

@@ -13,7 +13,7 @@ from typing import Any, Literal
 import numpy as np
 from physsim_ros.drawing import Reading, submit_reading, Tool
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.body_properties import properties_from
+from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checks import number, shown
 from physsim_ros.model.colors import Color
 from physsim_ros.model.errors import BadProperty, Malformed, NotRecognised
@@ -54,7 +54,7 @@ def _tool(value: Any, name: str) -> Tool:
 
 def _property(value: object, name: str) -> object:
     """Return a property of a body."""
-    return properties_from({name: value}).explicit()[name]
+    return Properties.from_mapping({name: value}).explicit()[name]
 
 
 def _color(value: object, name: str) -> Color | Literal['']:

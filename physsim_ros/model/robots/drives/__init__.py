@@ -11,7 +11,7 @@ then `differential`.
 
 from __future__ import annotations
 
-from physsim_ros.model.checks import check_keys, shown
+from physsim_ros.model.checks import shown
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.robots.drives.car import Car
 from physsim_ros.model.robots.drives.differential import Differential
@@ -45,8 +45,7 @@ def drive_from(value: object, name: str) -> Drive:
         )
     drive = DRIVES[kind]
     properties = {key: each for key, each in value.items() if key != 'kind'}
-    check_keys(properties, drive.CHECKS)
-    return drive(**properties)
+    return drive.from_mapping(properties)
 
 
 __all__ = ['DRIVES', 'Car', 'Differential', 'Drive', 'Omni', 'drive_from']

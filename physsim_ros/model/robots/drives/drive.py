@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import math
 from typing import ClassVar
 
-from physsim_ros.model.checks import check_values, Checks, explicit_values, FASTEST, Within
+from physsim_ros.model.checks import Checked, Checks, FASTEST, Within
 from physsim_ros.model.shapes import LARGEST, SMALLEST
 from physsim_ros.model.transform import Pose, Twist
 
@@ -28,7 +28,7 @@ LENGTH = Within(SMALLEST, LARGEST, 'm')
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Drive(ABC):
+class Drive(Checked, ABC):
     """
     A drive of a robot.
 
@@ -62,12 +62,9 @@ class Drive(ABC):
     track: float = 0.2
     wheel_radius: float = 0.03
 
-    def __post_init__(self) -> None:
-        check_values(self, self.CHECKS)
-
     def entry(self) -> dict[str, object]:
         """Return the mapping that it is made from."""
-        return {'kind': self.KIND, **explicit_values(self, self.CHECKS)}
+        return {'kind': self.KIND, **self.explicit()}
 
     @property
     @abstractmethod

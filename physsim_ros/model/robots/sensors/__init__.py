@@ -10,7 +10,7 @@ A sensor is a value. What it reads in a frame is for the simulation, its message
 
 from __future__ import annotations
 
-from physsim_ros.model.checks import check_keys, shown
+from physsim_ros.model.checks import shown
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.robots.sensors.bumper import Bumper
 from physsim_ros.model.robots.sensors.floor_eye import FloorEye
@@ -52,8 +52,7 @@ def sensor_from(value: object, name: str = 'sensors') -> Sensor:
         )
     sensor = SENSORS[kind]
     properties = {key: each for key, each in value.items() if key != 'kind'}
-    check_keys(properties, sensor.CHECKS)
-    return sensor(**properties)
+    return sensor.from_mapping(properties)
 
 
 __all__ = [

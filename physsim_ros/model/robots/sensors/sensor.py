@@ -11,7 +11,7 @@ import math
 import re
 from typing import ClassVar
 
-from physsim_ros.model.checks import check_values, Checks, explicit_values, shown, Within
+from physsim_ros.model.checks import Checked, Checks, shown, Within
 from physsim_ros.model.errors import BadProperty, Malformed
 from physsim_ros.model.shapes import LARGEST
 from physsim_ros.model.transform import ORIGIN, Point, Pose
@@ -90,7 +90,7 @@ def angles(value: object, name: str) -> Point:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Sensor(ABC):
+class Sensor(Checked, ABC):
     """
     A sensor of a robot.
 
@@ -112,12 +112,9 @@ class Sensor(ABC):
     at: Pose = ORIGIN
     rate: float = 10.0
 
-    def __post_init__(self) -> None:
-        check_values(self, self.CHECKS)
-
     def entry(self) -> dict[str, object]:
         """Return the mapping that it is made from."""
-        values = explicit_values(self, self.CHECKS)
+        values = self.explicit()
         lists = {
             key: list(each) if isinstance(each, tuple) else each for key, each in values.items()
         }
