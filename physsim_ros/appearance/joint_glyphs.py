@@ -78,7 +78,7 @@ def joint_strips(joint: Joint, size: float) -> list[Strip]:
     :param size: half the size of its symbol [m]
     """
     match joint.kind:
-        case JointKind.WELD:
+        case JointKind.PIN:
             corners = ((1, 1), (-1, 1), (-1, -1), (1, -1), (1, 1))
             return [[Corner(arm=(size * x, size * y)) for x, y in corners]]
         case JointKind.AXLE:

@@ -20,7 +20,7 @@ from physsim_ros.model.scene import Joint
 from physsim_ros.model.transform import Point, rotated
 
 # Kinds of joints whose end on the background is a point that a body can cover.
-_KINDS = {JointKind.AXLE, JointKind.WELD, JointKind.ROD, JointKind.ROPE, JointKind.SPRING}
+_KINDS = {JointKind.AXLE, JointKind.PIN, JointKind.ROD, JointKind.ROPE, JointKind.SPRING}
 
 
 def requests_with_waiting_joints(

@@ -72,7 +72,7 @@ JOINT_KEYS = ['kind', 'a', 'b', *PROPERTIES]
 class JointKind(StrEnum):
     """Kinds of joints; the value is the word in markers and world files."""
 
-    WELD = 'pin'
+    PIN = 'pin'
     AXLE = 'axle'
     MOTOR = 'motor'
     SPRING = 'spring'
@@ -115,7 +115,7 @@ class JointSchema:
 
 
 _SCHEMAS: Mapping[JointKind, JointSchema] = {
-    JointKind.WELD: JointSchema(1),
+    JointKind.PIN: JointSchema(1),
     JointKind.AXLE: JointSchema(1, ('lower', 'upper')),
     JointKind.MOTOR: JointSchema(1, ('rate', 'max_torque')),
     JointKind.SPRING: JointSchema(2, ('stiffness', 'damping', 'rest_length')),

@@ -47,7 +47,7 @@ _DOT = 0.6
 # Decimals that corners are rounded to, so that equal symbols are equal: a micrometre.
 _DIGITS = 6
 # Kinds whose two points are one.
-_POINTED = {JointKind.WELD, JointKind.AXLE, JointKind.MOTOR}
+_POINTED = {JointKind.PIN, JointKind.AXLE, JointKind.MOTOR}
 
 
 class Place(NamedTuple):

@@ -54,7 +54,7 @@ def wheel(spokes: int) -> World:
     """Return a hub with so many bars welded to it, and as many that hang from these."""
     world = World(settings=WorldSettings(gravity=(0.0, 0.0)))
     spawn(world, 'hub/0', Disc(radius=1.0), mass=1000.0, spin=1.0, group=1)
-    for ring, kind in enumerate((JointKind.WELD, JointKind.AXLE)):
+    for ring, kind in enumerate((JointKind.PIN, JointKind.AXLE)):
         for number in range(spokes):
             angle = math.tau * number / spokes
             x, y = math.cos(angle), math.sin(angle)

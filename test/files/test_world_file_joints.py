@@ -103,7 +103,7 @@ def test_jointed_bodies_that_have_flown_further_than_anyone_may_ask_round_trip(
 def test_a_body_that_was_turned_in_the_file_about_a_pin_stays_turned(folder: Path) -> None:
     world = World(settings=WorldSettings(gravity=(0.0, 0.0)))
     spawn(world, 'a/0', BOX)
-    pin = Join(name='j/0', kind=JointKind.WELD, points=((0.0, 0.0),), a='a/0', b='world')
+    pin = Join(name='j/0', kind=JointKind.PIN, points=((0.0, 0.0),), a='a/0', b='world')
     world.apply(pin)
 
     again = edited(save(world, folder), {'at': [0.0, 0.0, 0.5]})
@@ -118,7 +118,7 @@ def test_a_body_that_was_moved_in_the_file_below_another_ones_pin_stays_there(
     world = World(settings=WorldSettings(gravity=(0.0, 0.0)))
     spawn(world, 'a/0', DISC, group=1)
     spawn(world, 'a/1', BOX, group=1)
-    world.apply(Join(name='j/0', kind=JointKind.WELD, points=((0.0, 0.0),), a='a/0', b='a/1'))
+    world.apply(Join(name='j/0', kind=JointKind.PIN, points=((0.0, 0.0),), a='a/0', b='a/1'))
 
     again = edited(save(world, folder), {'at': [0.25, 0.0, 0.0]}, 'a/1')
 

@@ -78,7 +78,7 @@ def busy_world() -> World:
     for number in range(6):
         place = (1.5 * number, 25.0, 0.0)
         spawn(world, f'hung/{number}', BOX, place, lifetime=0.3)
-        world.apply(Join(name=f'pin/{number}', kind=JointKind.WELD, points=(place[:2],)))
+        world.apply(Join(name=f'pin/{number}', kind=JointKind.PIN, points=(place[:2],)))
     ends = ['world', *(f'link/{number}' for number in range(6))]
     for number, (b, a) in enumerate(pairwise(ends)):
         spawn(world, a, DISC, (number - 10.0, 25.0, 0.0))

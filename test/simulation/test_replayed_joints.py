@@ -32,7 +32,7 @@ from ..building import BOX, spawning
 def test_a_joint_that_is_taken_out_is_part_of_history(request_: Request) -> None:
     driven = Driven()
     driven.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
-    driven.ask(Join(name='joint/0', kind=JointKind.WELD, points=((0.0, 5.0),), a='b/0', b='world'))
+    driven.ask(Join(name='joint/0', kind=JointKind.PIN, points=((0.0, 5.0),), a='b/0', b='world'))
     driven.record(1.0)
     hung = driven.simulation.world.snapshot().poses
     driven.ask(request_)

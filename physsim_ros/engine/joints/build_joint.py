@@ -14,7 +14,7 @@ from physsim_ros.model.scene import Joint
 import pymunk
 
 KINDS: dict[JointKind, Kind] = {
-    JointKind.WELD: weld.KIND,
+    JointKind.PIN: weld.KIND,
     JointKind.AXLE: axle.KIND,
     JointKind.MOTOR: motor.KIND,
     JointKind.SPRING: spring.KIND,

@@ -68,7 +68,7 @@ def join(live: LiveSpace, request: Join) -> Done:
 
 def join_at_point(live: LiveSpace, request: Pin | Axle) -> Done:
     """Join the two topmost bodies at a point, or the only one and the background."""
-    kind = JointKind.WELD if isinstance(request, Pin) else JointKind.AXLE
+    kind = JointKind.PIN if isinstance(request, Pin) else JointKind.AXLE
     number = 0
     while f'{kind}/{number}' in live.space.joints.by_name:
         number += 1
@@ -103,7 +103,7 @@ def loosen(space: Space, body: str, point: Point) -> list[str]:
     names = [
         name
         for name in space.joints.names_on(body)
-        if (joint := space.joints.by_name[name].joint).kind in (JointKind.WELD, JointKind.AXLE)
+        if (joint := space.joints.by_name[name].joint).kind in (JointKind.PIN, JointKind.AXLE)
         and math.dist(_drawn(space, joint)[0], point) <= reach
     ]
     for name in names:

@@ -169,7 +169,7 @@ def test_a_small_square_over_two_bodies_welds_them(world: World) -> None:
 
     assert reading.meaning == 'pin'
     (joint,) = world.snapshot().scene.joints
-    assert joint.kind is JointKind.WELD
+    assert joint.kind is JointKind.PIN
     assert {joint.a, joint.b} == {'a/0', 'b/0'}
 
 

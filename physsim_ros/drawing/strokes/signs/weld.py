@@ -46,7 +46,7 @@ def _share_of(corners: Floats, under: tuple[str, ...], context: Context) -> floa
 def _weld_bodies(point: Point, under: tuple[str, ...], context: Context) -> Outcome:
     a, b = under
     return Outcome(
-        requests=(request_builder.join_at(JointKind.WELD, point, under, context),),
+        requests=(request_builder.join_at(JointKind.PIN, point, under, context),),
         subject=a,
         message=f'a pin between {a} and {b}',
         outline=context.drawn.points,
