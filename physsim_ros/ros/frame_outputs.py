@@ -49,10 +49,7 @@ class FrameOutputs:
 
     def __init__(self, node: Node, values: Mapping[str, Any], session: DrawingSession) -> None:
         self.topics = Publishers(
-            node,
-            frame_id=values['frame_id'],
-            publish_clock=values['publish_clock'],
-            publish_tf=values['publish_tf'],
+            node, frame_id=values['frame_id'], publish_tf=values['publish_tf']
         )
         self.viewer = Viewer()
         self.sketchpad: Sketchpad | None = None
@@ -62,6 +59,7 @@ class FrameOutputs:
         self._node = node
         self._values = values
         self._session = session
+        self.update_clock()
         # Steady time from which on a refusal is logged again [s].
         self._warning_due = 0.0
 

@@ -533,6 +533,13 @@ def test_the_clock_can_be_switched_off_and_on_again(physsim: PhysSim, client: Cl
     assert len(clocks) == 6
 
 
+def test_the_clock_may_be_off_from_the_start(monkeypatch: pytest.MonkeyPatch) -> None:
+    with own_context(monkeypatch) as context, PhysSim(context, publish_clock=False) as physsim:
+        clocks = Client(physsim).listen(Clock, '/clock')
+        physsim.step(3)
+        assert clocks == []
+
+
 def test_parameters_tell_what_a_loaded_world_has_set(physsim: PhysSim, tmp_path: Any) -> None:
     (tmp_path / 'moon.yaml').write_text(
         'format: 1\ngravity: [0, -1.6]\nbounds: [-1, -1, 1, 1]\niterations: 20\nfriction: 0.25\n'

@@ -49,7 +49,7 @@ class Bench:
         self.listener = Node('listener', context=context)
         self.executor.add_node(self.world)
         self.executor.add_node(self.listener)
-        self.streams = Publishers(self.world, frame_id='map', publish_clock=True)
+        self.streams = Publishers(self.world, frame_id='map')
         self.publishers = {publisher.topic_name: publisher for publisher in self.world.publishers}
 
     def listen(self, topic, durability=DurabilityPolicy.VOLATILE):
@@ -297,11 +297,6 @@ def test_the_clock_can_be_switched_off_and_on(bench):
     bench.streams.publish_frame(frame_of(scene, 3))
     bench.settle()
     assert [message.clock.nanosec // 1_000_000 for message in clocks] == [2, 3]
-
-
-def test_the_clock_may_be_off_from_the_start(bench):
-    streams = Publishers(bench.listener, frame_id='map', publish_clock=False)
-    assert not streams.clock.open
 
 
 def test_a_refusal_is_reported_with_its_code_and_field(bench):

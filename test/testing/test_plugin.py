@@ -19,6 +19,7 @@ from rerun import chunk
 
 pytest_plugins = ['pytester']
 PLUGIN = 'physsim_ros.testing.plugin'
+ROOT = Path(__file__).parents[2]
 
 ROBOT = """
 import pytest
@@ -251,3 +252,15 @@ def test_a_recording_holds_every_frame_since_it_began(
     assert ended == 4 * 130
     # It begins with the frame that is shown at that time.
     assert recorded_steps(path) == list(range(4 * 10, ended + 1, 4))
+
+
+def test_the_tests_in_the_documents_pass(pytester: pytest.Pytester) -> None:
+    count = 0
+    for document in (ROOT / 'README.md', ROOT / 'docs' / 'testing.md'):
+        text = document.read_text(encoding='utf-8')
+        for block in re.findall(r'^```python\n(.*?)^```', text, re.MULTILINE | re.DOTALL):
+            if 'def test_' in block:
+                (pytester.path / f'test_{document.stem}_{count}.py').write_text(block)
+                count += 1
+    assert count == 3
+    pytester.runpytest_subprocess().assert_outcomes(passed=count)

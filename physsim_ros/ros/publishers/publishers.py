@@ -30,7 +30,6 @@ class Publishers:
 
     :param node: that owns them
     :param frame_id: name of the world frame
-    :param publish_clock: whether simulation time is published on `clock`
     :param publish_tf: whether poses are published on `/tf`, too
     :raises BadProperty: they cannot be, since tf2_msgs is not installed
 
@@ -40,9 +39,7 @@ class Publishers:
     :ivar events: the publisher of `~/events`
     """
 
-    def __init__(
-        self, node: Node, *, frame_id: str, publish_clock: bool, publish_tf: bool = False
-    ) -> None:
+    def __init__(self, node: Node, *, frame_id: str, publish_tf: bool = False) -> None:
         def stream(kind: Any, topic: str, depth: int, encoder: Encoder) -> Stream:
             return Stream(node.create_publisher(kind, topic, _reliable(depth)), encoder)
 
@@ -51,7 +48,6 @@ class Publishers:
             return node.create_publisher(kind, topic, qos)
 
         self.clock = stream(Clock, 'clock', 10, encoders.ClockEncoder())
-        self.clock.open = publish_clock
         # Contacts are those of one frame, so a late subscriber does not receive the last ones.
         self.contacts = stream(
             MultiDOFJointState, '~/contacts', 5, encoders.ContactsEncoder(frame_id)
