@@ -16,15 +16,18 @@ from physsim_ros.sensing.laser import read_laser
 from physsim_ros.sensing.range_finder import read_range
 from physsim_ros.sensing.schedule import is_due
 from physsim_ros.sensing.surroundings import Surroundings
+from physsim_ros.sensing.wheel_encoders import read_wheels, WheelReading
 
 __all__ = [
     'FloorMarks',
     'InertialReading',
     'Surroundings',
+    'WheelReading',
     'is_due',
     'read_bumper',
     'read_floor',
     'read_imu',
     'read_laser',
     'read_range',
+    'read_wheels',
 ]
