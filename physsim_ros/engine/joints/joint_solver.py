@@ -121,29 +121,46 @@ class JointSolver:
             return
         jointed = joints.rows(table.bodies)
         contacts = read_contacts(table, jointed[table.columns.dynamic[jointed]])
-        step = _Step(joints, contacts, _bodies_of(table, jointed, contacts.ends), self._dt)
-        self._system = step.use_system(self._system)
+        bodies = _bodies_of(table, jointed, contacts.ends)
+        ends = np.concatenate((joints.ends, *[_places_of(bodies, contacts)] * 2))
+        system = self._system
+        if (
+            system is None
+            or not np.array_equal(system.ends, ends)
+            or not np.array_equal(system.inverse, bodies.inverse)
+        ):
+            self._system = system = SaddlePoint(ends, bodies.inverse)
+        step = _Step(joints, contacts, bodies, system, self._dt)
         # A slow swing would fall asleep at its turn. The idle time of static bodies is infinite.
-        dynamic = step.bodies.inverse.any(axis=1)
-        memory.write_numbers(step.bodies.places[dynamic], memory.BODY_IDLE_TIME, 0.0)
+        dynamic = bodies.inverse.any(axis=1)
+        memory.write_numbers(bodies.places[dynamic], memory.BODY_IDLE_TIME, 0.0)
         step.solve_velocities()
         step.solve_positions()
         table.forget_state()
-        table.write_poses(step.bodies.rows[dynamic], step.bodies.poses[dynamic])
+        table.write_poses(bodies.rows[dynamic], bodies.poses[dynamic])
 
 
 class _Step:
-    """One step of the solver: rows of joints, then normals of contacts, then tangents."""
+    """
+    One step of the solver: rows of joints, then normals of contacts, then tangents.
+
+    :param joints: of the space
+    :param contacts: of jointed bodies
+    :param bodies: of both
+    :param system: of all rows
+    :param dt: of the step [s]
+    """
 
     def __init__(
-        self, joints: JointTable, contacts: ContactRows, bodies: Bodies, dt: float
+        self,
+        joints: JointTable,
+        contacts: ContactRows,
+        bodies: Bodies,
+        system: SaddlePoint,
+        dt: float,
     ) -> None:
-        self.bodies = bodies
-        self._joints, self._contacts, self._dt = joints, contacts, dt
-        local = np.searchsorted(
-            bodies.rows, contacts.ends, sorter=(order := np.argsort(bodies.rows))
-        )
-        self._ends = np.concatenate((joints.ends, order[local], order[local]))
+        self._joints, self._contacts, self._bodies, self._dt = joints, contacts, bodies, dt
+        self._system, self._islands, self._of_row = system, system.islands, system.island_of_row
         count, points = len(joints.ends), len(contacts)
         self._of_joints = slice(0, count)
         self._normals = slice(count, count + points)
@@ -151,22 +168,11 @@ class _Step:
         # Rows of joints that have not reached their greatest force.
         self._holding = np.ones(count, np.bool_)
 
-    def use_system(self, system: SaddlePoint | None) -> SaddlePoint:
-        """Return the system of the rows: that of the last step, if it is the same."""
-        if (
-            system is None
-            or not np.array_equal(system.ends, self._ends)
-            or not np.array_equal(system.inverse, self.bodies.inverse)
-        ):
-            system = SaddlePoint(self._ends, self.bodies.inverse)
-        self._system, self._islands, self._of_row = system, system.islands, system.island_of_row
-        return system
-
     def _per_row(
         self, joints: Floats | float, normals: Floats | float, tangents: Floats | float
     ) -> Floats:
         """Return (r,) float64 of values for joints, normals and tangents."""
-        values = np.empty(len(self._ends))
+        values = np.empty(len(self._of_row))
         values[self._of_joints], values[self._normals] = joints, normals
         values[self._tangents] = tangents
         return values
@@ -175,7 +181,7 @@ class _Step:
 
     def solve_velocities(self) -> None:
         """Solve joints, contacts and friction in velocities."""
-        joints, contacts, bodies, system = self._joints, self._contacts, self.bodies, self._system
+        joints, contacts, bodies, system = self._joints, self._contacts, self._bodies, self._system
         rows = joints.read(bodies.poses)
         jacobian = np.concatenate((rows.jacobian, contacts.normals, contacts.tangents))
         given = self._per_row(joints.impulses(rows), *contacts.impulses)
@@ -248,7 +254,7 @@ class _Step:
         :return: (r,) float64 and (b, 3) float64
         """
         system, dt = self._system, self._dt
-        halfway = self._joints.read(self.bodies.poses + velocities * (dt / 2.0)).jacobian
+        halfway = self._joints.read(self._bodies.poses + velocities * (dt / 2.0)).jacobian
         turned = np.zeros_like(jacobian)
         turned[self._of_joints] = halfway - jacobian[self._of_joints]
         counts = self._per_row(self._joints.equal.astype(np.float64), 0.0, 0.0) * (
@@ -274,8 +280,8 @@ class _Step:
 
     def solve_positions(self) -> None:
         """Close gaps in positions, and remove the velocity that opened them."""
-        joints, contacts, bodies = self._joints, self._contacts, self.bodies
-        normals = np.zeros((len(self._ends), 2, 3))
+        joints, contacts, bodies = self._joints, self._contacts, self._bodies
+        normals = np.zeros((len(self._of_row), 2, 3))
         normals[self._normals] = contacts.normals
         start = bodies.poses.copy()
         bodies.poses[:] += self._take_pushes(normals)
@@ -287,7 +293,7 @@ class _Step:
         gaps = self._gaps(rows)
         # Parts of gaps that are too wide to be closed in one step.
         left = gaps - np.clip(gaps, -most, most)
-        impulses, count = np.zeros(len(self._ends)), len(self._islands)
+        impulses, count = np.zeros(len(self._of_row)), len(self._islands)
         # Of each island the iterate of the least error.
         best, best_impulses = bodies.poses.copy(), impulses
         least = np.full(count, np.inf)
@@ -356,7 +362,7 @@ class _Step:
 
         The pushes of the rows' own contacts are removed, since their overlaps are solved here.
         """
-        bodies, contacts = self.bodies, self._contacts
+        bodies, contacts = self._bodies, self._contacts
         pushes = memory.read_numbers(bodies.places, memory.BODY_BIAS)
         bias = self._per_row(0.0, contacts.bias, 0.0)
         pushes -= self._system.momenta(normals, bias) * bodies.inverse
@@ -390,7 +396,7 @@ class _Step:
         :param rows: of the joints
         :param impulses: (r,) float64: λ of the displacement [kg m, kg m²]
         """
-        bodies, system = self.bodies, self._system
+        bodies, system = self._bodies, self._system
         changes = moved / self._dt
         against = -system.products(bodies.velocities, changes)
         share = self._share(against, system.products(changes, changes))
@@ -417,6 +423,12 @@ def _bodies_of(table: BodyTable, jointed: Rows, touching: Rows) -> Bodies:
     inverse[~table.columns.dynamic[rows]] = 0.0
     poses, velocities = state[:, :3].copy(), state[:, 3:].copy()
     return Bodies(rows, len(jointed), places, inverse, poses, velocities)
+
+
+def _places_of(bodies: Bodies, contacts: ContactRows) -> Rows:
+    """Return (c, 2) intp: the bodies of contacts, as places among the bodies of the solver."""
+    order = np.argsort(bodies.rows)
+    return order[np.searchsorted(bodies.rows, contacts.ends, sorter=order)]
 
 
 def _first_sides(problem: Problem, guess: Floats) -> Ints:

@@ -76,8 +76,8 @@ class JointTable:
         ]
         self._lower, self._upper = np.concatenate([np.empty((0, 2)), *bounds]).T
         self.equal = self._lower == self._upper
-        places = [_row_impulses(joints[number]) for number in self._numbers_of(batches)]
-        flat = [each for joint in places for each in joint]
+        numbers = [number for batch in batches for number in batch.numbers.tolist()]
+        flat = [each for number in numbers for each in _row_impulses(joints[number])]
         self._places = np.array([place for place, _, _ in flat], np.int64)
         self._signs = np.array([[below, above] for _, below, above in flat]).reshape(-1, 2)
         forces = (joints[number].joint.properties.max_force for number in self._owners.tolist())
@@ -128,10 +128,6 @@ class JointTable:
     def _sign(self, rows: JointRows) -> Floats:
         """Return (r,) float64: λ by the impulse that the engine stores."""
         return np.where(rows.excess < 0.0, self._signs[:, 0], self._signs[:, 1])
-
-    @staticmethod
-    def _numbers_of(batches: Iterable[Batch]) -> list[int]:
-        return [number for batch in batches for number in batch.numbers.tolist()]
 
 
 def _repeated(columns: Iterable[Rows], counts: Iterable[int]) -> Rows:
