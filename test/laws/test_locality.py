@@ -11,7 +11,7 @@ from physsim_ros.model.requests import Command
 from physsim_ros.model.shapes import Box, Disc
 import pytest
 
-from .scenes import floor, G, join, run, simulation, spawn
+from .scenes import DT, floor, G, join, run, simulation, spawn
 from ..slow import slow
 
 FAR = 50.0
@@ -107,6 +107,24 @@ def test_far_away_changes_nothing(report, here, far):
     # Chains of contacts are solved in the order in which the engine has found them.
     tolerance = 1e-9 if here in (pendulum, machine) else 2e-3
     report.check(29, f'{here.__name__} beside {far.__name__}', off, 0.0, tolerance, 'm')
+
+
+@pytest.mark.parametrize('turn', [0.0, 1e-15])
+def test_an_elastic_box_that_just_touches_falls_flat_whatever_is_elsewhere(report, turn):
+    alone, beside = (simulation(gravity=(0.0, 0.0)) for _ in range(2))
+    for sim in (alone, beside):
+        floor(sim, elasticity=1.0)
+        # After ten steps its lower face lies in the floor's, but for rounding.
+        said = {'velocity': (0.0, -2.4), 'elasticity': 1.0}
+        spawn(sim, 'here/0', Box(width=0.5, height=0.5), (0.0, 0.25 + 2.4 * 10 * DT, turn), **said)
+    for number in range(3):
+        place = (FAR + 0.397 * number, 0.2, 0.0)
+        spawn(beside, f'far/{number}', Disc(radius=0.2), place, elasticity=1.0)
+    twists = [run(sim, 0.25).twists[1] for sim in (alone, beside)]
+
+    report.check(29, f'flat fall turned by {turn:g}, spin', twists[0][2], 0.0, 1e-3, 'rad/s')
+    off = np.abs(twists[0] - twists[1]).max()
+    report.check(29, f'flat fall turned by {turn:g} beside discs', off, 0.0, 1e-9, 'm/s')
 
 
 def weight_on(sim, name, seconds=1.0):

@@ -88,11 +88,11 @@ class ImpactPropagation:
         contacts = self._contacts(table)
         if contacts is None:
             return
-        rows, approach, depths = contacts
+        rows, counts, approach, depths = contacts
         # The fastest approach of each body; bodies that forces do not move take no impact.
         impacts = np.zeros(len(dynamic))
         # Polygons that just touch have one point by rounding, and both in the next step.
-        grazing = (approach > SLOWEST) & (depths < GRAZING)
+        grazing = (approach > SLOWEST) & (depths < GRAZING) & (counts == 1)
         hits = (approach > SLOWEST) & ~grazing
         for side in rows[hits].T:
             np.maximum.at(impacts, side, approach[hits])
@@ -103,19 +103,19 @@ class ImpactPropagation:
         weaker &= depths < COLLISION_SLOP + nearby * self._pm_space.current_time_step
         self._defer_all(table, rows[weaker], nearby[weaker])
 
-    def _contacts(self, table: BodyTable) -> tuple[Ints, Floats, Floats] | None:
+    def _contacts(self, table: BodyTable) -> tuple[Ints, Ints, Floats, Floats] | None:
         """
-        Return the elastic contacts of the coming solve; None where there are fewer than two.
+        Return the elastic contacts of the coming solve; None where there are none.
 
-        :return: (k, 2) rows of the bodies, (k,) approach velocities [m/s] and (k,) depths [m], the
-            greater one of two points
+        :return: (k, 2) rows of the bodies, (k,) counts of points, (k,) approach velocities [m/s]
+            and (k,) depths [m], the greater one of two points
         """
         ints, floats = self._io.read_contacts(_FIELDS)
         ids, numbers = ints.reshape(-1, 3), floats.reshape(-1, 12)
         rows, elasticity = table.rows_of(ids[:, :2]), table.columns.elasticity
         # Sensors have no points.
         elastic = (elasticity[rows].prod(axis=1) >= ELASTIC) & (ids[:, 2] > 0)
-        if np.count_nonzero(elastic) < 2:
+        if not elastic.any():
             return None
         rows, counts, numbers = rows[elastic], ids[elastic, 2], numbers[elastic]
         # (k, 2, 5): both points of a contact, on either body, and their distance.
@@ -129,7 +129,7 @@ class ImpactPropagation:
             (-arms[..., 1], arms[..., 0]), axis=-1
         )
         speeds = ((velocities[:, :, 1] - velocities[:, :, 0]) * normals).sum(axis=-1)
-        return rows, -speeds.min(axis=1), -distances.min(axis=1)
+        return rows, counts, -speeds.min(axis=1), -distances.min(axis=1)
 
     def _defer_all(self, table: BodyTable, rows: Ints, impacts: Floats) -> None:
         """
