@@ -82,7 +82,8 @@ def _without_jumps(points: Floats) -> Floats:
     for at in np.flatnonzero(steps > max(_FAR * size, but_two)).tolist():
         if at < last and steps[at + 1] > _FAR * size:
             # To one point and from it; it is a spike if the pen comes back.
-            there, back = float(min(steps[at : at + 2])), math.dist(points[at], points[at + 2])
+            there = min(float(steps[at]), float(steps[at + 1]))
+            back = math.dist(points[at], points[at + 2])
             kept[at + 1] = there <= but_two or back >= 0.5 * there
         elif at == 0:
             kept[0] = steps[0] <= but_one or _goes_on(points, _ASTRAY * size)
