@@ -58,15 +58,17 @@ class LiveParameters:
         self._prepare = prepare
         self._on_change = on_change
         # The settings of the world that the parameters have; None where they may differ.
-        self._mirrored: WorldSettings | None = None
+        self._mirrored: WorldSettings | None = parameters.world_settings(values)
         node.add_on_set_parameters_callback(self._check)
         node.add_post_set_parameters_callback(self._apply)
 
     def mirror_settings(self) -> None:
         """Set the parameters to the settings and speed of the world."""
-        if self._simulation.settings is not self._mirrored:
-            self._mirrored = settings = self._simulation.settings
-            self._node.set_parameters(parameters.world_parameters(settings))
+        settings, mirrored = self._simulation.settings, self._mirrored
+        if settings is not mirrored:
+            self._mirrored = settings
+            if settings != mirrored:
+                self._node.set_parameters(parameters.world_parameters(settings))
         if self._simulation.speed != self._values['speed']:
             self._node.set_parameters([Parameter('speed', value=self._simulation.speed)])
 
