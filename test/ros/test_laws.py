@@ -26,6 +26,9 @@ from visualization_msgs.msg import Marker, MarkerArray
 
 from ..client import Client
 
+# `test/laws` has the laws themselves.
+pytestmark = pytest.mark.slow
+
 G = 9.81
 RATE = 240.0
 

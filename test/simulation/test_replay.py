@@ -28,6 +28,7 @@ import pytest
 
 from .driven import Driven, FLOOR, FRAME, SECOND, told
 from ..building import BOX, DISC, spawning
+from ..slow import slow
 
 
 def test_a_refused_request_in_the_past_drops_nothing(driven: Driven) -> None:
@@ -216,7 +217,7 @@ def test_what_is_worked_out_from_the_past_is_not_kept(driven: Driven) -> None:
     assert sum('centers' in vars(shot.snapshot) for shot in shots) <= 1
 
 
-@pytest.mark.parametrize('back', [-1.0, -8.0])
+@pytest.mark.parametrize('back', [slow(-1.0), -8.0])
 def test_forces_of_joints_come_again(back: float) -> None:
     driven = Driven()
     for number in range(2):
