@@ -9,8 +9,9 @@ The product has no switches: a function of a stage is replaced by one that does 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager, ExitStack
+import math
 from typing import Any, NamedTuple
 from unittest import mock
 
@@ -34,12 +35,12 @@ class Stage(NamedTuple):
     A stage.
 
     :ivar name: of the stage
-    :ivar replaced: functions that are replaced, and by which
+    :ivar replaced: functions and constants that are replaced, and by which
     :ivar timed: functions whose time is the cost of the stage
     """
 
     name: str
-    replaced: tuple[tuple[Target, Callable[..., Any]], ...]
+    replaced: tuple[tuple[Target, Any], ...]
     timed: tuple[Target, ...]
 
 
@@ -55,7 +56,7 @@ def _no_unsupported(_space: Any, _io: Any, table: Any, _released: Any) -> Any:
     return np.zeros(len(table.bodies), np.bool_)
 
 
-def _columns_without_lead(scene: Any, dt: float, _columns: Any = body_table._columns_of) -> Any:
+def _columns_without_lead(scene: Any, dt: float, _columns: Any = body_table.columns_of) -> Any:
     columns = _columns(scene, dt)
     return columns._replace(gravity_lead=np.zeros_like(columns.gravity_lead))
 
@@ -78,7 +79,7 @@ STAGES = (
         (
             ((HalfStep, 'find_free'), staticmethod(_no_free_flight)),
             ((RigidBody, 'lead'), lambda *_: REST),
-            ((body_table, '_columns_of'), _columns_without_lead),
+            ((body_table, 'columns_of'), _columns_without_lead),
         ),
         ((HalfStep, 'begin_step'), (HalfStep, 'find_free')),
     ),
@@ -137,7 +138,7 @@ STAGES = (
         (((JointSet, 'end_step'), _nothing),),
         ((JointSet, 'begin_step'), (JointSet, 'end_step')),
     ),
-    Stage('sleeping', (((settings, 'enable_sleeping'), _nothing),), ()),
+    Stage('sleeping', (((settings, 'IDLE_TIME'), math.inf),), ()),
     Stage(
         'warm start',
         (
