@@ -171,6 +171,12 @@ class OutOfHistory(Refusal):
     code = 'out_of_history'
 
 
+class InPast(Refusal):
+    """A command of a robot's node while the past is shown, which repeats those of its day."""
+
+    code = 'in_past'
+
+
 class Running(Refusal):
     """Time is running, where it must be paused."""
 

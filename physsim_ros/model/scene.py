@@ -188,6 +188,11 @@ class Scene:
         return np.array(rows, np.int64)
 
     @cached_property
+    def robots(self) -> tuple[Robot, ...]:
+        """The robots, in spawn order."""
+        return tuple(body.robot for body in self.bodies if body.robot is not None)
+
+    @cached_property
     def inertia(self) -> Floats:
         """(n, 2) float64: mass [kg], moment of inertia [kg m²]; 0 unless dynamic."""
         rows = [

@@ -31,6 +31,7 @@ from physsim_ros.ros.requests.reply_pacer import ReplyPacer
 from physsim_ros.ros.requests.request_topics import RequestTopics
 from physsim_ros.ros.requests.services import create_services, Service, ServiceCalls
 from physsim_ros.ros.requests.subscriptions import RequestSubscriptions
+from physsim_ros.ros.robots import Fleet
 from physsim_ros.ros.time_control import TimeControl
 from physsim_ros.ros.world_files import WorldFiles
 from physsim_ros.simulation.deferred_calls import DeferredCalls, Wait
@@ -55,6 +56,7 @@ class PhysSimNode(NodeWithoutQosEvents):
     :ivar simulation: the world and its time
     :ivar world_files: reads and writes the world file of parameter `world_file`
     :ivar outputs: the topics, the viewer and the sketchpad
+    :ivar fleet: the topics of robots
     :ivar requests: the subscriptions of requests
     :ivar message_delay: time that messages wait before they are handled [s]
     """
@@ -104,6 +106,7 @@ class PhysSimNode(NodeWithoutQosEvents):
         self.world_files = WorldFiles(self.simulation, self._values, self.get_logger().info)
         self.outputs = FrameOutputs(self, self._values, self._session)
         self._closing.callback(self.outputs.close)
+        self.fleet = Fleet(self, self._values, self.simulation.requests)
         if self._values['world_file']:
             self.world_files.begin_with()
         self.outputs.topics.timeline.publish(self.simulation.status, moving=False)
@@ -251,9 +254,15 @@ class PhysSimNode(NodeWithoutQosEvents):
         if self._started:
             self._diagnostics.publish_due(now_ns, message_delay=self.message_delay)
         self._handle_pages()
-        frames = self.simulation.advance(
-            now_ns, is_overdue=lambda: time.perf_counter_ns() - began > MOST_TICK_NS
-        )
+        self._submit_commands()
+        frames: tuple[Frame, ...] = ()
+        if not self.fleet.is_waiting:
+            frames = self.simulation.advance(
+                now_ns,
+                is_overdue=lambda: (
+                    self.fleet.in_lockstep or time.perf_counter_ns() - began > MOST_TICK_NS
+                ),
+            )
         stepped = time.perf_counter_ns()
         for frame in frames:
             self.publish_frame(frame)
@@ -275,12 +284,21 @@ class PhysSimNode(NodeWithoutQosEvents):
     def advance_frame(self) -> None:
         """Advance the world by one publish period, at any time, and publish the frame."""
         self._handle_pages()
+        self._submit_commands()
         self.publish_frame(self.simulation.advance_frame())
 
     def publish_frame(self, frame: Frame) -> None:
         """Publish a frame on the topics, in the viewer and on the pages."""
         self._live_parameters.mirror_settings()
         self.outputs.publish_frame(frame, self.simulation.status)
+        self.fleet.publish(frame)
+
+    def _submit_commands(self) -> None:
+        """Submit what robots were told since the frame before; none while the past is shown."""
+        shown = self.frame
+        self.fleet.submit_commands(
+            in_past=self.simulation.speed < 0.0 or (shown is not None and shown.past)
+        )
 
     def apply_requests(self) -> tuple[Answer, ...]:
         """Apply the waiting requests without advancing time, publish and return the answers."""
@@ -302,7 +320,8 @@ class PhysSimNode(NodeWithoutQosEvents):
 
     def _update_contact_recording(self) -> None:
         """Record contacts while there is a subscriber, a viewer or a page that shows them."""
-        self.simulation.reports_contacts = self.outputs.wants_contacts
+        wanted = self.outputs.wants_contacts or self.fleet.wants_contacts()
+        self.simulation.reports_contacts = wanted
 
     def _apply_up_to_seek(self) -> bool:
         """

@@ -13,7 +13,15 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from physsim_ros.model.errors import Refusal
-from physsim_ros.model.requests import Grab, HandRequest, KeepHand, LetGo, MoveHand, Request
+from physsim_ros.model.requests import (
+    DriveRobot,
+    Grab,
+    HandRequest,
+    KeepHand,
+    LetGo,
+    MoveHand,
+    Request,
+)
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.hands import Hands, placing
 from physsim_ros.simulation.past.past import Past
@@ -76,8 +84,8 @@ class RequestHandler:
             case request:
                 self._playback.changed = True
                 done = self.apply(request, waiting.gesture)
-                # Moves come at the rate of the display.
-                told = not isinstance(request, MoveHand | KeepHand)
+                # Moves and drives come at the rate of frames.
+                told = not isinstance(request, DriveRobot | MoveHand | KeepHand)
                 return [_answer(done, waiting)] if told else []
 
     def apply(self, request: Request, gesture: int) -> Done:

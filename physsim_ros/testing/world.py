@@ -5,7 +5,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
+from itertools import count
 import math
 from pathlib import Path
 from typing import Any, Self, Unpack
@@ -16,6 +17,7 @@ from physsim_ros.testing.client import RequestClient
 from physsim_ros.testing.executor import SettlingExecutor
 from physsim_ros.testing.observed_world import ObservedWorld
 from physsim_ros.testing.parameters import Parameters
+from physsim_ros.testing.robot import Robot, robot_marker
 from physsim_ros.testing.values import refusals_as_refused, Refused
 from rclpy.context import Context
 from rclpy.node import Node
@@ -47,6 +49,7 @@ class PhysSim(ObservedWorld):
         self.context = context
         self.recording: Path | None = None
         self._directories = [*filter(None, [directory]), Path()]
+        self._robots: list[Robot] = []
         self._executor = SettlingExecutor(context)
         self._executor.add_node(self.node)
         self._client = RequestClient(context, self.node, self._executor)
@@ -80,6 +83,7 @@ class PhysSim(ObservedWorld):
         """Spin a node together with the world, on simulation time."""
         node.set_parameters([Parameter('use_sim_time', value=True)])
         self._executor.add_node(node)
+        self._match_publishers()
         self.settle()
 
     def step(self, frames: int = 1) -> None:
@@ -93,20 +97,45 @@ class PhysSim(ObservedWorld):
         # Messages of the test's own publishers come first.
         self.settle()
         for _ in range(frames):
+            self._match_publishers()
+            self._submit_drives()
             self.node.advance_frame()
             self.settle()
+            if self.node.fleet.is_waiting:
+                self._executor.spin_until(
+                    lambda: not self.node.fleet.is_waiting, 'no answer to a scan', math.inf
+                )
 
-    def run(self, seconds: float) -> None:
+    def run(
+        self,
+        seconds: float | None = None,
+        *,
+        until: Callable[[], object] | None = None,
+        timeout: float = 10.0,
+    ) -> bool:
         """
-        Advance by simulated seconds, to the nearest frame.
+        Advance by simulated seconds, to the nearest frame, or for less: until a predicate is true.
 
+        :param seconds: None is as long as `timeout`, which only goes with `until`
+        :param until: looked at before each frame; None is never true
+        :return: whether the predicate is true
         :raises ValueError: they are below 0, not finite, or less than half a frame
         """
+        if seconds is None and until is None:
+            raise ValueError('run for how long? Name seconds, or what to run until')
+        seconds = timeout if seconds is None else seconds
         frames = self._frames(seconds)
         if seconds and not frames:
             period = self.node.frame_period
             raise ValueError(f'{seconds:g} s are less than half a frame of {period:g} s')
-        self.step(frames)
+        if until is None:
+            self.step(frames)
+            return False
+        for _ in range(frames):
+            if until():
+                return True
+            self.step()
+        return bool(until())
 
     def until(self, predicate: Callable[[], object], *, timeout: float = 10.0) -> None:
         """
@@ -140,10 +169,20 @@ class PhysSim(ObservedWorld):
         :raises Refused: the time is no longer in the history, or in the future
         """
         self.settle()
+        for robot in self._robots:
+            robot.held = None
         with refusals_as_refused():
             self.node.simulation.seek(round(seconds * 1e9))
         self.node.apply_requests()
         self.settle()
+
+    def rewind(self, seconds: float) -> None:
+        """
+        Go back by simulated seconds; robots that the test drives are let go.
+
+        :raises Refused: that time is no longer in the history
+        """
+        self.seek(self.time - seconds)
 
     def settle(self) -> None:
         """Spin until all messages have arrived, those in reaction to them too."""
@@ -164,6 +203,44 @@ class PhysSim(ObservedWorld):
             # An empty array has an answer, too.
             return self._client.request('spawn_array', marker, max(1, len(marker.markers)))
         return self._client.request('spawn', marker)
+
+    def robot(
+        self,
+        robot: str | Mapping[str, Any],
+        *,
+        at: Sequence[float] = (0.0, 0.0),
+        name: str = '',
+        namespace: str | None = None,
+    ) -> Robot:
+        """
+        Spawn a robot, and return it.
+
+        A world that is loaded replaces it, so load first.
+
+        :param robot: name of a shipped one, or a mapping with that as `from` and what is different
+        :param at: x, y [m] and, where there are three, yaw [rad]
+        :param name: of its body; '' is robot/0, robot/1 and so on
+        :param namespace: of its topics; None is its name with _ for /
+        :raises Refused: with the code
+        """
+        names = self.names
+        name = name or next(f'robot/{n}' for n in count() if f'robot/{n}' not in names)
+        with refusals_as_refused():
+            message = robot_marker(robot, name, at, namespace)
+        handle = Robot(self.node, self._client.request('spawn', message))
+        self._robots.append(handle)
+        return handle
+
+    def _match_publishers(self) -> None:
+        """Have robots hear those who command them; by itself the node looks by the wall clock."""
+        if self.node.fleet.match_publishers():
+            self.settle()
+
+    def _submit_drives(self) -> None:
+        """Submit what the test has its robots do."""
+        for robot in self._robots:
+            if robot.held is not None and robot.name in self.node.fleet.robots:
+                self.node.simulation.requests.submit(robot.held, topic='drive', joined=True)
 
     def anchor(self, point: PointStamped | tuple[float, float]) -> str:
         """

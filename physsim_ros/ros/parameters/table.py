@@ -18,6 +18,7 @@ from physsim_ros.model.checks import FASTEST
 from physsim_ros.model.settings import RANGES as WORLD_RANGES
 from physsim_ros.model.settings import STRONGEST, WorldSettings
 from physsim_ros.model.shapes import LARGEST
+from physsim_ros.ros.robots.frames import RobotTf
 from physsim_ros.simulation.past.history_memory import DEFAULT_MEMORY, LEAST_MEMORY, MOST_MEMORY
 from physsim_ros.view import ViewerMode
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
@@ -136,6 +137,26 @@ _OF_NODE = {
         default=False,
         meaning='whether the pose of every body is also published on /tf; needs tf2_msgs',
         read_only=True,
+    ),
+    'robot_tf': Spec(
+        default='prefixed',
+        meaning='transforms of robots: prefixed (on /tf, frames named below the namespace), '
+        'namespaced (plain names on <namespace>/tf), none; without tf2_msgs there are none',
+        choices=tuple(RobotTf),
+        read_only=True,
+    ),
+    'robots_in_past': Spec(
+        default='follow',
+        meaning='topics of robots while the past is shown: follow (they show it), freeze (nothing '
+        'is sent)',
+        choices=('follow', 'freeze'),
+    ),
+    'lockstep': Spec(
+        default=0.0,
+        meaning='longest wait, by the wall, for the TwistStamped that answers a scan, its stamp '
+        'or a later one on it [s]; 0 is no wait',
+        low=0.0,
+        high=3600.0,
     ),
     'viewer': Spec(
         default='auto',

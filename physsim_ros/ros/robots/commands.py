@@ -1,0 +1,124 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+Commands of a robot: `cmd_vel`, as `Twist` or as `TwistStamped`.
+
+The type is that of the publisher, as the graph has it: a process takes one type for a topic, so
+that nothing is subscribed to before a publisher is there. Of what comes between two frames the
+last one counts, and only that is decoded: a flood costs no more than its bytes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from contextlib import suppress
+from typing import Any
+
+from geometry_msgs.msg import Twist, TwistStamped
+from physsim_ros.model.errors import Malformed
+from physsim_ros.model.requests import DriveRobot
+from physsim_ros.ros.requests.cdr_reader import CdrReader, Truncated
+from rclpy.impl.implementation_singleton import rclpy_implementation
+from rclpy.node import Node
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.serialization import deserialize_message
+from rclpy.subscription import Subscription
+
+# By their names on the graph.
+_TYPES = {'geometry_msgs/msg/Twist': Twist, 'geometry_msgs/msg/TwistStamped': TwistStamped}
+# Of a burst the last ones count.
+_DEPTH = 10
+
+
+class Commands:
+    """
+    The commands of a robot.
+
+    :param node: that subscribes
+    :param topic: `cmd_vel` below its namespace
+    :param body: its name
+    :param on_mixed: called when publishers of both types are found, with the type that is heard
+
+    :ivar topic: that commands come by
+    :ivar stamp: of the last stamped command that has arrived, simulation time [ns]
+    """
+
+    def __init__(self, node: Node, topic: str, body: str, on_mixed: Callable[[str], None]) -> None:
+        self.topic = topic
+        self.stamp = 0
+        self._node = node
+        self._body = body
+        self._on_mixed = on_mixed
+        self._mixed = False
+        self._data: bytes | None = None
+        # Type and reliability of the subscription.
+        self._heard: tuple[type, ReliabilityPolicy] | None = None
+        self._subscription: Subscription | None = None
+        self.match_publishers()
+
+    @property
+    def is_stamped(self) -> bool:
+        """Whether a publisher of stamped commands is there."""
+        return self._heard is not None and self._heard[0] is TwistStamped
+
+    def match_publishers(self) -> bool:
+        """
+        Subscribe as publishers publish; called now and then, as they come and go.
+
+        :return: whether that is another subscription than before
+        """
+        infos = self._node.get_publishers_info_by_topic(self.topic)
+        infos = [info for info in infos if info.topic_type in _TYPES]
+        types = [kind for name, kind in _TYPES.items() if name in {i.topic_type for i in infos}]
+        heard = None
+        if types:
+            kind = self._heard[0] if self._heard and self._heard[0] in types else types[0]
+            # Best effort hears publishers of both reliabilities, and may lose a message.
+            qualities = {info.qos_profile.reliability for info in infos}
+            best_effort = ReliabilityPolicy.BEST_EFFORT
+            heard = kind, best_effort if best_effort in qualities else ReliabilityPolicy.RELIABLE
+        changed = heard != self._heard
+        if changed:
+            self.close()
+            self._heard, self._data = heard, None
+            if heard is not None:
+                qos = QoSProfile(depth=_DEPTH, reliability=heard[1])
+                self._subscription = self._node.create_subscription(
+                    heard[0], self.topic, self._receive, qos, raw=True
+                )
+        if len(types) > 1 and not self._mixed:
+            self._on_mixed(types[0].__name__ if heard is None else heard[0].__name__)
+        self._mixed = len(types) > 1
+        return changed
+
+    def take(self) -> DriveRobot | None:
+        """
+        Return the request of the last command since the last call; None where none came.
+
+        :raises Malformed: it cannot be decoded, or is not finite
+        :raises BadProperty: it is faster than anything may be
+        """
+        data, self._data = self._data, None
+        if data is None or self._heard is None:
+            return None
+        kind, _ = self._heard
+        try:
+            message: Any = deserialize_message(data, kind)
+        except rclpy_implementation.RMWError as error:
+            raise Malformed(f'the message is no {kind.__name__}') from error
+        twist = message.twist if kind is TwistStamped else message
+        velocity = twist.linear.x, twist.linear.y, twist.angular.z
+        return DriveRobot(name=self._body, velocity=velocity)
+
+    def close(self) -> None:
+        """Unsubscribe."""
+        if self._subscription is not None:
+            self._node.destroy_subscription(self._subscription)
+            self._subscription = None
+
+    def _receive(self, data: bytes) -> None:
+        self._data = data
+        if self.is_stamped:
+            with suppress(Truncated):
+                self.stamp = CdrReader(data).stamp()

@@ -1,0 +1,185 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+The fleet: all robots of the world, whose topics come and go with their bodies.
+
+Laws: a command that comes while the past is shown is refused, so that a rewind repeats what was
+driven; with `lockstep` the world waits for the commands that answer a scan, so that a controller
+in another process acts at the same simulation time in every run.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import partial
+import time
+from typing import Any
+
+from physsim_ros.model.errors import BadProperty, InPast, Refusal
+from physsim_ros.model.robots import Robot
+from physsim_ros.model.scene import Scene
+from physsim_ros.model.snapshot import Frame, Snapshot
+from physsim_ros.ros.robots.frames import RobotTf
+from physsim_ros.ros.robots.messages import View
+from physsim_ros.ros.robots.robot_topics import RobotTopics
+from physsim_ros.simulation.request_queue import RequestQueue
+from rclpy.node import Node
+
+# Least time from one look at the types of publishers on the graph to the next [s].
+_LOOK_PERIOD = 0.25
+
+
+class Fleet:
+    """
+    The robots of the world.
+
+    :param node: that owns their topics
+    :param values: of the parameters of the node, by name, always up to date
+    :param requests: the queue that commands are submitted to
+
+    :ivar robots: topics of each, by the name of its body, in the order of the scene
+    :ivar before: snapshot of another time than the last frame's, shown before it; None is none
+    """
+
+    def __init__(self, node: Node, values: Mapping[str, Any], requests: RequestQueue) -> None:
+        self.robots: dict[str, RobotTopics] = {}
+        self._node = node
+        self._values = values
+        self._requests = requests
+        self._scene: Scene | None = None
+        self.before: Snapshot | None = None
+        self._shown: Snapshot | None = None
+        self._look_due = 0.0
+        # Commands that were refused since the past is shown, by body.
+        self._refused: dict[str, int] = {}
+        # Steady time until which a command is waited for [s]; None is none.
+        self._deadline: float | None = None
+
+    def wants_contacts(self) -> bool:
+        """Return whether a bumper has subscribers."""
+        return any(robot.wants_contacts() for robot in self.robots.values())
+
+    # Commands
+
+    def submit_commands(self, *, in_past: bool) -> None:
+        """
+        Submit the last command of each robot since the last call.
+
+        :param in_past: whether the past is shown
+        """
+        if not self.robots:
+            return
+        self._look_at_graph()
+        if not in_past:
+            self._refused.clear()
+        for body, robot in self.robots.items():
+            topic = robot.commands.topic
+            try:
+                request = robot.commands.take()
+                if request is not None and in_past:
+                    self._refuse_in_past(body, topic)
+                elif request is not None:
+                    # Undone together with what was asked before it: nobody undoes a tick.
+                    self._requests.submit(request, topic=topic, joined=True)
+            except Refusal as refusal:
+                self._requests.refuse(refusal, topic=topic, subject=body, joined=True)
+
+    def _refuse_in_past(self, body: str, topic: str) -> None:
+        """Count a command, and refuse the first one."""
+        self._refused[body] = self._refused.get(body, 0) + 1
+        if self._refused[body] == 1:
+            message = (
+                'the past is shown, which repeats the commands of its day; commands count again '
+                'where it ends'
+            )
+            self._requests.refuse(InPast(message), topic=topic, subject=body, joined=True)
+
+    def match_publishers(self) -> bool:
+        """Subscribe to commands as they are published now; return whether anything is new."""
+        new = [robot.commands.match_publishers() for robot in self.robots.values()]
+        return any(new)
+
+    def _look_at_graph(self) -> None:
+        now = time.monotonic()
+        if now >= self._look_due:
+            self._look_due = now + _LOOK_PERIOD
+            self.match_publishers()
+
+    def _report_mixed(self, body: str, heard: str) -> None:
+        topic = self.robots[body].commands.topic if body in self.robots else '~/spawn'
+        message = f'publishers of Twist and of TwistStamped are there; {heard} is heard'
+        refusal = BadProperty(message, field='cmd_vel')
+        self._requests.refuse(refusal, topic=topic, subject=body, joined=True)
+
+    @property
+    def in_lockstep(self) -> bool:
+        """Whether time goes on by single publish periods, each of which robots may answer."""
+        return bool(self._values['lockstep'] and self.robots)
+
+    @property
+    def is_waiting(self) -> bool:
+        """
+        Whether the world waits for the commands that answer the last scans (`lockstep`).
+
+        Only robots whose commands are stamped are waited for, and no longer than `lockstep` by
+        the wall from the first time it is asked.
+        """
+        longest = self._values['lockstep']
+        if not longest or not any(map(_is_awaited, self.robots.values())):
+            self._deadline = None
+            return False
+        now = time.monotonic()
+        if self._deadline is None:
+            self._deadline = now + longest
+        return now < self._deadline
+
+    # Frames
+
+    def publish(self, frame: Frame) -> None:
+        """Publish what is due at a frame, after topics have come and gone with its scene."""
+        snapshot, before = frame.snapshot, self._shown
+        if before is None or before.stamp != snapshot.stamp:
+            self.before = before
+        self._shown = snapshot
+        if snapshot.scene is not self._scene:
+            self._scene = snapshot.scene
+            self._update(snapshot.scene)
+        if not self.robots or (before is not None and before.stamp == snapshot.stamp):
+            return
+        if frame.past and self._values['robots_in_past'] == 'freeze':
+            return
+        self._deadline = None
+        view, rows = View(frame, before), snapshot.scene.robot_rows
+        for number, (row, robot) in enumerate(
+            zip(rows.tolist(), self.robots.values(), strict=True)
+        ):
+            robot.publish(view, row, number)
+
+    def _update(self, scene: Scene) -> None:
+        """Make topics for robots that have come, and take those of others back."""
+        names = (scene.names[row] for row in scene.robot_rows.tolist())
+        there = dict(zip(names, scene.robots, strict=True))
+        for body in [*self.robots]:
+            if self.robots[body].robot != there.get(body):
+                self.robots.pop(body).close()
+        # In the order of the scene.
+        self.robots = {
+            body: self.robots.get(body) or self._make(body, robot) for body, robot in there.items()
+        }
+
+    def _make(self, body: str, robot: Robot) -> RobotTopics:
+        return RobotTopics(
+            self._node,
+            body,
+            robot,
+            robot_tf=RobotTf(self._values['robot_tf']),
+            world_frame=self._values['frame_id'],
+            on_mixed=partial(self._report_mixed, body),
+        )
+
+
+def _is_awaited(robot: RobotTopics) -> bool:
+    """Return whether a robot with stamped commands has not answered its last scan."""
+    commands = robot.commands
+    return robot.scanned > commands.stamp and commands.is_stamped

@@ -1,0 +1,196 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+The topics of one robot, below its namespace.
+
+Law: a reading that nobody subscribes to is not made, and one of a moment is the same whoever
+subscribes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from builtin_interfaces.msg import Time
+from nav_msgs.msg import Odometry
+from physsim_ros.model.robots import Robot, Sensor
+from physsim_ros.ros.robots.commands import Commands
+from physsim_ros.ros.robots.frames import (
+    BASE,
+    FOOTPRINT,
+    ODOM,
+    RobotFrames,
+    RobotTf,
+    tf_message_type,
+)
+from physsim_ros.ros.robots.messages import (
+    body_twist,
+    LEAST_VARIANCE,
+    odometry_message,
+    READINGS,
+    View,
+)
+from physsim_ros.sensing import is_due
+from rclpy.node import Node
+from rclpy.publisher import Publisher
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+
+# The depth that tf2_ros has.
+_TF_DEPTH = 100
+
+
+class RobotTopics:
+    """
+    The topics of a robot.
+
+    :param node: that owns them
+    :param body: name of the robot's body
+    :param robot: that it is
+    :param robot_tf: where its transforms are published
+    :param world_frame: name of the world frame
+    :param on_mixed: called when publishers of both types of commands are found
+
+    :ivar commands: that it hears
+    :ivar scanned: stamp of the last scan that was published [ns]; 0 is none
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        body: str,
+        robot: Robot,
+        *,
+        robot_tf: RobotTf,
+        world_frame: str,
+        on_mixed: Callable[[str], None],
+    ) -> None:
+        self.body, self.robot = body, robot
+        self.scanned = 0
+        self._node = node
+        self._world_frame = world_frame
+        namespace = robot.namespace_of(body)
+        self._frames = RobotFrames.of_namespace(namespace, robot_tf)
+        self._below = f'/{namespace}/' if namespace else '/'
+        self._publishers: list[Publisher] = []
+        self._odometry = self._publisher(Odometry, 'odom')
+        self._truth = self._publisher(Odometry, 'ground_truth')
+        self._sensors = [
+            (sensor, self._publisher(READINGS[type(sensor)].kind, sensor.name))
+            for sensor in robot.sensors
+        ]
+        self.commands = Commands(node, f'{self._below}cmd_vel', body, on_mixed)
+        self._tf: Publisher | None = None
+        self._tf_message: Any = None if robot_tf is RobotTf.NONE else tf_message_type()
+        if (kind := self._tf_message) is not None:
+            below = self._below if robot_tf is RobotTf.NAMESPACED else '/'
+            self._tf = self._publisher(kind, 'tf', below=below, depth=_TF_DEPTH)
+            fixed = self._publisher(
+                kind,
+                'tf_static',
+                below=below,
+                durability=DurabilityPolicy.TRANSIENT_LOCAL,
+            )
+            fixed.publish(kind(transforms=self._frames.fixed(Time(), robot)))
+
+    def _publisher(
+        self,
+        kind: type,
+        topic: str,
+        *,
+        below: str | None = None,
+        depth: int = 5,
+        durability: DurabilityPolicy = DurabilityPolicy.VOLATILE,
+    ) -> Publisher:
+        # Reliable publishers serve subscribers of both reliabilities.
+        qos = QoSProfile(
+            depth=depth, reliability=ReliabilityPolicy.RELIABLE, durability=durability
+        )
+        topic = (self._below if below is None else below) + topic
+        publisher = self._node.create_publisher(kind, topic, qos)
+        self._publishers.append(publisher)
+        return publisher
+
+    def wants_contacts(self) -> bool:
+        """Return whether a bumper has subscribers."""
+        return any(
+            sensor.KIND == 'bumper' and publisher.get_subscription_count()
+            for sensor, publisher in self._sensors
+        )
+
+    def publish(self, view: View, row: int, number: int) -> None:
+        """
+        Publish what is due at a frame and has subscribers.
+
+        :param view: of the frame
+        :param row: of the robot's body in the scene
+        :param number: of the robot among those of the scene
+        """
+        # Before the readings, which are looked up in it by their stamps.
+        if self._tf is not None and self._tf.get_subscription_count():
+            odometry = view.snapshot.robots.odometry[number].tolist()
+            moving = self._frames.moving(view.stamp, tuple(odometry))
+            self._tf.publish(self._tf_message(transforms=[moving]))
+        if self._truth.get_subscription_count():
+            self._truth.publish(self.truth(view, row))
+        odometry = self.robot.odometry
+        if self._odometry.get_subscription_count() and self._is_due('odom', odometry.rate, view):
+            self._odometry.publish(self.odometry(view, number))
+        for sensor, publisher in self._sensors:
+            if publisher.get_subscription_count() and self._is_due(sensor.name, sensor.rate, view):
+                publisher.publish(self.reading(view, row, sensor))
+                if sensor.KIND == 'laser':
+                    self.scanned = view.snapshot.stamp
+
+    def odometry(self, view: View, number: int) -> Odometry:
+        """Return where wheels and gyroscope tell that the robot is, and how it moves."""
+        states = view.snapshot.robots
+        ahead, aside, turn = states.wheels[number].tolist()
+        way, heading = self.robot.odometry.slip
+        # Drifts are random walks along the way.
+        travelled = max(abs(each) for each in states.travel[number].tolist())
+        variances = way**2 * travelled, way**2 * travelled, heading**2 * travelled
+        return odometry_message(
+            view,
+            tuple(states.odometry[number].tolist()),
+            (ahead, aside, turn),
+            parent=self._frames.name(ODOM),
+            child=self._frames.name(FOOTPRINT),
+            variances=variances,
+        )
+
+    def truth(self, view: View, row: int) -> Odometry:
+        """Return where the robot is, and how it moves."""
+        exact = LEAST_VARIANCE, LEAST_VARIANCE, LEAST_VARIANCE
+        return odometry_message(
+            view,
+            tuple(view.snapshot.poses[row].tolist()),
+            body_twist(view, row),
+            parent=self._world_frame,
+            child=self._frames.name(BASE),
+            variances=exact,
+        )
+
+    def reading(self, view: View, row: int, sensor: Sensor) -> Any:
+        """Return the message of a sensor of it."""
+        reading = READINGS[type(sensor)]
+        message = reading.message(view, row, sensor)
+        if reading.stamped:
+            message.header.stamp = view.stamp
+            message.header.frame_id = self._frames.name(sensor.name)
+        return message
+
+    def close(self) -> None:
+        """Take the topics back."""
+        self.commands.close()
+        for publisher in self._publishers:
+            self._node.destroy_publisher(publisher)
+
+    def _is_due(self, name: str, rate: float, view: View) -> bool:
+        """Return whether what has a rate [Hz] reads at a frame, in either direction of time."""
+        now, before = view.snapshot.stamp, view.before
+        if before is None:
+            return True
+        earlier, later = sorted((before.stamp, now))
+        return is_due(f'{self.body}|{name}', rate, earlier, later)

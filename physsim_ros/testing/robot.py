@@ -1,0 +1,138 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""A robot in the world of a test: driven, and read, without topics."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+import json
+from typing import Any
+
+from nav_msgs.msg import Odometry
+from physsim_ros.files import shipped_robot
+from physsim_ros.model.requests import DriveRobot
+from physsim_ros.model.robots.sensors import Bumper, Sensor
+from physsim_ros.model.shapes import SHAPES
+from physsim_ros.model.texts import nearest_name
+from physsim_ros.ros.marker_shapes import geometry_of
+from physsim_ros.ros.node import PhysSimNode
+from physsim_ros.ros.robots.messages import View
+from physsim_ros.sensing import read_bumper
+from physsim_ros.testing.messages import marker
+from physsim_ros.testing.values import UnknownName
+from sensor_msgs.msg import LaserScan
+from visualization_msgs.msg import Marker
+
+# A bumper all around.
+_ALL_ROUND = Bumper(sector=6.2831)
+
+
+class Robot:
+    """
+    A robot of a world.
+
+    :param node: that owns the world
+    :param body: its name
+
+    :ivar name: of its body
+    :ivar held: the command that it has in each frame until another one; None is none
+    """
+
+    def __init__(self, node: PhysSimNode, body: str) -> None:
+        self.name = body
+        self.held: DriveRobot | None = None
+        self._node = node
+
+    def drive(self, speed: float, turn: float = 0.0, *, sideways: float = 0.0) -> None:
+        """
+        Drive until told otherwise; a rewind ends it.
+
+        :param speed: forward [m/s]
+        :param turn: counter-clockwise [rad/s]
+        :param sideways: to the left, of an omnidirectional drive [m/s]
+        """
+        self.held = DriveRobot(name=self.name, velocity=(speed, sideways, turn))
+
+    def scan(self, sensor: str = '') -> LaserScan:
+        """
+        Return the scan of a laser, as of now.
+
+        :param sensor: its name; '' is the first laser
+        :raises UnknownName: there is no such sensor
+        """
+        return self.read(sensor or self._first('laser'))
+
+    def read(self, sensor: str) -> Any:
+        """
+        Return the message of a sensor, as of now.
+
+        :param sensor: its name
+        :raises UnknownName: there is no such sensor
+        """
+        sensors = {each.name: each for each in self._sensors}
+        if sensor not in sensors:
+            raise UnknownName(
+                f'{self.name} has no sensor {sensor!r}{nearest_name(sensor, sensors)}'
+            )
+        view, row = self._view(), self._row
+        return self._node.fleet.robots[self.name].reading(view, row, sensors[sensor])
+
+    def odom(self) -> Odometry:
+        """Return where its wheels and its gyroscope tell that it is."""
+        number = [*self._node.fleet.robots].index(self.name)
+        return self._node.fleet.robots[self.name].odometry(self._view(), number)
+
+    def truth(self) -> Odometry:
+        """Return where it is."""
+        return self._node.fleet.robots[self.name].truth(self._view(), self._row)
+
+    @property
+    def bumped(self) -> bool:
+        """Whether it touched something in the last frame: within its bumpers, if it has any."""
+        view, row = self._view(), self._row
+        bumpers = [each for each in self._sensors if isinstance(each, Bumper)] or [_ALL_ROUND]
+        return any(read_bumper(view.snapshot, view.contacts, row, each) for each in bumpers)
+
+    def _view(self) -> View:
+        frame = self._node.frame
+        if frame is None or self.name not in self._node.fleet.robots:
+            raise UnknownName(f'there is no robot {self.name!r}')
+        return View(frame, self._node.fleet.before)
+
+    @property
+    def _row(self) -> int:
+        return self._view().snapshot.scene.names.index(self.name)
+
+    @property
+    def _sensors(self) -> Sequence[Sensor]:
+        self._view()
+        return self._node.fleet.robots[self.name].robot.sensors
+
+    def _first(self, kind: str) -> str:
+        names = [each.name for each in self._sensors if kind == each.KIND]
+        if not names:
+            raise UnknownName(f'{self.name} has no {kind}')
+        return names[0]
+
+
+def robot_marker(
+    robot: str | Mapping[str, Any], name: str, at: Sequence[float], namespace: str | None
+) -> Marker:
+    """
+    Return the marker of a shipped robot.
+
+    :param robot: its name, or a mapping with that as `from`, and what is different
+    :param name: of the body
+    :param at: x, y [m] and, where there are three, yaw [rad]
+    :param namespace: of its topics; None is by the name of the body
+    :raises BadProperty: there is no such robot
+    """
+    changes = {'from': robot} if isinstance(robot, str) else dict(robot)
+    entry = shipped_robot(str(changes.get('from')))
+    key = next(key for key in SHAPES if key in entry)
+    kind, scale, points = geometry_of(SHAPES[key].from_entry(entry[key]))
+    if namespace is not None:
+        changes['namespace'] = namespace
+    text = {key: entry[key] for key in ('mass', 'density') if key in entry} | {'robot': changes}
+    return marker(kind, name, at=at, scale=scale, points=points, text=json.dumps(text))

@@ -1,0 +1,274 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""Robots over topics: commands in, odometry and readings out, in the world of a test."""
+
+from __future__ import annotations
+
+import math
+from types import SimpleNamespace
+from typing import Any
+
+from geometry_msgs.msg import Twist, TwistStamped
+from nav_msgs.msg import Odometry
+from physsim_ros.testing import box, delete, PhysSim, Refused
+import pytest
+from sensor_msgs.msg import Image, Imu, JointState, LaserScan, Range
+from std_msgs.msg import Bool
+
+from .driver import Driver, yaw_of
+from ...client import Client, set_parameter
+
+
+@pytest.fixture
+def flat(physsim: PhysSim) -> PhysSim:
+    """Give a world that is seen from above."""
+    set_parameter(physsim, 'gravity', [0.0, 0.0])
+    return physsim
+
+
+def heard(physsim: PhysSim, client: Client, kind: type, topic: str) -> list[Any]:
+    messages: list[Any] = []
+    client.node.create_subscription(kind, topic, messages.append, 10)
+    client.spin_until(lambda: client.node.count_publishers(topic))
+    physsim.settle()
+    return messages
+
+
+@pytest.mark.parametrize('kind', [Twist, TwistStamped])
+def test_a_controller_drives_up_to_a_wall_and_stops(flat: PhysSim, kind: type) -> None:
+    flat.spawn(box('wall/0', at=(3.0, 0.0), size=(0.2, 4.0), anchored=True))
+    robot = flat.robot('turtlebot3_burger')
+    driver = Driver(flat.context, kind=kind)
+    flat.add(driver)
+    assert not flat.run(until=lambda: robot.bumped, timeout=20.0)
+    x = robot.truth().pose.pose.position.x
+    assert x == pytest.approx(2.9 - 0.5 + 0.032, abs=0.06)
+    assert abs(robot.truth().twist.twist.linear.x) < 1e-9
+    # Five scans a second.
+    assert len(driver.scans) == pytest.approx(100, abs=2)
+
+
+def test_the_same_run_has_the_same_bits_and_a_rewind_repeats_it(flat: PhysSim) -> None:
+    flat.spawn(box('wall/0', at=(2.0, 0.0), size=(0.2, 4.0), anchored=True))
+    flat.robot('turtlebot3_burger')
+    flat.add(Driver(flat.context))
+    flat.run(5.0)
+    first = flat.digest()
+    flat.rewind(3.0)
+    flat.run(3.0)
+    assert flat.digest() == first
+
+
+def test_a_test_steers_otherwise_after_a_rewind(flat: PhysSim) -> None:
+    flat.spawn(box('wall/0', at=(1.0, 0.0), size=(0.2, 4.0), anchored=True))
+    robot = flat.robot('turtlebot3_burger')
+    robot.drive(0.2)
+    assert flat.run(until=lambda: robot.bumped, timeout=10.0)
+    flat.rewind(2.0)
+    robot.drive(-0.2)
+    assert not flat.run(until=lambda: robot.bumped, timeout=5.0)
+    assert robot.truth().pose.pose.position.x < 0.5
+
+
+def test_a_command_counts_for_its_timeout(flat: PhysSim, client: Client) -> None:
+    robot = flat.robot({'from': 'turtlebot3_burger', 'drive': {'timeout': 0.5}})
+    driver = Driver(flat.context, looks=False)
+    flat.add(driver)
+    driver.send(0.2)
+    flat.run(0.4)
+    assert robot.truth().twist.twist.linear.x == pytest.approx(0.2, abs=1e-6)
+    flat.run(0.5)
+    assert robot.truth().twist.twist.linear.x == pytest.approx(0.0, abs=1e-9)
+
+
+def test_every_topic_has_its_type_and_rate(flat: PhysSim, client: Client) -> None:
+    sensors = [
+        {'kind': 'laser', 'name': 'scan', 'beams': 8, 'rate': 10},
+        {'kind': 'range', 'name': 'sonar', 'radiation': 'sonar', 'rate': 20},
+        {'kind': 'bumper', 'name': 'bumper', 'rate': 30},
+        {'kind': 'imu', 'name': 'imu', 'rate': 60},
+        {'kind': 'joint_states', 'name': 'joint_states', 'rate': 30},
+        {'kind': 'floor', 'name': 'eye', 'pixels': 5, 'rate': 15},
+    ]
+    robot = flat.robot({'from': 'turtlebot3_burger', 'sensors': sensors}, name='tb3/0')
+    kinds = {
+        'odom': (Odometry, 30),
+        'ground_truth': (Odometry, 60),
+        'scan': (LaserScan, 10),
+        'sonar': (Range, 20),
+        'bumper': (Bool, 30),
+        'imu': (Imu, 60),
+        'joint_states': (JointState, 30),
+        'eye': (Image, 15),
+    }
+    messages = {
+        topic: heard(flat, client, kind, f'/tb3_0/{topic}') for topic, (kind, _) in kinds.items()
+    }
+    robot.drive(0.2, 0.1)
+    flat.run(1.0)
+    for topic, (_, rate) in kinds.items():
+        assert len(messages[topic]) == pytest.approx(rate, abs=1), topic
+    assert messages['scan'][0].header.frame_id == 'tb3_0/scan'
+    assert len(messages['eye'][0].data) == 15
+    odom = messages['odom'][-1]
+    assert (odom.header.frame_id, odom.child_frame_id) == ('tb3_0/odom', 'tb3_0/base_footprint')
+    assert min(odom.pose.covariance[place] for place in (0, 7, 35)) > 0.0
+    # The wheels turn as fast as the floor goes by below them.
+    rates = messages['joint_states'][-1].velocity
+    assert rates[0] == pytest.approx((0.2 - 0.1 * 0.08) / 0.033, rel=1e-6)
+    assert rates[1] == pytest.approx((0.2 + 0.1 * 0.08) / 0.033, rel=1e-6)
+
+
+def test_what_nobody_reads_is_not_made(flat: PhysSim, monkeypatch: pytest.MonkeyPatch) -> None:
+    from physsim_ros.ros.robots import messages  # noqa: PLC0415 - it is replaced here
+
+    def fail(*_: object) -> None:
+        pytest.fail('nobody reads the scan')
+
+    flat.robot('turtlebot3_burger')
+    reading = messages.READINGS[messages.Laser]._replace(message=fail)
+    monkeypatch.setitem(messages.READINGS, messages.Laser, reading)
+    flat.run(1.0)
+
+
+def test_odometry_without_slip_is_the_way_and_truth_is_the_pose(flat: PhysSim) -> None:
+    robot = flat.robot({'from': 'turtlebot3_burger', 'odometry': {'slip': [0, 0]}}, at=(1, 2, 0.5))
+    robot.drive(0.2, 0.5)
+    flat.run(3.0)
+    odom, truth = robot.odom().pose.pose, robot.truth().pose.pose
+    x, y = odom.position.x, odom.position.y
+    turned = (
+        1.0 + math.cos(0.5) * x - math.sin(0.5) * y,
+        2.0 + math.sin(0.5) * x + math.cos(0.5) * y,
+    )
+    assert turned == pytest.approx((truth.position.x, truth.position.y), abs=1e-6)
+    assert yaw_of(truth.orientation) - yaw_of(odom.orientation) == pytest.approx(0.5, abs=1e-6)
+
+
+def test_commands_in_the_past_are_refused_once_and_nothing_branches(
+    flat: PhysSim, client: Client
+) -> None:
+    flat.robot('turtlebot3_burger')
+    driver = Driver(flat.context, looks=False)
+    flat.add(driver)
+    driver.send(0.2)
+    flat.run(3.0)
+    after = flat.digest()
+    flat.rewind(2.0)
+    client.events.clear()
+    for _ in range(30):
+        driver.send(0.0, 1.0)
+        flat.step()
+    flat.run(1.5)
+    assert [event.code for event in client.events if event.code != 'ok'] == ['in_past']
+    assert flat.node.simulation.status.course == 1
+    assert flat.digest() == after
+
+
+@pytest.mark.parametrize('value', [math.nan, math.inf, -math.inf])
+def test_a_command_that_is_not_finite_is_refused(
+    flat: PhysSim, client: Client, value: float
+) -> None:
+    robot = flat.robot('turtlebot3_burger')
+    driver = Driver(flat.context, looks=False)
+    flat.add(driver)
+    client.events.clear()
+    driver.send(value)
+    flat.step()
+    (event,) = [event for event in client.events if event.code != 'ok']
+    assert (event.code, event.name, event.hardware_id) == (
+        'malformed',
+        '/robot_0/cmd_vel',
+        'robot/0',
+    )
+    flat.run(0.5)
+    assert robot.truth().twist.twist.linear.x == 0.0
+
+
+def test_a_flood_of_commands_costs_one_request_a_frame(flat: PhysSim) -> None:
+    robot = flat.robot('turtlebot3_burger')
+    driver = Driver(flat.context, looks=False)
+    flat.add(driver)
+    before = flat.node.simulation.requests.gesture
+    for number in range(5000):
+        driver.send(0.1 if number < 4999 else 0.2)
+        if number % 8 == 0:
+            flat.settle()
+    flat.run(0.4)
+    assert robot.truth().twist.twist.linear.x == pytest.approx(0.2, abs=1e-6)
+    assert flat.node.simulation.requests.gesture == before
+
+
+def test_publishers_of_both_types_are_told_and_one_is_heard(
+    flat: PhysSim, client: Client, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    robot = flat.robot('turtlebot3_burger')
+    driver = Driver(flat.context, looks=False)
+    flat.add(driver)
+    # One process has one type for a topic: as if another one had the other.
+    known = flat.node.get_publishers_info_by_topic
+
+    def both(topic: str) -> list[Any]:
+        other = SimpleNamespace(
+            topic_type='geometry_msgs/msg/TwistStamped', qos_profile=known(topic)[0].qos_profile
+        )
+        return [other, *known(topic)]
+
+    monkeypatch.setattr(flat.node, 'get_publishers_info_by_topic', both)
+    driver.send(0.2)
+    flat.run(0.4)
+    assert robot.truth().twist.twist.linear.x == pytest.approx(0.2, abs=1e-6)
+    told = [event for event in client.events if event.field == 'cmd_vel']
+    assert [event.code for event in told] == ['bad_property']
+
+
+def test_topics_go_with_the_robot_and_come_back_with_undo(flat: PhysSim, client: Client) -> None:
+    robot = flat.robot('turtlebot3_burger')
+    node = client.node
+    client.spin_until(lambda: node.count_publishers('/robot_0/scan'))
+    flat.spawn(delete('robot/0'))
+    client.spin_until(lambda: not node.count_publishers('/robot_0/scan'))
+    assert not flat.node.fleet.robots
+    flat.node.simulation.undo()
+    flat.node.apply_requests()
+    client.spin_until(lambda: node.count_publishers('/robot_0/scan'))
+    robot.drive(0.1)
+    flat.run(0.5)
+    assert robot.truth().pose.pose.position.x > 0.03
+
+
+def test_many_robots_leave_nothing(flat: PhysSim) -> None:
+    entities = len(list(flat.node.publishers)), len(list(flat.node.subscriptions))
+    for number in range(100):
+        flat.robot('turtlebot3_burger', name='robot/0', at=(number, 0.0))
+        flat.spawn(delete('robot/0'))
+    assert (len(list(flat.node.publishers)), len(list(flat.node.subscriptions))) == entities
+
+
+def test_two_robots_of_one_namespace_are_refused(flat: PhysSim) -> None:
+    flat.robot('turtlebot3_burger', namespace='')
+    with pytest.raises(Refused) as caught:
+        flat.robot('omni', name='other/0', at=(2.0, 0.0), namespace='')
+    assert caught.value.field == 'namespace'
+    assert flat.names == ('robot/0',)
+
+
+def test_a_robot_of_the_empty_namespace_has_plain_topics(flat: PhysSim, client: Client) -> None:
+    flat.robot('turtlebot3_burger', namespace='')
+    messages = heard(flat, client, LaserScan, '/scan')
+    flat.run(0.5)
+    assert messages[0].header.frame_id == 'scan'
+
+
+def test_frozen_robots_say_nothing_of_the_past(flat: PhysSim, client: Client) -> None:
+    set_parameter(flat, 'robots_in_past', 'freeze')
+    flat.robot('turtlebot3_burger')
+    messages = heard(flat, client, Odometry, '/robot_0/ground_truth')
+    flat.run(2.0)
+    flat.rewind(1.0)
+    messages.clear()
+    flat.run(0.5)
+    assert not messages
+    flat.run(1.0)
+    assert messages
