@@ -48,6 +48,9 @@ class Parameters(TypedDict, total=False):
     history_memory: float
     publish_clock: bool
     publish_tf: bool
+    robot_tf: str
+    robots_in_past: str
+    lockstep: float
     viewer: Literal['auto', 'connect', 'none', 'spawn', 'web']
     trace: str
     viewer_url: str
