@@ -48,8 +48,8 @@ class Parameters(TypedDict, total=False):
     history_memory: float
     publish_clock: bool
     publish_tf: bool
-    robot_tf: str
-    robots_in_past: str
+    robot_tf: Literal['prefixed', 'namespaced', 'none']
+    robots_in_past: Literal['follow', 'freeze']
     lockstep: float
     viewer: Literal['auto', 'connect', 'none', 'spawn', 'web']
     trace: str

@@ -196,8 +196,10 @@ def _spans(text):
     )
 
 
-# Files that the reader makes, one of another project, and fields of messages.
-OF_DOCUMENTS = {'damper.py', 'fall.py', 'pusher.py', 'test_pusher.py', 'parser.py'}
+# Files that the reader makes, one of another project, fields of messages, names of Nav2.
+OF_DOCUMENTS = {'damper.py', 'fall.py', 'parser.py', 'test_crash.py'}
+OF_DOCUMENTS |= {'wall_follower.py', 'test_wall_follower.py'}
+OF_DOCUMENTS |= {'enable_stamped_cmd_vel', 'map_server'}
 OF_DOCUMENTS |= {'values.body', 'values.yaml'}
 
 

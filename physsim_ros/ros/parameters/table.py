@@ -142,7 +142,7 @@ _OF_NODE = {
         default='prefixed',
         meaning='transforms of robots: prefixed (on /tf, frames named below the namespace), '
         'namespaced (plain names on <namespace>/tf), none; without tf2_msgs there are none',
-        choices=tuple(RobotTf),
+        choices=tuple(mode.value for mode in RobotTf),
         read_only=True,
     ),
     'robots_in_past': Spec(
