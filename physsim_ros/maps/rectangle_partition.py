@@ -150,7 +150,7 @@ def _tangles(rows: Ints, columns: Ints, sizes: tuple[int, int]) -> tuple[Flags, 
     ones, whole = np.ones(len(rows), dtype=np.int8), sum(sizes)
     graph = csr_array((ones, (rows, sizes[0] + columns)), shape=(whole, whole))
     count, labels = connected_components(graph, directed=False)
-    across, along = labels[: sizes[0]], labels[sizes[0] :]
+    across, along = np.split(labels, sizes[:1])
     numbers = [np.bincount(each, minlength=count) for each in (across, along)]
     large = numbers[0] + numbers[1] > _MOST_MATCHED
     more = numbers[0] >= numbers[1]

@@ -95,10 +95,8 @@ def test_a_grid_is_the_same_after_it_was_a_world():
 
     again = grid_of(world, 0.25)
 
-    rows, columns = np.nonzero(occupied)
-    assert np.array_equal(
-        again.occupied, occupied[rows.min() : rows.max() + 1, columns.min() : columns.max() + 1]
-    )
+    rows, columns = (slice(each.min(), each.max() + 1) for each in np.nonzero(occupied))
+    assert np.array_equal(again.occupied, occupied[rows, columns])
 
 
 @pytest.mark.parametrize(

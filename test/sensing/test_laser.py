@@ -57,6 +57,20 @@ def test_each_shape_alone_is_seen_as_the_engine_has_it(shape):
     assert_same(scan(world, add_robot(world), laser), expected)
 
 
+def test_the_round_end_of_a_chain_is_seen_from_its_own_line():
+    # Chipmunk's query has its far side there: from within the slab of a thick segment it takes
+    # the side at which a ray leaves for the one at which it enters.
+    world = plane()
+    chain = Chain(points=((0.0, 0.0), (2.0, 0.0)), thickness=0.2)
+    spawn(world, 'chain/0', chain, (1.0, 0.0, 0.0), anchored=True)
+    row = add_robot(world)
+
+    ranges = scan(world, row, Laser(beams=3, angle=(-0.05, 0.05), range=(0.0, 5.0)))
+
+    aside = math.cos(0.05) - math.sqrt(0.1**2 - math.sin(0.05) ** 2)
+    assert ranges.tolist() == pytest.approx([aside, 0.9, aside], abs=1e-12)
+
+
 def test_a_wall_ahead_is_as_far_as_it_is():
     world = plane()
     spawn(world, 'wall/0', Box(width=0.2, height=10.0), (2.1, 0.0, 0.0), anchored=True)
