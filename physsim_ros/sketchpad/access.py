@@ -26,7 +26,7 @@ from urllib.parse import urlsplit
 from physsim_ros.files import user_directory, write_file
 from tornado.web import create_signed_value, decode_signed_value
 
-# Random bytes of a token: not to be guessed.
+# Random bytes of a token: too many to be guessed.
 _TOKEN_BYTES = 24
 # Greatest age of a cookie [days]: a class of one day need not type the address again.
 _COOKIE_AGE = 1.0
@@ -65,7 +65,7 @@ class Access:
         self._key = cookie_key()
         self.tokens = {role: secrets.token_urlsafe(_TOKEN_BYTES) for role in Role}
         name = socket.gethostname().lower()
-        # A name of this machine, as its owner spells it; a foreign page cannot have it as host.
+        # The names of this machine, as its owner types them; no foreign domain has them.
         self._hosts = {'localhost', name, f'{name.partition(".")[0]}.local', address.lower()}
 
     def role_of(self, token: str) -> Role | None:
@@ -90,7 +90,7 @@ class Access:
         """Tell whether a Host header names this machine: by an address, or by its own name."""
         try:
             parts = urlsplit(f'//{host}')
-            # A port that is none raises, too.
+            # `port` raises, too, where it is no number.
             name, _ = parts.hostname or '', parts.port
         except ValueError:
             return False

@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Autosave: the world that pages draw in, kept beside the saved worlds, offered at the next start.
+Autosave: the world that pages draw in is written to a file, which the next start offers.
 
-Law: it takes at most a hundredth of the world's time and one file; a world that is too large for
-it, or a disk that is full, stops nothing.
+Law: it takes at most a hundredth of the world's time and one file; a world that is too large, or a
+full disk, stops nothing.
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ from physsim_ros.model.errors import WorldFull
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Frame
 
-# Least time from one autosave to the next [s], and that time by the time that it took.
+# Least time from one autosave to the next [s], and its least ratio to the time of an autosave.
 PERIOD, SHARE = 10.0, 100.0
-# Length of the text of a world that is kept [characters].
+# Greatest length of the text of a world [characters].
 LONGEST = 2**20
 _NOW, _BEFORE = '.autosave.yaml', '.unsaved.yaml'
 
@@ -46,7 +46,7 @@ class Autosave:
 
     @property
     def unsaved_at(self) -> float:
-        """Return when the unsaved world of the last start was kept [s since 1970]; 0 is none."""
+        """Return when the unsaved world of the last start was written [s since 1970], else 0."""
         try:
             return self._unsaved.stat().st_mtime
         except OSError:
@@ -67,23 +67,23 @@ class Autosave:
 
     def note_frame(self, frame: Frame, *, drawn: bool) -> None:
         """
-        Note what is shown.
+        Note a frame that is shown.
 
-        :param drawn: whether pages are open that may have changed it
+        :param drawn: whether pages are open, which may have changed the world
         """
         scene = frame.snapshot.scene
         changed, self._scene = self._scene is not scene, scene
         self._changed |= changed and drawn and not frame.past and frame.speed >= 0.0
 
     def note_saved(self) -> None:
-        """Note that somebody has saved the world: nothing is unsaved."""
+        """Note that somebody has saved the world."""
         self._changed = False
         with suppress(OSError):
             self._file.unlink(missing_ok=True)
 
     def is_due(self, now: float) -> bool:
         """
-        Return whether it is to be saved.
+        Return whether the world is to be saved.
 
         :param now: steady time [s]
         """

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The past of a body, for plots: what was shown of it, by columns.
+The past of a body for plots: places and velocities of the frames that were shown, by columns.
 
 Law: the world's thread only looks up the snapshots; the server's thread makes the columns.
 """
@@ -23,10 +23,10 @@ from physsim_ros.model.transform import rotated_each
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.sketchpad.answers import Content
 
-# Frames that a page gets of the past: a minute at 60 Hz.
+# Greatest number of frames of a past: a minute at 60 Hz.
 MOST_FRAMES = 3600
-# From one past to the next, for all pages together [s]: each takes some 35 ms of the server's
-# thread.
+# Time from one past to the next, for all pages together [s]: a past takes some 35 ms of the
+# server's thread.
 PERIOD = 0.2
 
 
@@ -34,7 +34,7 @@ class BodyPasts:
     """
     The pasts of bodies that pages ask for, sent one after the other.
 
-    Of several that a page asks for meanwhile, it gets the last.
+    A page that asks for several meanwhile gets the last.
 
     :param simulation: with the past
     :param send: sends a message to the page of a number
@@ -64,7 +64,7 @@ class BodyPasts:
             self._send(partial(_body_content, name, request_id, ()), page)
 
     def forget(self, page: int) -> None:
-        """Send a page nothing of what it has asked for."""
+        """Forget what a page has asked for."""
         self._asked.pop(page, None)
 
     def send_due(self, now: float) -> None:
@@ -115,7 +115,7 @@ def _row_of(name: str, scene: Scene, before: int) -> int:
     """
     Return the row of a body in a scene; -1 where it is not there.
 
-    :param before: its row in another scene, which is often the same
+    :param before: its row in another scene, which is often its row here
     """
     names = scene.names
     if 0 <= before < len(names) and names[before] == name:

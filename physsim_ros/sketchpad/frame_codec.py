@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Frames as bytes: poses as columns of float32, and what else a page shows.
+Frames as bytes: poses as columns of float32, and the other parts that a page shows.
 
-Law: a frame is encoded once for all pages that show the same.
+Law: a frame is encoded once for all pages that show the same parts.
 
 Little endian, each column on a multiple of four bytes:
 
@@ -17,7 +17,7 @@ Little endian, each column on a multiple of four bytes:
     PULLS       u32 j, f32 fx[j] [N], fy[j] [N]                            of each joint on body b
     HANDS       u32 h, f32 x[h] [m], y[h] [m], hand x[h] [m], hand y[h] [m]   of each grip
 
-`docs/page_protocol.md` says what a page makes of it.
+`docs/page_protocol.md` tells how a page reads it; `page/frame_codec.js` does.
 """
 
 from __future__ import annotations
@@ -38,8 +38,8 @@ class Show(IntFlag):
     """
     The parts of a frame besides the poses.
 
-    Velocities, contacts and forces are there where a page asks for them, pulls with contacts,
-    hands while they drag; a ghost is a course of events that was left.
+    A frame has velocities, contacts and forces where a page asks for them, pulls with contacts,
+    and hands while they drag. A ghost is a frame of a course of events that was left.
     """
 
     POSES = 0
@@ -92,6 +92,6 @@ def _contacts(contacts: Contacts) -> bytes:
 
 def _columns(rows: Floats) -> bytes:
     """Return the columns of an array, one after the other, as float32."""
-    # A number beyond float32, of a body that is lost in space, becomes infinite.
+    # A number beyond float32, of a body that is very far away, becomes infinite.
     with np.errstate(over='ignore'):
         return np.ascontiguousarray(rows.T, dtype='<f4').tobytes()

@@ -4,8 +4,8 @@
 """
 The contacts of a world that stands still: those of its last steps.
 
-Law: contacts belong to the first frame of a step; pages are shown them for as long as the two
-bodies are where they were then.
+Law: contacts belong to the first frame of a step; later frames of this step have them too, where
+both bodies are where they were then.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ class LastContacts:
         self._last: tuple[Snapshot, Contacts] | None = None
 
     def completed(self, frame: Frame) -> Frame:
-        """Return a frame with the contacts of the frame before where it is of the same step."""
+        """Return a frame; one that repeats a step has the contacts of the step's first frame."""
         if frame.contacts is None:
             self._last = None
             return frame
@@ -39,7 +39,7 @@ class LastContacts:
 
 
 def _still_there(contacts: Contacts, before: Snapshot, now: Snapshot) -> Contacts:
-    """Return the contacts of bodies that are where they were, with their rows of now."""
+    """Return the contacts of bodies that have not moved, by their rows in the scene of now."""
     rows, there = _rows_of(before, now)
     pairs = rows[contacts.pairs]
     kept = there[contacts.pairs].all(axis=1)
@@ -54,9 +54,9 @@ def _still_there(contacts: Contacts, before: Snapshot, now: Snapshot) -> Contact
 
 def _rows_of(before: Snapshot, now: Snapshot) -> tuple[Ints, Flags]:
     """
-    Return the rows that bodies have now, and whether they are there and have not moved.
+    Return the rows that bodies have now, and whether they exist and have not moved.
 
-    :return: (n + 1,) int64 and bool; the last one, which row -1 is, stands for the walls
+    :return: (n + 1,) int64 and bool; the last element, which index -1 reads, is that of the walls
     """
     if before.scene.names == now.scene.names:
         rows = np.arange(len(before.poses))

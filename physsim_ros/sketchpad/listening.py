@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Sockets that listen, the address by which others reach them, and connections at once."""
+"""Listening sockets, the address by which other machines reach them, a limit of connections."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ from tornado.httpserver import HTTPServer
 from tornado.iostream import IOStream, StreamClosedError, UnsatisfiableReadError
 from tornado.netutil import bind_sockets
 
-# Connections at once, pages included: fewer than a process may have files open.
+# Connections at once, pages included: fewer than the files that a process may have open.
 MOST_CONNECTIONS = 256
-# Connections beyond them that are answered with a refusal at once, and how long each may take [s];
-# more are closed without an answer.
+# Further connections that are answered with a refusal at once, and the time for each [s]; all
+# others are closed without an answer.
 MOST_REFUSED, _REFUSING = 16, 2.0
 _SENTENCE = 'there are as many connections as there may be; close some, and try again\n'
 _REFUSAL = (
@@ -74,7 +74,7 @@ def listening_sockets(address: str, port: int) -> list[socket.socket]:
     """
     Return sockets that listen on a port, or on one of the next.
 
-    :raises PhysSimError: the address is none of this machine, or all ports are taken
+    :raises PhysSimError: this machine does not have the address, or all ports are taken
     """
     last = port if port == 0 else min(port + _MORE_PORTS, 65535)
     for tried in range(port, last + 1):
@@ -83,7 +83,7 @@ def listening_sockets(address: str, port: int) -> list[socket.socket]:
         except PermissionError as error:
             reason = str(error)
         except (OSError, UnicodeError) as error:
-            # A name that is none, as `a..b`, has no errno.
+            # The error of an invalid name, as `a..b`, has no errno.
             if tried == last or getattr(error, 'errno', None) != errno.EADDRINUSE:
                 raise PhysSimError(
                     f'the sketchpad cannot listen on {address!r}, port {tried}: {error}'
@@ -112,7 +112,7 @@ def _own_address() -> str:
     """Return the address of this machine in its network; no packet is sent."""
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
         try:
-            # TEST-NET-1, RFC 5737: routed like any other address, and nobody's.
+            # TEST-NET-1, RFC 5737: routed like any other address, and never in use.
             probe.connect(('192.0.2.1', 9))
         except OSError:
             return socket.gethostname()

@@ -4,8 +4,8 @@
 """
 Scenes as JSON: bodies, joints and settings, whenever they change.
 
-Law: the text of a body is encoded once and kept as long as the body is in the scene, so that one
-more body costs one text.
+Law: a body is encoded once and its text kept as long as the body is in the scene, so that one more
+body costs one text.
 """
 
 from __future__ import annotations
@@ -82,7 +82,7 @@ class SceneCodec:
 
 
 def compact(value: object) -> str:
-    """Return a value as JSON without spaces; a number that is not finite is an error."""
+    """Return a value as JSON without spaces; raise ValueError for a number that is not finite."""
     return json.dumps(value, separators=(',', ':'), allow_nan=False)
 
 

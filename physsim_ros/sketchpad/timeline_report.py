@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 
-"""The timeline as the pages get it: at once where more than the time changes, else seldom."""
+"""The timeline for pages: sent at once where more than its time changes, else each 0.1 s."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from physsim_ros.model.snapshot import Frame, Snapshot
 from physsim_ros.model.timeline import CourseSpan, TimelineStatus
 from physsim_ros.simulation.simulation import Simulation
 
-# From one message to the next while nothing but the time changes [s].
+# Time from one message to the next while nothing but the time changes [s].
 PERIOD = 0.1
 
 
 class TimelineReport:
     """
-    The status of the timeline, as it was sent last.
+    The status of the timeline that was sent last, and the course of the ghost.
 
     :param simulation: of the timeline
     """
@@ -37,7 +37,7 @@ class TimelineReport:
         :param now: steady time [s]
         """
         last = self._sent
-        # A running world without requests changes its time and no more.
+        # A running world without requests changes nothing but its time.
         runs = frame.moved and not frame.answers and frame.speed != 0.0
         known = last is not None and last.speed == frame.speed
         if runs and known and now - self._read_at < PERIOD:
@@ -51,7 +51,7 @@ class TimelineReport:
         return status
 
     def ghost(self, snapshot: Snapshot) -> Snapshot | None:
-        """Return the frame that the course left last showed at the time of a snapshot."""
+        """Return what the course that was left last showed at the time of a snapshot."""
         course, seconds = self._beside, snapshot.stamp * 1e-9
         if course is None or not course.begins <= seconds <= course.ends:
             return None

@@ -9,11 +9,12 @@ import {Arrows} from './arrows.js';
 import {BodyPanel} from './body_panel.js';
 import {Camera} from './camera.js';
 import {Connection} from './connection.js';
+import {Cursor} from './cursor.js';
 import {createElement, elementOf} from './dom.js';
 import {Gallery} from './gallery.js';
 import {Hints} from './hints.js';
-import {Cursor, Keyboard} from './keyboard.js';
 import {JointPanel} from './joint_panel.js';
+import {Keyboard} from './keyboard.js';
 import {Notes} from './notes.js';
 import {Pointers} from './pointer.js';
 import {Readings} from './readings.js';
@@ -48,7 +49,7 @@ export class App {
     /** @type {?string | number[]} of the next drawings, where this page chose none */
     this.color = null;
     this.framed = false;
-    this.bounds = ''; // of the world that was framed: another one, as in the past, is framed anew
+    this.bounds = ''; // of the world that was framed; a world with other bounds is framed again
 
     this.connection = new Connection();
     this.world = new WorldState(this.connection);
@@ -85,12 +86,12 @@ export class App {
   #listen() {
     const {connection} = this, gone = elementOf('gone', HTMLElement);
     connection.on('welcome', ({version, settings = {}, view_only: viewOnly}) => {
-      // These scripts are of the server before, and may not know the messages of this one.
+      // These scripts come from another version of the server.
       if (version !== (this.version ??= version)) location.reload();
       this.viewOnly ||= Boolean(viewOnly);
       document.body.classList.toggle('view', this.viewOnly);
       this.color = settings.draw_color ?? null;
-      // To the server this is another page.
+      // The server knows this page as a new one, without a material.
       if (Object.keys(this.material).length && !this.viewOnly) this.connection.send('draw_with', this.material);
       this.askForParts();
     });
@@ -99,7 +100,7 @@ export class App {
       gone.hidden = true;
     });
     connection.on('closed', (status) => {
-      // Once, not at each attempt to come back: a stroke is drawn to its end.
+      // At the first failure only: a stroke that begins later is drawn to its end.
       if (gone.hidden) this.tool.cancel();
       gone.hidden = false;
       gone.textContent = status === 401 || status === 403 ?

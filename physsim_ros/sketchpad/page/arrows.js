@@ -7,6 +7,7 @@
  */
 
 import {bearing, forcesOf, sumsOf} from './forces.js';
+import {roundUp, threeDigits} from './rounding.js';
 
 /** @import {App, Force, Palette, Point, SceneView} from './types.js' */
 
@@ -17,7 +18,7 @@ const ROOM = 0.3; // share of the view that the longest arrow may take
 const SHORT = 0.12; // share of that room below which the scale becomes finer
 const SETTLED = 400; // ms for which an arrow is too long or too short before the scale follows
 const CUT = 1.3; // times the room: longer arrows, of impacts, are cut
-const HEAD = 9, BETWEEN = 6, LEGEND = 17; // px: head, from a tip to its number, from line to line
+const BETWEEN = 6, LEGEND = 17; // px: from a tip to its number, from line to line
 const LOW = 500; // px: on a lower page the legend is one line
 const LEAST = 4; // px: of an arrow
 const LEAST_SPEED = 5; // m/s: that there is always room for
@@ -26,7 +27,7 @@ const FONT = '13px system-ui, sans-serif';
 const NAMES = {weight: 'weight', normal: 'normal force', friction: 'friction', joint: 'joint', air: 'air', sum: 'sum'};
 
 /** How many units are a bar's length: 1, 2 or 5 times a power of ten. */
-export class ArrowScale {
+class ArrowScale {
   constructor() {
     this.unit = 0;
     this.since = 0; // [ms] since when it does not fit
@@ -153,65 +154,25 @@ function colorOf(kind, palette) {
 }
 
 /**
- * @param {number} value
- * @returns {number} the least number of 1, 2 or 5 times a power of ten that is not below
- */
-function roundUp(value) {
-  const power = 10 ** Math.floor(Math.log10(value)), share = value / power * (1 - 1e-9);
-  return Number(((share > 5 ? 10 : share > 2 ? 5 : share > 1 ? 2 : 1) * power).toPrecision(1));
-}
-
-/** @param {number} value */
-export function threeDigits(value) {
-  return value < 1e4 ? String(Number(value.toPrecision(3))) : value.toExponential(2);
-}
-
-/**
  * @param {SceneView} view
  * @param {Point} from [px]
  * @param {number} x in units, y up
  * @param {number} y
  * @param {ArrowScale} scale
- * @param {number} most length [px]
+ * @param {number} most length [px]; a longer arrow is cut
  * @param {string} color
  * @param {string} text its number
  * @param {Label[]} labels that the number is added to
  * @param {number} width [px]
- * @returns {?Point} its tip [px]; null where it is too short to be seen
+ * @returns {?Point} its tip [px]; null where the arrow is too short to be seen
  */
-function drawArrow({ctx, palette}, from, x, y, scale, most, color, text, labels, width = 2.5) {
+function drawArrow(view, from, x, y, scale, most, color, text, labels, width = 2.5) {
   const size = Math.hypot(x, y), whole = scale.length(size);
   if (!(whole >= LEAST)) return null;
   const length = Math.min(whole, most), ux = x / size, uy = -y / size;
-  const [px, py] = from, tip = /** @type {Point} */ ([px + ux * length, py + uy * length]);
-  const head = Math.min(HEAD + width, length);
-  const at = (/** @type {number} */ along, /** @type {number} */ across) =>
-    /** @type {Point} */ ([px + ux * along - uy * across, py + uy * along + ux * across]);
-  ctx.lineCap = 'butt';
-  // On a rim of paper, it is seen on bodies of any colour.
-  for (const [stroke, broad] of /** @type {[string, number][]} */ ([[palette.paper, width + 3], [color, width]])) {
-    ctx.strokeStyle = ctx.fillStyle = stroke;
-    ctx.lineWidth = broad;
-    ctx.beginPath();
-    ctx.moveTo(px, py);
-    ctx.lineTo(...at(length - head / 2, 0));
-    ctx.stroke();
-    const rim = (broad - width) / 2;
-    ctx.beginPath();
-    for (const point of [at(length + rim, 0), at(length - head - rim, head * 0.45 + rim), at(length - head - rim, -head * 0.45 - rim)]) ctx.lineTo(...point);
-    ctx.fill();
-  }
-  if (whole > most) {
-    // Cut, as in drawings of long parts.
-    ctx.strokeStyle = palette.paper;
-    ctx.lineWidth = 3;
-    for (const along of [0.45, 0.52]) {
-      ctx.beginPath();
-      ctx.moveTo(...at(along * length - 3, -6));
-      ctx.lineTo(...at(along * length + 3, 6));
-      ctx.stroke();
-    }
-  }
+  /** @type {Point} */
+  const tip = [from[0] + ux * length, from[1] + uy * length];
+  view.arrow(from, tip, color, {width, cut: whole > most});
   labels.push({text, color, x: tip[0], y: tip[1], ux, uy});
   return tip;
 }
@@ -242,22 +203,21 @@ function drawLabels(view, labels) {
  * @param {[string, string, string][]} lines length of a bar, '' for a line of colour alone; colour; word
  */
 function drawLegend(view, lines) {
-  const {ctx, palette, insets, camera} = view, low = camera.height < LOW;
+  const {ctx, insets, camera} = view, low = camera.height < LOW;
   let left = insets.left + 56, y = insets.top + (low ? 28 : 40);
   for (const [length, color, word] of lines) {
     const width = length ? BAR : 18, text = length ? `${length}  ${word}` : word;
-    for (const [stroke, broad] of /** @type {[string, number][]} */ ([[palette.paper, 5.5], [color, 2.5]])) {
-      ctx.strokeStyle = stroke;
-      ctx.lineWidth = broad;
+    const begin = left;
+    view.onRim(color, 2.5, () => {
       ctx.beginPath();
-      ctx.moveTo(left, y);
-      ctx.lineTo(left + width, y);
-      if (length) for (const x of [left, left + BAR]) {
+      ctx.moveTo(begin, y);
+      ctx.lineTo(begin + width, y);
+      if (length) for (const x of [begin, begin + BAR]) {
         ctx.moveTo(x, y - 4);
         ctx.lineTo(x, y + 4);
       }
       ctx.stroke();
-    }
+    });
     view.write(text, [left + width + 8, y + 4], color);
     if (low) left += width + ctx.measureText(text).width + 24;
     else y += LEGEND;

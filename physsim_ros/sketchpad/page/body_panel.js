@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The panel of the selected bodies: properties of a body, its plots. */
 
-import {createElement, elementOf, iconButton, textButton} from './dom.js';
+import {createElement, elementOf, iconButton, inRow, textButton} from './dom.js';
 import {Numbers} from './numbers.js';
 import {Plots} from './plots.js';
 import {isDrawn} from './words.js';
@@ -25,7 +25,7 @@ export class BodyPanel {
     this.plots = new Plots(app);
     this.numbers = new Numbers(app);
     this.name = '';
-    this.shown = ''; // what of the scene
+    this.shown = ''; // part of the scene that the panel shows, as text
     this.turn = 0; // of gravity from down, counter-clockwise [rad]
     app.connection.on('scene', () => this.#follow());
   }
@@ -52,7 +52,7 @@ export class BodyPanel {
       this.numbers.element,
       ...fields(body, change),
       createElement('label', {}, 'Anchored', anchored),
-      createElement('div', {className: 'row'},
+      inRow(
         textButton('Copy', () => this.copy()),
         textButton('Delete body', () => this.app.selection.deleteBodies(), 'danger')),
       createElement('p', {hidden: body.anchored, textContent: 'Velocity: drag the ring of its arrow.'}),
@@ -81,19 +81,18 @@ export class BodyPanel {
     this.plots.watch('');
     this.show(`${names.length} bodies`, [
       createElement('p', {textContent: 'Drag them with the lasso.'}),
-      createElement('div', {className: 'row'},
-        textButton('Delete bodies', () => this.app.selection.deleteBodies(), 'danger'))]);
+      inRow(textButton('Delete bodies', () => this.app.selection.deleteBodies(), 'danger'))]);
   }
 
   /** Show the material of the next drawings, and gravity. */
   showMaterial() {
     this.app.selection.select([]);
     const {app} = this, {scene} = app.world, {gravity: [gx, gy]} = scene, strength = Math.hypot(gx, gy);
-    // As it was set last: the panel stays as it is while somebody works in it.
+    // As it was set last: the panel is not renewed while somebody works in it.
     let size = strength;
     if (strength) this.turn = Math.atan2(gx, -gy);
     const pull = () => {
-      // Without the last digits of sines, where they are those of zero.
+      // The sine of a half turn is not exactly 0: nine digits are.
       app.connection.send('gravity', {gravity: [Math.sin(this.turn) * size, -Math.cos(this.turn) * size].map((each) => Number(each.toFixed(9)))});
     };
     const setSize = (/** @type {number} */ value) => {
@@ -115,7 +114,7 @@ export class BodyPanel {
       createElement('label', {}, 'Each body another colour', any),
       createElement('h3', {textContent: 'Gravity'}),
       range('Gravity [m/s²]', 0, 25, 0.01, strength, setSize),
-      createElement('div', {className: 'row'}, ...PLACES.map(([name, value]) => textButton(name, () => setSize(value)))),
+      inRow(...PLACES.map(([name, value]) => textButton(name, () => setSize(value)))),
       createElement('label', {}, 'Direction', dial(this.turn, (angle) => {
         this.turn = angle;
         pull();

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The socket to the server: requests out with an id, messages in by type, and back when it goes (docs/page_protocol.md). */
+/** The socket to the server: sends requests, hands on messages by type, connects again (docs/page_protocol.md). */
 
-/** @import {Answer, Frame} from './types.js' */
+import {decodeFrame} from './frame_codec.js';
+
+/** @import {Answer} from './types.js' */
 
 const SHORTEST_PAUSE = 250, LONGEST_PAUSE = 3000; // ms between attempts to connect
-const HEADER = 24; // bytes of a frame
-const VERSION = 2;
-const VELOCITIES = 1, CONTACTS = 2, FORCES = 4, HANDS = 8, GHOST = 16, PULLS = 32; // flags of its parts
 
 export class Connection {
   constructor() {
@@ -40,7 +39,7 @@ export class Connection {
   /**
    * @param {string} type
    * @param {Record<string, unknown>} fields
-   * @returns {string} the id of the request; '' where nobody hears it
+   * @returns {string} the id of the request; '' without a connection
    */
   send(type, fields = {}) {
     if (this.socket?.readyState !== WebSocket.OPEN) {
@@ -56,7 +55,7 @@ export class Connection {
   /**
    * @param {string} type
    * @param {Record<string, unknown>} fields
-   * @returns {Promise<Answer>} never settles where the server goes
+   * @returns {Promise<Answer>} never settles where the connection is lost before
    */
   ask(type, fields = {}) {
     const id = this.send(type, fields);
@@ -66,7 +65,7 @@ export class Connection {
   /** @param {string | ArrayBuffer} data */
   #receive(data) {
     if (typeof data !== 'string') {
-      // A server that closes each socket again is asked ever less often.
+      // Only a frame tells that the server keeps a socket open: until then the pauses grow.
       this.pause = SHORTEST_PAUSE;
       this.#emit('frame', decodeFrame(data));
       return;
@@ -87,7 +86,7 @@ export class Connection {
     for (const listener of this.listeners.get(type) ?? []) listener(message);
   }
 
-  /** A socket that is refused cannot say why: whether the cookie is right is asked for. */
+  /** Connect again after a pause. A refused socket has no reason, so that the cookie is checked by a request. */
   async #retry() {
     this.socket = null;
     this.waiting.clear();
@@ -97,53 +96,4 @@ export class Connection {
     setTimeout(() => this.connect(), this.pause);
     this.pause = Math.min(2 * this.pause, LONGEST_PAUSE);
   }
-}
-
-/**
- * @param {ArrayBuffer} buffer
- * @returns {Frame}
- */
-function decodeFrame(buffer) {
-  const view = new DataView(buffer);
-  if (view.getUint8(0) !== VERSION) throw new RangeError('another version of frames: load the page again');
-  const flags = view.getUint8(1);
-  let at = HEADER, count = view.getUint32(20, true);
-  const column = () => {
-    at += 4 * count;
-    return new Float32Array(buffer, at - 4 * count, count);
-  };
-  const readCount = () => {
-    count = view.getUint32(at, true);
-    at += 4;
-  };
-  /** @type {Frame} */
-  const frame = {
-    epoch: view.getUint32(4, true),
-    time: view.getFloat64(8, true),
-    speed: view.getFloat32(16, true),
-    ghost: (flags & GHOST) > 0,
-    x: column(), y: column(), yaw: column(),
-  };
-  if (flags & VELOCITIES) frame.velocities = {x: column(), y: column(), spin: column()};
-  if (flags & CONTACTS) {
-    readCount();
-    const steps = view.getUint32(at, true);
-    at += 4;
-    const rows = () => new Int32Array(buffer, (at += 4 * count) - 4 * count, count);
-    frame.contacts = {steps, a: rows(), b: rows(), x: column(), y: column(), nx: column(), ny: column(),
-      jx: column(), jy: column()};
-  }
-  if (flags & FORCES) {
-    readCount();
-    frame.forces = column();
-  }
-  if (flags & HANDS) {
-    readCount();
-    frame.hands = {x: column(), y: column(), toX: column(), toY: column()};
-  }
-  if (flags & PULLS) {
-    readCount();
-    frame.pulls = {x: column(), y: column()};
-  }
-  return frame;
 }

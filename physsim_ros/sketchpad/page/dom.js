@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Elements of the page, made short. */
+/** Short forms to make and find elements of the page. */
 
 /**
  * @template {keyof HTMLElementTagNameMap} T
@@ -45,6 +45,11 @@ export function iconButton(name, id, onclick, title = name) {
  */
 export function textButton(label, onclick, className = '') {
   return createElement('button', {type: 'button', textContent: label, onclick, className});
+}
+
+/** @param {Node[]} children beside each other */
+export function inRow(...children) {
+  return createElement('div', {className: 'row'}, ...children);
 }
 
 /**

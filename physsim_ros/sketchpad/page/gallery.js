@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Worlds: a gallery to open from, saving by name, files, a link that holds the world, a picture. */
 
-import {createElement, download, elementOf, icon, iconButton, textButton} from './dom.js';
+import {createElement, download, elementOf, icon, iconButton, inRow, textButton} from './dom.js';
 import {capital} from './words.js';
 
 /** @import {App} from './types.js' */
@@ -49,8 +49,7 @@ export class Gallery {
       createElement('div', {className: 'cards'}, ...worlds.map((world) => this.#card(world)));
     const file = createElement('input', {type: 'file', accept: '.yaml,.yml',
       onchange: async () => file.files?.[0] && this.#upload(await file.files[0].text())});
-    this.show('Worlds', createElement('div', {className: 'row'},
-      textButton('Empty world', () => this.#upload(EMPTY)),
+    this.show('Worlds', inRow(textButton('Empty world', () => this.#upload(EMPTY)),
       createElement('label', {className: 'file'}, 'Open a file', file)),
     ...own.length ? [createElement('h3', {textContent: 'Yours'}), cards(own), createElement('h3', {textContent: 'To explore, the simplest first'})] : [],
     cards(shipped));
@@ -58,12 +57,14 @@ export class Gallery {
 
   /** @param {typeof this.worlds[0]} world */
   #card({name, title, picture, shipped}) {
+    const heading = shipped ? capital(name.replaceAll('_', ' ')) : name;
     const card = createElement('button', {type: 'button', className: 'card', onclick: () => this.#open(name)},
       picture ? createElement('img', {src: picture, alt: '', loading: 'lazy'}) : createElement('span', {className: 'blank'}, icon('pen')),
-      createElement('strong', {textContent: shipped ? capital(name.replaceAll('_', ' ')) : name}),
-      ...shipped ? [createElement('small', {textContent: title})] : []);
+      createElement('strong', {textContent: heading}),
+      // A title that only repeats the name tells nothing.
+      ...shipped && title !== heading ? [createElement('small', {textContent: title})] : []);
     if (shipped) return card;
-    return createElement('div', {className: 'own'}, card, createElement('div', {className: 'row'},
+    return createElement('div', {className: 'own'}, card, inRow(
       textButton('Rename', () => this.#askName(`Rename ${name}`, name, 'Rename', (to) => this.#rename(name, to))),
       textButton('Delete', () => this.#delete(name), 'danger')));
   }
@@ -131,6 +132,7 @@ export class Gallery {
    * @param {boolean} replace
    */
   async #save(name, replace = false) {
+    this.dialog.close();
     const {ok, code} = await this.app.connection.ask('save', {name, replace});
     if (ok) {
       this.name = name;
@@ -140,15 +142,9 @@ export class Gallery {
     }
     if (code !== 'exists') return;
     const free = this.#freeName(name), own = this.worlds.some((each) => each.name === name && !each.shipped);
-    const choices = [textButton(`Save as ${free}`, () => {
-      this.dialog.close();
-      this.#save(free);
-    })];
-    if (own) choices.push(textButton(`Replace ${name}`, () => {
-      this.dialog.close();
-      this.#save(name, true);
-    }, 'danger'));
-    this.show(own ? `There is a world ${name} already` : `${name} is a world that ships with physsim`, createElement('div', {className: 'row'}, ...choices));
+    const choices = [textButton(`Save as ${free}`, () => this.#save(free))];
+    if (own) choices.push(textButton(`Replace ${name}`, () => this.#save(name, true), 'danger'));
+    this.show(own ? `There is a world ${name} already` : `${name} is a world that ships with physsim`, inRow(...choices));
   }
 
   /** @param {string} name of the world that is shown */
@@ -183,7 +179,8 @@ export class Gallery {
   }
 
   showSave() {
-    this.show('Save', this.#nameForm('Name of the world', this.name || this.#freeName('my world'), 'Save world', (name) => this.#save(name)), createElement('div', {className: 'row'},
+    const name = this.name || this.#freeName('my world');
+    this.show('Save', this.#nameForm('Name of the world', name, 'Save world', (given) => this.#save(given)), inRow(
       textButton('Download file', () => this.#download()),
       textButton('Copy link', () => this.#copyLink()),
       textButton('Picture (PNG)', () => this.app.view.canvas.toBlob((png) => png && download('world.png', png)))));
@@ -243,13 +240,12 @@ export class Gallery {
     await navigator.clipboard?.writeText(link).catch(() => {});
   }
 
-  /** A link only offers its world: whoever sends it does not decide what a class sees. */
+  /** Offer the world of a link: the link of a stranger does not replace the world of a class. */
   #offerLink() {
     const packed = /^#world=(.+)/.exec(location.hash)?.[1];
     if (!packed || this.app.viewOnly) return;
     history.replaceState(null, '', location.pathname + location.search);
-    this.show('This link holds a world', createElement('div', {className: 'row'},
-      textButton('Open it', () => this.#openLink(packed))));
+    this.show('This link holds a world', inRow(textButton('Open it', () => this.#openLink(packed))));
   }
 
   /** @param {string} packed */

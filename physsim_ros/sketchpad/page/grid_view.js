@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The grid in metres, and rulers at the edges whose steps follow the zoom. */
 
+import {roundUp} from './rounding.js';
+
 /** @import {Camera, Palette} from './types.js' */
 
 const LEAST_STEP = 70; // px between labelled lines
-
-/**
- * @param {number} scale [px/m]
- * @returns {number} 1, 2 or 5 times a power of ten [m]
- */
-function stepOf(scale) {
-  const least = LEAST_STEP / scale, power = 10 ** Math.floor(Math.log10(least));
-  return power * (least > 5 * power ? 10 : least > 2 * power ? 5 : least > power ? 2 : 1);
-}
 
 /**
  * @param {number} step
@@ -31,7 +24,7 @@ function multiplesOf(step, from, to) {
  * @param {{left: number, bottom: number}} insets where the rulers lie [px]
  */
 export function drawGrid(ctx, camera, palette, insets) {
-  const step = stepOf(camera.scale), digits = Math.max(0, -Math.floor(Math.log10(step)));
+  const step = roundUp(LEAST_STEP / camera.scale), digits = Math.max(0, -Math.floor(Math.log10(step)));
   const [left, top] = camera.toWorld(0, 0), [right, bottom] = camera.toWorld(camera.width, camera.height);
   const pixelX = (/** @type {number} */ x) => Math.round(camera.toPage(x, 0)[0]) + 0.5;
   const pixelY = (/** @type {number} */ y) => Math.round(camera.toPage(0, y)[1]) + 0.5;

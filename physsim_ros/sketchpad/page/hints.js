@@ -33,7 +33,7 @@ export class Hints {
     connection.on('answer', ({request, ok, topic, subject}) => {
       if (request && ok && topic === 'clicked_point' && subject) this.completeStep('draw');
     });
-    // What others do to the world teaches nobody here.
+    // Only what this page does counts as a step.
     connection.on('sent', ({type, name, time}) => {
       if (type === 'speed' || name === 'play' && this.#isDone('draw')) this.completeStep('play');
       if (type === 'seek' && time < app.world.frame.time || name === 'rewind') this.completeStep('rewind');
@@ -61,7 +61,7 @@ export class Hints {
   /** @returns {typeof STEPS[0] | undefined} the next one that is true now */
   #step() {
     const step = STEPS[this.step], holds = !step?.[3] || step[3](this.app.world);
-    // A world that plays needs no telling how.
+    // In a world that plays, the step `play` is left out.
     return holds ? step : step[0] === 'play' ? STEPS[this.step + 1] : undefined;
   }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The panel of a joint that was tapped: its constants, its force now, and deletion. */
 
-import {threeDigits} from './arrows.js';
 import {range} from './body_panel.js';
-import {createElement, textButton} from './dom.js';
+import {createElement, inRow, textButton} from './dom.js';
+import {threeDigits} from './rounding.js';
 import {capital, isDrawn} from './words.js';
 
 /** @import {App, Joint, SceneView} from './types.js' */
@@ -60,7 +60,7 @@ export class JointPanel {
         return createElement('label', {}, label, input);
       }),
       this.force,
-      createElement('div', {className: 'row'}, textButton('Delete joint', () => this.delete(), 'danger')),
+      inRow(textButton('Delete joint', () => this.delete(), 'danger')),
     ], isDrawn(name) ? '' : name);
   }
 

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The keyboard: the keys of the page, which `?` shows, and a cursor on the canvas. */
+/** The keyboard: the keys of the page, which `?` shows. */
 
 import {showHelp} from './help.js';
 import {TOOLS} from './toolbar.js';
 
-/** @import {App, Point, SceneView, Touch} from './types.js' */
+/** @import {App} from './types.js' */
 
 const TURN = Math.PI / 12; // rad a press of R
 const ZOOM = 1.25;
-const STEP = 16, FINE = 2; // px, of the cursor
-const TEXTS = 'input:not([type=range], [type=checkbox], [type=color], [type=file])'; // own all keys
+const TEXTS = 'input:not([type=range], [type=checkbox], [type=color], [type=file])'; // receive all keys
 const MOVES_RANGE = /^(Arrow|Page|Home|End)/;
 const TAP = 300; // ms: a shorter press of the space bar plays or pauses
 /** @type {Record<string, [number, number]>} */
@@ -43,7 +42,7 @@ export class Keyboard {
     for (const [id, , key] of TOOLS.flat()) this.keys[key] = () => app.toolbar.selectTool(id);
   }
 
-  /** The keyboard goes back to the canvas from what a pointer has worked; texts keep it, and dialogs. */
+  /** Focus the canvas after a click on a control; text fields and dialogs keep the focus. */
   #takeBack() {
     const {pressed, app: {view: {canvas}, gallery: {dialog}}} = this;
     if (!(pressed instanceof Element) || dialog.open || pressed === canvas) return;
@@ -53,7 +52,7 @@ export class Keyboard {
   /** @param {KeyboardEvent} event */
   #down(event) {
     const {app} = this, {key, target} = event;
-    // Only Tab shows the frame of the canvas.
+    // The canvas has a frame only when Tab has reached it.
     app.view.canvas.classList.toggle('reached', key === 'Tab');
     if (target instanceof Element && target.matches(TEXTS)) {
       if (key === 'Escape' && !app.gallery.dialog.open) app.view.canvas.focus({preventScroll: true});
@@ -104,7 +103,7 @@ export class Keyboard {
     const row = bodies.findIndex(({name}) => app.selection.names.has(name));
     const next = (row + by + bodies.length + (row < 0 && by < 0 ? 1 : 0)) % bodies.length;
     app.selection.select([bodies[next].name]);
-    // Enter grabs it, or whatever the tool does.
+    // There Enter works the tool.
     app.cursor.put(app.camera.toPage(...app.world.place(next, bodies[next].centroid)));
   }
 
@@ -114,79 +113,5 @@ export class Keyboard {
     app.readings.dismiss();
     app.cursor.hide();
     app.selection.select([]);
-  }
-}
-
-/** Arrows move it, Enter presses and lifts the tool. */
-export class Cursor {
-  /** @param {App} app */
-  constructor(app) {
-    this.app = app;
-    this.x = this.y = -1; // px
-    this.shown = false;
-    this.pressed = false;
-    app.view.overlays.push((view) => this.#draw(view));
-  }
-
-  /** @returns {Touch} */
-  get touch() {
-    const {camera} = this.app;
-    return {at: camera.toWorld(this.x, this.y), page: [this.x, this.y],
-      time: performance.now() / 1000, slop: 6 / camera.scale};
-  }
-
-  /** @param {Point} page where it is put [px] */
-  put([x, y]) {
-    [this.x, this.y] = [x, y];
-    this.move(0, 0, false);
-  }
-
-  hide() {
-    this.shown = false;
-    if (this.pressed) this.app.tool.cancel();
-    this.pressed = false;
-  }
-
-  /**
-   * @param {number} dx -1, 0 or 1
-   * @param {number} dy
-   * @param {boolean} fine
-   */
-  move(dx, dy, fine) {
-    const {camera, view} = this.app, step = fine ? FINE : STEP;
-    if (!this.shown && this.x < 0) [this.x, this.y] = [camera.width / 2, camera.height / 2];
-    this.shown = true;
-    this.x = Math.min(Math.max(this.x + dx * step, 0), camera.width);
-    this.y = Math.min(Math.max(this.y + dy * step, 0), camera.height);
-    this.app.tool.move(this.touch);
-    this.app.selection.hover(this.touch);
-    view.dirty = true;
-  }
-
-  /** Press the tool, or lift it; a tool of clicks clicks. */
-  press() {
-    const {app} = this;
-    if (!this.shown) {
-      this.move(0, 0, false);
-      return;
-    }
-    app.time.endRewind();
-    if (!this.pressed) app.tool.down(this.touch);
-    if (this.pressed || app.tool.clicks) app.tool.up(this.touch);
-    this.pressed = !this.pressed && !app.tool.clicks;
-    app.view.dirty = true;
-  }
-
-  /** @param {SceneView} view */
-  #draw({ctx, palette}) {
-    if (!this.shown) return;
-    ctx.strokeStyle = palette.accent;
-    ctx.lineWidth = 2;
-    ctx.beginPath();
-    for (const [dx, dy] of [[1, 0], [-1, 0], [0, 1], [0, -1]]) {
-      ctx.moveTo(this.x + 4 * dx, this.y + 4 * dy);
-      ctx.lineTo(this.x + 14 * dx, this.y + 14 * dy);
-    }
-    ctx.stroke();
   }
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Answers: the last one in a quiet line, and notes at a place of the world. */
+/** Answers in a line above the world, and notes at places of the world. */
 
-import {createElement, elementOf} from './dom.js';
+import {createElement, elementOf, textButton} from './dom.js';
 
 /** @import {App, Answer, Point} from './types.js' */
 
-const SCENE_LATER = 250; // ms: the scene of what was added comes no later than that after the answer
-/** The clock shows the time, and the hand what it holds. */
+const SCENE_LATER = 250; // ms: greatest time from the answer to a request to the scene with its body
+/** Answers that are not shown: the clock and the hand show the same. */
 const SILENT = /^at [\d.]+ s$|^grabbed |^let go of | holds no body$|^the world as text$/;
 const SHOWN = 2500, REFUSED = 5000, READ = 6000, OFFERED = 10000; // ms: an answer, a refusal, a note, a button
 
@@ -22,7 +22,7 @@ export class Notes {
     this.pinned = new Map();
     this.timer = 0;
     this.until = 0; // [ms] until then an answer to this page stays
-    this.expected = () => {}; // what is told with the next scene
+    this.expected = () => {}; // shows an answer with the next scene
     app.view.overlays.push(() => this.#place());
     app.connection.on('answer', (answer) => this.#tell(answer));
     app.connection.on('scene', () => {
@@ -34,7 +34,7 @@ export class Notes {
   /** @param {Answer} answer */
   #tell(answer) {
     const {request, ok, code, message} = answer, own = request !== '';
-    // What a page may do about a name that is taken, it is asked in a dialog.
+    // A dialog asks about a name that is taken.
     if (SILENT.test(message) || own && code === 'exists' || !own && performance.now() < this.until) return;
     const tell = () => this.showMessage(this.app.words.tell(answer), {ok, quiet: !own});
     this.expected = () => {};
@@ -67,10 +67,10 @@ export class Notes {
   offer(message, label, done) {
     this.hide();
     this.dismissOffer();
-    this.dismissOffer = this.pin(() => null, [message, createElement('button', {type: 'button', textContent: label, onclick: () => {
+    this.dismissOffer = this.pin(() => null, [message, textButton(label, () => {
       this.dismissOffer();
       done();
-    }})], {kind: 'docked', shown: OFFERED});
+    })], {kind: 'docked', shown: OFFERED});
   }
 
   /** Hide the last answer. */

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The numbers of the selected body now: mass, place, angle, velocity, and its energies as bars. */
 
-import {threeDigits} from './arrows.js';
 import {createElement} from './dom.js';
+import {threeDigits} from './rounding.js';
 
 /** @import {App, Body} from './types.js' */
 
@@ -39,14 +39,15 @@ export class Numbers {
    * @param {Body} body
    * @param {number} row
    */
-  #showEnergies({name, mass, moment, centroid, anchored}, row) {
-    const {world: {frame: {velocities}, scene: {gravity: [gx, gy]}}, world} = this.app;
+  #showEnergies(body, row) {
+    const {world} = this.app, {frame: {velocities}, scene: {gravity}} = world, {name, centroid, anchored} = body;
     if (name !== this.name) this.most = 0;
     this.name = name;
     this.element.classList.toggle('fixed', anchored || !velocities);
     if (!velocities || anchored) return;
-    const [x, y] = world.place(row, centroid), speed = Math.hypot(velocities.x[row], velocities.y[row]);
-    const energies = [mass * speed ** 2 / 2 + moment * velocities.spin[row] ** 2 / 2, -mass * (gx * x + gy * y)];
+    const [x, y] = world.place(row, centroid);
+    const motion = {x, y, vx: velocities.x[row], vy: velocities.y[row], spin: velocities.spin[row]};
+    const energies = energiesOf(body, motion, gravity);
     this.most = Math.max(this.most, ...energies);
     energies.forEach((energy, i) => {
       this.bars[i].max = this.most || 1;
@@ -54,6 +55,16 @@ export class Numbers {
       this.values[i].textContent = `${number(energy)} J`;
     });
   }
+}
+
+/**
+ * @param {Body} body
+ * @param {{x: number, y: number, vx: number, vy: number, spin: number}} motion of its centre of mass [m, m/s, rad/s]
+ * @param {number[]} gravity [m/s²]
+ * @returns {[number, number]} energy of motion, and of height above the origin [J]
+ */
+export function energiesOf({mass, moment}, {x, y, vx, vy, spin}, [gx, gy]) {
+  return [mass * (vx * vx + vy * vy) / 2 + moment * spin * spin / 2, -mass * (gx * x + gy * y)];
 }
 
 /** @param {number} value */

@@ -2,6 +2,7 @@
 /** Height, speed and energy of a body against time, beside the exact curves of free flight. */
 
 import {createElement, download, textButton} from './dom.js';
+import {energiesOf} from './numbers.js';
 
 /** @import {App, Body, Palette} from './types.js' */
 
@@ -34,7 +35,7 @@ export class Plots {
       this.course = course;
     });
     app.connection.on('body', (body) => this.#addPast(body));
-    // A body of the same name in the world before is another one.
+    // In another world, a body of the same name is another body.
     app.connection.on('answer', ({ok, topic}) => {
       if (!ok || topic !== '~/load_world' && topic !== '~/clear') return;
       this.began = app.world.frame.time;
@@ -65,7 +66,7 @@ export class Plots {
     if (row < 0 || !frame.velocities) return;
     const [x, y] = world.place(row, world.scene.bodies[row].centroid), {velocities} = frame;
     const last = this.samples.at(-1)?.time ?? -Infinity;
-    // The same course gives the same again: what was recorded once stays.
+    // A replay of the same course gives the same samples: those that were recorded stay.
     if (frame.time > last) this.samples.push({time: frame.time, x, y, vx: velocities.x[row],
       vy: velocities.y[row], spin: velocities.spin[row]});
     if (this.samples.length > MOST) this.samples.shift();
@@ -114,8 +115,9 @@ function speedOf({vx, vy}) {
  * @param {Body} body
  * @param {number[]} gravity
  */
-function energyOf({x, y, vx, vy, spin}, {mass, moment}, [gx, gy]) {
-  return mass * (vx * vx + vy * vy) / 2 + moment * spin * spin / 2 - mass * (gx * x + gy * y);
+function energyOf(sample, body, gravity) {
+  const [motion, height] = energiesOf(body, sample, gravity);
+  return motion + height;
 }
 
 /**

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Strokes until they are read, and their readings at the spot: what else it may be is one tap away. */
+/** Strokes until they are read, and their readings beside them, with other guesses to choose. */
 
 import {textButton} from './dom.js';
 import {meaningWord} from './words.js';
@@ -7,7 +7,7 @@ import {meaningWord} from './words.js';
 /** @import {App, Point, Reading} from './types.js' */
 
 const LIKELY = 0.05; // the least confidence of a runner-up that is offered
-const GLANCED = 2500; // ms: a reading without one
+const GLANCED = 2500; // ms for which a reading without a runner-up is shown
 
 export class Readings {
   /** @param {App} app */
@@ -51,7 +51,7 @@ export class Readings {
       this.#forget(request);
       const other = runner_up && runner_up_confidence > LIKELY ?
         [this.#guessButton(`or ${meaningWord(runner_up)}`, request, '')] : [];
-      // What runs is not to be covered.
+      // A note at the place would cover a running machine.
       const kind = this.app.world.paused ? '' : 'docked';
       this.dismiss = this.app.notes.pin(() => at, [labelOf(meaning, confidence), ...other],
         other.length ? {kind} : {kind, shown: GLANCED});

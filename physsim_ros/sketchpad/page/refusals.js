@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Refusals at their places: at the body that the answer names, or where the request was made. */
+/** Refusals beside the body that the answer names, or where the request was made. */
 
 /** @import {App, Point, SceneView} from './types.js' */
 
@@ -7,7 +7,7 @@
 
 const OUTLINED = 2500; // ms for which a body has an outline
 const KEPT = 100; // requests whose places are known: a stroke is answered by its reading, then by its requests
-/** Messages that are no deed of the reader. */
+/** Messages whose refusals are not shown: no reader has asked for them. */
 const QUIET = ['show', 'watch', 'move', 'let_go', 'drop'];
 
 export class Refusals {

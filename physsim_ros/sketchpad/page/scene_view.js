@@ -8,7 +8,7 @@ import {readPalette, watchTheme} from './theme.js';
 
 /** @import {Body, Camera, Frame, Point, WorldState} from './types.js' */
 
-const HEAD = 9; // px: of an arrow
+const HEAD = 9, RIM = 1.5; // px: head of an arrow, and the rim of paper around it
 const DASHED = 9; // px: half of the size from which on the outline of a ghost is dashed
 
 export class SceneView {
@@ -153,27 +153,52 @@ export class SceneView {
   }
 
   /**
-   * @param {Point} from [m]
-   * @param {Point} to [m]
+   * @param {Point} from [px]
+   * @param {Point} to [px]
    * @param {string} color
+   * @param {{width?: number, cut?: boolean}} how  cut: as long parts are cut in drawings
    */
-  arrow(from, to, color) {
-    const [px, py] = this.camera.toPage(...from), [qx, qy] = this.camera.toPage(...to);
-    const length = Math.hypot(qx - px, qy - py);
+  arrow([px, py], [qx, qy], color, {width = 2.5, cut = false} = {}) {
+    const {ctx} = this, length = Math.hypot(qx - px, qy - py), head = Math.min(HEAD + width, length);
     if (!(length > 3)) return;
-    const {ctx} = this, size = Math.min(HEAD, length / 2) / length;
-    const dx = (qx - px) * size, dy = (qy - py) * size;
-    ctx.strokeStyle = ctx.fillStyle = color;
-    ctx.lineWidth = 2;
-    ctx.beginPath();
-    ctx.moveTo(px, py);
-    ctx.lineTo(qx - dx / 2, qy - dy / 2);
-    ctx.stroke();
-    ctx.beginPath();
-    ctx.moveTo(qx, qy);
-    ctx.lineTo(qx - dx - dy / 2, qy - dy + dx / 2);
-    ctx.lineTo(qx - dx + dy / 2, qy - dy - dx / 2);
-    ctx.fill();
+    const ux = (qx - px) / length, uy = (qy - py) / length;
+    const at = (/** @type {number} */ along, /** @type {number} */ across) =>
+      /** @type {Point} */ ([px + ux * along - uy * across, py + uy * along + ux * across]);
+    ctx.lineCap = 'butt';
+    this.onRim(color, width, (rim) => {
+      ctx.beginPath();
+      ctx.moveTo(px, py);
+      ctx.lineTo(...at(length - head / 2, 0));
+      ctx.stroke();
+      ctx.beginPath();
+      for (const side of [1, -1]) ctx.lineTo(...at(length - head - rim, side * (head * 0.45 + rim)));
+      ctx.lineTo(...at(length + rim, 0));
+      ctx.fill();
+    });
+    if (!cut) return;
+    ctx.strokeStyle = this.palette.paper;
+    ctx.lineWidth = 3;
+    for (const along of [0.45, 0.52]) {
+      ctx.beginPath();
+      ctx.moveTo(...at(along * length - 3, -6));
+      ctx.lineTo(...at(along * length + 3, 6));
+      ctx.stroke();
+    }
+  }
+
+  /**
+   * Draw twice, first on a rim of paper, so that it is seen on bodies of any colour.
+   * @param {string} color
+   * @param {number} width of lines [px]
+   * @param {(rim: number) => void} draw  rim: by which it is larger on each side [px]
+   */
+  onRim(color, width, draw) {
+    const {ctx} = this;
+    for (const [style, rim] of /** @type {[string, number][]} */ ([[this.palette.paper, RIM], [color, 0]])) {
+      ctx.strokeStyle = ctx.fillStyle = style;
+      ctx.lineWidth = width + 2 * rim;
+      draw(rim);
+    }
   }
 
   /**

@@ -41,7 +41,7 @@ export class Selection {
   selectAt({at, slop}) {
     const {world, camera} = this.app, row = world.bodyAt(at, slop);
     const name = world.jointAt(at, slop + NEAR / camera.scale, row >= 0);
-    // What is tapped once more is the body below.
+    // A second tap selects the body below the joint.
     const joint = name === this.joint ? '' : name;
     this.select(row < 0 || joint ? [] : [world.scene.bodies[row].name]);
     if (!joint) return;

@@ -65,7 +65,7 @@ export function strokeCard() {
   }));
 }
 
-/** The card has been seen: from now on it draws what is pointed at. */
+/** Note that the card was seen: from now on only the picture that is pointed at moves. */
 export function noteSeen() {
   localStorage.setItem(SEEN, '1');
 }

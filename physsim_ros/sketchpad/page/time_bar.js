@@ -13,7 +13,7 @@ export const TIME = [
 ];
 /** @type {[string, string, string][]} */
 export const EDIT = [['Undo', 'undo', 'Ctrl+Z'], ['Redo', 'redo', 'Ctrl+Y'], ['Reset', 'reset', '0']];
-/** What a name alone does not say. */
+/** Additions to names of buttons. */
 const MORE = new Map([['step', ': one frame on'], ['reset', ': back to the beginning']]);
 const SPEEDS = [1, 0.5, 0.25, 0.1];
 const WATCHED = 1500; // ms over which the pace is measured
@@ -66,16 +66,16 @@ export class TimeBar {
     this.callService(this.app.world.paused ? 'play' : 'pause');
   }
 
-  /** Pause a world that runs back, so that a change of it is not taken back at once. */
+  /** Pause a world that runs back: it would go back beyond a change at once. */
   endRewind() {
     if (this.app.world.frame.speed < 0) this.callService('pause');
   }
 
   #slide() {
-    // Also where it stands already: a request to play may be on its way.
+    // In a paused world too: a request to play may be on its way.
     if (!this.busy) this.callService('pause');
     const {rate} = this.app.world, {value, min, max} = this.slider;
-    // A whole frame is shown at once, where the server keeps it.
+    // The server keeps whole frames, which are shown at once.
     this.wanted = Math.min(Math.max(Math.round(Number(value) * rate) / rate, Number(min)), Number(max));
     this.#seek();
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The velocity of the selected body as an arrow; dragging the ring at its tip changes it, with any tool. */
 
-import {threeDigits} from './arrows.js';
+import {threeDigits} from './rounding.js';
 
 /** @import {App, Point, SceneView, Touch} from './types.js' */
 
@@ -77,7 +77,7 @@ export class VelocityArrow {
     const ends = this.#ends();
     if (!ends) return;
     const {camera} = this.app, page = this.dragged ?? ends.tip, tip = camera.toWorld(...page);
-    view.arrow(camera.toWorld(...ends.center), tip, view.palette.accent);
+    view.arrow(ends.center, page, view.palette.accent);
     view.ring(tip, RING, view.palette.accent);
     const speed = Math.hypot(...this.#velocityAt(ends.center, page));
     if (speed) view.write(`${threeDigits(speed)} m/s`, [page[0] + RING + 6, page[1] - RING], view.palette.accent);

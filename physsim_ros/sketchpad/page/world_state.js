@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The world as the server told it last: scene, frame, timeline. Nothing here is guessed. */
+/** The newest scene, frame and timeline of the server, and geometry in them. The page computes no motion. */
 
 import {boundsOf, containsPoint, distanceTo, nearestWithin, unionOf} from './body_path.js';
 
@@ -29,7 +29,7 @@ export class WorldState {
       this.physicsRate = welcome.physics_rate;
     });
     connection.on('open', () => {
-      // Another server counts anew.
+      // Another server numbers its scenes from the start.
       this.ghostScene = {epoch: 0, bodies: []};
       this.ghost = null;
     });

@@ -4,7 +4,7 @@
  * edge, a side and then its distance. The unfinished shape follows the pointer.
  */
 
-import {threeDigits} from '../arrows.js';
+import {threeDigits} from '../rounding.js';
 
 /** @import {App, Point, SceneView, Touch} from '../types.js' */
 
@@ -110,7 +110,7 @@ export class ClickTool {
       const ux = (q[0] - p[0]) / length, uy = (q[1] - p[1]) / length;
       const height = ux * (r[1] - p[1]) - uy * (r[0] - p[0]), dx = -uy * height, dy = ux * height;
       view.line([p, q, [q[0] + dx, q[1] + dy], [p[0] + dx, p[1] + dy], p], color);
-    } else if (ARROWS.includes(this.id)) view.arrow(p, q, color);
+    } else if (ARROWS.includes(this.id)) view.arrow(view.camera.toPage(...p), view.camera.toPage(...q), color);
     else view.line(points, color);
     if (this.id === 'polygon') view.ring(p, CLOSE, color);
     const [x, y] = this.last.page, size = this.#sizeOf(points);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The hand: pulls a body and throws it; in a paused world places and turns it; else moves the view. */
+/** The hand pulls a body and throws it, places and turns it in a paused world, and moves the view beside bodies. */
 
 /** @import {App, Point, SceneView, Touch} from '../types.js' */
 
@@ -99,7 +99,7 @@ export class Hand {
     const {world, connection} = this.app, row = world.row(this.name);
     if (this.state !== 'pressed' || row < 0) return;
     this.state = 'holding';
-    // It has moved on since it was pressed.
+    // The body has moved since it was pressed.
     connection.send('grab', {point: world.place(row, this.grip)});
   }
 

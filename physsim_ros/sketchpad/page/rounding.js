@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+/** Numbers as people read them: three digits, and round steps of scales. */
+
+/** @param {number} value */
+export function threeDigits(value) {
+  return value < 1e4 ? String(Number(value.toPrecision(3))) : value.toExponential(2);
+}
+
+/**
+ * @param {number} value
+ * @returns {number} the least number of 1, 2 or 5 times a power of ten that is not below the value
+ */
+export function roundUp(value) {
+  const power = 10 ** Math.floor(Math.log10(value)), share = value / power * (1 - 1e-9);
+  return Number(((share > 5 ? 10 : share > 2 ? 5 : share > 1 ? 2 : 1) * power).toPrecision(1));
+}
