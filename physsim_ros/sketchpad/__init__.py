@@ -6,8 +6,8 @@ The sketchpad: a page in the browser that shows the world and draws in it.
 
 Not here: ROS (`ros` fills in `WorldControl`), the reading of strokes (`drawing`). The server runs
 on a thread of its own. Start with `sketchpad`, then `page_socket`, `message` and `page_session`,
-the path of a message; `server` and `frame_feed` are the way back, `page/` is what a browser runs.
-Other folders import the names below.
+the path of a message; `server` and `frame_feed` are the way back. `page/` has the files that a
+browser runs. Other folders import the names below.
 """
 
 from physsim_ros.sketchpad.access import Role

@@ -156,7 +156,7 @@ def _read_key(path: Path) -> bytes:
 
 def _make_key(path: Path) -> bytes:
     """
-    Write a new key, whole or not at all, in place of what is there.
+    Write a new key, whole or not at all, in place of an old one.
 
     :raises OSError: it cannot be written
     """

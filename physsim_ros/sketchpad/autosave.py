@@ -56,7 +56,7 @@ class Autosave:
         """
         Return the unsaved world of the last start.
 
-        :raises OSError: there is none
+        :raises OSError: there is no such world
         """
         return self._unsaved.read_text()
 

@@ -21,7 +21,7 @@ from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.transform import rotated_each
 from physsim_ros.simulation.simulation import Simulation
-from physsim_ros.sketchpad.answers import Content
+from physsim_ros.sketchpad.message import Content
 
 # Greatest number of frames of a past: a minute at 60 Hz.
 MOST_FRAMES = 3600
@@ -52,7 +52,7 @@ class BodyPasts:
         """
         Send a page the past of a body when it is its turn.
 
-        :param name: of the body; '' is none, whose columns are empty
+        :param name: of the body; '' is no body, and its columns are empty
         :param request_id: of the message that asks
         """
         if name:
@@ -64,7 +64,7 @@ class BodyPasts:
             self._send(partial(_body_content, name, request_id, ()), page)
 
     def forget(self, page: int) -> None:
-        """Forget what a page has asked for."""
+        """Forget the body that a page has asked for."""
         self._asked.pop(page, None)
 
     def send_due(self, now: float) -> None:

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Messages of pages: untrusted text becomes a kind and its checked arguments.
+Messages of pages: untrusted text becomes a kind and its checked arguments; answers to them.
 
 Laws: text that is not JSON, not Unicode or nested too deeply is refused here; every field is
 checked on the server's thread, before the world's thread receives the message.
@@ -19,12 +19,15 @@ from typing import Any, NamedTuple, TypeVar
 
 from physsim_ros.model.checks import check_key, shown
 from physsim_ros.model.errors import Malformed, Refusal
+from physsim_ros.model.snapshot import Answer
 
 # Levels of nested lists and mappings; a stroke has three, a body five.
 DEEPEST = 8
 # Length of the identifier of a message [characters].
 LONGEST_ID = 64
 
+# A message to a page, to become JSON; a function is called on the server's thread.
+Content = dict[str, Any] | Callable[[], dict[str, Any]]
 # Returns the checked value of a field from the given value and the name of the field; raises a
 # Refusal.
 Read = Callable[[Any, str], Any]
@@ -64,6 +67,25 @@ class Message(NamedTuple):
     request: str
     kind: str
     arguments: dict[str, Any]
+
+
+class Origin(NamedTuple):
+    """
+    The origin of a request.
+
+    :ivar page: number of the page that asks
+    :ivar request: identifier of the page's message
+    :ivar topic: that the answers name
+    """
+
+    page: int
+    request: str
+    topic: str
+
+    @property
+    def asker(self) -> str:
+        """Return the key that goes with a request, and comes back with its answer."""
+        return f'{self.page}:{self.request}'
 
 
 # By the type that messages name.
@@ -169,3 +191,31 @@ def _check_depth(value: object) -> None:
         if not level:
             return
     raise Malformed(f'the message has more than {DEEPEST} levels', field='message')
+
+
+# Answers
+
+
+def asker_of(key: str) -> tuple[int, str]:
+    """Return page and identifier of the key of an answer; -1 where no page has asked."""
+    page, _, request = key.partition(':')
+    return (int(page), request) if page else (-1, '')
+
+
+def answer_content(answer: Answer, request: str) -> dict[str, Any]:
+    """
+    Return the message of an answer.
+
+    :param request: identifier of the message that it answers; '' for events and other pages
+    """
+    return {
+        'type': 'answer',
+        'request': request,
+        'ok': not answer.code,
+        'code': answer.code,
+        'message': answer.message,
+        'subject': answer.subject,
+        'topic': answer.topic,
+        'field': answer.field,
+        'values': dict(answer.values),
+    }

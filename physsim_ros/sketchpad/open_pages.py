@@ -15,9 +15,9 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 
 from physsim_ros.model.snapshot import Answer
-from physsim_ros.sketchpad.answers import answer_content, asker_of
 from physsim_ros.sketchpad.frame_codec import Show
 from physsim_ros.sketchpad.guarded import TOO_BIG
+from physsim_ros.sketchpad.message import answer_content, asker_of
 from physsim_ros.sketchpad.scene_codec import compact
 from tornado.websocket import WebSocketClosedError, WebSocketHandler
 
@@ -69,7 +69,7 @@ class OpenPage:
             self._write(text, counting=size)
 
     def send_part(self, part: str | bytes) -> None:
-        """Send a frame or a scene, of any size; a busy page gets none."""
+        """Send a frame or a scene, of any size, to a page that is not busy."""
         self._write(part, counting=0)
 
     def close(self, code: int, reason: str) -> None:

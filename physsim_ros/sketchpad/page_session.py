@@ -22,10 +22,9 @@ from physsim_ros.model.errors import Busy, PhysSimError, Refusal
 from physsim_ros.model.requests import HandRequest, KeepHand, LetGo, Request, Spawn
 from physsim_ros.model.snapshot import Answer, NO_PREVIEW, Preview
 from physsim_ros.simulation.deferred_calls import Wait
-from physsim_ros.sketchpad.answers import answer_content, Content, Origin
 from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.body_past import BodyPasts
-from physsim_ros.sketchpad.message import KINDS, Message
+from physsim_ros.sketchpad.message import answer_content, Content, KINDS, Message, Origin
 from physsim_ros.sketchpad.world_control import WorldControl
 
 # Time from one request of a resting hand to the next [s]; a hand without requests lets go after
@@ -156,7 +155,7 @@ class PageSession:
         """
         Perform an action at its time, and queue its answer.
 
-        :param action: returns what was done; raises a PhysSimError where it is refused
+        :param action: returns a message about it; raises a PhysSimError where it is refused
         :param wait: time of the action
         """
         self.call(origin, lambda: [answer_of(origin, action)], wait)

@@ -14,12 +14,11 @@ from physsim_ros.model.checks import flag
 from physsim_ros.model.errors import Busy, Refusal
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.sketchpad.access import Role
-from physsim_ros.sketchpad.answers import answer_content
 from physsim_ros.sketchpad.frame_codec import Show
 from physsim_ros.sketchpad.frame_feed import FrameFeed
 from physsim_ros.sketchpad.guarded import GuardedSocket
 from physsim_ros.sketchpad.inbox import Closed, Inbox, Opened
-from physsim_ros.sketchpad.message import message, Optional
+from physsim_ros.sketchpad.message import answer_content, message, Optional
 from physsim_ros.sketchpad.messages import read_message
 from physsim_ros.sketchpad.open_pages import MOST_PAGES, OpenPage
 from physsim_ros.sketchpad.scene_codec import compact
@@ -75,8 +74,10 @@ class PageSocket(GuardedSocket):
     def on_close(self) -> None:
         """Forget the page."""
         if self._page is not None:
-            self._feed.pages.remove(self._page)
-            self._inbox.put(self._page.number, Closed())
+            page, self._page = self._page, None
+            self._feed.pages.remove(page)
+            # Nothing comes after it, even where tornado has buffered messages.
+            self._inbox.put(page.number, Closed())
 
     def _refuse(self, request: str, code: str, reason: str) -> None:
         """Refuse a message, which does not reach the world."""

@@ -46,7 +46,7 @@ class Recordings(Protocol):
 
     @property
     def page_address(self) -> str:
-        """Return the address of the viewer's own web page on loopback; '' where there is none."""
+        """Return the address of the viewer's own web page on loopback; '' without one."""
 
     def open_page(self, send: Callable[[bytes, int], None]) -> Any:
         """
@@ -108,7 +108,7 @@ class ViewerFile(_OfRecording):
     async def get(self, name: str) -> None:
         """Pass it on, as fast as the browser reads, as soon as the program is up."""
         self.set_header('Content-Type', TYPES[f'.{name.rpartition(".")[2]}'])
-        # A browser that has them already is spared 43 MB, and keeps what it has compiled.
+        # A browser that has this version loads no 43 MB, and keeps its compiled code.
         self.set_header('Etag', f'"{version("rerun-sdk")}"')
         if self.check_etag_header():
             self.set_status(304)

@@ -10,7 +10,6 @@ body costs one text.
 
 from __future__ import annotations
 
-from functools import singledispatch
 import json
 from typing import Any
 
@@ -125,37 +124,21 @@ def joint_entry(joint: Joint, rows: list[int]) -> dict[str, Any]:
     }
 
 
-@singledispatch
 def shape_entry(shape: Shape) -> dict[str, Any]:
     """Return a shape, in the frame of its body [m]."""
-    raise TypeError(f'{type(shape).__name__} has no entry')
-
-
-@shape_entry.register
-def _(shape: Disc) -> dict[str, Any]:
-    return {'kind': 'disc', 'radius': shape.radius}
-
-
-@shape_entry.register
-def _(shape: Box) -> dict[str, Any]:
-    sides = {'width': shape.width, 'height': shape.height}
-    return _polygon(shape.corners()) | sides
-
-
-@shape_entry.register
-def _(shape: Polygon) -> dict[str, Any]:
-    return _polygon(shape.outline)
-
-
-@shape_entry.register
-def _(shape: Chain) -> dict[str, Any]:
-    return {'kind': 'chain', 'points': shape.points, 'thickness': shape.thickness}
-
-
-@shape_entry.register(Triangles)
-@shape_entry.register(Compound)
-def _(shape: Triangles | Compound) -> dict[str, Any]:
-    return {'kind': 'pieces', 'pieces': [_piece_entry(piece) for piece in shape.form.pieces]}
+    match shape:
+        case Disc():
+            return {'kind': 'disc', 'radius': shape.radius}
+        case Box():
+            sides = {'width': shape.width, 'height': shape.height}
+            return _polygon(shape.corners()) | sides
+        case Polygon():
+            return _polygon(shape.outline)
+        case Chain():
+            return {'kind': 'chain', 'points': shape.points, 'thickness': shape.thickness}
+        case Triangles() | Compound():
+            pieces = [_piece_entry(piece) for piece in shape.form.pieces]
+            return {'kind': 'pieces', 'pieces': pieces}
 
 
 def _piece_entry(piece: Circle | Convex | Capsule) -> dict[str, Any]:

@@ -17,11 +17,11 @@ import threading
 from physsim_ros.files import OwnWorlds, shipped_pictures
 from physsim_ros.model.snapshot import Answer, Frame, Snapshot
 from physsim_ros.sketchpad.access import Access, Role
-from physsim_ros.sketchpad.answers import Content
 from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.frame_feed import FrameFeed
 from physsim_ros.sketchpad.inbox import Inbox
 from physsim_ros.sketchpad.listening import BoundedServer, listening_sockets, reachable_host
+from physsim_ros.sketchpad.message import Content
 from physsim_ros.sketchpad.page_handlers import CookieCheck, Files, Login, Missing, PAGE, Page
 from physsim_ros.sketchpad.page_socket import PageSocket
 from physsim_ros.sketchpad.recording_handlers import recording_routes, Recordings

@@ -22,12 +22,12 @@ from physsim_ros.model.errors import Busy
 from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.simulation.deferred_calls import Wait
 from physsim_ros.sketchpad.access import Role
-from physsim_ros.sketchpad.answers import Origin
 from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.body_past import BodyPasts
 from physsim_ros.sketchpad.frame_codec import VERSION
 from physsim_ros.sketchpad.inbox import Closed, Inbox, Opened, Upload, UPLOADERS
 from physsim_ros.sketchpad.last_contacts import LastContacts
+from physsim_ros.sketchpad.message import Origin
 from physsim_ros.sketchpad.page_session import answer_of, PageSession
 from physsim_ros.sketchpad.recording_handlers import Recordings
 from physsim_ros.sketchpad.server import Server

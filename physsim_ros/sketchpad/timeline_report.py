@@ -51,7 +51,7 @@ class TimelineReport:
         return status
 
     def ghost(self, snapshot: Snapshot) -> Snapshot | None:
-        """Return what the course that was left last showed at the time of a snapshot."""
+        """Return the snapshot of the course that was left last at the time of a snapshot."""
         course, seconds = self._beside, snapshot.stamp * 1e-9
         if course is None or not course.begins <= seconds <= course.ends:
             return None

@@ -21,7 +21,7 @@ from physsim_ros.simulation.simulation import Simulation
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WorldControl:
     """
-    The actions of a node that its pages use; those that return a text return what was done.
+    The actions of a node that its pages use; a returned text is a message about it.
 
     :param simulation: the world and its time
     :param drawing_settings: returns the settings of drawing

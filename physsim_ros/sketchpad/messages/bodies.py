@@ -24,8 +24,7 @@ from physsim_ros.model.requests import (
 )
 from physsim_ros.model.transform import Point
 from physsim_ros.simulation.world.joint_requests import drawn_points
-from physsim_ros.sketchpad.answers import Origin
-from physsim_ros.sketchpad.message import message
+from physsim_ros.sketchpad.message import message, Origin
 from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.page_session import PageSession
 

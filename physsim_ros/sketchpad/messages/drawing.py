@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Messages of the pen, the click tools and the hand, and the material of what is drawn."""
+"""Messages of the pen, the click tools and the hand, and of the material of new bodies."""
 
 from __future__ import annotations
 
@@ -20,8 +20,7 @@ from physsim_ros.model.errors import BadProperty, Malformed, NotRecognised
 from physsim_ros.model.requests import Grab, LetGo, MoveHand
 from physsim_ros.model.settings import MOST_SAMPLES
 from physsim_ros.model.transform import Point
-from physsim_ros.sketchpad.answers import Origin
-from physsim_ros.sketchpad.message import message, Optional
+from physsim_ros.sketchpad.message import message, Optional, Origin
 from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.page_session import PageSession
 
@@ -166,7 +165,7 @@ def draw_with(
     color: Color | Literal[''] | None = None,
     **properties: Any,
 ) -> None:
-    """Choose the material of what this page draws next; what is not given stays as it is."""
+    """Choose the material of the next bodies of this page; properties that are not given stay."""
     page.material = replace(page.material, **properties)
     if color is not None:
         page.color = color or None

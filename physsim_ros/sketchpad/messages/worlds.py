@@ -13,8 +13,7 @@ from physsim_ros.model.checks import flag, LONGEST, number, shown, Whole, Within
 from physsim_ros.model.errors import BadProperty, BadWorldFile, WorldFull
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.deferred_calls import Wait
-from physsim_ros.sketchpad.answers import Origin
-from physsim_ros.sketchpad.message import message, Optional
+from physsim_ros.sketchpad.message import message, Optional, Origin
 from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.page_session import PageSession
 
@@ -117,7 +116,7 @@ def save_world(page: PageSession, origin: Origin, name: str, *, replace: bool = 
 
 
 def _saving(page: PageSession, save: Callable[[], str]) -> str:
-    """Save the world, and return what was done; then nothing is unsaved."""
+    """Save the world, note that it is saved, and return the message about it."""
     done = save()
     page.autosave.note_saved()
     page.list_worlds()

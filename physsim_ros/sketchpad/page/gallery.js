@@ -8,6 +8,7 @@ import {capital} from './words.js';
 
 const NAME = '[^\\/\\\\.]*[^\\/\\\\.\\s][^\\/\\\\.]*'; // of a world
 const EMPTY = 'format: 1\ngravity: [0, -9.81]\ndamping: 0\nbounds: [-10, 0, 10, 9]\ndensity: 1\nfriction: 0.5\nelasticity: 0.5\nbodies: []\n';
+const WORLDS = 'Worlds'; // title
 const LONGEST_LINK = 16000; // characters
 const LARGEST = 1 << 20; // bytes; no larger world is unpacked from a link
 
@@ -21,7 +22,11 @@ export class Gallery {
     this.dialog.addEventListener('click', (event) => {
       if (event.target === this.dialog) this.dialog.close();
     });
-    app.connection.on('worlds', ({worlds}) => { this.worlds = worlds; });
+    app.connection.on('worlds', ({worlds}) => {
+      this.worlds = worlds;
+      // The picture of a world comes after the world.
+      if (this.dialog.open && this.dialog.ariaLabel === WORLDS) this.showWorlds();
+    });
     this.offered = 0; // [s since 1970] the unsaved world that was offered
     this.name = ''; // of the own world that is open
     app.connection.on('welcome', ({unsaved}) => {
@@ -35,12 +40,13 @@ export class Gallery {
    * @param {Node[]} content
    */
   show(title, ...content) {
-    this.dialog.setAttribute('aria-label', title);
+    const top = this.dialog.open && this.dialog.ariaLabel === title ? this.dialog.scrollTop : 0;
+    this.dialog.ariaLabel = title;
     this.dialog.replaceChildren(createElement('header', {}, createElement('h2', {textContent: title}),
       iconButton('Close', 'close', () => this.dialog.close(), '')),
     ...content);
     if (!this.dialog.open) this.dialog.showModal();
-    this.dialog.scrollTop = 0;
+    this.dialog.scrollTop = top;
   }
 
   showWorlds() {
@@ -49,7 +55,7 @@ export class Gallery {
       createElement('div', {className: 'cards'}, ...worlds.map((world) => this.#card(world)));
     const file = createElement('input', {type: 'file', accept: '.yaml,.yml',
       onchange: async () => file.files?.[0] && this.#upload(await file.files[0].text())});
-    this.show('Worlds', inRow(textButton('Empty world', () => this.#upload(EMPTY)),
+    this.show(WORLDS, inRow(textButton('Empty world', () => this.#upload(EMPTY)),
       createElement('label', {className: 'file'}, 'Open a file', file)),
     ...own.length ? [createElement('h3', {textContent: 'Yours'}), cards(own), createElement('h3', {textContent: 'To explore, the simplest first'})] : [],
     cards(shipped));
