@@ -45,7 +45,7 @@ class BodyTable:
     :ivar free: (n,) bool: in free flight, so that the engine's velocity leads by `leads`
     :ivar asleep: (n,) bool: asleep in the engine at the last reading
     :ivar sleepers: count of sleeping bodies
-    :ivar can_fly: (n,) bool: awake, and free flight has a half-step lead
+    :ivar can_fly: (n,) bool: awake, not on a floor, and free flight has a half-step lead
     :ivar may_fly: whether any body can
     :ivar places: (n + 1,) int64: of `cpBody`, by which `memory` reads it
     :ivar slot_changes: count of changes of the slots, by bodies that fell asleep or woke
@@ -194,4 +194,6 @@ class BodyTable:
         self.asleep = dynamic & (slots[:-1] > slots[-1])
         self.sleepers = np.count_nonzero(self.asleep)
         self.can_fly = dynamic & ~self.columns.sprung & ~self.asleep
+        # On a floor nothing flies.
+        self.can_fly &= self.columns.floor_friction == 0.0
         self.may_fly = np.count_nonzero(self.can_fly) > 0

@@ -56,7 +56,7 @@ def take_checkpoint(space: Space, step: int) -> Checkpoint:
                 without=shape_numbers(unsupported),
                 joints=space.joints.impulses(),
             ),
-            pushes=space.pipeline.floor.pushes(table).copy(),
+            pushes=space.pipeline.floor.pushes(table, space.dt),
         ),
         grips=space.pipeline.mouse_joints.grips(),
         unstepped=space.joints.unstepped(),

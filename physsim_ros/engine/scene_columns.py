@@ -50,6 +50,7 @@ class SceneColumns(NamedTuple):
     :ivar not_colliding: (k, 2) intp: rows of bodies that a joint keeps from colliding
     :ivar sprung: (n,) bool: part of an island of joints that hangs on a spring and on something
         that forces do not move, so that its velocity has no half-step lead
+    :ivar floor_friction: (n,) float64: coefficient of friction with the floor; 0 where none acts
     :ivar on_springs: (s,) intp: rows of the dynamic bodies that springs pull
     :ivar expiries: step -> names of the bodies that are removed at its end
     """
@@ -74,6 +75,7 @@ class SceneColumns(NamedTuple):
     joined: Rows
     not_colliding: Rows
     sprung: Flags
+    floor_friction: Floats
     on_springs: Rows
     expiries: dict[int, list[str]]
 
@@ -124,6 +126,7 @@ def columns_of(scene: Scene, dt: float) -> SceneColumns:
         joined=joined,
         not_colliding=joined[~collide],
         sprung=_sprung(dynamic, joined, springs),
+        floor_friction=scene.floor_friction,
         on_springs=np.unique(joined[springs][dynamic[joined[springs]]]),
         expiries=expiries,
     )

@@ -23,6 +23,7 @@ from physsim_ros.files.world_schema import count_from
 from physsim_ros.model.checkpoint import ImpulseCache, WorldState
 from physsim_ros.model.checks import known_mapping
 from physsim_ros.model.errors import BadProperty
+from physsim_ros.model.scene import Scene
 
 # Greatest size of an array [bytes], far more than any world needs: a few lines of compressed text
 # can expand to all the memory.
@@ -63,7 +64,9 @@ def cache_from(entry: object, state: WorldState) -> ImpulseCache | None:
     sound = all(bool(np.isfinite(each).all()) for each in (impulses, joints, pushes))
     if not (len(pairs) == len(hashes) == len(impulses) and sound):
         raise BadProperty('memory is not what was saved', field='memory')
-    if len(ids) != len(state.bodies) or len(pushes) not in (0, len(ids)):
+    scene = Scene(bodies=tuple(each.body for each in state.bodies), settings=state.settings)
+    on_floor = np.count_nonzero(scene.floor_friction)
+    if len(ids) != len(state.bodies) or len(pushes) not in (0, on_floor):
         return None
     # The shapes of a body, and the walls, have consecutive numbers; each number occurs once.
     counts = [len(each.body.shape.form.pieces) for each in state.bodies]

@@ -79,6 +79,14 @@ class WorldState:
     memory: ImpulseCache | None = field(default=None, compare=False)
 
 
+# The pushes of a world without a floor, in memory once.
+NO_PUSHES: Floats = np.empty((0, 3))
+
+
+def _no_pushes() -> Floats:
+    return NO_PUSHES
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class ImpulseCache:
     """
@@ -91,8 +99,8 @@ class ImpulseCache:
     :param hashes: (k,) uint64: feature ids of the contact points (Chipmunk: cpContact.hash)
     :param impulses: (k, 2) float64: normal and tangential, of the last step [N s]
     :param joints: (c, 2) float64: of the engine's constraints, joint by joint [N s, N m s]
-    :param pushes: (n, 3) float64: changes of velocity [m/s] and spin [rad/s] by contacts and
-        joints, of bodies on a floor; (0, 3) where there is none
+    :param pushes: (k, 3) float64: changes of velocity [m/s] and spin [rad/s] by contacts and
+        joints, of the bodies that a floor acts on
     """
 
     ids: Ints
@@ -102,7 +110,7 @@ class ImpulseCache:
     hashes: NDArray[np.uint64]
     impulses: Floats
     joints: Floats
-    pushes: Floats = field(default_factory=lambda: np.empty((0, 3)))
+    pushes: Floats = field(default_factory=_no_pushes)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

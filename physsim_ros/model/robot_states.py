@@ -70,10 +70,10 @@ class RobotStates(NamedTuple):
         return type(self)(aim.copy(), until.copy(), wheels.copy(), travel.copy(), odometry.copy())
 
     @classmethod
-    def of(cls, robots: Sequence[Driven], step: int) -> Self:
+    def of(cls, robots: Sequence[Driven], step: int) -> RobotStates:
         """Return the states of robots of a file in a world that has made so many steps."""
         if not robots:
-            return cls.at_rest(0)
+            return NO_ROBOTS
         until = [NEVER if each.steps is None else step + each.steps for each in robots]
         poses = ([each.aim, each.wheels, each.travel, each.odometry] for each in robots)
         columns = np.array([*poses], np.float64).swapaxes(0, 1)

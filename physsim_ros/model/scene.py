@@ -187,9 +187,19 @@ class Scene:
         rows = [row for row, body in enumerate(self.bodies) if body.robot is not None]
         return np.array(rows, np.int64)
 
+    @property
+    def floor_friction(self) -> Floats:
+        """Return (n,) float64: coefficient of friction with the floor; 0 where none acts."""
+        passive = self.settings.floor_friction
+        rows = [
+            (passive if body.robot is None else body.robot.drive.traction) * body.dynamic
+            for body in self.bodies
+        ]
+        return np.array(rows, np.float64)
+
     @cached_property
     def robots(self) -> tuple[Robot, ...]:
-        """The robots, in spawn order."""
+        """Robots, in spawn order."""
         return tuple(body.robot for body in self.bodies if body.robot is not None)
 
     @cached_property

@@ -18,28 +18,25 @@ Without it: nothing stops, nothing drives (`test/laws/test_floor.py`).
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
-from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.body_table import BodyTable
 from physsim_ros.engine.graph_search import Rows
 from physsim_ros.engine.memory import (
     BODY_FORCES,
-    BODY_INVERSES,
     BODY_TWIST,
     read_numbers,
     write_numbers,
 )
 from physsim_ros.engine.robots.drives import Drives
-from physsim_ros.engine.robots.robot_columns import robot_columns
 from physsim_ros.engine.settings import IDLE_SPEED
-from physsim_ros.engine.stages.conveyors import conveyors_of, floor_velocities
+from physsim_ros.engine.stages.conveyors import floor_velocities
 from physsim_ros.engine.stages.limit_surface import friction_of
 from physsim_ros.engine.step_context import StepContext
 from physsim_ros.model.arrays import Flags, Floats
+from physsim_ros.model.checkpoint import NO_PUSHES
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import STANDARD_GRAVITY
 from physsim_ros.model.shapes import lever_of
@@ -49,8 +46,9 @@ from physsim_ros.model.shapes import lever_of
 # lose a fiftieth in each step.
 _RELAXED = 0.98
 # The greatest push that is expected, by the limit of friction: more is an impact, which is over.
-# A push below the least one is none, so that what rests is still to the last bit.
-_MOST_EXPECTED, _LEAST_EXPECTED = 2.0, 1e-9
+_MOST_EXPECTED = 2.0
+# A push below this is none [m/s, rad/s], so that what rests is still to the last bit.
+_LEAST = 1e-11
 # The share of the newest push in the one that is expected. With all of it, a robot at a wall and
 # the wall would push in turns.
 _NEWEST = 0.5
@@ -61,33 +59,45 @@ class FloorColumns(NamedTuple):
     Columns that follow from the scene alone, for the k bodies that the floor acts on.
 
     :ivar rows: (k,) intp: of the body table
-    :ivar friction: (k,) float64: coefficient of friction with the floor
+    :ivar robots: (k,) bool: which of them are robots
+    :ivar driven: (r,) bool: which of the robots are among them
+    :ivar most: (k,) float64: greatest change of velocity by friction in a step [m/s]
     :ivar lever: (k,) float64: mean distance of the points that bear it [m]
     :ivar gyration: (k,) float64: moment of inertia by mass [m²]
+    :ivar response: (k, 3) float64: change of velocity and spin in a step by a force and a torque
     """
 
     rows: Rows
-    friction: Floats
+    robots: Flags
+    driven: Flags
+    most: Floats
     lever: Floats
     gyration: Floats
+    response: Floats
 
 
 @lru_cache(maxsize=2)
-def _floor_columns(scene: Scene) -> FloorColumns:
-    mu, found = scene.settings.floor_friction, []
+def _floor_columns(scene: Scene, dt: float) -> FloorColumns:
+    found, driven = [], []
+    friction = scene.floor_friction
     for row, body in enumerate(scene.bodies):
-        robot = body.robot
-        friction = mu if robot is None else robot.drive.traction
-        if body.dynamic and friction > 0.0:
-            form = body.shape.form
+        robot, form, acts = body.robot, body.shape.form, bool(friction[row] > 0.0)
+        if robot is not None:
+            driven.append(acts)
+        if acts:
             lever = lever_of(form) if robot is None else robot.drive.lever
-            found.append((row, friction, lever, form.gyration))
-    rows, frictions, levers, gyrations = zip(*found, strict=True) if found else ((),) * 4
+            mass = body.total_mass
+            response = (1.0 / mass, 1.0 / mass, 1.0 / (mass * form.gyration))
+            found.append((row, robot is not None, lever, form.gyration, response))
+    rows, robots, levers, gyrations, responses = zip(*found, strict=True) if found else ((),) * 5
     return FloorColumns(
         rows=np.array(rows, np.intp),
-        friction=np.array(frictions, np.float64),
+        robots=np.array(robots, np.bool_),
+        driven=np.array(driven, np.bool_),
+        most=friction[friction > 0.0] * (STANDARD_GRAVITY * dt),
         lever=np.array(levers, np.float64),
         gyration=np.array(gyrations, np.float64),
+        response=np.array(responses, np.float64).reshape(-1, 3) * dt,
     )
 
 
@@ -100,65 +110,77 @@ class Floor:
 
     def __init__(self) -> None:
         self.drives = Drives()
-        # The bodies of the last step, and (n, 3) changes of their velocities and spins by contacts
-        # and joints: a running mean of the last steps.
-        self._bodies: Sequence[RigidBody] = ()
-        self._pushes: Floats = np.empty((0, 3))
-        # Velocities and spins that the bodies would have after this step without contacts.
-        self._without: Floats = np.empty((0, 3))
+        # The table of the last step, and (k, 3) changes of velocities and spins of the bodies that
+        # the floor acts on, by contacts and joints: a running mean of the last steps.
+        self._table: BodyTable | None = None
+        self._pushes = NO_PUSHES
+        # (k, 3) velocities and spins that they would have after this step without contacts.
+        self._without = NO_PUSHES
 
-    def pushes(self, table: BodyTable) -> Floats:
+    def pushes(self, table: BodyTable, dt: float) -> Floats:
         """
         Return what contacts and joints have changed in the last step.
 
-        :return: (n, 3) float64: changes of velocity [m/s] and spin [rad/s]; (0, 3) where there
-            are none
+        :return: (k, 3) float64: changes of velocity [m/s] and spin [rad/s] of the bodies that the
+            floor acts on, in spawn order; not copied
         """
-        if self._bodies is not table.bodies and len(self._pushes):
-            rows = {id(rigid): row for row, rigid in enumerate(self._bodies)}
-            pushes = np.zeros((len(table.bodies), 3))
-            for row, rigid in enumerate(table.bodies):
-                if id(rigid) in rows:
-                    pushes[row] = self._pushes[rows[id(rigid)]]
-            self._pushes = pushes
-        self._bodies = table.bodies
-        return self._pushes
+        if table is self._table:
+            return self._pushes
+        rows = _floor_columns(table.scene, dt).rows
+        if not len(rows):
+            return NO_PUSHES
+        pushes = np.zeros((len(rows), 3))
+        if self._table is not None and np.count_nonzero(self._pushes):
+            before = _floor_columns(self._table.scene, dt).rows.tolist()
+            places = {id(self._table.bodies[row]): place for place, row in enumerate(before)}
+            for place, row in enumerate(rows.tolist()):
+                old = places.get(id(table.bodies[row]))
+                if old is not None:
+                    pushes[place] = self._pushes[old]
+        return pushes
 
     def put_pushes(self, table: BodyTable, pushes: Floats) -> None:
         """Continue with what contacts and joints have changed in the last step; see `pushes`."""
-        self._bodies, self._pushes = table.bodies, pushes.copy()
+        if len(pushes):
+            self._table, self._pushes = table, pushes.copy()
 
     def pull_bodies(self, context: StepContext) -> None:
         """Bring bodies to the velocity of the floor under them, before the engine's step."""
-        table = context.table
-        columns = _floor_columns(table.scene)
-        robots = robot_columns(table.scene)
-        if not len(columns.rows) and not len(robots.rows):
-            self._pushes = self._without = np.empty((0, 3))
+        table, dt = context.table, context.dt
+        columns = _floor_columns(table.scene, dt)
+        if not len(columns.rows) and not len(columns.driven):
+            self._table, self._pushes = None, NO_PUSHES
             return
-        mean, end = self._floor_under(context)
-        pushes = self.pushes(table)
-        if not len(pushes):
-            pushes = np.zeros((len(table.bodies), 3))
-        rows, awake = columns.rows, ~table.asleep[columns.rows]
-        places = table.places[rows]
-        forces, inverses = read_numbers(places, BODY_FORCES), read_numbers(places, BODY_INVERSES)
-        true = context.twists[rows] - np.where(table.free[rows, None], table.leads[rows], 0.0)
-        dt, kept = context.dt, (1.0 - context.settings.damping) ** context.dt
+        mean, end = self._floor_under(context, columns)
+        rows, most = columns.rows, columns.most
+        twists, places = context.twists[rows], table.places[rows]
+        forces = read_numbers(places, BODY_FORCES)
+        true = twists
+        if np.count_nonzero(table.leads):
+            true = twists - np.where(table.free[rows, None], table.leads[rows], 0.0)
         # What the step brings without the floor: damping, gravity, forces of commands and hands.
-        after = true * kept + forces * (inverses * dt)
-        after[:, :2] += np.array(context.settings.gravity) * dt
-        most = columns.friction * (STANDARD_GRAVITY * dt)
-        moves = mean[rows].any(axis=1, keepdims=True)
-        expected = _bounded(pushes[rows] * np.where(moves, 1.0, _RELAXED), most, columns)
-        slips = after + expected - end[rows]
-        changes, sticks = friction_of(slips, most, columns.lever, columns.gyration)
-        moved = np.where(sticks[:, None], mean[rows], (true + after + expected + changes) / 2)
-        added = ((true - moved) * kept + changes) / (inverses * dt)
+        kept = (1.0 - context.settings.damping) ** dt
+        after = true * kept + forces * columns.response
+        if any(context.settings.gravity):
+            after[:, :2] += np.array(context.settings.gravity) * dt
+        self._pushes = expected = self.pushes(table, dt)
+        self._table = table
+        if np.count_nonzero(expected):
+            moves = mean.any(axis=1, keepdims=True)
+            expected = _bounded(expected * np.where(moves, 1.0, _RELAXED), columns)
+        changes, sticks = friction_of(
+            after + expected - end, most, columns.lever, columns.gyration
+        )
+        moved = mean
+        if np.count_nonzero(sticks) < len(sticks):
+            slid = (true + after + expected + changes) / 2
+            moved = np.where(sticks[:, None], mean, slid)
+        added = ((true - moved) * kept + changes) / columns.response
+        self._without = after + changes
         # A body at rest is not written, and so is not woken up.
-        changed = awake & ((moved != context.twists[rows]) | (added != 0.0)).any(axis=1)
-        self._without = context.twists.copy()
-        self._without[rows] = after + changes
+        changed = ((moved != twists) | (added != 0.0)).any(axis=1)
+        if table.sleepers:
+            changed &= ~table.asleep[rows]
         if np.count_nonzero(changed):
             write_numbers(places[changed], BODY_TWIST, moved[changed])
             write_numbers(places[changed], BODY_FORCES, (forces + added)[changed])
@@ -167,49 +189,49 @@ class Floor:
     def end_step(self, context: StepContext) -> None:
         """Find what contacts and joints have changed, after the engine's step."""
         table = context.table
-        if not len(self._without):
+        columns = _floor_columns(table.scene, context.dt)
+        if not len(columns.rows) and not len(columns.driven):
             return
-        state, rows = table.state, _floor_columns(table.scene).rows
-        before = self.pushes(table)
-        self._pushes = np.zeros((len(table.bodies), 3))
-        rows = rows[~table.asleep[rows]]
-        self._pushes[rows] = _NEWEST * (state[rows, 3:] - self._without[rows])
-        if len(before):
-            self._pushes[rows] += (1.0 - _NEWEST) * before[rows]
-        if len(robot_columns(table.scene).rows):
+        pushes = _NEWEST * (table.state[columns.rows, 3:] - self._without)
+        pushes += (1.0 - _NEWEST) * self._pushes
+        if table.sleepers:
+            pushes[table.asleep[columns.rows]] = 0.0
+        pushes[np.abs(pushes).max(axis=1, initial=0.0) < _LEAST] = 0.0
+        self._pushes = pushes
+        if len(columns.driven):
             self.drives.end_step(context)
         self._keep_awake(context)
 
-    def _floor_under(self, context: StepContext) -> tuple[Floats, Floats]:
-        """Return (n, 3) each: mean velocity of the floor in this step, and that at its end."""
-        still = floor_velocities(context)
-        mean = np.zeros((len(context.table.bodies), 3)) if still is None else still
+    def _floor_under(self, context: StepContext, columns: FloorColumns) -> tuple[Floats, Floats]:
+        """Return (k, 3) each: mean velocity of the floor in this step, and that at its end."""
+        velocities = floor_velocities(context)
+        still = np.zeros((len(columns.rows), 3))
+        mean = still if velocities is None else velocities[columns.rows]
         end = mean.copy()
-        robots = robot_columns(context.table.scene).rows
-        if len(robots):
+        if len(columns.driven):
             motion = self.drives.begin_step(context)
-            mean[robots] += motion.mean
-            end[robots] += motion.end
+            mean[columns.robots] += motion.mean[columns.driven]
+            end[columns.robots] += motion.end[columns.driven]
         return mean, end
 
     def _keep_awake(self, context: StepContext) -> None:
         """Keep bodies awake that move as slowly as what falls asleep: robots, bodies on belts."""
         table = context.table
-        rows = list(self.drives.turning(table.scene))
-        if conveyors_of(table.scene):
-            velocities = floor_velocities(context)
-            if velocities is not None:
-                carried: Flags = velocities.any(axis=1) & table.columns.dynamic[:-1]
-                rows += np.flatnonzero(carried & ~table.asleep).tolist()
+        slow = table.sizes[:, 3:].max(axis=1) < IDLE_SPEED
+        slow &= table.columns.dynamic[:-1]
+        if not np.count_nonzero(slow):
+            return
+        rows = [row for row in self.drives.turning(table.scene) if slow[row]]
+        velocities = floor_velocities(context)
+        if velocities is not None:
+            rows += np.flatnonzero(velocities.any(axis=1) & slow & ~table.asleep).tolist()
         for row in rows:
-            if table.asleep[row] or (table.sizes[row, 3:] < IDLE_SPEED).all():
-                table.bodies[row].pm_body.activate()
+            table.bodies[row].pm_body.activate()
 
 
-def _bounded(pushes: Floats, most: Floats, columns: FloorColumns) -> Floats:
-    """Return expected pushes, none of them far beyond the limit of friction, or next to none."""
+def _bounded(pushes: Floats, columns: FloorColumns) -> Floats:
+    """Return expected pushes, none of them far beyond the limit of friction."""
     around = np.abs(pushes[:, 2]) * (columns.gyration / columns.lever)
-    size = np.hypot(np.hypot(pushes[:, 0], pushes[:, 1]), around) / most
-    share = np.where(size < _LEAST_EXPECTED, 0.0, 1.0 / np.maximum(size / _MOST_EXPECTED, 1.0))
-    result: Floats = pushes * share[:, None]
+    size = np.hypot(np.hypot(pushes[:, 0], pushes[:, 1]), around) / (_MOST_EXPECTED * columns.most)
+    result: Floats = pushes / np.maximum(size, 1.0)[:, None]
     return result

@@ -71,12 +71,12 @@ class View:
 
     @cached_property
     def surroundings(self) -> Surroundings:
-        """What rays can meet."""
+        """Bodies and walls that rays can meet."""
         return Surroundings(self.snapshot)
 
     @cached_property
     def floor_marks(self) -> FloorMarks:
-        """What lies on the floor."""
+        """Sensor bodies on the floor, as colours."""
         return FloorMarks(self.snapshot)
 
 
