@@ -49,7 +49,10 @@ class FrameOutputs:
 
     def __init__(self, node: Node, values: Mapping[str, Any], session: DrawingSession) -> None:
         self.topics = Publishers(
-            node, frame_id=values['frame_id'], publish_tf=values['publish_tf']
+            node,
+            frame_id=values['frame_id'],
+            map_resolution=lambda: values['map_resolution'],
+            publish_tf=values['publish_tf'],
         )
         self.viewer = Viewer()
         self.sketchpad: Sketchpad | None = None

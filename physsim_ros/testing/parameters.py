@@ -48,6 +48,7 @@ class Parameters(TypedDict, total=False):
     history_memory: float
     publish_clock: bool
     publish_tf: bool
+    map_resolution: float
     robot_tf: Literal['prefixed', 'namespaced', 'none']
     robots_in_past: Literal['follow', 'freeze']
     lockstep: float

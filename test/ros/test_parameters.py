@@ -44,6 +44,7 @@ CONTRACT: dict[str, tuple[Any, str]] = {
     'friction': (0.5, 'live'),
     'elasticity': (0.5, 'live'),
     'draw_velocity': ([0.0, 0.0], 'live'),
+    'map_resolution': (0.05, 'live'),
     'robot_tf': ('prefixed', 'read-only'),
     'robots_in_past': ('follow', 'live'),
     'lockstep': (0.0, 'live'),

@@ -17,6 +17,7 @@ from physsim_ros.model.snapshot import Frame
 from physsim_ros.ros.encoders.clock import ClockEncoder
 from physsim_ros.ros.encoders.contacts import ContactsEncoder
 from physsim_ros.ros.encoders.events import encode_event
+from physsim_ros.ros.encoders.map import MapEncoder
 from physsim_ros.ros.encoders.markers import DELETE_REPEATS, MarkersEncoder
 from physsim_ros.ros.encoders.poses import PosesEncoder
 from physsim_ros.ros.encoders.preview import preview_message
@@ -28,6 +29,7 @@ __all__ = [
     'ClockEncoder',
     'ContactsEncoder',
     'Encoder',
+    'MapEncoder',
     'MarkersEncoder',
     'PosesEncoder',
     'StatesEncoder',

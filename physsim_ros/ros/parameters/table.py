@@ -138,6 +138,9 @@ _OF_NODE = {
         meaning='whether the pose of every body is also published on /tf; needs tf2_msgs',
         read_only=True,
     ),
+    'map_resolution': Spec(
+        default=0.05, meaning='side of a cell of ~/map [m]', low=0.001, high=10.0
+    ),
     'robot_tf': Spec(
         default='prefixed',
         meaning='transforms of robots: prefixed (on /tf, frames named below the namespace), '

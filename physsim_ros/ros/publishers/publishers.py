@@ -5,10 +5,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import PoseArray
+from nav_msgs.msg import OccupancyGrid
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.snapshot import Frame, NO_PREVIEW, Preview
 from physsim_ros.ros import encoders
@@ -30,6 +32,7 @@ class Publishers:
 
     :param node: that owns them
     :param frame_id: name of the world frame
+    :param map_resolution: returns the side of a cell of `~/map` [m]
     :param publish_tf: whether poses are published on `/tf`, too
     :raises BadProperty: they cannot be, since tf2_msgs is not installed
 
@@ -39,7 +42,14 @@ class Publishers:
     :ivar events: the publisher of `~/events`
     """
 
-    def __init__(self, node: Node, *, frame_id: str, publish_tf: bool = False) -> None:
+    def __init__(
+        self,
+        node: Node,
+        *,
+        frame_id: str,
+        map_resolution: Callable[[], float],
+        publish_tf: bool = False,
+    ) -> None:
         def stream(kind: Any, topic: str, depth: int, encoder: Encoder) -> Stream:
             return Stream(node.create_publisher(kind, topic, _reliable(depth)), encoder)
 
@@ -57,6 +67,8 @@ class Publishers:
             stream(PoseArray, '~/poses', 5, encoders.PosesEncoder(frame_id)),
             stream(MultiDOFJointState, '~/states', 5, encoders.StatesEncoder(frame_id)),
             LatchedStream(latched(MarkerArray, '~/markers'), encoders.MarkersEncoder(frame_id)),
+            # DDS keeps the last map for late subscribers; there is another one when it changes.
+            Stream(latched(OccupancyGrid, '~/map'), encoders.MapEncoder(frame_id, map_resolution)),
         )
         if publish_tf:
             # The depth that tf2_ros has.

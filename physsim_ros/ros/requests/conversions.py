@@ -15,13 +15,18 @@ import math
 from typing import Any, TypeVar
 
 from geometry_msgs.msg import PointStamped
+from nav_msgs.msg import OccupancyGrid
+import numpy as np
 from physsim_ros.files import load_mapping, PROPERTIES, with_shipped_robot
+from physsim_ros.maps import OccupancyGrid as Grid
+from physsim_ros.maps import walls_of
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.colors import Color
 from physsim_ros.model.errors import (
     BadProperty,
     Malformed,
     NotPlanar,
+    UnknownFrame,
 )
 from physsim_ros.model.names import JOINT_PREFIX
 from physsim_ros.model.requests import (
@@ -40,6 +45,7 @@ from physsim_ros.model.requests import (
     UnjoinAll,
 )
 from physsim_ros.ros.marker_shapes import points_from, shape_from
+from physsim_ros.ros.requests.cdr_reader import MOST_ELEMENTS
 from physsim_ros.ros.requests.decoders import CommandMessage
 from visualization_msgs.msg import InteractiveMarkerFeedback, Marker
 
@@ -53,6 +59,11 @@ MOST_TILT = 1e-3
 LONGEST_TEXT = 10_000
 # The greatest number of brackets in `text`; two are needed. PyYAML takes 1 s for 1000 nested ones.
 MOST_BRACKETS = 50
+
+# Namespace of the walls of a map.
+WALLS = 'walls'
+# Occupancy from which on a cell is a wall [percent], as map_server's `occupied_thresh` is.
+OCCUPIED = 65
 
 # Columns of twists and wrenches of the plane: x, y, about z.
 _PLANAR = [0, 1, 5]
@@ -186,6 +197,33 @@ def command_request(message: CommandMessage, *, frame_id: str) -> Command:
         wrenches=message.wrench[:, _PLANAR],
         frame=named_frame(message.frame_id, frame_id),
     )
+
+
+def walls_requests(message: OccupancyGrid, *, frame_id: str) -> tuple[DeleteAll | Spawn, ...]:
+    """
+    Return the requests that make walls of the occupied cells of a map, in place of earlier ones.
+
+    :param message: from `~/walls`
+    :param frame_id: name of the world frame; `map`, as map_server calls it, is that too
+    :raises Refusal: the map is none, has a frame of its own, or makes too many walls
+    """
+    info = message.info
+    frame = named_frame(message.header.frame_id, frame_id)
+    if frame not in ('', 'map'):
+        raise UnknownFrame(f'a map is in the frame of the world, not in {frame}')
+    cells = np.frombuffer(message.data, np.int8)
+    if len(cells) != info.width * info.height:
+        raise Malformed(
+            f'data has {len(cells)} cells, not {info.width} times {info.height}', field='data'
+        )
+    position, turn = info.origin.position, info.origin.orientation
+    yaw = _yaw((turn.x, turn.y, turn.z, turn.w), 'info.origin.orientation')
+    grid = Grid(
+        occupied=cells.reshape(info.height, info.width) >= OCCUPIED,
+        resolution=float(info.resolution),
+        origin=(position.x, position.y, yaw),
+    )
+    return DeleteAll(namespace=WALLS), *walls_of(grid, WALLS, MOST_ELEMENTS)
 
 
 def point_in_frame(message: PointStamped, *, frame_id: str) -> tuple[tuple[float, float], str]:

@@ -15,7 +15,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from nav_msgs.msg import Path
+from nav_msgs.msg import OccupancyGrid, Path
 import numpy as np
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import Malformed
@@ -137,8 +137,18 @@ def _header(reader: CdrReader) -> tuple[int, str]:
     return stamp, frame
 
 
+def grid_from(message: bytes) -> OccupancyGrid:
+    """
+    Return the map of a serialised nav_msgs/OccupancyGrid, whose cells rclpy copies at once.
+
+    :raises RMWError: it cannot be decoded
+    """
+    return deserialize_message(message, OccupancyGrid)
+
+
 DECODERS: dict[type, Callable[[bytes], Any]] = {
     MarkerArray: markers_from,
     MultiDOFJointState: command_from,
+    OccupancyGrid: grid_from,
     Path: stroke_from,
 }

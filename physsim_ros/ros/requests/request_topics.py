@@ -15,6 +15,7 @@ from functools import partial
 from typing import Any
 
 from geometry_msgs.msg import PointStamped
+from nav_msgs.msg import OccupancyGrid
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.requests import Anchor, Axle, Pin, Release, Request
 from physsim_ros.model.snapshot import Answer
@@ -40,7 +41,7 @@ _TOPICS: dict[str, tuple[type, _Conversion]] = {
 
 class RequestTopics:
     """
-    The topics of which each message is a request; of `~/spawn_array`, several.
+    The topics of which each message is a request; of `~/spawn_array` and `~/walls`, several.
 
     :param subscriptions: of the node
     :param requests: the queue that they are submitted to
@@ -57,6 +58,7 @@ class RequestTopics:
             callback = partial(self._submit, topic=topic, convert=convert, field=field)
             subscriptions.add(kind, topic, callback)
         subscriptions.add(MarkerArray, '~/spawn_array', self._spawn_array)
+        subscriptions.add(OccupancyGrid, '~/walls', self._make_walls)
 
     def _spawn_array(self, message: MarkerArray) -> None:
         topic = '~/spawn_array'
@@ -64,6 +66,16 @@ class RequestTopics:
             self._requests.tell(Answer(topic=topic, message='the array is empty'))
         for number, marker in enumerate(message.markers):
             self._submit(marker, topic=topic, convert=conversions.body_request, joined=number > 0)
+
+    def _make_walls(self, message: OccupancyGrid) -> None:
+        topic = '~/walls'
+        try:
+            requests = conversions.walls_requests(message, frame_id=self._frame_id)
+        except Refusal as refusal:
+            self._requests.refuse(refusal, topic=topic, subject='')
+            return
+        for number, request in enumerate(requests):
+            self._requests.submit(request, topic=topic, joined=number > 0)
 
     def _submit(
         self,
