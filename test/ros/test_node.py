@@ -31,6 +31,7 @@ TYPES = {
     '/physsim/states': 'sensor_msgs/msg/MultiDOFJointState',
     '/physsim/contacts': 'sensor_msgs/msg/MultiDOFJointState',
     '/physsim/markers': 'visualization_msgs/msg/MarkerArray',
+    '/physsim/map': 'nav_msgs/msg/OccupancyGrid',
     '/physsim/preview': 'visualization_msgs/msg/MarkerArray',
     '/physsim/events': 'diagnostic_msgs/msg/DiagnosticStatus',
     '/physsim/timeline': 'diagnostic_msgs/msg/DiagnosticStatus',
@@ -42,16 +43,18 @@ DEPTHS = {
     '/physsim/states': 5,
     '/physsim/contacts': 5,
     '/physsim/markers': 1,
+    '/physsim/map': 1,
     '/physsim/preview': 1,
     '/physsim/events': 1000,
     '/physsim/timeline': 1,
     '/clock': 10,
     '/diagnostics': 10,
 }
-KEPT = ('/physsim/markers', '/physsim/preview', '/physsim/timeline')
+KEPT = ('/physsim/markers', '/physsim/map', '/physsim/preview', '/physsim/timeline')
 REQUESTS = {
     '/physsim/spawn': 'visualization_msgs/msg/Marker',
     '/physsim/spawn_array': 'visualization_msgs/msg/MarkerArray',
+    '/physsim/walls': 'nav_msgs/msg/OccupancyGrid',
     '/physsim/join': 'visualization_msgs/msg/Marker',
     '/physsim/pin': 'geometry_msgs/msg/PointStamped',
     '/physsim/axle': 'geometry_msgs/msg/PointStamped',

@@ -49,7 +49,7 @@ class Bench:
         self.listener = Node('listener', context=context)
         self.executor.add_node(self.world)
         self.executor.add_node(self.listener)
-        self.streams = Publishers(self.world, frame_id='map')
+        self.streams = Publishers(self.world, frame_id='map', map_resolution=lambda: 0.05)
         self.publishers = {publisher.topic_name: publisher for publisher in self.world.publishers}
 
     def listen(self, topic, durability=DurabilityPolicy.VOLATILE):

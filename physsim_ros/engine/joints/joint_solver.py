@@ -205,7 +205,8 @@ class _Step:
         bodies.write_velocities(without + changes + bent)
         impulses = solution.impulses + more
         joints.write_impulses(rows, impulses[self._of_joints])
-        contacts.write_impulses(impulses[self._normals.start :].reshape(2, -1))
+        first = self._normals.start
+        contacts.write_impulses(impulses[first:].reshape(2, -1))
         self._holding = joints.holding(joints.equal & (solution.sides[self._of_joints] != 0))
 
     def _joint_bounds(self, rows: JointRows) -> tuple[Floats, Floats]:
