@@ -13,7 +13,7 @@ import pytest
 from ...building import SHAPES as EXAMPLES
 
 # Modules that are no shape.
-SHARED = {'convex_decomposition', 'form', 'polygon_geometry', 'validation'}
+SHARED = {'containment', 'convex_decomposition', 'form', 'lever', 'polygon_geometry', 'validation'}
 FILES = {path.stem for path in Path(physsim_ros.model.shapes.__file__).parent.glob('[!_]*.py')}
 
 
