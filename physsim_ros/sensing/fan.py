@@ -108,10 +108,9 @@ class Fan:
 
 def _diamond_angles(x: Floats, y: Floats) -> Floats:
     """
-    Return 0 .. 4 for the angles 0 .. a turn of vectors.
+    Return -2 .. 2 for the angles of minus to plus half a turn of vectors.
 
     It is the way from the x axis along the square with its corners on the axes.
     """
-    share = x / (np.abs(x) + np.abs(y))
-    angles: Floats = np.where(y < 0.0, 3.0 + share, 1.0 - share)
+    angles: Floats = np.copysign(1.0 - x / (np.abs(x) + np.abs(y)), y)
     return angles
