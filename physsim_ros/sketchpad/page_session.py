@@ -46,6 +46,7 @@ class PageSession:
 
     :ivar drawing: its strokes and clicks
     :ivar hand: name of its hand in the world
+    :ivar driven: name of the robot that it drives; '' is none
     :ivar material: properties of the bodies that it draws; those that are unset are the world's
     :ivar color: of the bodies that it draws; None is the world's choice
     """
@@ -70,6 +71,7 @@ class PageSession:
         self.list_worlds = list_worlds
         self.drawing = DrawingSession(world.drawing_settings())
         self.hand = f'page {number}'
+        self.driven = ''
         self.material = Properties()
         self.color: Color | None = None
         self._preview: Preview = NO_PREVIEW
@@ -105,11 +107,16 @@ class PageSession:
 
     # Requests
 
-    def submit(self, origin: Origin, requests: Iterable[Request]) -> None:
-        """Submit requests that are undone together."""
+    def submit(self, origin: Origin, requests: Iterable[Request], *, joined: bool = False) -> None:
+        """
+        Submit requests that are undone together.
+
+        :param joined: whether they are undone with the request before them, too
+        """
         queue = self.world.simulation.requests
-        for number, request in enumerate(requests):
-            queue.submit(request, topic=origin.topic, joined=number > 0, asker=origin.asker)
+        for request in requests:
+            queue.submit(request, topic=origin.topic, joined=joined, asker=origin.asker)
+            joined = True
 
     def use_hand(self, origin: Origin, request: HandRequest) -> None:
         """Submit a request of the page's hand."""

@@ -13,6 +13,7 @@ from __future__ import annotations
 import json
 from typing import Any
 
+from physsim_ros.model.robots import Robot
 from physsim_ros.model.scene import Body, Joint, Scene
 from physsim_ros.model.shapes import (
     Box,
@@ -87,7 +88,7 @@ def compact(value: object) -> str:
 
 def body_entry(body: Body) -> dict[str, Any]:
     """Return a body without its pose; lengths in its own frame [m], mass [kg], moment [kg m²]."""
-    form = body.shape.form
+    form, robot = body.shape.form, body.robot
     return {
         'name': body.name,
         'shape': shape_entry(body.shape),
@@ -102,6 +103,21 @@ def body_entry(body: Body) -> dict[str, Any]:
         'friction': body.friction,
         'elasticity': body.elasticity,
         'group': body.group,
+        **({} if robot is None else {'robot': robot_entry(body.name, robot)}),
+    }
+
+
+def robot_entry(body: str, robot: Robot) -> dict[str, Any]:
+    """
+    Return the kind of a robot's drive, its greatest velocities [m/s, rad/s], its namespace.
+
+    :param body: its name
+    """
+    return {
+        'kind': robot.drive.KIND,
+        'max_speed': robot.drive.max_speed,
+        'max_turn': robot.drive.max_turn,
+        'namespace': robot.namespace_of(body),
     }
 
 

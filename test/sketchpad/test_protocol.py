@@ -392,6 +392,65 @@ def test_a_change_of_the_past_branches_and_the_old_course_stays_as_a_ghost(
     assert len(told) == 1
 
 
+def spawned_robot(page: Page) -> None:
+    body = {'name': 'tb3/0', 'robot': 'turtlebot3_burger', 'at': [0, 0]}
+    assert page.ask('gravity', gravity=[0, 0])['ok']
+    assert page.ask('spawn', body=body)['ok']
+
+
+def test_a_page_drives_a_robot_and_undoes_it_as_one(browser: Browser) -> None:
+    physsim, page = browser.physsim, browser.open_page()
+    spawned_robot(page)
+    page.until(lambda: page.of_type('scene')[-1]['bodies'])
+    robot = page.of_type('scene')[-1]['bodies'][0]['robot']
+    assert (robot['kind'], robot['namespace']) == ('differential', 'tb3_0')
+    for velocity in ([0.2, 0, 0], [0.1, 0, 0], [0, 0, 0]):
+        page.send('drive', name='tb3/0', velocity=velocity)
+        page.ask('drop')
+        physsim.run(0.4)
+    driven = physsim.pose('tb3/0').x
+    assert 0.1 < driven < 0.13
+    physsim.run(1.0)
+    # It has stopped, and stays.
+    assert physsim.pose('tb3/0').x == pytest.approx(driven, abs=0.01)
+    assert page.ask('service', name='undo')['ok']
+    assert physsim.pose('tb3/0').x == pytest.approx(0.0, abs=1e-9)
+    assert 'tb3/0' in physsim.names
+
+
+def test_a_drive_that_is_no_drive_is_refused(browser: Browser) -> None:
+    page = browser.open_page()
+    spawned_robot(page)
+    assert page.ask('spawn', body={'name': 'ball/0', 'circle': {'radius': 1}, 'at': [5, 0]})['ok']
+    digest = browser.physsim.digest()
+    for fields, field, code in (
+        ({'name': 'tb3/0', 'velocity': [1, 0]}, 'velocity', 'malformed'),
+        ({'name': 'tb3/0', 'velocity': [1, 0, 'a']}, 'velocity', 'bad_property'),
+        ({'name': 'tb3/0', 'velocity': [1e9, 0, 0]}, 'velocity', 'bad_property'),
+        ({'name': 'ball/0', 'velocity': [1, 0, 0]}, 'name', 'bad_property'),
+        ({'name': 'nobody', 'velocity': [1, 0, 0]}, '', 'unknown_body'),
+        ({'name': 7, 'velocity': [1, 0, 0]}, 'name', 'bad_property'),
+    ):
+        answer = page.ask('drive', **fields)
+        assert answer['code'] == code, fields
+        assert not field or answer['field'] == field
+    assert browser.physsim.digest() == digest
+
+
+def test_driving_in_the_past_begins_another_course(browser: Browser) -> None:
+    physsim, page = browser.physsim, browser.open_page()
+    spawned_robot(page)
+    page.send('drive', name='tb3/0', velocity=[0.2, 0, 0])
+    page.ask('drop')
+    physsim.run(0.5)
+    assert page.ask('seek', time=0.1)['ok']
+    page.send('drive', name='tb3/0', velocity=[-0.2, 0, 0])
+    page.ask('drop')
+    physsim.run(0.4)
+    assert physsim.pose('tb3/0').x < 0.0
+    page.until(lambda: page.of_type('timeline')[-1]['courses'])
+
+
 def test_the_page_is_small_on_its_way_and_sent_once(browser: Browser) -> None:
     files = [path for path in PAGE.rglob('*.*') if path.suffix in ('.js', '.css', '.svg', '.html')]
     size = 0

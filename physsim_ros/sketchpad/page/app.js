@@ -11,6 +11,7 @@ import {Camera} from './camera.js';
 import {Connection} from './connection.js';
 import {Cursor} from './cursor.js';
 import {createElement, elementOf} from './dom.js';
+import {Driving} from './driving.js';
 import {Gallery} from './gallery.js';
 import {Hints} from './hints.js';
 import {JointPanel} from './joint_panel.js';
@@ -63,6 +64,7 @@ export class App {
     this.notes = new Notes(this);
     this.refusals = new Refusals(this);
     this.readings = new Readings(this);
+    this.driving = new Driving(this);
     this.panel = new BodyPanel(this);
     this.joints = new JointPanel(this);
     this.arrow = new VelocityArrow(this);

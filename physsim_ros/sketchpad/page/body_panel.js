@@ -50,6 +50,7 @@ export class BodyPanel {
     this.shown = JSON.stringify(body);
     this.show(this.app.words.title(name), [
       this.numbers.element,
+      ...body.robot ? this.app.driving.show(body.robot) : [],
       ...fields(body, change),
       createElement('label', {}, 'Anchored', anchored),
       inRow(

@@ -12,13 +12,13 @@ const TOUCHED = matchMedia('(pointer: coarse)');
 const GESTURES = [['Draw', 'A finger and the pen; with a stylus, the stylus draws and a finger moves the view'],
   ['Grab and throw', 'The hand, on a body; let go while it moves'],
   ['Place and turn', 'While paused: the hand on a body, and a second finger that turns about it'],
-  ['Change a body', 'Tap it, by pen, hand or lasso'], ['Move the view', 'Two fingers; or the hand, beside the bodies'],
+  ['Drive a robot', 'Tap it, and drag the knob of its panel'], ['Change a body', 'Tap it, by pen, hand or lasso'], ['Move the view', 'Two fingers; or the hand, beside the bodies'],
   ['Zoom', 'Two fingers, apart or together'], ['Go back in time', 'Drag the time line'],
   ['Say what a button does', 'Keep a finger on it']];
 const MOVING = [['Space', 'Play or pause; held, dragging moves the view'],
   ['Arrow keys', 'Move the cursor on the canvas, with Shift finely; Enter presses and lifts the tool'],
   ['R, Shift+R', 'Turn the body in the hand, while paused'], ['N, Shift+N', 'Choose the next body, the last'],
-  ['Delete', 'Delete what is chosen'], ['Esc', 'Drop what is unfinished'], ['+ and −, F', 'Zoom; frame the world'],
+  ['W A S D', 'Drive the robot that is chosen; Q and E push it aside where its drive can'], ['Delete', 'Delete what is chosen'], ['Esc', 'Drop what is unfinished'], ['+ and −, F', 'Zoom; frame the world'],
   ['Enter', 'Close a polygon'], ['?', 'This list']];
 
 /** @param {App} app */

@@ -27,6 +27,7 @@ export class Keyboard {
     // Before the click, which may open a dialog that gives the focus back where it was.
     document.addEventListener('pointerup', () => this.#takeBack(), true);
     app.view.canvas.addEventListener('blur', () => app.view.canvas.classList.remove('reached'));
+    app.view.canvas.addEventListener('blur', () => app.driving.liftAll());
     addEventListener('blur', () => { app.pointers.space = false; });
     const callService = (/** @type {string} */ name) => () => app.time.callService(name);
     /** @type {Record<string, () => void>} */
@@ -75,6 +76,8 @@ export class Keyboard {
       if (app.cursor.shown || !app.tool.finish?.()) app.cursor.press();
     } else if (key in ARROWS && !button) {
       app.cursor.move(...ARROWS[key], event.shiftKey);
+    } else if (target === app.view.canvas && app.driving.press(event.code)) {
+      // Tools that have these keys have them again when no robot is selected.
     } else if (key in this.keys) {
       this.keys[key]();
     } else return;
@@ -82,8 +85,9 @@ export class Keyboard {
   }
 
   /** @param {KeyboardEvent} event */
-  #up({key, timeStamp}) {
+  #up({key, code, timeStamp}) {
     const {app} = this;
+    app.driving.lift(code);
     if (key !== ' ' || !app.pointers.space) return;
     app.pointers.space = false;
     if (timeStamp - this.since < TAP && !app.pointers.down.size) app.time.toggle();

@@ -42,6 +42,17 @@ export interface Body {
   friction: number;
   elasticity: number;
   centroid: Point;
+  robot?: Robot;
+}
+
+export interface Robot {
+  /** Of its drive. */
+  kind: string;
+  /** [m/s] */
+  max_speed: number;
+  /** [rad/s] */
+  max_turn: number;
+  namespace: string;
 }
 
 export interface Joint {

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+/** Driving the selected robot: by W A S D, and by a stick for thumbs in its panel. */
+
+import {createElement} from './dom.js';
+
+/** @import {App, Point, Robot} from './types.js' */
+
+const PERIOD = 100; // ms between commands: a drive stops without one after half a second
+const TURN = 0.5; // share of the greatest turn rate that a key asks for
+const REACH = 48; // px of the knob
+/** Forward, left and turn of a key, by its place. @type {Record<string, [number, number, number]>} */
+const KEYS = {KeyW: [1, 0, 0], KeyS: [-1, 0, 0], KeyA: [0, 0, TURN], KeyD: [0, 0, -TURN], KeyQ: [0, 1, 0], KeyE: [0, -1, 0]};
+
+export class Driving {
+  /** @param {App} app */
+  constructor(app) {
+    this.app = app;
+    this.name = ''; // of the robot that is driven
+    /** @type {Set<string>} that are held */
+    this.keys = new Set();
+    /** @type {Point} of the knob, right and up, each -1 .. 1 */
+    this.stick = [0, 0];
+    this.timer = 0;
+    this.knob = createElement('i');
+    this.element = createElement('div', {className: 'stick', role: 'img', 'aria-label': 'Stick: drag to drive'}, this.knob);
+    this.element.addEventListener('pointerdown', (event) => {
+      this.element.setPointerCapture(event.pointerId);
+      this.#drag(event);
+    });
+    // The canvas keeps the focus, so that keys drive on.
+    this.element.addEventListener('mousedown', (event) => event.preventDefault());
+    this.element.addEventListener('pointermove', (event) => event.buttons && this.#drag(event));
+    this.element.addEventListener('lostpointercapture', () => this.#push([0, 0]));
+  }
+
+  /** @returns {?Robot} the selected one */
+  get #robot() {
+    const {panel, world, viewOnly} = this.app, row = panel.name && !viewOnly ? world.row(panel.name) : -1;
+    return row < 0 ? null : world.scene.bodies[row].robot ?? null;
+  }
+
+  /**
+   * @param {Robot} robot
+   * @returns {Node[]} its part of the panel
+   */
+  show({kind, namespace}) {
+    return [createElement('h3', {textContent: `Robot, ${kind} · /${namespace}`}),
+      createElement('div', {className: 'drive'}, this.element,
+        createElement('p', {textContent: `Drag the knob; or ${kind === 'omni' ? 'W A S D, Q and E' : 'W A S D'}, after a click on the world.`}))];
+  }
+
+  /**
+   * @param {string} code of a key that is pressed
+   * @returns {boolean} whether a robot drives by it
+   */
+  press(code) {
+    if (!(code in KEYS) || !this.#robot) return false;
+    if (this.keys.has(code)) return true;
+    this.keys.add(code);
+    this.#change();
+    return true;
+  }
+
+  /** @param {string} code of a key that is lifted */
+  lift(code) {
+    if (this.keys.delete(code)) this.#change();
+  }
+
+  /** Lift all keys. */
+  liftAll() {
+    this.keys.clear();
+    this.#change();
+  }
+
+  /** @param {PointerEvent} event */
+  #drag({clientX, clientY}) {
+    const {left, top, width} = this.element.getBoundingClientRect();
+    const x = (clientX - left - width / 2) / REACH, y = (top + width / 2 - clientY) / REACH;
+    const far = Math.max(Math.hypot(x, y), 1);
+    this.#push([x / far, y / far]);
+  }
+
+  /** @param {Point} stick */
+  #push(stick) {
+    this.stick = stick;
+    this.knob.style.transform = `translate(${stick[0] * REACH}px, ${-stick[1] * REACH}px)`;
+    this.#change();
+  }
+
+  /** Command at once, and again while anything is pressed. */
+  #change() {
+    const active = this.keys.size > 0 || this.stick.some(Boolean);
+    if (!active && !this.timer) return;
+    clearInterval(this.timer);
+    this.timer = active ? setInterval(() => this.#command(), PERIOD) : 0;
+    this.#command();
+  }
+
+  #command() {
+    const {connection, panel} = this.app, robot = this.#robot, [x, y] = this.stick;
+    if (this.name && (!robot || this.name !== panel.name)) {
+      // Another one was selected meanwhile.
+      connection.send('drive', {name: this.name, velocity: [0, 0, 0]});
+      this.name = '';
+      this.stick = [0, 0];
+      this.liftAll();
+      return;
+    }
+    if (!robot || !this.timer && !this.name) return;
+    const sum = [y, 0, -x * TURN];
+    for (const key of this.keys) KEYS[key].forEach((each, i) => { sum[i] += each; });
+    const most = [robot.max_speed, robot.max_speed, robot.max_turn];
+    connection.send('drive', {name: panel.name, velocity: sum.map((each, i) => Math.max(-1, Math.min(each, 1)) * most[i])});
+    this.name = this.timer ? panel.name : '';
+  }
+}

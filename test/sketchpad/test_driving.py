@@ -1,0 +1,78 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""Robots that are driven on the page."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+
+from .chromium import Sheet, started_world
+from ..outside import Outside
+
+WORLD = """
+format: 1
+bounds: [-2, -2, 2, 2]
+gravity: [0, 0]
+floor_friction: 0.6
+bodies:
+  - {name: crate/0, box: {width: 0.4, height: 0.4}, at: [-1, 1]}
+  - {name: tb3/0, robot: turtlebot4, at: [0, 0]}
+"""
+
+
+@pytest.fixture(scope='module')
+def address(outside: Outside) -> str:
+    """Give the module the address of a world with a robot."""
+    return started_world(outside, world=WORLD)[1]
+
+
+@pytest.fixture
+def sheet(chromium: Any, address: str) -> Iterator[Sheet]:
+    """Give a test a page whose robot is selected, from the beginning of the world."""
+    sheet = Sheet(chromium, address)
+    sheet.wait('Object.keys(physsim.bodies).length === 2')
+    sheet.press('Pause')
+    sheet.press('Reset')
+    sheet.wait('physsim.time === 0 && physsim.speed === 0')
+    sheet.page.mouse.click(*sheet.place(0.0, 0.0))
+    panel = sheet.page.get_by_role('complementary', name='Body')
+    panel.get_by_role('heading', name='differential · /tb3_0').wait_for()
+    sheet.press('Play')
+    yield sheet
+    assert not sheet.errors
+    sheet.close()
+
+
+def tool(sheet: Sheet) -> str:
+    name: str = sheet.page.evaluate('document.querySelector("canvas").dataset.tool')
+    return name
+
+
+def test_keys_drive_the_robot_that_is_selected(sheet: Sheet) -> None:
+    sheet.page.keyboard.down('w')
+    sheet.wait('physsim.bodies["tb3/0"][0] > 0.2')
+    sheet.page.keyboard.up('w')
+    sheet.page.keyboard.down('a')
+    sheet.wait('physsim.bodies["tb3/0"][2] > 0.5')
+    sheet.page.keyboard.up('a')
+    assert tool(sheet) == 'pen'
+    # Without a robot they are those of the tools again.
+    sheet.page.keyboard.press('Escape')
+    sheet.page.keyboard.press('w')
+    assert tool(sheet) == 'wall'
+
+
+def test_the_stick_drives_it_and_lets_it_stop(sheet: Sheet) -> None:
+    box = sheet.page.get_by_label('Stick: drag to drive').bounding_box()
+    x, y = box['x'] + box['width'] / 2, box['y'] + box['height'] / 2
+    sheet.page.mouse.move(x, y)
+    sheet.page.mouse.down()
+    sheet.page.mouse.move(x, y + 60)
+    sheet.wait('physsim.bodies["tb3/0"][0] < -0.1')
+    sheet.page.mouse.up()
+    sheet.press('Undo')
+    sheet.wait('physsim.bodies["tb3/0"].join() === "0,0,0"')
