@@ -262,5 +262,5 @@ def test_the_tests_in_the_documents_pass(pytester: pytest.Pytester) -> None:
             if 'def test_' in block:
                 (pytester.path / f'test_{document.stem}_{count}.py').write_text(block)
                 count += 1
-    assert count == 3
+    assert count == 4
     pytester.runpytest_subprocess().assert_outcomes(passed=count)
