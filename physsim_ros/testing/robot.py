@@ -7,10 +7,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 import json
+import math
 from typing import Any
 
 from nav_msgs.msg import Odometry
 from physsim_ros.files import shipped_robot
+from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.requests import DriveRobot
 from physsim_ros.model.robots.sensors import Bumper, Sensor
 from physsim_ros.model.shapes import SHAPES
@@ -25,7 +27,7 @@ from sensor_msgs.msg import LaserScan
 from visualization_msgs.msg import Marker
 
 # A bumper all around.
-_ALL_ROUND = Bumper(sector=6.2831)
+_ALL_ROUND = Bumper(sector=math.tau)
 
 
 class Robot:
@@ -79,13 +81,23 @@ class Robot:
         return self._node.fleet.robots[self.name].reading(view, row, sensors[sensor])
 
     def odom(self) -> Odometry:
-        """Return where its wheels and its gyroscope tell that it is."""
+        """
+        Return where its wheels and its gyroscope tell that it is.
+
+        :raises UnknownName: the robot is not there
+        """
+        view = self._view()
         number = [*self._node.fleet.robots].index(self.name)
-        return self._node.fleet.robots[self.name].odometry(self._view(), number)
+        return self._node.fleet.robots[self.name].odometry(view, number)
 
     def truth(self) -> Odometry:
-        """Return where it is."""
-        return self._node.fleet.robots[self.name].truth(self._view(), self._row)
+        """
+        Return where it is.
+
+        :raises UnknownName: the robot is not there
+        """
+        view, row = self._view(), self._row
+        return self._node.fleet.robots[self.name].truth(view, row)
 
     @property
     def bumped(self) -> bool:
@@ -126,10 +138,16 @@ def robot_marker(
     :param name: of the body
     :param at: x, y [m] and, where there are three, yaw [rad]
     :param namespace: of its topics; None is by the name of the body
-    :raises BadProperty: there is no such robot
+    :raises BadProperty: there is no such robot, or none is named
     """
     changes = {'from': robot} if isinstance(robot, str) else dict(robot)
-    entry = shipped_robot(str(changes.get('from')))
+    if changes.get('from') is None:
+        raise BadProperty(
+            'name a shipped robot as from; one of a shape of its own is spawned: '
+            "box('own/0', robot={...})",
+            field='from',
+        )
+    entry = shipped_robot(str(changes['from']))
     key = next(key for key in SHAPES if key in entry)
     kind, scale, points = geometry_of(SHAPES[key].from_entry(entry[key]))
     if namespace is not None:

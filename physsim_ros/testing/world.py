@@ -76,6 +76,7 @@ class PhysSim(ObservedWorld):
                 looked = ' and '.join(str(each) for each in paths)
                 refused.add_note(f'There is neither {looked}, nor a shipped world of that name.')
             raise
+        self._let_go()
         self.node.apply_requests()
         self.settle()
 
@@ -169,8 +170,7 @@ class PhysSim(ObservedWorld):
         :raises Refused: the time is no longer in the history, or in the future
         """
         self.settle()
-        for robot in self._robots:
-            robot.held = None
+        self._let_go()
         with refusals_as_refused():
             self.node.simulation.seek(round(seconds * 1e9))
         self.node.apply_requests()
@@ -235,6 +235,11 @@ class PhysSim(ObservedWorld):
         """Have robots hear those who command them; by itself the node looks by the wall clock."""
         if self.node.fleet.match_publishers():
             self.settle()
+
+    def _let_go(self) -> None:
+        """End what the test has its robots do."""
+        for robot in self._robots:
+            robot.held = None
 
     def _submit_drives(self) -> None:
         """Submit what the test has its robots do."""
