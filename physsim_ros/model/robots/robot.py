@@ -21,7 +21,9 @@ from physsim_ros.model.robots.odometry import Odometry, odometry_from
 from physsim_ros.model.robots.sensors import Sensor, sensor_from
 
 # Names of topics that every robot has.
-OWN_TOPICS = ('cmd_vel', 'odom', 'ground_truth')
+OWN_TOPICS = ('cmd_vel', 'odom', 'ground_truth', 'tf', 'tf_static')
+# Names of its frames; that of a sensor is its name.
+_OWN_FRAMES = ('base_footprint', 'base_link')
 # Greatest number of sensors of a robot.
 MOST_SENSORS = 64
 # Characters of a namespace: topics of ROS have 255 at most.
@@ -87,6 +89,8 @@ class Robot(Checked):
         Checked.__post_init__(self)
         topics = [*OWN_TOPICS, *(sensor.name for sensor in self.sensors)]
         for topic in topics:
+            if topic in _OWN_FRAMES:
+                raise BadProperty(f'{topic} is a frame of each robot', field='sensors')
             if topics.count(topic) > 1:
                 raise BadProperty(f'a robot has two topics {topic}', field='sensors')
 

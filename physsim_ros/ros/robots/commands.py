@@ -13,10 +13,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import suppress
+from functools import partial
 from typing import Any
 
 from geometry_msgs.msg import Twist, TwistStamped
-from physsim_ros.model.errors import Malformed
+from physsim_ros.model.errors import BadProperty, Malformed, Refusal
 from physsim_ros.model.requests import DriveRobot
 from physsim_ros.ros.requests.cdr_reader import CdrReader, Truncated
 from rclpy.impl.implementation_singleton import rclpy_implementation
@@ -38,20 +39,23 @@ class Commands:
     :param node: that subscribes
     :param topic: `cmd_vel` below its namespace
     :param body: its name
-    :param on_mixed: called when publishers of both types are found, with the type that is heard
+    :param refuse: reports that publishers of both types are there; takes the refusal and the topic
 
     :ivar topic: that commands come by
-    :ivar stamp: of the last stamped command that has arrived, simulation time [ns]
+    :ivar awaited: stamp of the scan that no command has answered yet [ns]; None is none
     """
 
-    def __init__(self, node: Node, topic: str, body: str, on_mixed: Callable[[str], None]) -> None:
+    def __init__(
+        self, node: Node, topic: str, body: str, refuse: Callable[[Refusal, str], None]
+    ) -> None:
         self.topic = topic
-        self.stamp = 0
+        self.awaited: int | None = None
         self._node = node
         self._body = body
-        self._on_mixed = on_mixed
+        self._refuse = refuse
         self._mixed = False
-        self._data: bytes | None = None
+        # Type and bytes of the last command.
+        self._last: tuple[type, bytes] | None = None
         # Type and reliability of the subscription.
         self._heard: tuple[type, ReliabilityPolicy] | None = None
         self._subscription: Subscription | None = None
@@ -81,14 +85,16 @@ class Commands:
         changed = heard != self._heard
         if changed:
             self.close()
-            self._heard, self._data = heard, None
+            self._heard = heard
             if heard is not None:
                 qos = QoSProfile(depth=_DEPTH, reliability=heard[1])
                 self._subscription = self._node.create_subscription(
-                    heard[0], self.topic, self._receive, qos, raw=True
+                    heard[0], self.topic, partial(self._receive, heard[0]), qos, raw=True
                 )
-        if len(types) > 1 and not self._mixed:
-            self._on_mixed(types[0].__name__ if heard is None else heard[0].__name__)
+        if heard is not None and len(types) > 1 and not self._mixed:
+            kind = heard[0].__name__
+            message = f'publishers of Twist and of TwistStamped are there; {kind} is heard'
+            self._refuse(BadProperty(message, field='cmd_vel'), self.topic)
         self._mixed = len(types) > 1
         return changed
 
@@ -99,10 +105,10 @@ class Commands:
         :raises Malformed: it cannot be decoded, or is not finite
         :raises BadProperty: it is faster than anything may be
         """
-        data, self._data = self._data, None
-        if data is None or self._heard is None:
+        last, self._last = self._last, None
+        if last is None:
             return None
-        kind, _ = self._heard
+        kind, data = last
         try:
             message: Any = deserialize_message(data, kind)
         except rclpy_implementation.RMWError as error:
@@ -117,8 +123,9 @@ class Commands:
             self._node.destroy_subscription(self._subscription)
             self._subscription = None
 
-    def _receive(self, data: bytes) -> None:
-        self._data = data
-        if self.is_stamped:
+    def _receive(self, kind: type, data: bytes) -> None:
+        self._last = kind, data
+        if kind is TwistStamped and self.awaited is not None:
             with suppress(Truncated):
-                self.stamp = CdrReader(data).stamp()
+                if CdrReader(data).stamp() >= self.awaited:
+                    self.awaited = None

@@ -16,7 +16,7 @@ from functools import partial
 import time
 from typing import Any
 
-from physsim_ros.model.errors import BadProperty, InPast, Refusal
+from physsim_ros.model.errors import InPast, Refusal
 from physsim_ros.model.robots import Robot
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Frame, Snapshot
@@ -106,10 +106,7 @@ class Fleet:
             self._look_due = now + _LOOK_PERIOD
             self.match_publishers()
 
-    def _report_mixed(self, body: str, heard: str) -> None:
-        topic = self.robots[body].commands.topic if body in self.robots else '~/spawn'
-        message = f'publishers of Twist and of TwistStamped are there; {heard} is heard'
-        refusal = BadProperty(message, field='cmd_vel')
+    def _refuse(self, body: str, refusal: Refusal, topic: str) -> None:
         self._requests.refuse(refusal, topic=topic, subject=body, joined=True)
 
     @property
@@ -175,11 +172,11 @@ class Fleet:
             robot,
             robot_tf=RobotTf(self._values['robot_tf']),
             world_frame=self._values['frame_id'],
-            on_mixed=partial(self._report_mixed, body),
+            refuse=partial(self._refuse, body),
         )
 
 
 def _is_awaited(robot: RobotTopics) -> bool:
     """Return whether a robot with stamped commands has not answered its last scan."""
     commands = robot.commands
-    return robot.scanned > commands.stamp and commands.is_stamped
+    return commands.awaited is not None and commands.is_stamped

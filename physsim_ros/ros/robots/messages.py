@@ -92,7 +92,7 @@ def odometry_message(
     Return a pose and the twist there.
 
     :param pose: x, y [m], yaw [rad] in the parent frame
-    :param twist: vx, vy [m/s], turn [rad/s] in world axes, of a body with the yaw of `pose`
+    :param twist: vx, vy [m/s], turn [rad/s] in the child frame
     :param variances: of x, y [m²] and yaw [rad²]
     """
     message = Odometry(child_frame_id=child)

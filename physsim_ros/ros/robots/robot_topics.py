@@ -4,18 +4,20 @@
 """
 The topics of one robot, below its namespace.
 
-Law: a reading that nobody subscribes to is not made, and one of a moment is the same whoever
-subscribes.
+Laws: a reading that nobody subscribes to is not made, and one of a moment is the same whoever
+subscribes; a topic that ROS refuses, as another type has it, is refused, and the others are there.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, TypeGuard
 
 from builtin_interfaces.msg import Time
 from nav_msgs.msg import Odometry
+from physsim_ros.model.errors import BadProperty, Refusal
 from physsim_ros.model.robots import Robot, Sensor
+from physsim_ros.model.robots.sensors import Bumper, Laser
 from physsim_ros.ros.robots.commands import Commands
 from physsim_ros.ros.robots.frames import (
     BASE,
@@ -33,6 +35,7 @@ from physsim_ros.ros.robots.messages import (
     View,
 )
 from physsim_ros.sensing import is_due
+from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
@@ -50,10 +53,9 @@ class RobotTopics:
     :param robot: that it is
     :param robot_tf: where its transforms are published
     :param world_frame: name of the world frame
-    :param on_mixed: called when publishers of both types of commands are found
+    :param refuse: reports a topic that cannot be; takes the refusal and the topic
 
     :ivar commands: that it hears
-    :ivar scanned: stamp of the last scan that was published [ns]; 0 is none
     """
 
     def __init__(
@@ -64,11 +66,11 @@ class RobotTopics:
         *,
         robot_tf: RobotTf,
         world_frame: str,
-        on_mixed: Callable[[str], None],
+        refuse: Callable[[Refusal, str], None],
     ) -> None:
         self.body, self.robot = body, robot
-        self.scanned = 0
         self._node = node
+        self._refuse = refuse
         self._world_frame = world_frame
         namespace = robot.namespace_of(body)
         self._frames = RobotFrames.of_namespace(namespace, robot_tf)
@@ -80,7 +82,7 @@ class RobotTopics:
             (sensor, self._publisher(READINGS[type(sensor)].kind, sensor.name))
             for sensor in robot.sensors
         ]
-        self.commands = Commands(node, f'{self._below}cmd_vel', body, on_mixed)
+        self.commands = Commands(node, f'{self._below}cmd_vel', body, refuse)
         self._tf: Publisher | None = None
         self._tf_message: Any = None if robot_tf is RobotTf.NONE else tf_message_type()
         if (kind := self._tf_message) is not None:
@@ -92,7 +94,8 @@ class RobotTopics:
                 below=below,
                 durability=DurabilityPolicy.TRANSIENT_LOCAL,
             )
-            fixed.publish(kind(transforms=self._frames.fixed(Time(), robot)))
+            if fixed is not None:
+                fixed.publish(kind(transforms=self._frames.fixed(Time(), robot)))
 
     def _publisher(
         self,
@@ -102,20 +105,26 @@ class RobotTopics:
         below: str | None = None,
         depth: int = 5,
         durability: DurabilityPolicy = DurabilityPolicy.VOLATILE,
-    ) -> Publisher:
+    ) -> Publisher | None:
         # Reliable publishers serve subscribers of both reliabilities.
         qos = QoSProfile(
             depth=depth, reliability=ReliabilityPolicy.RELIABLE, durability=durability
         )
         topic = (self._below if below is None else below) + topic
-        publisher = self._node.create_publisher(kind, topic, qos)
+        try:
+            publisher = self._node.create_publisher(kind, topic, qos)
+        except rclpy_implementation.RCLError:
+            # Within a process a topic has one type.
+            message = f'{topic} is a topic of another type already'
+            self._refuse(BadProperty(message, field='name'), topic)
+            return None
         self._publishers.append(publisher)
         return publisher
 
     def wants_contacts(self) -> bool:
         """Return whether a bumper has subscribers."""
         return any(
-            sensor.KIND == 'bumper' and publisher.get_subscription_count()
+            isinstance(sensor, Bumper) and _is_heard(publisher)
             for sensor, publisher in self._sensors
         )
 
@@ -128,20 +137,20 @@ class RobotTopics:
         :param number: of the robot among those of the scene
         """
         # Before the readings, which are looked up in it by their stamps.
-        if self._tf is not None and self._tf.get_subscription_count():
+        if _is_heard(self._tf):
             odometry = view.snapshot.robots.odometry[number].tolist()
             moving = self._frames.moving(view.stamp, tuple(odometry))
             self._tf.publish(self._tf_message(transforms=[moving]))
-        if self._truth.get_subscription_count():
+        if _is_heard(self._truth):
             self._truth.publish(self.truth(view, row))
         odometry = self.robot.odometry
-        if self._odometry.get_subscription_count() and self._is_due('odom', odometry.rate, view):
+        if _is_heard(self._odometry) and self._is_due('odom', odometry.rate, view):
             self._odometry.publish(self.odometry(view, number))
         for sensor, publisher in self._sensors:
-            if publisher.get_subscription_count() and self._is_due(sensor.name, sensor.rate, view):
+            if _is_heard(publisher) and self._is_due(sensor.name, sensor.rate, view):
                 publisher.publish(self.reading(view, row, sensor))
-                if sensor.KIND == 'laser':
-                    self.scanned = view.snapshot.stamp
+                if isinstance(sensor, Laser):
+                    self.commands.awaited = view.snapshot.stamp
 
     def odometry(self, view: View, number: int) -> Odometry:
         """Return where wheels and gyroscope tell that the robot is, and how it moves."""
@@ -194,3 +203,8 @@ class RobotTopics:
             return True
         earlier, later = sorted((before.stamp, now))
         return is_due(f'{self.body}|{name}', rate, earlier, later)
+
+
+def _is_heard(publisher: Publisher | None) -> TypeGuard[Publisher]:
+    """Return whether a topic is there and has subscribers."""
+    return publisher is not None and publisher.get_subscription_count() > 0

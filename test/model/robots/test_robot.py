@@ -103,3 +103,10 @@ def test_wheels_do_not_slip_where_they_stand(drive):
 
     # A turn in place moves each rim by the distance of its wheel from the middle.
     assert {abs(each) for each in turn.values()} == {0.2}
+
+
+@pytest.mark.parametrize('name', ['odom', 'cmd_vel', 'tf', 'tf_static', 'base_link'])
+def test_a_sensor_has_no_name_of_a_topic_or_frame_of_each_robot(name):
+    with pytest.raises(BadProperty, match=name) as caught:
+        robot_from({'drive': DRIVE, 'sensors': [{'kind': 'imu', 'name': name}]})
+    assert caught.value.field == 'sensors'

@@ -11,7 +11,7 @@ from typing import Any
 
 from geometry_msgs.msg import Twist, TwistStamped
 from nav_msgs.msg import Odometry
-from physsim_ros.testing import box, delete, PhysSim, Refused
+from physsim_ros.testing import box, delete, PhysSim, Refused, UnknownName
 import pytest
 from sensor_msgs.msg import Image, Imu, JointState, LaserScan, Range
 from std_msgs.msg import Bool
@@ -272,3 +272,78 @@ def test_frozen_robots_say_nothing_of_the_past(flat: PhysSim, client: Client) ->
     assert not messages
     flat.run(1.0)
     assert messages
+
+
+def test_a_topic_that_another_type_has_is_refused_and_the_others_are_there(
+    flat: PhysSim, client: Client
+) -> None:
+    entities = len(list(flat.node.publishers))
+    client.events.clear()
+    flat.robot(
+        {'from': 'turtlebot3_burger', 'sensors': [{'kind': 'laser', 'name': 'poses'}]},
+        namespace='physsim',
+    )
+    messages = heard(flat, client, Odometry, '/physsim/ground_truth')
+    flat.run(0.5)
+    assert messages
+    (event,) = [event for event in client.events if event.code != 'ok']
+    assert (event.code, event.name, event.field) == ('bad_property', '/physsim/poses', 'name')
+    flat.spawn(delete('robot/0'))
+    assert len(list(flat.node.publishers)) == entities
+
+
+def test_the_last_command_of_a_node_that_has_gone_counts(flat: PhysSim) -> None:
+    robot = flat.robot('turtlebot3_burger')
+    driver = Driver(flat.context, looks=False)
+    flat.add(driver)
+    driver.send(0.2)
+    flat.settle()
+    driver.destroy_publisher(driver.publisher)
+    flat.run(0.3)
+    assert robot.truth().twist.twist.linear.x == pytest.approx(0.2, abs=1e-6)
+
+
+def test_a_scan_after_a_rewind_waits_for_an_answer_of_its_own(flat: PhysSim) -> None:
+    flat.robot('turtlebot3_burger')
+    driver = Driver(flat.context, kind=TwistStamped)
+    flat.add(driver)
+    flat.run(2.0)
+    commands = flat.node.fleet.robots['robot/0'].commands
+    assert len(driver.scans) > 5
+    assert commands.awaited is None
+    driver.hear = lambda _: None  # type: ignore[method-assign] # it hears, and does not answer
+    driver.destroy_subscription(next(iter(driver.subscriptions)))
+    driver.create_subscription(LaserScan, '/robot_0/scan', driver.hear, 10)
+    flat.rewind(1.0)
+    flat.run(0.5)
+    assert commands.awaited is not None
+    assert commands.awaited <= 1.5e9
+
+
+def test_a_robot_that_is_not_there_has_no_readings(flat: PhysSim) -> None:
+    flat.run(1.0)
+    robot = flat.robot('turtlebot3_burger')
+    flat.run(1.0)
+    odometry = robot.odom()
+    flat.seek(0.5)
+    for read in (robot.odom, robot.truth, robot.scan):
+        with pytest.raises(UnknownName, match='there is no robot'):
+            read()
+    flat.run(1.5)
+    assert robot.odom() == odometry
+
+
+def test_a_world_that_is_loaded_is_not_driven_by_the_robots_before_it(flat: PhysSim) -> None:
+    robot = flat.robot('turtlebot3_burger')
+    robot.drive(0.2)
+    flat.run(0.5)
+    flat.load('boxes')
+    assert robot.name in flat.names
+    flat.run(0.5)
+    assert robot.truth().twist.twist.linear.x == 0.0
+
+
+def test_a_robot_without_a_shipped_name_is_refused(flat: PhysSim) -> None:
+    with pytest.raises(Refused, match='name a shipped robot') as caught:
+        flat.robot({'drive': {'kind': 'omni'}})
+    assert caught.value.field == 'from'
