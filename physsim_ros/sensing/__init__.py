@@ -12,7 +12,7 @@ after a rewind. No state, no clock, no engine; messages of readings are in `ros`
 from physsim_ros.sensing.bumper import read_bumper
 from physsim_ros.sensing.floor_eye import FloorMarks, read_floor
 from physsim_ros.sensing.imu import InertialReading, read_imu
-from physsim_ros.sensing.laser import read_laser
+from physsim_ros.sensing.laser import read_laser, scan_points
 from physsim_ros.sensing.range_finder import read_range
 from physsim_ros.sensing.schedule import is_due
 from physsim_ros.sensing.surroundings import Surroundings
@@ -30,4 +30,5 @@ __all__ = [
     'read_laser',
     'read_range',
     'read_wheels',
+    'scan_points',
 ]

@@ -14,6 +14,7 @@ from functools import lru_cache
 import numpy as np
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.robots.sensors import Laser
+from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.transform import rotated_each
 from physsim_ros.sensing.fan import Rays
 from physsim_ros.sensing.mounting import noise_of, placed
@@ -40,6 +41,25 @@ def read_laser(surroundings: Surroundings, row: int, laser: Laser, seed: int) ->
     ranges = surroundings.nearest(Rays((origin[0], origin[1]), x, y), greatest, row)
     noise = noise_of(snapshot, row, laser, seed, laser.beams) if laser.noise else None
     return within_range(ranges, least, greatest, laser.noise, noise)
+
+
+def scan_points(snapshot: Snapshot, row: int, laser: Laser, ranges: Floats) -> Floats:
+    """
+    Return (beams + 1, 2) float64: the laser, then where each beam ends, in the world [m].
+
+    That is at the greatest range for nothing, and at the laser for what is too close.
+
+    :param snapshot: of the world
+    :param row: of the robot's body in the scene
+    :param laser: on it
+    :param ranges: (beams,) float64: that it reads [m]
+    """
+    x, y, yaw = placed(snapshot, row, laser)
+    points = np.zeros((laser.beams + 1, 2))
+    points[1:] = rotated_each(_beams(laser.beams, laser.angle[0], laser.increment), yaw)
+    points[1:] *= np.clip(ranges, 0.0, laser.range[1])[:, None]
+    points += np.array((x, y))
+    return points
 
 
 def within_range(

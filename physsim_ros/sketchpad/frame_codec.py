@@ -15,7 +15,10 @@ Little endian, each column on a multiple of four bytes:
                 f32 x[m] [m], y[m] [m], nx[m], ny[m], jx[m] [N s], jy[m] [N s]
     FORCES      u32 j, f32 force[j] [N]                                    of each joint
     PULLS       u32 j, f32 fx[j] [N], fy[j] [N]                            of each joint on body b
+    SCAN        u32 k, f32 x[k] [m], y[k] [m], hit[k]                      of a laser, see below
     HANDS       u32 h, f32 x[h] [m], y[h] [m], hand x[h] [m], hand y[h] [m]   of each grip
+
+The first point of a scan is the laser; the others are the ends of its beams, 1 where they hit.
 
 `docs/page_protocol.md` tells how a page reads it; `page/frame_codec.js` does.
 """
@@ -39,7 +42,8 @@ class Show(IntFlag):
     The parts of a frame besides the poses.
 
     A frame has velocities, contacts and forces where a page asks for them, pulls with contacts,
-    and hands while they drag. A ghost is a frame of a course of events that was left.
+    hands while they drag, and a scan where the page shows a robot's laser. A ghost is a frame of
+    a course of events that was left.
     """
 
     POSES = 0
@@ -49,14 +53,16 @@ class Show(IntFlag):
     HANDS = 8
     GHOST = 16
     PULLS = 32
+    SCAN = 64
 
 
-def encode_frame(frame: Frame, *, epoch: int, show: Show) -> bytes:
+def encode_frame(frame: Frame, *, epoch: int, show: Show, scan: Floats | None = None) -> bytes:
     """
     Return the message of a frame.
 
     :param epoch: number of its scene
     :param show: the parts that are asked for; parts that the frame lacks are left out
+    :param scan: (k, 3) float64, as `LaserViews` has it; None is none
     """
     snapshot = frame.snapshot
     parts: list[bytes] = [_columns(snapshot.poses)]
@@ -77,6 +83,9 @@ def encode_frame(frame: Frame, *, epoch: int, show: Show) -> bytes:
     if Show.CONTACTS in flags and len(snapshot.pulls) == len(snapshot.scene.joints):
         flags |= Show.PULLS
         parts += [_COUNT.pack(len(snapshot.pulls)), _columns(snapshot.pulls)]
+    if scan is not None:
+        flags |= Show.SCAN
+        parts += [_COUNT.pack(len(scan)), _columns(scan)]
     header = _HEADER.pack(
         VERSION, flags, 0, epoch, snapshot.stamp * 1e-9, frame.speed, len(snapshot.poses)
     )

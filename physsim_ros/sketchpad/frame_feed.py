@@ -16,6 +16,7 @@ import time
 
 from physsim_ros.model.snapshot import Frame, Snapshot
 from physsim_ros.sketchpad.frame_codec import encode_frame, Show
+from physsim_ros.sketchpad.laser_views import LaserViews
 from physsim_ros.sketchpad.open_pages import OpenPage, OpenPages
 from physsim_ros.sketchpad.scene_codec import compact, SceneCodec
 from tornado.websocket import WebSocketHandler
@@ -44,8 +45,10 @@ class FrameFeed:
         self._codec = SceneCodec()
         self._frame: Frame | None = None
         self._number = 0
-        self._encoded: dict[Show, bytes] = {}
+        # By the parts that a page shows, and the robot.
+        self._encoded: dict[tuple[Show, str], bytes] = {}
         self._scene_text = ''
+        self._lasers = LaserViews()
         self._ghost_codec = SceneCodec()
         self._ghost_text = ''
         self._ghost_frame = b''
@@ -58,9 +61,14 @@ class FrameFeed:
         self.update_page(page)
         return page
 
-    def show_parts(self, page: OpenPage, show: Show) -> None:
-        """Send a page the newest frame again, and later ones, with other parts."""
-        page.show = show
+    def show_parts(self, page: OpenPage, show: Show, robot: str) -> None:
+        """
+        Send a page the newest frame again, and later ones, with other parts.
+
+        :param robot: name of that whose laser is shown; '' is none
+        """
+        page.show, page.robot = show, robot
+        self._read_lasers()
         self.pages.note_parts()
         page.frame = 0
         self.update_page(page)
@@ -83,8 +91,15 @@ class FrameFeed:
         self._number += 1
         self._encoded.clear()
         self._encode_ghost(frame, ghost)
+        self._read_lasers()
         for page in self.pages:
             self.update_page(page)
+
+    def _read_lasers(self) -> None:
+        """Read the lasers that pages show."""
+        if self._frame is not None:
+            robots = {page.robot for page in self.pages if page.robot}
+            self._lasers.read(self._frame.snapshot, robots)
 
     def _encode_ghost(self, frame: Frame, ghost: Snapshot | None) -> None:
         if ghost is None:
@@ -104,11 +119,15 @@ class FrameFeed:
             page.epoch = self._codec.epoch
             page.send_part(self._scene_text)
         page.frame = self._number
-        if page.show not in self._encoded:
-            self._encoded[page.show] = encode_frame(
-                self._frame, epoch=self._codec.epoch, show=page.show
+        parts = page.show, page.robot
+        if parts not in self._encoded:
+            self._encoded[parts] = encode_frame(
+                self._frame,
+                epoch=self._codec.epoch,
+                show=page.show,
+                scan=self._lasers.scan(page.robot),
             )
-        page.send_part(self._encoded[page.show])
+        page.send_part(self._encoded[parts])
         if self._ghost_frame:
             if page.ghost_epoch != self._ghost_codec.epoch:
                 page.ghost_epoch = self._ghost_codec.epoch

@@ -39,6 +39,7 @@ class OpenPage:
     :param on_read: called with the page when it has read all that it was sent
 
     :ivar show: the parts of a frame that it gets
+    :ivar robot: name of the robot whose laser it shows; '' is none
     :ivar epoch: of the scene that was sent last; 0 before the first
     :ivar ghost_epoch: of the ghost's scene that was sent last; 0 where there is no ghost
     :ivar frame: number of the frame that was sent last; 0 before the first
@@ -49,6 +50,7 @@ class OpenPage:
     ) -> None:
         self.number = number
         self.show = Show.POSES
+        self.robot = ''
         self.epoch = self.ghost_epoch = self.frame = 0
         self._socket = socket
         self._on_read = on_read

@@ -19,7 +19,7 @@ from physsim_ros.sketchpad.frame_feed import FrameFeed
 from physsim_ros.sketchpad.guarded import GuardedSocket
 from physsim_ros.sketchpad.inbox import Closed, Inbox, Opened
 from physsim_ros.sketchpad.message import answer_content, message, Optional
-from physsim_ros.sketchpad.messages import read_message
+from physsim_ros.sketchpad.messages import fields, read_message
 from physsim_ros.sketchpad.open_pages import MOST_PAGES, OpenPage
 from physsim_ros.sketchpad.scene_codec import compact
 
@@ -65,7 +65,7 @@ class PageSocket(GuardedSocket):
         if isinstance(checked, Refusal):
             self._answer(request, Answer.refused(checked, topic=''))
         elif checked.kind == 'show':
-            self._feed.show_parts(self._page, _show(**checked.arguments))
+            self._feed.show_parts(self._page, *_show(**checked.arguments))
         elif self.role is not Role.DRAW and checked.kind not in OF_VIEWERS:
             self._refuse(request, 'view_only', 'this page only shows the world')
         elif not self._inbox.put(self._page.number, checked):
@@ -89,11 +89,21 @@ class PageSocket(GuardedSocket):
 
 
 # The world's thread never receives this kind.
-@message('show', '', velocities=Optional(flag), contacts=Optional(flag), forces=Optional(flag))
-def _show(*, velocities: bool = False, contacts: bool = False, forces: bool = False) -> Show:
-    """Return the parts of a frame that a page asks for."""
-    return (
+@message(
+    'show',
+    '',
+    velocities=Optional(flag),
+    contacts=Optional(flag),
+    forces=Optional(flag),
+    laser=Optional(fields.text),
+)
+def _show(
+    *, velocities: bool = False, contacts: bool = False, forces: bool = False, laser: str = ''
+) -> tuple[Show, str]:
+    """Return the parts of a frame that a page asks for, and the robot whose laser it shows."""
+    parts = (
         (Show.VELOCITIES if velocities else Show.POSES)
         | (Show.CONTACTS if contacts else Show.POSES)
         | (Show.FORCES if forces else Show.POSES)
     )
+    return parts, laser

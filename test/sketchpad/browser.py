@@ -49,6 +49,12 @@ class Picture(NamedTuple):
         begin = 3 * self.count + 1
         return self.columns[begin:].reshape(4, -1).T
 
+    @property
+    def scan(self) -> np.ndarray:
+        """(3, k) float32: x, y, hit; of a frame without other parts."""
+        begin = 3 * self.count + 1
+        return self.columns[begin:].reshape(3, -1)
+
 
 def decoded(message: bytes) -> Picture:
     """Decode a frame as the page's own module does."""

@@ -66,6 +66,15 @@ def test_keys_drive_the_robot_that_is_selected(sheet: Sheet) -> None:
     assert tool(sheet) == 'wall'
 
 
+def test_its_laser_is_light_around_it_while_it_is_selected(sheet: Sheet) -> None:
+    lit = sheet.color_at(1.0, -0.6)
+    sheet.page.keyboard.press('Escape')
+    sheet.until(lambda: sheet.color_at(1.0, -0.6) != lit, 'another colour')
+    paper = sheet.color_at(1.0, -0.6)
+    # Of the blue light the paper has less red.
+    assert lit[0] < paper[0] - 10
+
+
 def test_the_stick_drives_it_and_lets_it_stop(sheet: Sheet) -> None:
     box = sheet.page.get_by_label('Stick: drag to drive').bounding_box()
     x, y = box['x'] + box['width'] / 2, box['y'] + box['height'] / 2

@@ -18,6 +18,7 @@ from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.snapshot import Answer, Grip
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.sketchpad import body_past, open_pages, world_handlers
+from physsim_ros.sketchpad.frame_codec import Show
 from physsim_ros.sketchpad.inbox import Upload
 from physsim_ros.sketchpad.message import KINDS
 from physsim_ros.sketchpad.messages import worlds
@@ -449,6 +450,35 @@ def test_driving_in_the_past_begins_another_course(browser: Browser) -> None:
     physsim.run(0.4)
     assert physsim.pose('tb3/0').x < 0.0
     page.until(lambda: page.of_type('timeline')[-1]['courses'])
+
+
+def test_a_page_gets_the_scans_of_the_robot_that_it_shows(browser: Browser) -> None:
+    physsim, page = browser.physsim, browser.open_page()
+    spawned_robot(page)
+    wall = {'name': 'wall/0', 'box': {'width': 0.2, 'height': 9}, 'at': [2.1, 0], 'anchored': True}
+    assert page.ask('spawn', body=wall)['ok']
+    page.send('show', laser='tb3/0')
+    page.until(lambda: page.frames and page.frames[-1].flags & Show.SCAN)
+    # All round: the laser, 360 beams, and the first one again.
+    x, y, hit = page.frames[-1].scan
+    assert len(x) == 362
+    assert (x[0], y[0], hit[0]) == pytest.approx((-0.032, 0.0, 0.0), abs=1e-6)
+    assert (x[1], y[1], hit[1]) == pytest.approx((2.0, 0.0, 1.0), abs=0.06)
+    assert x[181] == pytest.approx(-0.032 - 3.5, abs=1e-5)
+    assert not hit[181]
+    # At 5 Hz: of the frames of a second, five have another one.
+    page.frames.clear()
+    for _ in range(60):
+        physsim.run(1 / 60)
+        seen = len(page.frames)
+        page.until(lambda seen=seen: len(page.frames) > seen)
+    scans = {frame.scan.tobytes() for frame in page.frames}
+    assert 4 <= len(scans) <= 6
+    page.send('show', laser='')
+    page.until(lambda: not page.frames[-1].flags & Show.SCAN)
+    page.send('show', laser='wall/0')
+    page.ask('drop')
+    assert not page.frames[-1].flags & Show.SCAN
 
 
 def test_the_page_is_small_on_its_way_and_sent_once(browser: Browser) -> None:

@@ -129,10 +129,11 @@ export class App {
 
   /** Ask for the parts of frames that are shown. */
   askForParts() {
-    const {velocities, forces} = this.arrows;
+    const {velocities, forces} = this.arrows, {name} = this.panel;
+    const robot = this.world.scene.bodies.some((body) => body.name === name && body.robot);
     this.view.dirty = true;
     // The drag of the air follows from velocities.
-    this.connection.send('show', {velocities: velocities || forces || this.panel.name !== '', contacts: forces, forces: true});
+    this.connection.send('show', {velocities: velocities || forces || name !== '', contacts: forces, forces: true, laser: robot ? name : ''});
   }
 
   /** Frame the world. */

@@ -160,12 +160,19 @@ export class BodyView {
   }
 
   /**
-   * The mark that turns with a body; the centre keeps the body's colour.
+   * The mark that turns with a body; the centre keeps the body's colour. Of a robot it is the front.
    * @param {Body} body
    * @param {Appearance} appearance
    * @param {number} pixel [m]
    */
-  #drawMark({centroid: [x, y]}, {inner, line}, pixel) {
+  #drawMark({centroid: [x, y], robot}, {inner, line, dark}, pixel) {
+    if (robot) {
+      this.ctx.fillStyle = dark ? '#eee' : '#111';
+      this.ctx.beginPath();
+      for (const [ahead, aside] of [[0.85, 0], [0.2, 0.5], [0.2, -0.5]]) this.ctx.lineTo(x + ahead * inner, y + aside * inner);
+      this.ctx.fill();
+      return;
+    }
     this.ctx.fillStyle = line;
     this.ctx.fillRect(x + 0.45 * inner, y - MARK / 2 * pixel, 0.4 * inner, MARK * pixel);
   }

@@ -4,6 +4,7 @@
 import {BodyView} from './body_view.js';
 import {drawGrid} from './grid_view.js';
 import {JointView} from './joint_view.js';
+import {drawScan} from './scan_view.js';
 import {readPalette, watchTheme} from './theme.js';
 
 /** @import {Body, Camera, Frame, Point, WorldState} from './types.js' */
@@ -64,6 +65,7 @@ export class SceneView {
     ctx.fillRect(0, 0, camera.width, camera.height);
     drawGrid(ctx, camera, palette, this.insets);
     this.#drawBounds();
+    if (world.frame.scan) drawScan(ctx, camera, palette, world.frame.scan);
     for (let row = 0; row < world.count; row++) this.bodies.draw(world.frame, row, world.scene.bodies[row]);
     if (world.ghost) this.#drawGhost(world.ghost, world.ghostScene.bodies);
     this.#toPixels();

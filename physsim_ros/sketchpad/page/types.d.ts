@@ -104,6 +104,8 @@ export interface Frame {
   hands?: {x: Float32Array, y: Float32Array, toX: Float32Array, toY: Float32Array};
   /** Of each joint on its body b [N]. */
   pulls?: {x: Float32Array, y: Float32Array};
+  /** Of the selected robot: its laser, then the ends of its beams; hit: 1 where they hit something. */
+  scan?: {x: Float32Array, y: Float32Array, hit: Float32Array};
 }
 
 /** On the body of a row. */
