@@ -15,9 +15,9 @@ import math
 
 import numpy as np
 from physsim_ros.engine.step_context import StepContext
-from physsim_ros.model.arrays import Flags, Floats
+from physsim_ros.model.arrays import Floats
 from physsim_ros.model.scene import Scene
-from physsim_ros.model.shapes import Capsule, Circle, Convex, Piece
+from physsim_ros.model.shapes import contains
 from physsim_ros.model.transform import rotated_each
 
 
@@ -46,7 +46,7 @@ def floor_velocities(context: StepContext) -> Floats | None:
         local = rotated_each(around, -yaw) + table.columns.offsets[row]
         on = np.zeros(len(centers), np.bool_)
         for piece in body.shape.form.pieces:
-            on |= _inside(piece, local)
+            on |= contains(piece, local)
         on[row] = False
         vx, vy, spin = context.twists[row].tolist()
         sx, sy = body.surface_velocity
@@ -55,21 +55,3 @@ def floor_velocities(context: StepContext) -> Floats | None:
         velocities[on, 1] = vy + sin * sx + cos * sy + spin * around[on, 0]
         velocities[on, 2] = spin
     return velocities
-
-
-def _inside(piece: Piece, points: Floats) -> Flags:
-    """Return (n,) bool: which points of the body's frame a piece covers."""
-    inside: Flags
-    match piece:
-        case Circle((x, y), radius):
-            inside = np.hypot(points[:, 0] - x, points[:, 1] - y) <= radius
-        case Capsule((x, y), end, radius):
-            dx, dy = end[0] - x, end[1] - y
-            px, py = points[:, 0] - x, points[:, 1] - y
-            share = np.clip((px * dx + py * dy) / ((dx * dx + dy * dy) or 1.0), 0.0, 1.0)
-            inside = np.hypot(px - share * dx, py - share * dy) <= radius
-        case Convex(vertices):
-            inside = np.ones(len(points), np.bool_)
-            for (ax, ay), (bx, by) in zip(vertices, (*vertices[1:], vertices[0]), strict=True):
-                inside &= (bx - ax) * (points[:, 1] - ay) >= (by - ay) * (points[:, 0] - ax)
-    return inside
