@@ -11,12 +11,11 @@ then `differential`.
 
 from __future__ import annotations
 
-from physsim_ros.model.checks import shown
-from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.robots.drives.car import Car
 from physsim_ros.model.robots.drives.differential import Differential
 from physsim_ros.model.robots.drives.drive import Drive
 from physsim_ros.model.robots.drives.omni import Omni
+from physsim_ros.model.robots.kinds import value_of_kind
 
 # By the word for it.
 DRIVES: dict[str, type[Drive]] = {each.KIND: each for each in (Differential, Omni, Car)}
@@ -34,18 +33,7 @@ def drive_from(value: object, name: str) -> Drive:
     """
     if isinstance(value, Drive):
         return value
-    if not isinstance(value, dict):
-        raise BadProperty(f'{name} must be a mapping, not {shown(value)}', field=name)
-    kind, kinds = value.get('kind'), ', '.join(DRIVES)
-    if not isinstance(kind, str) or kind not in DRIVES:
-        if kind is None:
-            raise BadProperty(f'a drive needs a kind: {kinds}', field='kind')
-        raise BadProperty(
-            f'there is no kind of drive {shown(kind)}; there are {kinds}', field='kind'
-        )
-    drive = DRIVES[kind]
-    properties = {key: each for key, each in value.items() if key != 'kind'}
-    return drive.from_mapping(properties)
+    return value_of_kind(value, name, 'drive', DRIVES)
 
 
 __all__ = ['DRIVES', 'Car', 'Differential', 'Drive', 'Omni', 'drive_from']

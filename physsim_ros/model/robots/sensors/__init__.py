@@ -10,8 +10,7 @@ A sensor is a value. What it reads in a frame is for the simulation, its message
 
 from __future__ import annotations
 
-from physsim_ros.model.checks import shown
-from physsim_ros.model.errors import BadProperty
+from physsim_ros.model.robots.kinds import value_of_kind
 from physsim_ros.model.robots.sensors.bumper import Bumper
 from physsim_ros.model.robots.sensors.floor_eye import FloorEye
 from physsim_ros.model.robots.sensors.imu import Imu
@@ -19,7 +18,6 @@ from physsim_ros.model.robots.sensors.laser import Laser
 from physsim_ros.model.robots.sensors.range_finder import RangeFinder
 from physsim_ros.model.robots.sensors.sensor import Sensor
 from physsim_ros.model.robots.sensors.wheel_encoders import WheelEncoders
-from physsim_ros.model.texts import nearest_name
 
 # By the word for it.
 SENSORS: dict[str, type[Sensor]] = {
@@ -39,20 +37,7 @@ def sensor_from(value: object, name: str = 'sensors') -> Sensor:
     """
     if isinstance(value, Sensor):
         return value
-    if not isinstance(value, dict):
-        raise BadProperty(f'a sensor must be a mapping, not {shown(value)}', field=name)
-    kind, kinds = value.get('kind'), ', '.join(SENSORS)
-    if kind is None:
-        raise BadProperty(f'a sensor needs a kind: {kinds}', field='kind')
-    if not isinstance(kind, str) or kind not in SENSORS:
-        raise BadProperty(
-            f'there is no kind of sensor {shown(kind)}{nearest_name(str(kind), SENSORS)}; there '
-            f'are {kinds}',
-            field='kind',
-        )
-    sensor = SENSORS[kind]
-    properties = {key: each for key, each in value.items() if key != 'kind'}
-    return sensor.from_mapping(properties)
+    return value_of_kind(value, name, 'sensor', SENSORS)
 
 
 __all__ = [
