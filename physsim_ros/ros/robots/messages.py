@@ -45,7 +45,8 @@ from sensor_msgs.msg import Image, JointState, LaserScan, Range
 from sensor_msgs.msg import Imu as ImuMessage
 from std_msgs.msg import Bool
 
-# Least variance that is told of a pose [m², rad²]: localisers take 0 for unknown.
+# Least variance that is told of a pose [m², rad²] or a twist [m²/s², rad²/s²]: localisers take 0
+# for unknown.
 LEAST_VARIANCE = 1e-9
 # Variance of what a planar robot does not measure, as other robots tell it.
 _UNKNOWN = 1e6
@@ -86,25 +87,30 @@ def time_of(stamp: int) -> Time:
 
 
 def odometry_message(
-    view: View, pose: Pose, twist: Pose, *, parent: str, child: str, variances: Pose
+    view: View,
+    pose: Pose,
+    twist: Pose,
+    *,
+    parent: str,
+    child: str,
+    variances: tuple[Pose, Pose],
 ) -> Odometry:
     """
     Return a pose and the twist there.
 
     :param pose: x, y [m], yaw [rad] in the parent frame
     :param twist: vx, vy [m/s], turn [rad/s] in the child frame
-    :param variances: of x, y [m²] and yaw [rad²]
+    :param variances: of x, y [m²] and yaw [rad²]; of vx, vy [m²/s²] and turn [rad²/s²]
     """
     message = Odometry(child_frame_id=child)
     message.header.stamp, message.header.frame_id = view.stamp, parent
     x, y, yaw = pose
     message.pose.pose.position = Point(x=x, y=y)
     message.pose.pose.orientation = rotation_of(yaw)
-    message.pose.covariance = _covariance(variances)
+    message.pose.covariance, message.twist.covariance = map(_covariance, variances)
     vx, vy, turn = twist
     message.twist.twist.linear = Vector3(x=vx, y=vy)
     message.twist.twist.angular.z = turn
-    message.twist.covariance = _covariance(variances)
     return message
 
 

@@ -11,6 +11,7 @@ subscribes; a topic that ROS refuses, as another type has it, is refused, and th
 from __future__ import annotations
 
 from collections.abc import Callable
+import math
 from typing import Any, TypeGuard
 
 from builtin_interfaces.msg import Time
@@ -156,17 +157,19 @@ class RobotTopics:
         """Return where wheels and gyroscope tell that the robot is, and how it moves."""
         states = view.snapshot.robots
         ahead, aside, turn = states.wheels[number].tolist()
-        way, heading = self.robot.odometry.slip
-        # Drifts are random walks along the way.
+        way, heading = (deviation**2 for deviation in self.robot.odometry.slip)
+        # Drifts are random walks along the way. That of the twist is their mean rate from one
+        # message to the next.
         travelled = max(abs(each) for each in states.travel[number].tolist())
-        variances = way**2 * travelled, way**2 * travelled, heading**2 * travelled
+        speed, rate = math.hypot(ahead, aside), self.robot.odometry.rate
+        of_twist = way * speed * rate, way * speed * rate, heading * (speed + abs(turn)) * rate
         return odometry_message(
             view,
             tuple(states.odometry[number].tolist()),
             (ahead, aside, turn),
             parent=self._frames.name(ODOM),
             child=self._frames.name(FOOTPRINT),
-            variances=variances,
+            variances=((way * travelled, way * travelled, heading * travelled), of_twist),
         )
 
     def truth(self, view: View, row: int) -> Odometry:
@@ -178,7 +181,7 @@ class RobotTopics:
             body_twist(view, row),
             parent=self._world_frame,
             child=self._frames.name(BASE),
-            variances=exact,
+            variances=(exact, exact),
         )
 
     def reading(self, view: View, row: int, sensor: Sensor) -> Any:

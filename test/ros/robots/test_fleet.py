@@ -347,3 +347,20 @@ def test_a_robot_without_a_shipped_name_is_refused(flat: PhysSim) -> None:
     with pytest.raises(Refused, match='name a shipped robot') as caught:
         flat.robot({'drive': {'kind': 'omni'}})
     assert caught.value.field == 'from'
+
+
+def test_the_covariance_of_the_twist_is_that_of_its_speed(flat: PhysSim) -> None:
+    robot = flat.robot(
+        {'from': 'turtlebot3_burger', 'odometry': {'slip': [0.01, 0.02], 'rate': 30}}
+    )
+    robot.drive(0.2)
+    flat.run(1.0)
+    covariance = robot.odom().twist.covariance
+    assert (covariance[0], covariance[35]) == pytest.approx((0.01**2 * 6.0, 0.02**2 * 6.0))
+    flat.run(5.0)
+    assert robot.odom().twist.covariance[0] == pytest.approx(covariance[0])
+    robot.drive(0.0)
+    flat.run(1.0)
+    odometry = robot.odom()
+    assert max(odometry.twist.covariance[0], odometry.twist.covariance[35]) <= 1e-9
+    assert odometry.pose.covariance[0] > 1e-5
