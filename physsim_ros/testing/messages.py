@@ -121,10 +121,13 @@ def marker(
     :param kind: type of the marker, which with `scale` and `points` is the shape
     :param name: as the world will call the body; '/7' has no namespace
     :raises TypeError: there are properties by keyword and in `text`
+    :raises ValueError: the name has no number after a slash
     """
     if text and properties:
         raise TypeError('properties are given by keyword or in text, not both')
-    namespace, _, id_ = name.rpartition('/')
+    namespace, slash, id_ = name.rpartition('/')
+    if not slash or not id_.removeprefix('-').isdecimal():
+        raise ValueError(f'a name is a namespace, / and a number, as box/0; got {name!r}')
     x, y, yaw = (*at, 0.0)[:3]
     seconds, fraction = divmod(lifetime, 1.0)
     return Marker(

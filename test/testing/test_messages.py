@@ -57,3 +57,9 @@ def test_a_joint_joins_the_bodies_that_it_names(physsim: PhysSim) -> None:
     assert physsim.join(joint('rope', ends, 'rope/7', a='a/0', b='a/1', length=4.0)) == 'rope/7'
     (rope,) = physsim.node.simulation.world.snapshot().scene.joints
     assert (rope.a, rope.b, rope.properties.length) == ('a/0', 'a/1', 4.0)
+
+
+@pytest.mark.parametrize('name', ['', 'crate', 'crate_0', 'crate/a'])
+def test_a_name_without_a_number_says_how_names_are(name: str) -> None:
+    with pytest.raises(ValueError, match='a name is a namespace, / and a number'):
+        box(name)
