@@ -12,13 +12,14 @@ from pathlib import Path
 from typing import Any, Self, Unpack
 
 from geometry_msgs.msg import PointStamped
+from physsim_ros.model.texts import nearest_name
 from physsim_ros.ros.node import PhysSimNode
 from physsim_ros.testing.client import RequestClient
 from physsim_ros.testing.executor import SettlingExecutor
 from physsim_ros.testing.observed_world import ObservedWorld
 from physsim_ros.testing.parameters import Parameters
 from physsim_ros.testing.robot import Robot, robot_marker
-from physsim_ros.testing.values import refusals_as_refused, Refused
+from physsim_ros.testing.values import refusals_as_refused, Refused, UnknownName
 from rclpy.context import Context
 from rclpy.node import Node
 from rclpy.parameter import Parameter
@@ -228,6 +229,20 @@ class PhysSim(ObservedWorld):
         with refusals_as_refused():
             message = robot_marker(robot, name, at, namespace)
         handle = Robot(self.node, self._client.request('spawn', message))
+        self._robots.append(handle)
+        return handle
+
+    def find_robot(self, name: str) -> Robot:
+        """
+        Return a robot that is in the world, as one of a world file.
+
+        :param name: of its body
+        :raises UnknownName: there is no such robot
+        """
+        robots = self.node.fleet.robots
+        if name not in robots:
+            raise UnknownName(f'there is no robot {name!r}{nearest_name(name, robots)}')
+        handle = Robot(self.node, name)
         self._robots.append(handle)
         return handle
 

@@ -364,3 +364,14 @@ def test_the_covariance_of_the_twist_is_that_of_its_speed(flat: PhysSim) -> None
     odometry = robot.odom()
     assert max(odometry.twist.covariance[0], odometry.twist.covariance[35]) <= 1e-9
     assert odometry.pose.covariance[0] > 1e-5
+
+
+def test_a_robot_of_a_world_file_is_found_and_driven(flat: PhysSim) -> None:
+    flat.load('boxes')
+    robot = flat.find_robot('robot/0')
+    start = robot.truth().pose.pose.position.x
+    robot.drive(0.1)
+    flat.run(1.0)
+    assert robot.truth().pose.pose.position.x > start + 0.05
+    with pytest.raises(UnknownName, match="nearest is 'robot/0'"):
+        flat.find_robot('robt/0')
