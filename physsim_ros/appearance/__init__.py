@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The look of joints in every picture: lines, symbols and the colours of forces, as NumPy arrays.
+The look of joints and scans in every picture: lines, symbols, colours, points, as arrays.
 
-Markers for RViz (`ros`) and recordings for Rerun (`view`) are drawn with these; neither ROS nor
-Rerun is imported here. Start with `joint_glyphs`, which has the lines of each kind.
+Markers for RViz (`ros`), recordings for Rerun (`view`) and the page (`sketchpad`) are drawn with
+these; neither ROS nor Rerun is imported here. Start with `joint_glyphs`, which has the lines
+of each kind.
 """
 
 from physsim_ros.appearance.joint_colors import (
@@ -18,6 +19,7 @@ from physsim_ros.appearance.joint_colors import (
 )
 from physsim_ros.appearance.joint_glyphs import is_rigid, joint_strips, Strip, symbol_sizes
 from physsim_ros.appearance.joint_lines import JointLines, segment_corners
+from physsim_ros.appearance.laser_scans import LaserScans
 
 __all__ = [
     'PULL',
@@ -25,6 +27,7 @@ __all__ = [
     'SLATE',
     'JointColors',
     'JointLines',
+    'LaserScans',
     'Strip',
     'full_scale_force',
     'is_rigid',

@@ -62,7 +62,7 @@ def encode_frame(frame: Frame, *, epoch: int, show: Show, scan: Floats | None = 
 
     :param epoch: number of its scene
     :param show: the parts that are asked for; parts that the frame lacks are left out
-    :param scan: (k, 3) float64, as `LaserViews` has it; None is none
+    :param scan: (k, 3) float64, as `LaserScans` has it; None is none
     """
     snapshot = frame.snapshot
     parts: list[bytes] = [_columns(snapshot.poses)]

@@ -14,9 +14,9 @@ from asyncio import AbstractEventLoop
 from dataclasses import replace
 import time
 
+from physsim_ros.appearance import LaserScans
 from physsim_ros.model.snapshot import Frame, Snapshot
 from physsim_ros.sketchpad.frame_codec import encode_frame, Show
-from physsim_ros.sketchpad.laser_views import LaserViews
 from physsim_ros.sketchpad.open_pages import OpenPage, OpenPages
 from physsim_ros.sketchpad.scene_codec import compact, SceneCodec
 from tornado.websocket import WebSocketHandler
@@ -48,7 +48,7 @@ class FrameFeed:
         # By the parts that a page shows, and the robot.
         self._encoded: dict[tuple[Show, str], bytes] = {}
         self._scene_text = ''
-        self._lasers = LaserViews()
+        self._lasers = LaserScans()
         self._ghost_codec = SceneCodec()
         self._ghost_text = ''
         self._ghost_frame = b''
@@ -125,7 +125,7 @@ class FrameFeed:
                 self._frame,
                 epoch=self._codec.epoch,
                 show=page.show,
-                scan=self._lasers.scan(page.robot),
+                scan=self._lasers.points(page.robot),
             )
         page.send_part(self._encoded[parts])
         if self._ghost_frame:

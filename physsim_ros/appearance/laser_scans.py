@@ -2,16 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Scans of the robots that pages show, on the server's thread.
+The last scans of robots, as the page and Rerun show them.
 
-Laws: a laser that no page shows is not read; one that is shown is read at its rate, as its topic
-is; all readings of a frame have a budget, and those that are the oldest come first.
+Laws: a laser that nobody shows is not read; one that is shown is read at its rate, as its topic
+is, or less often where all readings of a frame exceed their budget: the oldest come first.
 """
 
 from __future__ import annotations
 
 import math
-import time
 from typing import NamedTuple
 
 import numpy as np
@@ -20,9 +19,8 @@ from physsim_ros.model.robots.sensors import Laser
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.sensing import is_due, read_laser, scan_points, Surroundings
 
-# Time for the readings of a frame [s]: a quarter of a frame at 60 Hz. A scan of 720 beams takes
-# some 0.3 ms.
-BUDGET = 0.004
+# Beams after which no further laser is read in a frame: ten lasers of 360 beams take some 3 ms.
+BUDGET = 3600
 # Beams that leave a smaller gap in a turn go all the way round [rad].
 _GAP = 1e-3
 
@@ -31,7 +29,7 @@ class _Scan(NamedTuple):
     """
     A reading.
 
-    :ivar points: (k, 3) float64: x, y [m] of the laser, then of the ends of beams; 1 for a hit
+    :ivar points: (k, 3) float64, see `LaserScans.points`
     """
 
     laser: Laser
@@ -39,14 +37,14 @@ class _Scan(NamedTuple):
     points: Floats
 
 
-class LaserViews:
-    """The last scans of the robots that pages show; of several lasers of a robot, the first."""
+class LaserScans:
+    """The last scans of the robots that are shown; of several lasers of a robot, the first."""
 
     def __init__(self) -> None:
         # By the name of the robot, the oldest first.
         self._scans: dict[str, _Scan] = {}
 
-    def scan(self, name: str) -> Floats | None:
+    def points(self, name: str) -> Floats | None:
         """
         Return (k, 3) float64: x, y [m] and 1 for a hit; None where a robot has no scan.
 
@@ -57,29 +55,39 @@ class LaserViews:
         scan = self._scans.get(name)
         return None if scan is None else scan.points
 
-    def read(self, snapshot: Snapshot, names: set[str]) -> None:
+    def hits(self) -> Floats:
+        """Return (k, 2) float64: x, y [m] of all that the scans of all robots have hit."""
+        hits = [scan.points[scan.points[:, 2] > 0.0, :2] for scan in self._scans.values()]
+        return np.concatenate(hits) if hits else np.empty((0, 2))
+
+    def read(self, snapshot: Snapshot, names: set[str]) -> bool:
         """
         Read the lasers of robots that are due.
 
         :param snapshot: that is shown
-        :param names: of the robots; other names are ignored
+        :param names: of the robots that are shown; scans of others are forgotten
+        :return: whether there is another scan than before, or one less
         """
+        known = len(self._scans)
         if not names:
             self._scans.clear()
-            return
+            return known > 0
         lasers = _lasers(snapshot, names)
         self._scans = {name: scan for name, scan in self._scans.items() if name in lasers}
-        surroundings, end = Surroundings(snapshot), time.monotonic() + BUDGET
-        for name in [*(lasers.keys() - self._scans.keys()), *self._scans]:
+        changed = len(self._scans) < known
+        surroundings, beams = Surroundings(snapshot), 0
+        for name in [*(each for each in lasers if each not in self._scans), *self._scans]:
             row, laser = lasers[name]
             before = self._scans.get(name)
-            if before is not None and not _is_due(name, laser, before, snapshot):
+            if before is not None and not _is_due(name, before, laser, snapshot):
                 continue
-            points = _points(surroundings, row, laser)
             self._scans.pop(name, None)
-            self._scans[name] = _Scan(laser, snapshot, points)
-            if time.monotonic() > end:
-                return
+            self._scans[name] = _Scan(laser, snapshot, _points(surroundings, row, laser))
+            changed = True
+            beams += laser.beams
+            if beams >= BUDGET:
+                break
+        return changed
 
 
 def _lasers(snapshot: Snapshot, names: set[str]) -> dict[str, tuple[int, Laser]]:
@@ -94,7 +102,7 @@ def _lasers(snapshot: Snapshot, names: set[str]) -> dict[str, tuple[int, Laser]]
     return found
 
 
-def _is_due(name: str, laser: Laser, before: _Scan, now: Snapshot) -> bool:
+def _is_due(name: str, before: _Scan, laser: Laser, now: Snapshot) -> bool:
     """Return whether a laser reads, in either direction of time, or bodies were moved."""
     if before.laser != laser:
         return True

@@ -1,14 +1,13 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Scans for pages: only of what is shown, at the rate of the laser, within a budget."""
+"""Scans for page and Rerun: only of what is shown, at the rate of the laser, within a budget."""
 
 import numpy as np
+from physsim_ros.appearance import laser_scans, LaserScans
 from physsim_ros.files import state_from
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.simulation.simulation import Simulation
-from physsim_ros.sketchpad import laser_views
-from physsim_ros.sketchpad.laser_views import LaserViews
 import pytest
 
 BURGER = 'turtlebot3_burger'
@@ -32,22 +31,22 @@ def world():
 
 
 def test_only_robots_with_a_laser_have_a_scan(world):
-    views = LaserViews()
-    views.read(world.snapshot(), NAMES)
-    assert [name for name in sorted(NAMES) if views.scan(name) is not None] == ['tb3/0', 'tb3/1']
-    views.read(world.snapshot(), {'tb3/1'})
-    assert views.scan('tb3/0') is None
-    views.read(world.snapshot(), set())
-    assert views.scan('tb3/1') is None
+    scans = LaserScans()
+    scans.read(world.snapshot(), NAMES)
+    assert [name for name in sorted(NAMES) if scans.points(name) is not None] == ['tb3/0', 'tb3/1']
+    scans.read(world.snapshot(), {'tb3/1'})
+    assert scans.points('tb3/0') is None
+    scans.read(world.snapshot(), set())
+    assert scans.points('tb3/1') is None
 
 
 def test_the_oldest_scan_is_the_next_where_there_is_no_time_for_all(world, monkeypatch):
-    monkeypatch.setattr(laser_views, 'BUDGET', -1.0)
-    views, read = LaserViews(), []
+    monkeypatch.setattr(laser_scans, 'BUDGET', 1)
+    scans, read = LaserScans(), []
     for _ in range(4):
-        before = {name: views.scan(name) for name in ('tb3/0', 'tb3/1')}
-        views.read(world.snapshot(), NAMES)
-        read += [name for name, points in before.items() if views.scan(name) is not points]
+        before = {name: scans.points(name) for name in ('tb3/0', 'tb3/1')}
+        scans.read(world.snapshot(), NAMES)
+        read += [name for name, points in before.items() if scans.points(name) is not points]
         # A second is longer than the period of both.
         world.step(240)
     assert sorted(read[:2]) == ['tb3/0', 'tb3/1']
@@ -55,12 +54,12 @@ def test_the_oldest_scan_is_the_next_where_there_is_no_time_for_all(world, monke
 
 
 def test_a_scan_stays_until_the_laser_reads_again(world):
-    views = LaserViews()
+    scans = LaserScans()
     changes = 0
     before = None
     for _ in range(240):
-        views.read(world.snapshot(), {'tb3/0'})
-        points = views.scan('tb3/0')
+        scans.read(world.snapshot(), {'tb3/0'})
+        points = scans.points('tb3/0')
         changes += points is not before
         before = points
         world.step(1)
