@@ -52,6 +52,13 @@ def tool(sheet: Sheet) -> str:
     return name
 
 
+def at_rest(sheet: Sheet) -> bool:
+    """Return whether the robot does not move for a tenth of a second of simulation."""
+    began, before = sheet.page.evaluate('physsim.time'), sheet.pose('tb3/0')
+    sheet.wait('began => physsim.time > began + 0.1', began)
+    return sheet.pose('tb3/0') == before
+
+
 def test_keys_drive_the_robot_that_is_selected(sheet: Sheet) -> None:
     sheet.page.keyboard.down('w')
     sheet.wait('physsim.bodies["tb3/0"][0] > 0.2')
@@ -64,6 +71,16 @@ def test_keys_drive_the_robot_that_is_selected(sheet: Sheet) -> None:
     sheet.page.keyboard.press('Escape')
     sheet.page.keyboard.press('w')
     assert tool(sheet) == 'wall'
+
+
+def test_a_robot_stops_when_another_body_is_selected(sheet: Sheet) -> None:
+    sheet.page.keyboard.down('w')
+    sheet.wait('physsim.bodies["tb3/0"][0] > 0.1')
+    sheet.page.mouse.click(*sheet.place(-1.0, 1.0))
+    sheet.until(lambda: at_rest(sheet), 'rest')
+    # Far from the wall that would stop it, too.
+    assert sheet.pose('tb3/0')[0] < 1.5
+    sheet.page.keyboard.up('w')
 
 
 def test_its_laser_is_light_around_it_while_it_is_selected(sheet: Sheet) -> None:

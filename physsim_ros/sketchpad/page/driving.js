@@ -97,10 +97,10 @@ export class Driving {
   }
 
   #command() {
-    const {connection, panel} = this.app, robot = this.#robot, [x, y] = this.stick;
+    const {connection, panel, world} = this.app, robot = this.#robot, [x, y] = this.stick;
     if (this.name && (!robot || this.name !== panel.name)) {
-      // Another one was selected meanwhile.
-      connection.send('drive', {name: this.name, velocity: [0, 0, 0]});
+      // Another one was selected meanwhile, or it was deleted.
+      if (world.row(this.name) >= 0) connection.send('drive', {name: this.name, velocity: [0, 0, 0]});
       this.name = '';
       this.stick = [0, 0];
       this.liftAll();
