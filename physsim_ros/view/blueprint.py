@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from physsim_ros.view import arrows, event_log, name_labels, plots, styles, time_tracks, traces
 from physsim_ros.view.frame_batch import RECORDED
+from physsim_ros.view.recording_list import RECORDING_LIST
 import rerun as rr
 import rerun.blueprint as rrb
 import rerun_bindings as bindings
@@ -75,17 +76,20 @@ def send_blueprint(recording: rr.RecordingStream, blueprint: rrb.Blueprint) -> N
     sink, and both keep each other, with two threads, until the process ends. This function can go
     when they do not any more.
     """
-    stream = rr.RecordingStream._from_native(  # noqa: SLF001  as Rerun does it
-        bindings.new_blueprint(
-            application_id=rr.get_application_id(recording) or '',
-            make_default=False,
-            make_thread_default=False,
-            default_enabled=True,
+    with RECORDING_LIST:
+        stream = rr.RecordingStream._from_native(  # noqa: SLF001  as Rerun does it
+            bindings.new_blueprint(
+                application_id=rr.get_application_id(recording) or '',
+                make_default=False,
+                make_thread_default=False,
+                default_enabled=True,
+            )
         )
-    )
     stream.set_time('blueprint', sequence=0)
     blueprint._log_to_stream(stream)  # noqa: SLF001  the same
     storage = stream.memory_recording().storage
     bindings.send_blueprint(storage, True, True, recording=recording.to_native())
     # Without its sink nothing keeps the recording.
     stream.disconnect()
+    with RECORDING_LIST:
+        del stream

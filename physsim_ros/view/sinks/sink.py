@@ -16,6 +16,7 @@ from typing import ClassVar, TYPE_CHECKING
 
 from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.view.frame_context import FrameContext
+from physsim_ros.view.recording_list import RECORDING_LIST
 
 if TYPE_CHECKING:
     import rerun as rr
@@ -41,11 +42,14 @@ class Sink:
         import rerun as rr
 
         batching = rr.ChunkBatcherConfig(flush_tick=TICK)
-        self._recording = rr.RecordingStream(NAME, batcher_config=batching)
+        with RECORDING_LIST:
+            self._recording = rr.RecordingStream(NAME, batcher_config=batching)
         try:
             if sinks:
                 self._recording.set_sinks(*sinks)
         except RuntimeError as error:
+            with RECORDING_LIST:
+                del self._recording
             raise ConnectionError(error) from error
         self._recorder = FrameRecorder(self._recording)
 
@@ -74,12 +78,13 @@ class Sink:
 
         self._recording.disconnect()
         # Rerun (0.41) disconnects on a thread of the recording, which needs the interpreter's lock
-        # to free what was logged; the cleanup below would wait for it and keep that lock.
+        # to free what was logged.
         with suppress(RuntimeError):
             self._recording.flush()
-        # Rerun (0.41) ends the two threads of a recording only here (rerun-io/rerun#2116).
-        del self._recorder, self._recording
-        flush_and_cleanup_orphaned_recordings()
+        with RECORDING_LIST:
+            # Rerun (0.41) ends the two threads of a recording only here (rerun-io/rerun#2116).
+            del self._recorder, self._recording
+            flush_and_cleanup_orphaned_recordings()
 
 
 class Endpoint(ABC):
