@@ -237,7 +237,7 @@ def test_what_is_no_plain_file_is_refused_at_once(kind: str, folder: Path) -> No
             continue
         with pytest.raises(BadWorldFile) as refused:
             read(path)
-        assert len(str(refused.value)) < 300
+        assert len(str(refused.value)) < 400
     with pytest.raises(BadWorldFile):
         save(World(), folder)
 

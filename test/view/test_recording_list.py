@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Recordings are opened and closed beside one that goes on, and none waits for another for ever."""
+"""Recordings open and close beside one that goes on, and none waits for another for ever."""
 
 from __future__ import annotations
 
