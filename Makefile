@@ -52,7 +52,7 @@ run: $(STAMP)  ## start the demo world, and its page in the browser
 # A worker that a test takes down is replaced, but not without end.
 PYTEST := $(BIN)/python -m pytest --numprocesses=auto --maxprocesses=8 --dist=worksteal --max-worker-restart=4
 
-test: $(STAMP)  ## run all tests but the slow ones: four minutes
+test: $(STAMP)  ## run all tests but the slow ones: some minutes
 	$(PYTEST) -m 'not slow' $(ARGS)
 
 test-all: $(STAMP)  ## run every test: a quarter of an hour

@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""What the lasers of robots hit, as points in one entity for all robots."""
+"""The points that the lasers of robots hit, one entity for all robots."""
 
 from __future__ import annotations
 

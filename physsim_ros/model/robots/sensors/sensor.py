@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""What all sensors have in common: a topic, a place on the body, a rate."""
+"""The base of all sensors: a topic, a place on the body, a rate."""
 
 from __future__ import annotations
 
