@@ -71,6 +71,9 @@ def saved_state(space: Space, step: int) -> WorldState:
     :param step: steps that the world has made
     """
     checkpoint, bodies = take_checkpoint(space, step), []
+    # A contact may have ended as a stage moved a body, with its impulses still in the cache. A
+    # rebuilt space does not find it, and what is loaded must be saved as it was.
+    memory = take_checkpoint(restore_checkpoint(checkpoint, space.dt), step).memory
     robots = zip(checkpoint.scene.robot_rows.tolist(), checkpoint.robots.driven(step), strict=True)
     driven = dict(robots)
     motions = zip(checkpoint.state.tolist(), checkpoint.free.tolist(), strict=True)
@@ -94,7 +97,7 @@ def saved_state(space: Space, step: int) -> WorldState:
         settings=checkpoint.scene.settings,
         bodies=tuple(bodies),
         joints=checkpoint.scene.joints,
-        memory=checkpoint.memory,
+        memory=memory,
     )
 
 

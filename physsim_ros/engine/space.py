@@ -191,6 +191,8 @@ class Space:
         """Set the wrench on a body until a step; None is for ever."""
         twist, free = self.twist_of(rigid), self._is_free(rigid)
         self.pipeline.wrenches.set_wrench(rigid, wrench, until)
+        if wrench != NO_WRENCH:
+            self._wake(rigid)
         if self._table is not None:
             row = self._table.columns.rows[rigid.body.name]
             self._table.leads[row] = rigid.lead(self._settings.gravity, self.dt)
@@ -209,7 +211,7 @@ class Space:
         """Have a robot drive at a velocity as seen from it [m/s, rad/s], up to a step."""
         drives, name = self.pipeline.floor.drives, rigid.body.name
         self.changes += drives.command(self.table.scene, name, velocity, until)
-        rigid.pm_body.activate()
+        self._wake(rigid)
 
     # Grips
 
@@ -322,6 +324,12 @@ class Space:
         self.bodies.take_out(rigid)
         self.pipeline.wrenches.forget_body(rigid)
         self.pipeline.forget_body(rigid.pm_body.id)
+
+    def _wake(self, rigid: RigidBody) -> None:
+        """Wake a body and its island, before the next step: the table shows who sleeps."""
+        rigid.pm_body.activate()
+        if self._table is not None:
+            self._table.forget_state()
 
     def _note_motion(self) -> None:
         self.changes += 1

@@ -28,6 +28,7 @@ import sys
 import time
 from typing import Any
 
+import numpy as np
 from physsim_ros.files import load_mapping, state_from, text_of
 from physsim_ros.files.world_schema import LIMITS
 from physsim_ros.model.body_properties import Properties
@@ -42,6 +43,8 @@ from physsim_ros.model.requests import (
     Configure,
     Delete,
     DeleteAll,
+    DeleteBodies,
+    DriveRobot,
     Grab,
     HandRequest,
     Join,
@@ -54,7 +57,9 @@ from physsim_ros.model.requests import (
     Restore,
     Spawn,
     Unjoin,
+    UnjoinAll,
 )
+from physsim_ros.model.robots import robot_from
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon
 from physsim_ros.model.snapshot import Frame, Snapshot
@@ -79,6 +84,16 @@ SHAPES = (
 )
 NAMES = tuple(f'a/{number}' for number in range(4))
 JOINTS = ('j/0', 'j/1')
+# Each kind of drive, some with odometry that errs.
+ROBOTS = tuple(
+    robot_from(each, 'robot')
+    for each in (
+        {'drive': {'kind': 'differential', 'track': 0.2, 'timeout': 0.1}},
+        {'drive': {'kind': 'differential', 'track': 0.2}, 'odometry': {'slip': [0.1, 0.2]}},
+        {'drive': {'kind': 'omni', 'max_speed': 2.0}},
+        {'drive': {'kind': 'car', 'wheelbase': 0.3}, 'odometry': {'slip': [0.01, 0.02]}},
+    )
+)
 
 
 class Difference(AssertionError):
@@ -97,6 +112,8 @@ def history_of(seed: int) -> list[Operation]:
     ]
     spawns = (replace(spawn_of(rng), name=name, lifetime=0.0) for name in NAMES)
     operations += [('ask', spawn) for spawn in spawns if rng.random() < 0.8]
+    if rng.random() < 0.4:
+        operations += [('ask', request) for request in robots_of(rng)]
     if rng.random() < 0.5:
         # The state that a reset returns to.
         operations += [('save',), ('load',)]
@@ -143,7 +160,7 @@ def spawn_of(rng: random.Random) -> Spawn:
     if not anchored and rng.random() < 0.5:
         said |= {'velocity': (number_of(rng, speed), number_of(rng, speed))}
         said |= {'spin': number_of(rng, speed)}
-    match rng.randint(0, 6):
+    match rng.randint(0, 8):
         case 0:
             said['mass'] = rng.choice((0.1, 1.0, 1e3 if wild else 3.0))
         case 1:
@@ -154,6 +171,10 @@ def spawn_of(rng: random.Random) -> Spawn:
             said |= {'sensor': True, 'group': rng.randint(0, 1)}
         case 4 if not anchored:
             said |= {'kinematic': True}
+        case 5 if not anchored:
+            said |= {'robot': rng.choice(ROBOTS)}
+        case 6:
+            said |= {'sensor': True, 'surface_velocity': (number_of(rng), number_of(rng))}
     return Spawn(
         name=rng.choice(NAMES),
         shape=rng.choice(SHAPES),
@@ -164,6 +185,15 @@ def spawn_of(rng: random.Random) -> Spawn:
     )
 
 
+def robots_of(rng: random.Random) -> Iterator[Request]:
+    """Yield the requests for two robots in a world that is seen from above."""
+    yield Configure(changes={'gravity': (0.0, 0.0), 'floor_friction': 0.4})
+    for name in NAMES[:2]:
+        spawn = Spawn(name=name, shape=Disc(radius=0.2), pose=(*point_of(rng), number_of(rng)))
+        yield replace(spawn, properties=Properties(robot=rng.choice(ROBOTS)))
+        yield DriveRobot(name=name, velocity=(1.0, number_of(rng), number_of(rng)))
+
+
 def change_of(rng: random.Random) -> dict[str, Any]:
     return rng.choice(
         [
@@ -171,6 +201,8 @@ def change_of(rng: random.Random) -> dict[str, Any]:
             {'damping': rng.choice((0.0, 0.2, 0.9))},
             {'iterations': rng.choice((1, 3, 25))},
             {'bounds': rng.choice((None, (-4.0, 0.0, 4.0, 9.0)))},
+            {'floor_friction': rng.choice((0.0, 0.4)), 'gravity': (0.0, 0.0)},
+            {'seed': rng.randint(0, 9), 'drag_force': rng.choice((0.5, 100.0))},
             {'density': rng.choice((0.5, 2.0))},
             {'friction': rng.choice((0.1, 0.9)), 'elasticity': rng.choice((0.0, 0.9))},
             {'command_timeout': rng.choice((0.0, 0.01, 0.25))},
@@ -185,6 +217,11 @@ def command_of(rng: random.Random) -> Command:
         for key in rng.sample(('poses', 'twists', 'wrenches'), rng.randint(1, 2))
     }
     return Command(names=(rng.choice(NAMES),), **rows)
+
+
+def drive_of(rng: random.Random) -> DriveRobot:
+    velocity = (number_of(rng), number_of(rng), number_of(rng))
+    return DriveRobot(name=rng.choice(NAMES), velocity=velocity)
 
 
 def join_of(rng: random.Random) -> Join:
@@ -212,6 +249,7 @@ def request_of(rng: random.Random) -> Request:
             {'anchored': True},
             {'anchored': False},
             {'kinematic': True},
+            {'robot': rng.choice(ROBOTS)},
         )
     )
     makers: list[tuple[int, Callable[[], Request]]] = [
@@ -219,7 +257,10 @@ def request_of(rng: random.Random) -> Request:
         (12, lambda: command_of(rng)),
         (6, lambda: Configure(changes=change_of(rng))),
         (8, lambda: join_of(rng)),
+        (6, lambda: drive_of(rng)),
         (2, lambda: Delete(name=rng.choice(NAMES))),
+        (1, lambda: DeleteBodies(names=tuple(rng.sample(NAMES, 2)))),
+        (1, UnjoinAll),
         (1, DeleteAll),
         (1, lambda: Anchor(point=(0.0, 0.0), frame=rng.choice(NAMES))),
         (2, lambda: Release(point=(0.0, 0.0), frame=rng.choice(NAMES))),
@@ -284,7 +325,12 @@ def same(one: Snapshot, other: Snapshot) -> bool:
         and one.poses.tobytes() == other.poses.tobytes()
         and one.twists.tobytes() == other.twists.tobytes()
         and one.forces.tobytes() == other.forces.tobytes()
+        and all(map(_same_bytes, one.robots, other.robots))
     )
+
+
+def _same_bytes(one: np.ndarray, other: np.ndarray) -> bool:
+    return one.tobytes() == other.tobytes()
 
 
 class Player:
