@@ -14,11 +14,23 @@ from pathlib import Path
 import subprocess
 import sys
 
-from physsim_ros.model.requests import Command, Request
+from physsim_ros.model.body_properties import Properties
+from physsim_ros.model.requests import Command, Request, Spawn
+from physsim_ros.model.shapes import Disc
 from physsim_ros.simulation.world import World
 import pytest
 
-from .histories import check, Difference, difference_of, history_of, play, script, shrunk
+from .histories import (
+    check,
+    Difference,
+    difference_of,
+    history_of,
+    play,
+    ROBOTS,
+    script,
+    SHAPES,
+    shrunk,
+)
 
 SEEDS = range(int(os.environ.get('HISTORIES', '20')))
 
@@ -28,6 +40,26 @@ def test_a_history_shows_what_its_requests_show_when_they_are_played_from_nothin
     seed: int,
 ) -> None:
     check(seed)
+
+
+def test_a_world_is_loaded_as_it_was_saved_where_a_first_touch_has_moved_a_body() -> None:
+    # Found by seed 200290: the contact is over, and its impulses are in the cache.
+    box, polygon = SHAPES[2:4]
+    fast = Properties(mass=0.1, velocity=(117.26, -157.1), spin=-100.0)
+    slow = Properties(density=2.0, velocity=(1.01, 1.34), spin=-0.46)
+    robot = Properties(robot=ROBOTS[0])
+    play(
+        [
+            ('begin', 240.0, 60.0, 0.1, False),
+            ('ask', Spawn(name='a/1', shape=box, pose=(-2.62, 0.13, 0.23), properties=fast)),
+            ('ask', Spawn(name='a/3', shape=polygon, pose=(1.56, 1.71, 1.71), properties=slow)),
+            ('ask', Spawn(name='a/1', shape=Disc(radius=0.2), pose=(-0.36, 4.7, -0.5),
+                          properties=robot)),
+            ('ask_running', Spawn(name='a/1', shape=polygon, pose=(0.0, 9.0, 0.0),
+                                  properties=Properties(sensor=True))),
+            ('save',),
+        ]
+    )  # fmt: skip
 
 
 @pytest.mark.slow

@@ -8,14 +8,14 @@ import math
 
 import numpy as np
 from physsim_ros.model.joints import JointKind, JointProperties
-from physsim_ros.model.requests import Command, Configure, Delete, Join, Request
+from physsim_ros.model.requests import Command, Configure, Delete, DriveRobot, Join, Request
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Disc
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
 import pytest
 
-from ...building import BOX, DISC, G, pose, spawn, spawning, stack, twist
+from ...building import BOX, command, DISC, G, pose, spawn, spawning, stack, twist
 
 YARD = WorldSettings(bounds=(-20.0, 0.0, 20.0, 40.0))
 SECOND = 1_000_000_000
@@ -243,3 +243,37 @@ def test_a_body_that_is_spawned_where_one_sleeps_is_pushed_out() -> None:
     apart = abs(pose(world, 'late/0') - pose(world, 'stack/0'))
     assert max(apart[0], apart[1]) > 0.98
     assert np.abs(twist(world, 'late/0')).max() < 0.01
+
+
+def on_a_floor() -> World:
+    """Return a world seen from above in which a disc and a robot sleep."""
+    world = World(settings=WorldSettings(gravity=(0.0, 0.0), floor_friction=0.4))
+    spawn(world, 'a/0', DISC)
+    spawn(world, 'b/0', DISC, (5.0, 0.0, 0.0))
+    spawn(world, 'tb/0', DISC, (0.0, 5.0, 0.0), robot={'drive': {'kind': 'omni'}})
+    world.step(300)
+    assert sleepers(world) == ['a/0', 'b/0', 'tb/0']
+    return world
+
+
+def test_who_looks_at_a_body_that_sleeps_does_not_change_how_it_wakes() -> None:
+    seen, unseen = on_a_floor(), on_a_floor()
+    for world in (seen, unseen):
+        command(world, 'a/0', wrench=(8.0, 0.0, 0.0))
+        if world is seen:
+            world.snapshot()
+        world.step(10)
+
+    assert seen.digest() == unseen.digest()
+    assert twist(seen, 'a/0')[0] > 0.0
+
+
+def test_a_robot_that_sleeps_starts_alike_whatever_else_is_asked_in_its_step() -> None:
+    alone, beside = on_a_floor(), on_a_floor()
+    command(beside, 'b/0', wrench=(8.0, 0.0, 0.0))
+    for world in (alone, beside):
+        world.apply(DriveRobot(name='tb/0', velocity=(1.0, 0.0, 0.0)))
+        world.step(10)
+
+    assert pose(alone, 'tb/0').tobytes() == pose(beside, 'tb/0').tobytes()
+    assert twist(alone, 'tb/0')[0] > 0.0
