@@ -9,6 +9,7 @@ import asyncio
 from contextlib import suppress
 import errno
 from ipaddress import ip_address
+import resource
 import socket
 from typing import Any
 
@@ -17,8 +18,9 @@ from tornado.httpserver import HTTPServer
 from tornado.iostream import IOStream, StreamClosedError, UnsatisfiableReadError
 from tornado.netutil import bind_sockets
 
-# Connections at once, pages included: fewer than the files that a process may have open.
-MOST_CONNECTIONS = 256
+# Connections at once, pages included, and their greatest share of the files that a process may
+# have open.
+MOST_CONNECTIONS, _SHARE_OF_FILES = 256, 0.25
 # Further connections that are answered with a refusal at once, and the time for each [s]; all
 # others are closed without an answer.
 MOST_REFUSED, _REFUSING = 16, 2.0
@@ -32,6 +34,12 @@ _REFUSAL = (
 _MORE_PORTS = 20
 
 
+def most_connections() -> int:
+    """Return the number of connections at once that leaves the process files for all else."""
+    files, _ = resource.getrlimit(resource.RLIMIT_NOFILE)
+    return min(MOST_CONNECTIONS, int(_SHARE_OF_FILES * files))
+
+
 class BoundedServer(HTTPServer):
     """A server that refuses connections beyond a number."""
 
@@ -42,7 +50,7 @@ class BoundedServer(HTTPServer):
 
     def handle_stream(self, stream: IOStream, address: Any) -> None:
         """Serve a connection, if there are not too many."""
-        if len(self._connections) < MOST_CONNECTIONS:
+        if len(self._connections) < most_connections():
             super().handle_stream(stream, address)
         elif len(self._refused) < MOST_REFUSED:
             task = asyncio.create_task(_refuse(stream))

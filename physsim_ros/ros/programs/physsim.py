@@ -84,6 +84,22 @@ def limit_fragmentation() -> None:
         set_option(M_MMAP_THRESHOLD, LARGE_BLOCK)
 
 
+def open_closed_streams() -> None:
+    """
+    Open the null device in place of closed standard streams.
+
+    Else the next file or socket would get the descriptor, and what is printed would go to it.
+    """
+    for number in range(3):
+        try:
+            os.fstat(number)
+        except OSError:
+            # The least free descriptor, which is this one.
+            os.open(os.devnull, os.O_RDWR)
+    sys.stdout = sys.stdout or os.fdopen(1, 'w')
+    sys.stderr = sys.stderr or os.fdopen(2, 'w')
+
+
 class _Usage(ArgumentParser):
     """A parser whose help ends with the worlds and parameters there are."""
 
@@ -96,6 +112,7 @@ class _Usage(ArgumentParser):
 
 def main() -> None:
     """Run the node until it is interrupted."""
+    open_closed_streams()
     watch = TerminationWatch()
     reduce_latency()
     limit_fragmentation()
@@ -120,8 +137,9 @@ def main() -> None:
         # its end.
         rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
     except RuntimeError as error:
-        # rcl raises it for invalid arguments.
-        sys.exit(f'physsim: {error}')
+        # rcl raises it for invalid arguments, and where it cannot write its log.
+        hint = '; ROS_LOG_DIR names another' if 'log directory' in str(error) else ''
+        sys.exit(f'physsim: {error}{hint}')
     try:
         node = PhysSimNode()
     except PhysSimError as error:
