@@ -48,6 +48,7 @@ setup(
         (f'{SHARE}/config', sorted(glob('config/*.*'))),
         (f'{SHARE}/config/sros2', sorted(glob('config/sros2/*.xml'))),
         (f'{SHARE}/config/drawings', sorted(glob('config/drawings/*'))),
+        (f'{SHARE}/config/lessons', sorted(glob('config/lessons/*.yaml'))),
         (f'{SHARE}/config/robots', sorted(glob('config/robots/*.yaml'))),
         (f'{SHARE}/config/worlds', sorted(glob('config/worlds/*.yaml'))),
         (f'{SHARE}/launch', sorted(glob('launch/*.launch.py'))),

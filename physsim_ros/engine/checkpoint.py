@@ -97,6 +97,7 @@ def saved_state(space: Space, step: int) -> WorldState:
         settings=checkpoint.scene.settings,
         bodies=tuple(bodies),
         joints=checkpoint.scene.joints,
+        lesson=checkpoint.scene.lesson,
         memory=memory,
     )
 
@@ -119,6 +120,7 @@ def checkpoint_of(state: WorldState, step: int, dt: float) -> Checkpoint:
             ),
             settings=state.settings,
             joints=state.joints,
+            lesson=state.lesson,
         ),
         state=np.array([motion[:6] for motion in motions], np.float64).reshape(-1, 6),
         free=np.array([motion.free for motion in motions], np.bool_),
@@ -161,7 +163,8 @@ def restore_checkpoint(
     :param dt: of a step [s]
     :param pool: bodies built beforehand, by name
     """
-    space = Space(checkpoint.scene.settings, dt, first_shape=checkpoint.memory.walls)
+    scene, first = checkpoint.scene, checkpoint.memory.walls
+    space = Space(scene.settings, dt, first_shape=first, lesson=scene.lesson)
     rigids = [
         _rigid_body(body, pool or {}, row) for row, body in enumerate(checkpoint.scene.bodies)
     ]

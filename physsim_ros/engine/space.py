@@ -24,6 +24,7 @@ from physsim_ros.engine.settings import make_space
 from physsim_ros.engine.stages.half_step import StartState
 from physsim_ros.engine.stages.sleeping import wake_bodies
 from physsim_ros.engine.warm_start import scale_impulses, ShapeIds
+from physsim_ros.model.lesson import Lesson
 from physsim_ros.model.robot_states import RobotStates
 from physsim_ros.model.scene import Body, Joint, Scene
 from physsim_ros.model.settings import WorldSettings
@@ -38,6 +39,7 @@ class Space:
     :param settings: of the world
     :param dt: of a step [s]
     :param first_shape: number of the first wall of the boundary
+    :param lesson: the task that belongs to the world; None is none
 
     :ivar pm_space: Pymunk's space
     :ivar bodies: in it
@@ -47,8 +49,16 @@ class Space:
     :ivar changes: count of changes other than steps
     """
 
-    def __init__(self, settings: WorldSettings, dt: float, *, first_shape: int = 0) -> None:
+    def __init__(
+        self,
+        settings: WorldSettings,
+        dt: float,
+        *,
+        first_shape: int = 0,
+        lesson: Lesson | None = None,
+    ) -> None:
         self.dt = dt
+        self._lesson = lesson
         self.pm_space = make_space()
         self.shapes = ShapeIds(self.pm_space)
         self.shapes.following = first_shape
@@ -84,6 +94,7 @@ class Space:
                 bodies=tuple(rigid.body for rigid in self.bodies.by_name.values()),
                 settings=self._settings,
                 joints=tuple(held.joint for held in self.joints.by_name.values()),
+                lesson=self._lesson,
             )
         )
 

@@ -12,7 +12,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from physsim_ros.files.resources import is_plain
-from physsim_ros.files.world_file import shipped_worlds
+from physsim_ros.files.world_file import is_shipped
 from physsim_ros.model.errors import BadWorldFile, Exists
 
 # Length of a name [characters].
@@ -55,7 +55,7 @@ class OwnWorlds:
         :param replace: whether an own world may have it
         :raises Exists: an own world has it, or a shipped one
         """
-        if (shipped_worlds() / f'{name}.yaml').is_file():
+        if is_shipped(name):
             raise Exists(f'{name} is the name of a world that ships with physsim', field='name')
         if not replace and self._path(name).exists():
             raise Exists(f'there is a world {name} already', field='name')

@@ -56,22 +56,35 @@ def shipped_worlds() -> Path:
     return shipped('worlds')
 
 
+def shipped_lessons() -> Path:
+    """Return the directory of the lessons that ship with the package: worlds with a task."""
+    return shipped('lessons')
+
+
+def user_lessons(world_dir: Path) -> Path:
+    """Return the directory of the user's lessons, below that of the worlds."""
+    return world_dir / 'lessons'
+
+
 def find_world(name: str, *, world_dir: Path | None = None, confined: bool = False) -> Path:
     """
     Return the file of a name or path.
 
-    :param name: a path, absolute or below the world directory, or a world's plain name
+    :param name: a path, absolute or below the world directory, or the plain name of a world or
+        lesson
     :param world_dir: directory of the user's worlds; None is `user_worlds`
-    :param confined: whether only that directory and the shipped worlds may be read
+    :param confined: whether only that directory and shipped files may be read
     :raises BadWorldFile: there is no such file, or it lies elsewhere
     """
     if not name:
         raise BadWorldFile('parameter world_file names no file', field='world_file')
     world_dir = world_dir or user_worlds()
     file = f'{name}{_SUFFIX}' if is_plain(name) else name
+    own = (world_dir, user_lessons(world_dir))
+    ours = (shipped_worlds(), shipped_lessons())
     paths = [world_dir / file]
     if Path(file).name == file:
-        paths.append(shipped_worlds() / file)
+        paths = [each / file for each in (*own, *ours)]
     if not confined and not is_plain(name):
         # Of the working directory, as on any command line.
         paths.insert(0, Path(file))
@@ -86,12 +99,16 @@ def find_world(name: str, *, world_dir: Path | None = None, confined: bool = Fal
             raise BadWorldFile(f'{name} is no regular file', field='world_file')
         if found:
             if confined:
-                _check_place(path.resolve(), name, (world_dir, shipped_worlds()))
+                _check_place(path.resolve(), name, (world_dir, *ours))
             return path
-    known = sorted({*worlds_in(world_dir), *worlds_in(shipped_worlds())})
+    known = sorted({plain for each in (*own, *ours) for plain in worlds_in(each)})
     there = textwrap.shorten(', '.join(known), _LONGEST_LIST, placeholder=' …')
     # Peers on the graph are not told the directories of this machine.
-    directories = ('world_dir', 'config/worlds') if confined else {path.parent for path in paths}
+    directories = (
+        ('world_dir', 'config/worlds', 'config/lessons')
+        if confined
+        else {path.parent for path in paths}
+    )
     looked = ' and '.join(sorted(str(each) for each in directories))
     raise BadWorldFile(
         f'there is no world {name!r} in {looked}'
@@ -214,7 +231,14 @@ def hides_shipped(path: Path, *, world_dir: Path) -> bool:
     """
     worlds = shipped_worlds().resolve()
     # Plain names are searched for in the directory itself, not below it.
-    return path.parent == world_dir.resolve() != worlds and (worlds / path.name).is_file()
+    own = path.parent == world_dir.resolve() != worlds
+    return own and is_shipped(path.stem)
+
+
+def is_shipped(name: str) -> bool:
+    """Return whether a shipped world or lesson has this plain name."""
+    directories = (shipped_worlds(), shipped_lessons())
+    return any((each / f'{name}{_SUFFIX}').is_file() for each in directories)
 
 
 def _check_place(path: Path, name: str, directories: tuple[Path, ...]) -> None:

@@ -40,6 +40,7 @@ from physsim_ros.model.checkpoint import BodyState, Motion, WorldState
 from physsim_ros.model.checks import check_key, known_mapping, LONGEST, number, pair, Within
 from physsim_ros.model.colors import Color, color_from
 from physsim_ros.model.errors import BadProperty, UnknownProperty
+from physsim_ros.model.lesson import Lesson
 from physsim_ros.model.requests import Command, Spawn
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Shape, SHAPES
@@ -83,10 +84,11 @@ def state_from(
     if changes.get('bounds') == []:
         changes['bounds'] = None
     settings = replace(settings, **changes)
+    lesson = Lesson.from_entry(content['lesson']) if 'lesson' in content else None
     entries = entries_of(content.get('bodies'), 'bodies')
     bodies, unmoved = _body_states(entries, settings, physics_rate, progress)
     check_namespaces(state.body for state in bodies)
-    unjoined = WorldState(settings=settings, bodies=bodies)
+    unjoined = WorldState(settings=settings, bodies=bodies, lesson=lesson)
     # One edited body, and the impulses of all contacts are outdated.
     if 'memory' in content and all(state.motion is not None for state in bodies):
         unjoined = replace(unjoined, memory=cache_from(content['memory'], unjoined))

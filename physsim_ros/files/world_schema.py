@@ -28,7 +28,7 @@ FORMAT = 1
 LIMITS = ('max_bodies', 'max_shapes', 'max_overlaps', 'max_joints')
 SETTINGS = [each.name for each in fields(WorldSettings) if each.name not in LIMITS]
 PROPERTIES = [each.name for each in fields(Properties)]
-WORLD_KEYS = ['format', 'map', 'bodies', 'joints', 'memory', *SETTINGS]
+WORLD_KEYS = ['format', 'lesson', 'map', 'bodies', 'joints', 'memory', *SETTINGS]
 BODY_KEYS = ['name', *SHAPES, 'at', 'color', 'lifetime', *PROPERTIES, 'motion', 'wrench', 'driven']
 # Keys of a joint that the text of a marker does not have.
 OWN_JOINT_KEYS = ['name', 'points', 'seat']

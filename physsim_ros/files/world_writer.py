@@ -55,6 +55,8 @@ def _lines(state: WorldState, physics_rate: float) -> Iterator[str]:
     for key in SETTINGS:
         value = getattr(state.settings, key)
         yield f'{key}: {_flow([] if value is None else value)}\n'
+    if state.lesson is not None:
+        yield f'lesson: {_flow(state.lesson.entry())}\n'
     yield 'bodies:\n' if state.bodies else 'bodies: []\n'
     for body in state.bodies:
         yield f'  - {_flow(_entry(body, physics_rate))}\n'

@@ -15,6 +15,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.model.arrays import Floats, Ints
+from physsim_ros.model.lesson import Lesson
 from physsim_ros.model.robot_states import Driven, NO_ROBOTS, RobotStates
 from physsim_ros.model.scene import Body, Joint, Scene
 from physsim_ros.model.settings import WorldSettings
@@ -71,11 +72,13 @@ class WorldState:
     :param bodies: in spawn order
     :param joints: in the order in which they were made
     :param memory: impulse cache; None in a file written by hand
+    :param lesson: the task that belongs to the world; None is none
     """
 
     settings: WorldSettings
     bodies: tuple[BodyState, ...] = ()
     joints: tuple[Joint, ...] = ()
+    lesson: Lesson | None = None
     memory: ImpulseCache | None = field(default=None, compare=False)
 
 

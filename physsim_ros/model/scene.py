@@ -17,6 +17,7 @@ import numpy as np
 from physsim_ros.model.arrays import Floats, Ints
 from physsim_ros.model.colors import Color
 from physsim_ros.model.joints import JointKind, JointProperties, PROPERTIES
+from physsim_ros.model.lesson import Lesson
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.robots import Robot
 from physsim_ros.model.settings import WorldSettings
@@ -158,11 +159,13 @@ class Scene:
     :param bodies: in spawn order
     :param settings: of the world
     :param joints: in the order in which they were made
+    :param lesson: the task that belongs to the world, which moves nothing; None is none
     """
 
     bodies: tuple[Body, ...]
     settings: WorldSettings
     joints: tuple[Joint, ...] = ()
+    lesson: Lesson | None = None
 
     @cached_property
     def key(self) -> bytes:

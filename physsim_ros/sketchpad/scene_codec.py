@@ -75,6 +75,7 @@ class SceneCodec:
                 'density': settings.density,
                 'friction': settings.friction,
                 'elasticity': settings.elasticity,
+                'lesson': None if scene.lesson is None else scene.lesson.entry(),
             }
         )
         bodies = ','.join(text for _, text in texts.values())

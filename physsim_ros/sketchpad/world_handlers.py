@@ -32,6 +32,7 @@ from physsim_ros.model.snapshot import Answer
 from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.guarded import Guarded, TYPES
 from physsim_ros.sketchpad.inbox import Inbox, Upload, UPLOADERS
+from physsim_ros.sketchpad.lesson_list import lesson_list
 
 # Uploads at once.
 MOST_UPLOADS = 4
@@ -58,7 +59,7 @@ BY_DIFFICULTY = (
 
 
 def gallery_content(own_worlds: OwnWorlds) -> dict[str, Any]:
-    """Return the message of all worlds: those that ship with the package, and the user's own."""
+    """Return the message of all worlds and lessons, the shipped ones and the user's own."""
     known = worlds_in(shipped_worlds())
     names = sorted(known, key=lambda name: (*BY_DIFFICULTY, name).index(name))
     shipped = [_shipped(known[name]) for name in names]
@@ -66,7 +67,11 @@ def gallery_content(own_worlds: OwnWorlds) -> dict[str, Any]:
     own = [_own(path, own_worlds) for path in files]
     # A world of the user comes before the shipped one of its name.
     worlds = {entry['name']: entry for entry in shipped + own}
-    return {'type': 'worlds', 'worlds': list(worlds.values())}
+    return {
+        'type': 'worlds',
+        'worlds': list(worlds.values()),
+        'lessons': lesson_list(own_worlds.directory),
+    }
 
 
 def _shipped(path: Path) -> dict[str, Any]:

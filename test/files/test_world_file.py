@@ -103,7 +103,9 @@ def test_no_more_of_a_world_is_written_than_its_text_may_be_long() -> None:
     state = world.save()
     text = text_of(state, world.physics_rate)
     assert text_of(state, world.physics_rate, longest=len(text)) == text
-    endless = SimpleNamespace(settings=state.settings, bodies=itertools.cycle(state.bodies))
+    endless = SimpleNamespace(
+        lesson=None, settings=state.settings, bodies=itertools.cycle(state.bodies)
+    )
     with pytest.raises(WorldFull, match=f'longer than {len(text)} characters'):
         text_of(endless, world.physics_rate, longest=len(text))
 

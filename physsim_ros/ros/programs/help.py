@@ -10,7 +10,7 @@ from pathlib import Path
 import shutil
 import textwrap
 
-from physsim_ros.files import shipped_worlds, title_of, user_worlds, worlds_in
+from physsim_ros.files import shipped_lessons, shipped_worlds, title_of, user_worlds, worlds_in
 from physsim_ros.ros.parameters import Spec, SPECS
 
 # Width of the column of names, and least width of that of meanings [characters].
@@ -29,6 +29,7 @@ def physsim_help() -> str:
     parameters = {name: _meaning(spec) for name, spec in SPECS.items()}
     tables = (
         files_table('worlds, for parameter world_file:', worlds_in(shipped_worlds())),
+        files_table('lessons, likewise:', worlds_in(shipped_lessons())),
         files_table(f'worlds of your own, in {own}:', worlds_in(own)),
         _table('parameters, after --ros-args, each as -p name:=value:', parameters),
     )

@@ -16,6 +16,7 @@ import {Gallery} from './gallery.js';
 import {Hints} from './hints.js';
 import {JointPanel} from './joint_panel.js';
 import {Keyboard} from './keyboard.js';
+import {Lessons} from './lessons.js';
 import {Notes} from './notes.js';
 import {Pointers} from './pointer.js';
 import {Readings} from './readings.js';
@@ -69,6 +70,7 @@ export class App {
     this.joints = new JointPanel(this);
     this.arrow = new VelocityArrow(this);
     this.time = new TimeBar(this);
+    this.lessons = new Lessons(this);
     this.gallery = new Gallery(this);
     /** @type {Tool} */
     this.tool = {down() {}, move() {}, up() {}, cancel() {}, draw() {}};
@@ -141,7 +143,9 @@ export class App {
     const {view, camera} = this, wide = !camera.narrow;
     const box = (/** @type {string} */ id) => elementOf(id, HTMLElement).getBoundingClientRect();
     view.insets = this.viewOnly ? {left: 0, top: 0, right: 0, bottom: camera.height - box('bar').top} :
-      {left: wide ? box('tools').right : 0, top: box('top').bottom, right: 0,
+      // A lesson stands beside the tools, or below the bars.
+      {left: wide ? Math.max(box('tools').right, box('lesson').right) : 0,
+        top: Math.max(box('top').bottom, wide ? 0 : box('lesson').bottom), right: 0,
         bottom: camera.height - box(wide ? 'bar' : 'tools').top};
     const {left, top, right, bottom} = view.insets, gap = camera.height < LOW ? LOW_GAP : GAP;
     camera.fit(this.world.extent(),

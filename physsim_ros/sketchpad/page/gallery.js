@@ -57,8 +57,8 @@ export class Gallery {
       onchange: async () => file.files?.[0] && this.#upload(await file.files[0].text())});
     this.show(WORLDS, inRow(textButton('Empty world', () => this.#upload(EMPTY)),
       createElement('label', {className: 'file'}, 'Open a file', file)),
-    ...own.length ? [createElement('h3', {textContent: 'Yours'}), cards(own), createElement('h3', {textContent: 'To explore, the simplest first'})] : [],
-    cards(shipped));
+    ...own.length ? [createElement('h3', {textContent: 'Yours'}), cards(own)] : [],
+    ...this.app.lessons.section(), createElement('h3', {textContent: 'To explore, the simplest first'}), cards(shipped));
   }
 
   /** @param {typeof this.worlds[0]} world */

@@ -85,6 +85,20 @@ export interface Scene {
   density: number;
   friction: number;
   elasticity: number;
+  lesson?: Lesson | null;
+}
+
+/** A task that belongs to the world. */
+export interface Lesson {
+  number: number;
+  title: string;
+  question: string;
+  hint: string;
+  measure: string;
+  unit: string;
+  figure: number;
+  within: number;
+  answer: string;
 }
 
 /** The state of the world after a step, a column for each quantity; rows as in the scene. */

@@ -1,0 +1,99 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+A lesson: a task of mechanics that belongs to a world.
+
+Its question is answered by one figure, which is measured in the world.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from typing import Any
+
+from physsim_ros.model.checks import Checks, HEAVIEST, known_mapping, number, shown, Whole, Within
+from physsim_ros.model.errors import BadProperty, Malformed
+
+# Greatest length of a text [characters]: a page of a book.
+LONGEST_TEXT = 2000
+# Greatest length of a title and of a unit [characters].
+LONGEST_TITLE, LONGEST_UNIT = 80, 20
+
+
+def _text(longest: int) -> Any:
+    """Return a check of texts of at most a length [characters], which are not empty."""
+
+    def check(value: object, name: str) -> str:
+        if not isinstance(value, str):
+            raise BadProperty(f'{name} must be a text, not {shown(value)}', field=name)
+        # Folded lines of YAML end with a line break.
+        text = value.strip()
+        if not 0 < len(text) <= longest:
+            raise BadProperty(f'{name} must have 1 to {longest} characters', field=name)
+        return text
+
+    return check
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Lesson:
+    """
+    A task that belongs to a world.
+
+    :param number: place among all lessons, from 1
+    :param title: of the lesson
+    :param question: that is asked
+    :param hint: for those who do not know how to begin
+    :param measure: the quantity that answers the question, and how it is measured
+    :param unit: of that quantity; '1' is none
+    :param figure: its true value, in that unit
+    :param within: greatest error of a measured value, in that unit
+    :param answer: the law behind the figure
+    :raises BadProperty: a value is of the wrong type or out of range
+    :raises Malformed: a number is not finite
+    """
+
+    number: int
+    title: str
+    question: str
+    hint: str
+    measure: str
+    unit: str
+    figure: float
+    within: float
+    answer: str
+
+    def __post_init__(self) -> None:
+        for name, check in _CHECKS.items():
+            object.__setattr__(self, name, check(getattr(self, name), name))
+
+    @staticmethod
+    def from_entry(value: object) -> Lesson:
+        """
+        Return the lesson of a world file's entry.
+
+        :raises Refusal: a key is unknown or missing, or a value is out of range
+        """
+        entry = known_mapping(value, 'lesson', [*_CHECKS])
+        for name in _CHECKS:
+            if name not in entry:
+                raise Malformed(f'a lesson needs {name}', field='lesson')
+        return Lesson(**entry)
+
+    def entry(self) -> dict[str, object]:
+        """Return the entry of a world file."""
+        return {each.name: getattr(self, each.name) for each in fields(self)}
+
+
+_CHECKS: Checks = {
+    'number': Whole(1, 10_000),
+    'title': _text(LONGEST_TITLE),
+    'question': _text(LONGEST_TEXT),
+    'hint': _text(LONGEST_TEXT),
+    'measure': _text(LONGEST_TEXT),
+    'unit': _text(LONGEST_UNIT),
+    'figure': number,
+    'within': Within(0.0, HEAVIEST),
+    'answer': _text(LONGEST_TEXT),
+}

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+/**
+ * Lessons: their list, the card of the one that is open, the check of a measured figure, and links.
+ *
+ * A lesson belongs to its world (`scene.lesson`), so that all pages of the world have its card.
+ */
+
+import {createElement, elementOf, icon, inRow, textButton} from './dom.js';
+
+/** @import {App, Lesson} from './types.js' */
+
+const SOLVED = 'physsim-lessons'; // titles of the lessons that were solved in this browser, as JSON
+const LINK = /[#?&]lesson=([^&]+)/;
+
+export class Lessons {
+  /** @param {App} app */
+  constructor(app) {
+    this.app = app;
+    /** @type {{name: string, number: number, title: string, question: string}[]} in their order */
+    this.list = [];
+    this.card = elementOf('lesson', HTMLDetailsElement);
+    this.shown = ''; // the lesson of the card, as JSON
+    /** @type {Set<string>} */
+    this.solved = new Set(JSON.parse(localStorage.getItem(SOLVED) ?? '[]'));
+    app.connection.on('scene', ({lesson}) => this.#show(lesson));
+    app.connection.on('worlds', ({lessons}) => {
+      const first = !this.list.length;
+      this.list = lessons;
+      // The card names the next lesson.
+      this.#show(app.world.scene.lesson, first);
+      if (first) this.#offerLink();
+    });
+    addEventListener('hashchange', () => this.#offerLink());
+    this.card.addEventListener('toggle', () => app.camera.fitted && app.frame());
+  }
+
+  /** @returns {Node[]} the list, with a heading; nothing where there are no lessons */
+  section() {
+    if (!this.list.length) return [];
+    return [createElement('h3', {textContent: 'Lessons'}),
+      createElement('ol', {className: 'cards lessons'}, ...this.list.map(({name, number, title, question}) =>
+        createElement('li', {}, createElement('button', {type: 'button', className: 'card', onclick: () => this.#open(name)},
+          createElement('strong', {}, number ? `${number}. ${title} ` : title, ...this.solved.has(title) ? [solvedMark()] : []),
+          createElement('small', {textContent: question})))))];
+  }
+
+  /** @param {string} name */
+  async #open(name) {
+    const {connection, gallery} = this.app;
+    gallery.dialog.close();
+    connection.send('service', {name: 'pause'});
+    if (!(await connection.ask('open', {name})).ok) return;
+    // Its clock begins at 0.
+    connection.send('service', {name: 'reset'});
+    this.app.frameNext();
+  }
+
+  /** Offer the lesson of a link: the link of a stranger does not replace the world of a class. */
+  #offerLink() {
+    const name = decodeURIComponent(LINK.exec(location.hash || location.search)?.[1] ?? '');
+    const lesson = this.list.find((each) => each.name === name), {gallery, notes, viewOnly, world} = this.app;
+    if (!name || viewOnly || lesson && lesson.title === world.scene.lesson?.title) return;
+    history.replaceState(null, '', location.pathname);
+    if (!lesson) notes.showMessage(`There is no lesson ${name} here.`, {ok: false});
+    else gallery.show(lesson.title, createElement('p', {textContent: lesson.question}), inRow(textButton('Open the lesson', () => this.#open(name))));
+  }
+
+  /**
+   * @param {?Lesson | undefined} lesson
+   * @param {boolean} again whether its card is made anew
+   */
+  #show(lesson, again = false) {
+    const text = JSON.stringify(lesson), {card, app} = this;
+    if (text === this.shown && !again) return;
+    this.shown = text;
+    card.hidden = !lesson;
+    card.open = true;
+    if (lesson) {
+      card.replaceChildren(createElement('summary', {}, createElement('h2', {}, `${lesson.number}. ${lesson.title}`)),
+        createElement('p', {textContent: lesson.question}), ...app.viewOnly ? [] : this.#work(lesson));
+    }
+    if (app.camera.fitted) app.frame();
+  }
+
+  /**
+   * @param {Lesson} lesson
+   * @returns {Node[]} what is measured, a hint, and buttons
+   */
+  #work({title, hint, measure, unit, figure, within, answer}) {
+    const result = createElement('p', {'aria-live': 'polite'}), shown = unit === '1' ? '' : unit;
+    const input = createElement('input', {inputMode: 'decimal', required: true, autocomplete: 'off', 'aria-label': `Your figure ${shown}`});
+    const solution = folded('Answer', answer);
+    solution.hidden = true;
+    const form = createElement('form', {className: 'row', onsubmit: (/** @type {Event} */ event) => {
+      event.preventDefault();
+      const value = Number(input.value.trim().replace(',', '.')), right = Math.abs(value - figure) <= within;
+      result.className = right ? 'right' : '';
+      result.textContent = right ? 'Right!' : Number.isNaN(value) ? 'That is no number.' : 'Not yet. Measure again, or look at the hint.';
+      // Who has tried may look.
+      solution.hidden = false;
+      solution.open = right;
+      if (!right) return;
+      this.solved.add(title);
+      localStorage.setItem(SOLVED, JSON.stringify([...this.solved]));
+    }}, input, shown, createElement('button', {textContent: 'Check'}));
+    const place = this.list.findIndex((each) => each.title === title), next = place < 0 ? undefined : this.list[place + 1];
+    const buttons = [textButton('Start again', () => this.app.time.callService('reset'))];
+    if (next) buttons.push(textButton('Next lesson', () => this.#open(next.name)));
+    return [createElement('p', {}, createElement('strong', {textContent: 'To measure: '}), measure), form, result,
+      folded('Hint', hint), solution, inRow(...buttons)];
+  }
+}
+
+/**
+ * @param {string} title
+ * @param {string} text that is shown when the title is pressed
+ */
+function folded(title, text) {
+  return createElement('details', {}, createElement('summary', {textContent: title}), createElement('p', {textContent: text}));
+}
+
+function solvedMark() {
+  return createElement('span', {role: 'img', 'aria-label': 'solved'}, icon('solved'));
+}

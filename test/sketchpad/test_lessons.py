@@ -1,0 +1,126 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""Lessons on the page: the list, the card, the check of a figure, links, all pages of a world."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from .chromium import Sheet, started_world
+from ..outside import Outside
+
+OWN = """
+format: 1
+lesson: {number: 99, title: Mine, question: How much?, hint: Look., measure: It, unit: '1',
+  figure: 3, within: 0.5, answer: Three.}
+bodies:
+  - {name: mine/0, circle: {radius: 0.5}, at: [0, 0.5]}
+"""
+
+
+@pytest.fixture
+def sheet(chromium: Any, outside: Outside, tmp_path: Path) -> Iterator[Sheet]:
+    """Give a test a page of a world with a lesson of the user, and one that is none."""
+    lessons = tmp_path / 'lessons'
+    lessons.mkdir()
+    (lessons / 'mine.yaml').write_text(OWN)
+    (lessons / 'bad.yaml').write_text(OWN.replace('figure: 3', 'figure: three'))
+    program, address = started_world(outside, world_dir=tmp_path)
+    sheet = Sheet(chromium, address)
+    sheet.begin()
+    yield sheet
+    sheet.close()
+    program.interrupt()
+
+
+def open_lesson(sheet: Sheet, name: str) -> None:
+    """Open a lesson from the list."""
+    sheet.press('Worlds')
+    sheet.page.locator('.lessons').get_by_role('button', name=name).click()
+
+
+def check(sheet: Sheet, figure: str, says: str) -> None:
+    """Check a figure, and wait for what is said."""
+    sheet.page.get_by_role('textbox', name='Your figure').fill(figure)
+    sheet.press('Check')
+    sheet.page.locator('#lesson p[aria-live]').get_by_text(says).wait_for()
+
+
+def test_a_pupil_opens_a_lesson_measures_and_is_told_the_law(sheet: Sheet) -> None:
+    sheet.press('Play')
+    open_lesson(sheet, '1. Free fall')
+    card = sheet.page.locator('#lesson')
+    card.get_by_text('Which one lands first').wait_for()
+    # It waits for its pupil.
+    sheet.wait('"heavy/0" in physsim.bodies && physsim.speed === 0 && physsim.time === 0')
+    answer = card.get_by_text('the mass is not in it')
+    assert not answer.is_visible()
+    check(sheet, 'soon', 'no number')
+    check(sheet, '1.4', 'Not yet')
+    assert not answer.is_visible()
+    check(sheet, '1,02', 'Right!')
+    answer.wait_for()
+    sheet.press('Worlds')
+    solved = sheet.page.locator('.lessons').get_by_role('button', name='1. Free fall')
+    assert solved.get_by_role('img', name='solved').count() == 1
+
+
+def test_the_next_lesson_comes_after_it_and_another_world_has_none(sheet: Sheet) -> None:
+    open_lesson(sheet, '1. Free fall')
+    sheet.press('Next lesson')
+    sheet.page.locator('#lesson').get_by_text('2. Horizontal throw').wait_for()
+    sheet.press('Worlds')
+    sheet.press('Empty world')
+    sheet.until(lambda: not sheet.page.locator('#lesson').is_visible(), 'no lesson')
+
+
+def test_all_pages_of_a_world_have_its_lesson(sheet: Sheet, chromium: Any) -> None:
+    open_lesson(sheet, '4. Down a slope')
+    other = sheet.context.new_page()
+    other.goto(sheet.page.url)
+    other.locator('#lesson').get_by_text('4. Down a slope').wait_for()
+
+
+def test_a_link_opens_a_lesson(sheet: Sheet) -> None:
+    origin = sheet.page.evaluate('location.origin')
+    for link in ('/#lesson=pendulum', '/?lesson=friction'):
+        page = sheet.context.new_page()
+        page.goto(origin + link)
+        page.get_by_role('button', name='Open the lesson').click()
+        title = '9. Pendulum' if 'pendulum' in link else '5. Friction'
+        page.locator('#lesson').get_by_text(title).wait_for()
+    page = sheet.context.new_page()
+    page.goto(f'{origin}/#lesson=alchemy')
+    page.get_by_role('status').get_by_text('no lesson alchemy').wait_for()
+
+
+def test_a_teacher_s_lesson_is_listed_and_a_bad_one_says_where_it_is_wrong(sheet: Sheet) -> None:
+    open_lesson(sheet, '99. Mine')
+    sheet.wait('"mine/0" in physsim.bodies')
+    check(sheet, '3.4', 'Right!')
+    open_lesson(sheet, 'bad')
+    status = sheet.page.get_by_role('status')
+    status.get_by_text('bad.yaml, line 4, figure: bad_property').wait_for()
+    # Nothing is lost.
+    assert sheet.names() == {'mine/0'}
+
+
+@pytest.mark.parametrize('size', [(1200, 800), (390, 844)])
+def test_the_world_of_a_lesson_is_beside_its_card(
+    sheet: Sheet, chromium: Any, size: tuple[int, int]
+) -> None:
+    sheet.page.set_viewport_size({'width': size[0], 'height': size[1]})
+    open_lesson(sheet, '1. Free fall')
+    sheet.wait('"heavy/0" in physsim.bodies')
+    box = sheet.page.locator('#lesson').bounding_box()
+
+    def is_beside() -> bool:
+        x, y = sheet.place(-4.0, 7.0)
+        return bool(x > box['x'] + box['width'] if size[0] > 700 else y > box['y'] + box['height'])
+
+    sheet.until(is_beside, 'a world beside the card')
