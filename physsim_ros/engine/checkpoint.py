@@ -19,6 +19,7 @@ import numpy as np
 from physsim_ros.engine import body as rigid_body
 from physsim_ros.engine.body import engine_motion, RigidBody
 from physsim_ros.engine.boundary import wall_count
+from physsim_ros.engine.observation import observe_bodies
 from physsim_ros.engine.space import Space
 from physsim_ros.engine.warm_start import read_impulses, shape_numbers, write_impulses
 from physsim_ros.model.checkpoint import BodyState, Checkpoint, ImpulseCache, Motion, WorldState
@@ -77,6 +78,7 @@ def saved_state(space: Space, step: int) -> WorldState:
     robots = zip(checkpoint.scene.robot_rows.tolist(), checkpoint.robots.driven(step), strict=True)
     driven = dict(robots)
     motions = zip(checkpoint.state.tolist(), checkpoint.free.tolist(), strict=True)
+    _, twists = observe_bodies(space.table, space.start_state)
     rigids = enumerate(space.bodies.by_name.values())
     for (row, rigid), (state, free) in zip(rigids, motions, strict=True):
         body, until = rigid.body, rigid.wrench_until
@@ -86,7 +88,7 @@ def saved_state(space: Space, step: int) -> WorldState:
             BodyState(
                 body=body,
                 pose=rigid.pose,
-                twist=space.twist_of(rigid),
+                twist=tuple(twists[row].tolist()),
                 motion=Motion._make((*state, free)),
                 wrench=rigid.wrench,
                 wrench_steps=None if until is None else until - step,

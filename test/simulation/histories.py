@@ -727,6 +727,8 @@ def main(arguments: list[str]) -> int:
             sys.stdout.write(f'{difference}\n')
         if (seconds := time.process_time() - before) > LONGEST:
             sys.stdout.write(f'seed {seed} took {seconds:.0f} s of the processor\n')
+        if (played := seed + 1 - seeds[0]) % 100 == 0 or seed == seeds[-1]:
+            sys.stdout.write(f'{played} histories, of which {found} differ\n')
         sys.stdout.flush()
     return found
 
