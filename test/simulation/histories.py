@@ -360,47 +360,41 @@ class Player:
     def begin(self, physics: float, publish: float, checkpoints: float, contacts: bool) -> None:
         self.rate, self.checkpoints = physics, checkpoints
         self.frame_steps = round(physics / publish)
-        self.sim = Simulation(
-            physics_rate=physics,
-            publish_rate=publish,
-            settings=SETTINGS,
-            checkpoints=checkpoints,
-            speed=0.0,
-        )
+        self.sim = self._new_simulation(physics, publish)
         self.sim.reports_contacts = contacts
-        self.line = Line(1, WorldState(settings=SETTINGS))
+        self.line = Line(1, WorldState(settings=self.sim.world.settings))
         self.courses = 1
 
     def ask(self, request: Request) -> None:
         """Submit a request to the world that stands, and show it."""
         self._submit(request)
-        self._look(self.sim.apply_requests())
+        self.look(self.sim.apply_requests())
 
     def ask_running(self, request: Request) -> None:
         """Submit a request, and make a frame with it."""
         self._submit(request)
-        self._look(self.sim.advance_frame())
+        self.look(self.sim.advance_frame())
 
     def run(self, speed: float, frames: int) -> None:
         self.sim.speed = speed
         for _ in range(frames):
             self.now += round(1e9 * self.frame_steps / self.rate)
             for frame in self.sim.advance(self.now):
-                self._look(frame)
+                self.look(frame)
         self.sim.speed = 0.0
 
     def seek(self, share: float) -> None:
         oldest, newest = (round(each * self.rate) for each in self._span())
         step = round(oldest + share * (newest - oldest))
-        self.sim.seek(round(step * 1e9 / self.rate))
-        self._look(self.sim.apply_requests())
+        self._seek(round(step * 1e9 / self.rate))
+        self.look(self.sim.apply_requests())
         self._check(self.sim.step == step, f'a seek to step {step} came to {self.sim.step}')
 
     def undo(self) -> None:
         before, words = self._position(), self.sim.status.undo
         serial = before.moment[1]
         try:
-            self.sim.undo()
+            self._perform('undo')
         except OutOfHistory:
             self._check(not words, f'undo is refused, though it is told: {words}')
             self._check(self.dropped or not (serial or self.resets), 'undo is refused')
@@ -420,7 +414,7 @@ class Player:
     def redo(self) -> None:
         before, words = self._position(), self.sim.status.redo
         try:
-            self.sim.redo()
+            self._perform('redo')
         except OutOfHistory:
             self._check(not words, f'redo is refused, though it is told: {words}')
             self._check(self.dropped or not self.undone, 'redo is refused')
@@ -434,7 +428,7 @@ class Player:
 
     def reset(self) -> None:
         before = self._position()
-        self.sim.reset()
+        self._perform('reset')
         if not (before.head or before.moment[1]):
             return
         self.resets.append((before, self.left))
@@ -455,7 +449,7 @@ class Player:
         number = listed[choice % len(listed)]
         step = self.sim.step
         before = self._position()
-        self.sim.return_to_course(number)
+        self._return_to_course(number)
         self.left[before.course] = before
         self.line = self.left.pop(number)
         self.undone.clear()
@@ -466,23 +460,23 @@ class Player:
     def limit_memory(self, megabytes: float) -> None:
         self.dropped |= megabytes < 16.0
         self.sim.limit_memory(megabytes)
-        self._look(self.sim.apply_requests())
+        self.look(self.sim.apply_requests())
 
     def limit_history(self, seconds: float) -> None:
         self.dropped |= seconds < 600.0
         self.sim.history = seconds
-        self._look(self.sim.apply_requests())
+        self.look(self.sim.apply_requests())
 
     def drag(self, name: str, to: tuple[float, float], frames: int, lets_go: bool) -> None:
         """Drag a body for some frames; a hand that does not let go is gone at the next jump."""
         self.sim.speed = 1.0
         self._submit(Grab(hand='h', point=(0.0, 0.0), frame=name))
         for number in range(frames):
-            self._look(self.sim.advance_frame())
+            self.look(self.sim.advance_frame())
             self._submit(MoveHand(hand='h', point=(to[0], to[1] + number / 10)))
         if lets_go:
             self._submit(LetGo(hand='h'))
-        self._look(self.sim.advance_frame())
+        self.look(self.sim.advance_frame())
         self.sim.speed = 0.0
 
     def save(self) -> None:
@@ -519,11 +513,32 @@ class Player:
         if self.saved is not None:
             self.ask(Restore(state=self.saved))
 
-    # What it has shown
+    def _new_simulation(self, physics: float, publish: float) -> Simulation:
+        return Simulation(
+            physics_rate=physics,
+            publish_rate=publish,
+            settings=SETTINGS,
+            checkpoints=self.checkpoints,
+            speed=0.0,
+        )
+
+    # How the simulation is asked, which is otherwise over topics and on a page
 
     def _submit(self, request: Request) -> None:
         self.submitted.append(request)
         self.sim.requests.submit(request, topic='~/fuzz')
+
+    def _perform(self, action: str) -> None:
+        """Undo, redo or reset."""
+        getattr(self.sim, action)()
+
+    def _seek(self, stamp: int) -> None:
+        self.sim.seek(stamp)
+
+    def _return_to_course(self, number: int) -> None:
+        self.sim.return_to_course(number)
+
+    # What it has shown
 
     def _span(self) -> tuple[float, float]:
         return self.sim.status.oldest, self.sim.status.newest
@@ -539,10 +554,10 @@ class Player:
         if not self.dropped:
             self._check(step == moment[0], f'step {step} instead of {moment[0]}')
         self._check(self.sim.status.course == self.line.course, 'another course')
-        self._look(self.sim.apply_requests())
+        self.look(self.sim.apply_requests())
         self._check(digest == self.sim.world.digest(), 'a frame has changed the world')
 
-    def _look(self, frame: Frame | None) -> None:
+    def look(self, frame: Frame | None) -> None:
         """Note the requests that were applied before a frame, and what it shows."""
         if frame is None:
             return
@@ -574,13 +589,15 @@ class Player:
             self._check(dropped + common == len(line.made), 'requests are lost')
         fresh = [Made(each.step, each.request, each.gesture) for each in logged[common:]]
         for each in fresh:
-            by_hand = isinstance(each.request, HandRequest)
-            self._check(by_hand or each.request in self.submitted, 'nobody has asked for this')
+            self._check(self._was_asked(each.request), 'nobody has asked for this')
         self.submitted.clear()
         if fresh:
             self.undone.clear()
         self.line.made += fresh
         return fresh
+
+    def _was_asked(self, request: Request) -> bool:
+        return isinstance(request, HandRequest) or request in self.submitted
 
     # What it must have shown
 
@@ -650,13 +667,14 @@ class Player:
 # Playing and shrinking
 
 
-def play(operations: Sequence[Operation]) -> Player:
+def play(operations: Sequence[Operation], player: Player | None = None) -> Player:
     """
     Play a history.
 
+    :param player: asks the simulation; None asks it itself
     :raises Difference: it has shown anything else than the oracle
     """
-    player = Player()
+    player = player or Player()
     for number, (name, *arguments) in enumerate(operations):
         player.operation = number
         try:

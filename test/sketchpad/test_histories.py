@@ -1,0 +1,126 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""Random histories whose requests, seeks and courses are messages of a page."""
+
+from __future__ import annotations
+
+from contextlib import ExitStack
+from pathlib import Path
+from typing import Any
+
+from physsim_ros.model.body_properties import Properties
+from physsim_ros.model.requests import (
+    ChangeBody,
+    Delete,
+    DeleteBodies,
+    MoveBodies,
+    Request,
+    Spawn,
+    Unjoin,
+)
+from physsim_ros.simulation.simulation import Frame, Simulation
+from physsim_ros.testing import own_context, PhysSim
+import pytest
+
+from .browser import Browser
+from ..simulation.histories import history_of, play, Player, SETTINGS
+
+SEEDS = range(800, 808)
+
+
+def _said(properties: Properties) -> dict[str, Any]:
+    said = properties.explicit()
+    if properties.robot is not None:
+        said['robot'] = properties.robot.entry()
+    return said
+
+
+def message_of(request: Request) -> tuple[str, dict[str, Any]] | None:
+    """Return type and fields of the message of a request; None where a page has none."""
+    match request:
+        case Spawn(name=name, shape=shape, pose=pose, color=color, lifetime=lifetime):
+            body = {'name': name, shape.KEY: shape.entry(), 'at': pose, 'lifetime': lifetime}
+            colored = {} if color is None else {'color': color}
+            return 'spawn', {'body': body | colored | _said(request.properties)}
+        case ChangeBody(name=name, properties=properties):
+            return 'change', {'name': name, 'properties': _said(properties)}
+        case MoveBodies(names=names, by=by):
+            return 'move_bodies', {'names': names, 'by': by}
+        case Delete(name=name):
+            return 'delete', {'names': [name]}
+        case DeleteBodies(names=names):
+            return 'delete', {'names': names}
+        case Unjoin(name=name):
+            return 'unjoin', {'name': name}
+    return None
+
+
+class PagePlayer(Player):
+    """A player that asks the world of a node on its page, where it can."""
+
+    def __init__(self, browser: Browser) -> None:
+        super().__init__()
+        self.browser = browser
+        self.page = browser.open_page()
+        self.page.until(lambda: self.page.of_type('scene'))
+        self.sent = 0
+        # A page has the world show what it has asked: frames that were not looked at yet.
+        self.pending: list[Frame] = []
+
+    def look(self, frame: Frame | None) -> None:
+        pending, self.pending = self.pending, []
+        for each in (*pending, frame):
+            super().look(each)
+
+    def _new_simulation(self, physics: float, publish: float) -> Simulation:
+        simulation = self.browser.physsim.node.simulation
+        simulation.speed = 0.0
+        assert (simulation.physics_rate, simulation.frame_steps) == (physics, physics / publish)
+        return simulation
+
+    def _submit(self, request: Request) -> None:
+        message = message_of(request)
+        if message is None:
+            super()._submit(request)
+            return
+        self.sent += 1
+        self.page.ask(message[0], **message[1])
+
+    def _seek(self, stamp: int) -> None:
+        self.page.ask('seek', time=stamp / 1e9)
+
+    def _return_to_course(self, number: int) -> None:
+        assert self.page.ask('course', course=number)['ok']
+
+    def _was_asked(self, _: Request) -> bool:
+        # A message has another rounding, and deletes by another request.
+        return True
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize('seed', SEEDS)
+def test_a_history_on_a_page_shows_what_its_requests_show_when_they_are_played_from_nothing(
+    seed: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (begin, *_, contacts), *operations = history_of(seed)
+    operations = [(begin, 240.0, 60.0, 3.0, contacts), *operations]
+    monkeypatch.setenv('XDG_STATE_HOME', str(tmp_path))
+    assert SETTINGS.bounds is not None
+    with ExitStack() as closing:
+        context = closing.enter_context(own_context(monkeypatch))
+        physsim = closing.enter_context(
+            PhysSim(context, bounds=[*SETTINGS.bounds], sketchpad='serve', sketchpad_port=0)
+        )
+        browser = Browser(physsim)
+        closing.callback(browser.close)
+        player = PagePlayer(browser)
+        publish = physsim.node.publish_frame
+
+        def publish_frame(frame: Frame) -> None:
+            player.pending.append(frame)
+            publish(frame)
+
+        monkeypatch.setattr(physsim.node, 'publish_frame', publish_frame)
+        play(operations, player)
+    assert player.sent
