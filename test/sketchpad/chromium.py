@@ -93,13 +93,17 @@ class Sheet:
         )
         self.page.goto(address)
 
-    def begin(self) -> None:
-        """Reset the world, pause it, and wait for that to be seen."""
+    def begin(self, bodies: int = 3) -> None:
+        """
+        Reset the world, pause it, and wait for that to be seen.
+
+        :param bodies: number of bodies at the beginning
+        """
         self.wait('Object.keys(physsim.bodies).length > 0')
         self.press('Pause')
         self.press('Reset')
         self.wait('physsim.time === 0 && physsim.speed === 0')
-        self.wait('Object.keys(physsim.bodies).length === 3')
+        self.wait('count => Object.keys(physsim.bodies).length === count', bodies)
 
     def wait(self, predicate: str, argument: Any = None) -> None:
         """

@@ -34,10 +34,7 @@ def address(outside: Outside) -> str:
 def sheet(chromium: Any, address: str) -> Iterator[Sheet]:
     """Give a test a page whose robot is selected, from the beginning of the world."""
     sheet = Sheet(chromium, address)
-    sheet.wait('Object.keys(physsim.bodies).length === 2')
-    sheet.press('Pause')
-    sheet.press('Reset')
-    sheet.wait('physsim.time === 0 && physsim.speed === 0')
+    sheet.begin(2)
     sheet.page.mouse.click(*sheet.place(0.0, 0.0))
     panel = sheet.page.get_by_role('complementary', name='Body')
     panel.get_by_role('heading', name='differential · /tb3_0').wait_for()

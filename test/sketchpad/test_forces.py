@@ -64,10 +64,7 @@ def address(outside: Outside) -> str:
 def sheet(chromium: Any, address: str) -> Iterator[Sheet]:
     """Give a test a page that shows forces, and the world from its beginning, paused."""
     sheet = Sheet(chromium, address)
-    sheet.wait('Object.keys(physsim.bodies).length === 6')
-    sheet.press('Pause')
-    sheet.press('Reset')
-    sheet.wait('physsim.time === 0 && physsim.speed === 0')
+    sheet.begin(6)
     sheet.press('Show forces')
     yield sheet
     sheet.close()

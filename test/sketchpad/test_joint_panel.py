@@ -43,10 +43,7 @@ def address(outside: Outside) -> str:
 def sheet(chromium: Any, address: str) -> Iterator[Sheet]:
     """Give a test a page with the hand, and the world from its beginning, paused."""
     sheet = Sheet(chromium, address)
-    sheet.wait('Object.keys(physsim.bodies).length === 2')
-    sheet.press('Pause')
-    sheet.press('Reset')
-    sheet.wait('physsim.time === 0 && physsim.speed === 0')
+    sheet.begin(2)
     sheet.press('Hand')
     yield sheet
     sheet.close()
@@ -79,7 +76,8 @@ def test_a_spring_has_the_constant_that_is_typed(sheet: Sheet) -> None:
     sheet.wait('physsim.time > 5')
     # 1 kg rests where k x = m g.
     sheet.wait('low => Math.abs(physsim.bodies["ball/0"][1] - low) < 0.002', 5.0 - G / 20.0)
-    panel.get_by_text('Force now: 9.81 N').wait_for()
+    # x is 0.49 m, and half of k x² 2.41 J.
+    panel.get_by_text('Force now: 9.81 N · length 3.49 m · energy 2.41 J').wait_for()
 
 
 def test_an_axle_has_limits_from_the_pose_in_which_it_was_made(sheet: Sheet) -> None:
@@ -93,6 +91,18 @@ def test_an_axle_has_limits_from_the_pose_in_which_it_was_made(sheet: Sheet) -> 
     sheet.press('Play')
     sheet.wait('physsim.time > 4')
     sheet.wait('Math.abs(physsim.bodies["beam/0"][2] + 0.6) < 0.01')
+    # Without a number there is no limit any more.
+    set_number(sheet, panel, 'Least [rad]', '')
+    sheet.wait('physsim.bodies["beam/0"][2] < -1.2')
+
+
+def test_a_joint_breaks_at_the_force_that_is_typed(sheet: Sheet) -> None:
+    panel = tapped(sheet, -5.0, 6.5, 'Spring')
+    set_number(sheet, panel, 'Breaks at [N]', '12')
+    sheet.press('Play')
+    # It falls to less than the spring would let it: k x is 12 N at 12 cm.
+    sheet.wait('physsim.bodies["ball/0"][1] < 2')
+    panel.wait_for(state='hidden')
 
 
 def test_a_joint_is_deleted_and_a_second_tap_means_the_body_below(sheet: Sheet) -> None:

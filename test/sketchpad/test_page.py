@@ -374,6 +374,62 @@ def test_gravity_has_a_direction_and_a_number(sheet: Sheet) -> None:
     sheet.wait('physsim.bodies["ball/0"][0] > 1')
 
 
+def test_a_body_is_made_of_a_material_by_one_button(sheet: Sheet) -> None:
+    sheet.press('Hand')
+    sheet.page.mouse.click(*sheet.place(0.0, 0.5))
+    panel = sheet.page.get_by_role('complementary', name='Body')
+    for name, mass, friction in (('Steel', '6.17 kg', '0.6'), ('Ice', '0.723 kg', '0.03')):
+        sheet.press(name)
+        # Of a disc with a radius of 0.5 m.
+        panel.get_by_text(mass).wait_for()
+        field = panel.get_by_label('Friction, typed')
+        sheet.until(lambda field=field, friction=friction: field.input_value() == friction, name)
+    sheet.press('Undo')
+    panel.get_by_text('6.17 kg').wait_for()
+
+
+def test_what_is_drawn_next_is_made_of_a_material_on_another_planet(sheet: Sheet) -> None:
+    sheet.press('Material')
+    panel = sheet.page.get_by_role('complementary', name='Body')
+    sheet.press('Rubber')
+    assert panel.get_by_label('Bounciness, typed').input_value() == '0.8'
+    sheet.press('Mars')
+    gravity = panel.get_by_label('Gravity [m/s²], typed')
+    sheet.until(lambda: gravity.input_value() == '3.71', 'the gravity of Mars')
+    before = sheet.names()
+    sheet.press('Circle')
+    sheet.drag((0.0, 5.0), (0.5, 5.0))
+    name = sheet.wait_for_new(before)
+    sheet.press('Hand')
+    sheet.page.mouse.click(*sheet.place(0.0, 5.0))
+    panel.get_by_text('0.864 kg').wait_for()
+    sheet.press('Play')
+    sheet.wait('physsim.time > 0.5')
+    sheet.press('Pause')
+    sheet.wait('physsim.speed === 0')
+    fallen = 3.71 * sheet.page.evaluate('physsim.time') ** 2 / 2
+    assert sheet.pose(name)[1] == pytest.approx(5.0 - fallen, abs=1e-3)
+
+
+def test_air_takes_a_share_of_the_speed_each_second(sheet: Sheet) -> None:
+    sheet.press('Material')
+    sheet.press('None')
+    drag = sheet.page.get_by_label('Air drag [of the speed, each second], typed')
+    drag.fill('0.5')
+    drag.press('Enter')
+    sheet.page.get_by_role('status').get_by_text('Air drag set').wait_for()
+    sheet.page.keyboard.press('Escape')
+    sheet.press('Velocity')
+    sheet.drag((0.0, 0.5), (0.0, 2.5))
+    sheet.press('Play')
+    # v falls by half each second: from 2 m/s it comes to rest 2 / ln 2 m on.
+    sheet.wait('physsim.time > 1')
+    sheet.press('Pause')
+    sheet.wait('physsim.speed === 0')
+    left = 0.5 ** sheet.page.evaluate('physsim.time')
+    assert sheet.pose('ball/0')[1] == pytest.approx(0.5 + 2.0 * (1 - left) / math.log(2), abs=0.01)
+
+
 def test_a_world_is_saved_and_opened_from_the_gallery(sheet: Sheet) -> None:
     sheet.press('Delete')
     sheet.page.mouse.click(*sheet.place(4.0, 0.5))

@@ -9,7 +9,7 @@ from typing import Any
 
 from physsim_ros.files import spawn_from, with_shipped_robot
 from physsim_ros.model.body_properties import Properties
-from physsim_ros.model.checks import pair
+from physsim_ros.model.checks import pair, Within
 from physsim_ros.model.errors import UnknownJoint
 from physsim_ros.model.joints import JointProperties
 from physsim_ros.model.names import shown_name
@@ -127,3 +127,9 @@ def unjoin(page: PageSession, origin: Origin, name: str) -> None:
 def gravity(page: PageSession, origin: Origin, gravity: Point) -> None:
     """Set the gravity [m/s²]."""
     page.submit(origin, (Configure(changes={'gravity': gravity}),))
+
+
+@message('air', '~/set_parameters', damping=Within(0.0, 1.0))
+def air(page: PageSession, origin: Origin, damping: float) -> None:
+    """Set the share of velocity that bodies lose to the air each second."""
+    page.submit(origin, (Configure(changes={'damping': damping}),))

@@ -4,6 +4,7 @@
 import {createElement, elementOf, iconButton, inRow, textButton} from './dom.js';
 import {Numbers} from './numbers.js';
 import {Plots} from './plots.js';
+import {gravityButtons, materialButtons} from './presets.js';
 import {isDrawn} from './words.js';
 
 /** @import {App} from './types.js' */
@@ -11,8 +12,6 @@ import {isDrawn} from './words.js';
 /** Key, label, least, most, step. @type {[string, string, number, number, number][]} */
 const RANGES = [['density', 'Density [kg/m²]', 0.1, 10, 0.1], ['friction', 'Friction', 0, 2, 0.05],
   ['elasticity', 'Bounciness', 0, 1, 0.05]];
-/** Gravity [m/s²]. @type {[string, number][]} */
-const PLACES = [['Earth', 9.81], ['Moon', 1.62], ['Mars', 3.71], ['None', 0]];
 const STEP_OF_DIAL = Math.PI / 12; // rad
 const COVERED = 80; // px: nearer to the edge of the panel, or beneath it, a body is covered
 const BESIDE = 0.5; // m: where a copy is put
@@ -40,8 +39,8 @@ export class BodyPanel {
 
   /** @param {string} name of a body */
   showBody(name) {
-    const row = this.app.world.row(name), body = this.app.world.scene.bodies[row];
-    if (row < 0) return;
+    const body = this.app.world.scene.bodies.find((each) => each.name === name);
+    if (!body) return;
     this.name = name;
     const change = (/** @type {object} */ properties) =>
       this.app.connection.send('change', {name, properties});
@@ -51,6 +50,7 @@ export class BodyPanel {
     this.show(this.app.words.title(name), [
       this.numbers.element,
       ...body.robot ? this.app.driving.show(body.robot) : [],
+      materialButtons(change),
       ...fields(body, change),
       createElement('label', {}, 'Anchored', anchored),
       inRow(
@@ -60,14 +60,15 @@ export class BodyPanel {
       this.plots.element,
     ], isDrawn(name) ? name : '');
     this.plots.watch(name);
-    this.#uncover(row);
+    this.#uncover(this.app.world.row(name));
   }
 
   /**
    * Move the view where the panel covers the selected body.
-   * @param {number} row
+   * @param {number} row -1 where no frame has come since the scene
    */
   #uncover(row) {
+    if (row < 0) return;
     const {camera, world} = this.app, {fitted} = camera;
     const {left, top, bottom} = this.element.getBoundingClientRect();
     const [x, y] = camera.toPage(...world.place(row, world.scene.bodies[row].centroid));
@@ -108,6 +109,10 @@ export class BodyPanel {
     const any = createElement('input', {type: 'checkbox', checked: !chosen,
       onchange: () => change({color: any.checked ? '' : hexOf(color)})});
     this.show('Material of new bodies', [
+      materialButtons((preset) => {
+        change(preset);
+        this.showMaterial();
+      }),
       ...fields({...scene, ...app.material, color}, (properties) => {
         if (properties.color) any.checked = false;
         change(properties);
@@ -115,18 +120,19 @@ export class BodyPanel {
       createElement('label', {}, 'Each body another colour', any),
       createElement('h3', {textContent: 'Gravity'}),
       range('Gravity [m/s²]', 0, 25, 0.01, strength, setSize),
-      inRow(...PLACES.map(([name, value]) => textButton(name, () => setSize(value)))),
+      gravityButtons(setSize),
       createElement('label', {}, 'Direction', dial(this.turn, (angle) => {
         this.turn = angle;
         pull();
-      }))]);
+      })),
+      range('Air drag [of the speed, each second]', 0, 0.95, 0.05, scene.damping, (damping) => app.connection.send('air', {damping}))]);
     this.shown = this.#worldKey();
   }
 
   /** @returns {string} what the panel of the world shows */
   #worldKey() {
-    const {gravity, density, friction, elasticity} = this.app.world.scene;
-    return JSON.stringify([gravity, density, friction, elasticity]);
+    const {gravity, damping, density, friction, elasticity} = this.app.world.scene;
+    return JSON.stringify([gravity, damping, density, friction, elasticity]);
   }
 
   copy() {

@@ -19,7 +19,9 @@ const CONSTANTS = {
   motor: [['rate', 'Rate [rad/s]', 20, 0.1, 1], ['max_torque', 'Greatest torque [N m]', 1000, 1, 1000]],
   gear: [['ratio', 'Ratio', 5, 0.1, 1]],
 };
-const LIMITS = ['axle', 'motor', 'slider'];
+const MEASURED = ['spring', 'rod', 'rope'], LIMITED = ['axle', 'slider'];
+/** Limits that nothing reaches: the greatest values that there are. */
+const NEVER = {lower: -1e5, upper: 1e5, break_force: 1e12};
 
 export class JointPanel {
   /** @param {App} app */
@@ -46,17 +48,18 @@ export class JointPanel {
     const change = (/** @type {Record<string, number>} */ properties) =>
       this.app.connection.send('change_joint', {name, properties});
     const unit = joint.kind === 'slider' ? 'm' : 'rad';
-    /** @type {[keyof Joint, string][]} */
-    const typed = [...LIMITS.includes(joint.kind) ? /** @type {[keyof Joint, string][]} */ (
-      [['lower', `Least [${unit}]`], ['upper', `Greatest [${unit}]`]]) : [], ['break_force', 'Breaks at [N]']];
+    /** @type {[keyof typeof NEVER, string][]} */
+    const limits = [['break_force', 'Breaks at [N]']];
+    if (LIMITED.includes(joint.kind)) limits.unshift(['lower', `Least [${unit}]`], ['upper', `Greatest [${unit}]`]);
     this.app.panel.show(capital(joint.kind), [
       ...(CONSTANTS[joint.kind] ?? []).map(([key, label, most, step, otherwise]) => {
         const value = Number(key === 'length' ? joint.length ?? joint.rest_length : joint[key] ?? otherwise);
         return range(label, key === 'rate' || key === 'ratio' ? -most : 0, most, step, value, (now) => change({[key]: now}));
       }),
-      ...typed.map(([key, label]) => {
-        const input = createElement('input', {type: 'number', step: 'any', placeholder: 'none', value: joint[key] ?? '',
-          onchange: () => input.value !== '' && change({[key]: Number(input.value)})});
+      ...limits.map(([key, label]) => {
+        const set = joint[key] !== undefined && joint[key] !== NEVER[key];
+        const input = createElement('input', {type: 'number', step: 'any', placeholder: 'none', value: set ? joint[key] : '',
+          onchange: () => change({[key]: input.value === '' ? NEVER[key] : Number(input.value)})});
         return createElement('label', {}, label, input);
       }),
       this.force,
@@ -81,9 +84,20 @@ export class JointPanel {
   #draw(view) {
     const {world} = this.app, number = this.#number, joint = world.scene.joints[number];
     if (!this.name || !joint) return;
-    const force = `Force now: ${threeDigits(world.frame.forces?.[number] ?? 0)} N`;
+    const force = [`Force now: ${threeDigits(world.frame.forces?.[number] ?? 0)} N`, ...this.#lengthNow(joint)].join(' · ');
     if (this.force.textContent !== force) this.force.textContent = force;
     view.ring(world.place(joint.a, joint.points[0]), 9, view.palette.accent);
     if (joint.points[1] && joint.kind !== 'slider') view.ring(world.place(joint.b, joint.points[1]), 9, view.palette.accent);
+  }
+
+  /**
+   * @param {Joint} joint
+   * @returns {string[]} how long it is, and the energy of a spring
+   */
+  #lengthNow({kind, a, b, points: [p, q], rest_length: rest, stiffness = 100}) {
+    if (!MEASURED.includes(kind)) return [];
+    const {world} = this.app, [ax, ay] = world.place(a, p), [bx, by] = world.place(b, q);
+    const length = Math.hypot(bx - ax, by - ay), text = `length ${threeDigits(length)} m`;
+    return kind === 'spring' ? [text, `energy ${threeDigits(stiffness * (length - rest) ** 2 / 2)} J`] : [text];
   }
 }

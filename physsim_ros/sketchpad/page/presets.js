@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+/** Materials and places of pupils: what their names stand for. */
+
+import {inRow, textButton} from './dom.js';
+
+/**
+ * Of a plate 1 mm thick, so that the density in kg/m² is the usual one in g/cm³. Friction and bounciness are
+ * those of two bodies of that material, as tables for schools have them.
+ * @type {Record<string, {density: number, friction: number, elasticity: number}>}
+ */
+const MATERIALS = {
+  Ice: {density: 0.92, friction: 0.03, elasticity: 0.3},
+  Wood: {density: 0.7, friction: 0.4, elasticity: 0.5},
+  Rubber: {density: 1.1, friction: 1, elasticity: 0.8},
+  Steel: {density: 7.85, friction: 0.6, elasticity: 0.6},
+};
+/** Gravity at the surface [m/s²]. */
+const PLACES = {Earth: 9.81, Moon: 1.62, Mars: 3.71, None: 0};
+
+/** @param {(properties: {density: number, friction: number, elasticity: number}) => void} change */
+export function materialButtons(change) {
+  return presetButtons(MATERIALS, change);
+}
+
+/** @param {(gravity: number) => void} change */
+export function gravityButtons(change) {
+  return presetButtons(PLACES, change);
+}
+
+/**
+ * @template T
+ * @param {Record<string, T>} presets by name
+ * @param {(preset: T) => void} change
+ */
+function presetButtons(presets, change) {
+  return inRow(...Object.entries(presets).map(([name, preset]) => textButton(name, () => change(preset))));
+}
