@@ -36,7 +36,7 @@ def test_a_pressed_button_is_told_from_others_in_the_colours_of_the_reader(
     sheet.close()
 
 
-@pytest.mark.parametrize('size', [(1366, 768), (390, 844), (844, 390), (683, 384)])
+@pytest.mark.parametrize('size', [(1366, 768), (390, 844), (844, 390), (683, 384), (600, 400)])
 def test_nothing_covers_the_walls_of_a_world_that_is_framed(
     chromium: Any, address: str, size: tuple[int, int]
 ) -> None:
@@ -54,6 +54,12 @@ def test_nothing_covers_the_walls_of_a_world_that_is_framed(
     tools, bar = (sheet.page.locator(each).bounding_box() for each in ('#tools', '#bar'))
     assert bottom <= bar['y']
     assert bottom <= tools['y'] or tools['x'] + tools['width'] <= left
+    # At 200 % zoom, too, bars are no more than two fifths of the height.
+    below = bar['y'] if tools['x'] + tools['width'] <= left else min(tools['y'], bar['y'])
+    above = sheet.page.locator('#looks').bounding_box()
+    assert below - above['y'] - above['height'] >= 0.6 * height
+    reset = sheet.page.get_by_role('button', name='Reset').bounding_box()
+    assert reset['x'] + reset['width'] <= bar['x'] + bar['width']
     sheet.close()
 
 

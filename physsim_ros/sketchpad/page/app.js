@@ -13,6 +13,7 @@ import {Cursor} from './cursor.js';
 import {createElement, elementOf} from './dom.js';
 import {Driving} from './driving.js';
 import {Gallery} from './gallery.js';
+import {Handles} from './handles.js';
 import {Hints} from './hints.js';
 import {JointPanel} from './joint_panel.js';
 import {Keyboard} from './keyboard.js';
@@ -69,6 +70,7 @@ export class App {
     this.panel = new BodyPanel(this);
     this.joints = new JointPanel(this);
     this.arrow = new VelocityArrow(this);
+    this.handles = new Handles(this);
     this.time = new TimeBar(this);
     this.lessons = new Lessons(this);
     this.gallery = new Gallery(this);
@@ -135,7 +137,7 @@ export class App {
     const robot = this.world.scene.bodies.some((body) => body.name === name && body.robot);
     this.view.dirty = true;
     // The drag of the air follows from velocities.
-    this.connection.send('show', {velocities: velocities || forces || name !== '', contacts: forces, forces: true, laser: robot ? name : ''});
+    this.connection.send('show', {velocities: velocities || forces || name !== '' || this.tool.measures === true, contacts: forces, forces: true, laser: robot ? name : ''});
   }
 
   /** Frame the world. */
@@ -190,6 +192,8 @@ Object.assign(window, {physsim: {
   get forces() { return app.arrows.drawn; },
   /** Lengths of arrows [px] to a newton and to a metre a second. */
   get scales() { return {newton: app.arrows.newtons.length(1), speed: app.arrows.speeds.length(1)}; },
+  /** Places of the handles of the selected body [px]. */
+  get handles() { return app.handles.places(); },
   get bodies() {
     const {frame, scene, count} = app.world;
     return Object.fromEntries(scene.bodies.slice(0, count).map(({name}, row) =>

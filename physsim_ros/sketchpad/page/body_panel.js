@@ -46,6 +46,8 @@ export class BodyPanel {
       this.app.connection.send('change', {name, properties});
     const anchored = createElement('input', {type: 'checkbox', checked: body.anchored,
       onchange: () => change({anchored: anchored.checked})});
+    const gate = createElement('input', {type: 'checkbox', checked: body.sensor,
+      onchange: () => change({sensor: gate.checked})});
     this.shown = JSON.stringify(body);
     this.show(this.app.words.title(name), [
       this.numbers.element,
@@ -53,10 +55,11 @@ export class BodyPanel {
       materialButtons(change),
       ...fields(body, change),
       createElement('label', {}, 'Anchored', anchored),
+      ...body.robot ? [] : [createElement('label', {}, 'Gate: lets bodies through', gate)],
       inRow(
         textButton('Copy', () => this.copy()),
         textButton('Delete body', () => this.app.selection.deleteBodies(), 'danger')),
-      createElement('p', {hidden: body.anchored, textContent: 'Velocity: drag the ring of its arrow.'}),
+      createElement('p', {hidden: body.anchored, textContent: 'Drag the ring of its arrow, the round handle to turn it, the square one to scale it.'}),
       this.plots.element,
     ], isDrawn(name) ? name : '');
     this.plots.watch(name);

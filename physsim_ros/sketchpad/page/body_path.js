@@ -49,6 +49,18 @@ export function reachOf(shape, [x, y]) {
 }
 
 /**
+ * @param {Shape} shape of one piece
+ * @param {number} scale
+ * @returns {Record<string, any>} the shape of another size, as in a world file
+ */
+export function scaledShape({kind, radius, width, height, outline, points, thickness}, scale) {
+  const scaled = (/** @type {Point[]} */ each) => each.map(([x, y]) => [scale * x, scale * y]);
+  if (kind === 'disc') return {circle: {radius: scale * radius}};
+  if (kind === 'chain') return {chain: {points: scaled(points), thickness: scale * thickness}};
+  return width && height ? {box: {width: scale * width, height: scale * height}} : {polygon: scaled(outline)};
+}
+
+/**
  * @param {number[][]} boxes xmin, ymin, xmax, ymax
  * @returns {number[]} the least box around them; infinite where there are none
  */

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The part of the world that is shown: metres, y up, to pixels of the page, y down. */
 
+import {roundUp} from './rounding.js';
+
 /** @import {Point} from './types.js' */
 
 const LEAST_SCALE = 0.5, GREATEST_SCALE = 5000; // px/m
-const NARROW = matchMedia('(max-width: 700px) and (min-height: 501px), (max-width: 639px)'); // as in style.css: tools below
+const NARROW = matchMedia('(max-width: 700px) and (min-height: 501px), (max-width: 559px)'); // as in style.css: tools below
+const LEAST_STEP = 70; // px between labelled lines of the grid
 const LEAST_SPAN = 4; // m; nothing smaller fills the page at first
 
 export class Camera {
@@ -18,6 +21,16 @@ export class Camera {
   /** @returns {boolean} whether tools and panel lie below */
   get narrow() {
     return NARROW.matches;
+  }
+
+  /** @returns {number} from one labelled line of the grid to the next [m] */
+  get gridStep() {
+    return roundUp(LEAST_STEP / this.scale);
+  }
+
+  /** @returns {number} from one fine line to the next [m] */
+  get fineStep() {
+    return this.gridStep / 5;
   }
 
   /**

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The grid in metres, and rulers at the edges whose steps follow the zoom. */
 
-import {roundUp} from './rounding.js';
-
 /** @import {Camera, Palette} from './types.js' */
-
-const LEAST_STEP = 70; // px between labelled lines
 
 /**
  * @param {number} step
@@ -24,12 +20,12 @@ function multiplesOf(step, from, to) {
  * @param {{left: number, bottom: number}} insets where the rulers lie [px]
  */
 export function drawGrid(ctx, camera, palette, insets) {
-  const step = roundUp(LEAST_STEP / camera.scale), digits = Math.max(0, -Math.floor(Math.log10(step)));
+  const step = camera.gridStep, digits = Math.max(0, -Math.floor(Math.log10(step)));
   const [left, top] = camera.toWorld(0, 0), [right, bottom] = camera.toWorld(camera.width, camera.height);
   const pixelX = (/** @type {number} */ x) => Math.round(camera.toPage(x, 0)[0]) + 0.5;
   const pixelY = (/** @type {number} */ y) => Math.round(camera.toPage(0, y)[1]) + 0.5;
   ctx.lineWidth = 1;
-  for (const [spacing, color] of /** @type {[number, string][]} */ ([[step / 5, palette.minor], [step, palette.major]])) {
+  for (const [spacing, color] of /** @type {[number, string][]} */ ([[camera.fineStep, palette.minor], [step, palette.major]])) {
     ctx.strokeStyle = color;
     ctx.beginPath();
     for (const x of multiplesOf(spacing, left, right).map(pixelX)) {

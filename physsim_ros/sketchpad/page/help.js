@@ -18,7 +18,7 @@ const GESTURES = [['Draw', 'A finger and the pen; with a stylus, the stylus draw
 const MOVING = [['Space', 'Play or pause; held, dragging moves the view'],
   ['Arrow keys', 'Move the cursor on the canvas, with Shift finely; Enter presses and lifts the tool'],
   ['R, Shift+R', 'Turn the body in the hand, while paused'], ['N, Shift+N', 'Choose the next body, the last'],
-  ['W A S D', 'Drive the robot that is chosen; Q and E push it aside where its drive can'], ['Delete', 'Delete what is chosen'], ['Esc', 'Drop what is unfinished'], ['+ and −, F', 'Zoom; frame the world'],
+  ['W A S D', 'Drive the robot that is chosen; Q and E push it aside where its drive can'], ['Shift, held', 'What is drawn or dragged by the mouse snaps to the grid; handles turn by 15° and scale by quarters'], ['Delete', 'Delete what is chosen'], ['Esc', 'Drop what is unfinished'], ['+ and −, F', 'Zoom; frame the world'],
   ['Enter', 'Close a polygon'], ['?', 'This list']];
 
 /** @param {App} app */

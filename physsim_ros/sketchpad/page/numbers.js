@@ -4,8 +4,13 @@
 import {createElement} from './dom.js';
 import {threeDigits} from './rounding.js';
 
-/** @import {App, Body} from './types.js' */
+/** @import {App, Body, Point, WorldState} from './types.js' */
 
+const DEGREE = Math.PI / 180; // rad
+/** What can be typed; of an anchored body the first ones. @type {[string, string][]} */
+const TYPED = [['mass', 'Mass [kg]'], ['x', 'x [m]'], ['y', 'y [m]'], ['angle', 'Angle [°]'],
+  ['vx', 'vx [m/s]'], ['vy', 'vy [m/s]'], ['spin', 'Spin [rad/s]']];
+const AT_REST = 4; // number of those that an anchored body has
 /** Words of the energies. */
 const ENERGIES = ['of motion', 'of height'];
 
@@ -18,7 +23,11 @@ export class Numbers {
     this.line = createElement('p');
     this.bars = ENERGIES.map((word) => createElement('meter', {min: 0, 'aria-label': `Energy ${word}`}));
     this.values = ENERGIES.map(() => createElement('span'));
-    this.element = createElement('section', {className: 'numbers', 'aria-label': 'Numbers'}, this.line,
+    this.inputs = new Map(TYPED.map(([key]) => [key, createElement('input', {type: 'number', step: 'any',
+      onchange: () => this.#type(key)})]));
+    const typed = createElement('details', {}, createElement('summary', {textContent: 'Type numbers'}),
+      createElement('div', {}, ...TYPED.map(([key, label]) => createElement('label', {}, label, /** @type {Node} */ (this.inputs.get(key))))));
+    this.element = createElement('section', {className: 'numbers', 'aria-label': 'Numbers'}, this.line, typed,
       ...ENERGIES.flatMap((word, i) => [createElement('span', {textContent: `Energy ${word}`}), this.bars[i], this.values[i]]));
     app.view.overlays.push(() => this.#update());
   }
@@ -26,13 +35,41 @@ export class Numbers {
   #update() {
     const {world, panel} = this.app, row = panel.name ? world.row(panel.name) : -1;
     if (row < 0) return;
-    const body = world.scene.bodies[row], {frame} = world, [x, y] = world.place(row, body.centroid);
-    const degrees = Math.round(frame.yaw[row] * 180 / Math.PI * 10) / 10;
-    const speeds = frame.velocities && !body.anchored ?
-      [`${number(Math.hypot(frame.velocities.x[row], frame.velocities.y[row]))} m/s`, `${number(frame.velocities.spin[row])} rad/s`] : [];
-    const text = [`${threeDigits(body.mass)} kg`, `at ${number(x)}, ${number(y)} m`, `${degrees}°`, ...speeds].join(' · ');
+    const body = world.scene.bodies[row], text = `${threeDigits(body.mass)} kg · ${placed(world, row)}`;
     if (this.line.textContent !== text) this.line.textContent = text;
+    this.#showTyped(body, row);
     this.#showEnergies(body, row);
+  }
+
+  /**
+   * @param {Body} body
+   * @param {number} row
+   */
+  #showTyped({mass, centroid, anchored}, row) {
+    const {world: {frame}, world} = this.app, {velocities} = frame, [x, y] = world.place(row, centroid);
+    const values = [mass, x, y, frame.yaw[row] / DEGREE, velocities?.x[row], velocities?.y[row], velocities?.spin[row]];
+    TYPED.forEach(([key], i) => {
+      const input = this.inputs.get(key), value = values[i] ?? 0, text = String(Number(value.toPrecision(5)));
+      if (!input || input === document.activeElement) return;
+      input.disabled = anchored && i >= AT_REST;
+      if (input.value !== text) input.value = text;
+    });
+  }
+
+  /** @param {string} key of what was typed */
+  #type(key) {
+    const {world, panel: {name}, connection} = this.app, row = world.row(name);
+    const input = this.inputs.get(key), value = Number(input?.value);
+    if (row < 0 || !input?.value) return;
+    const {frame} = world, {centroid} = world.scene.bodies[row], [x, y] = world.place(row, centroid);
+    const {velocities} = frame, vx = velocities?.x[row] ?? 0, vy = velocities?.y[row] ?? 0;
+    const at = (/** @type {number} */ atX, /** @type {number} */ atY, yaw = frame.yaw[row]) =>
+      ({at: [...originOf(centroid, [atX, atY], yaw), yaw]});
+    /** @type {Record<string, object>} */
+    const changes = {mass: {mass: value}, x: at(value, y), y: at(x, value), angle: at(x, y, value * DEGREE),
+      vx: {velocity: [value, vy]}, vy: {velocity: [vx, value]}, spin: {spin: value}};
+    connection.send('change', {name, properties: changes[key]});
+    input.blur();
   }
 
   /**
@@ -65,6 +102,33 @@ export class Numbers {
  */
 export function energiesOf({mass, moment}, {x, y, vx, vy, spin}, [gx, gy]) {
   return [mass * (vx * vx + vy * vy) / 2 + moment * spin * spin / 2, -mass * (gx * x + gy * y)];
+}
+
+/**
+ * @param {Point} centroid in the frame of a body [m]
+ * @param {Point} center where that is to be [m]
+ * @param {number} yaw [rad]
+ * @returns {Point} where the body's origin is then [m]
+ */
+export function originOf([cx, cy], [x, y], yaw) {
+  const cos = Math.cos(yaw), sin = Math.sin(yaw);
+  return [x - cos * cx + sin * cy, y - sin * cx - cos * cy];
+}
+
+/**
+ * @param {WorldState} world
+ * @param {number} row
+ * @param {Point} by displacement [m]
+ * @returns {string} the place and angle of a body, and how fast it is where that is known
+ */
+export function placed(world, row, by = [0, 0]) {
+  const {frame: {yaw, velocities}, scene} = world, {centroid, anchored} = scene.bodies[row];
+  const [x, y] = world.place(row, centroid), degrees = Math.round(yaw[row] / DEGREE * 10) / 10;
+  const texts = [`at ${number(x + by[0])}, ${number(y + by[1])} m`, `${degrees}°`];
+  if (velocities && !anchored) {
+    texts.push(`${number(Math.hypot(velocities.x[row], velocities.y[row]))} m/s`, `${number(velocities.spin[row])} rad/s`);
+  }
+  return texts.join(' · ');
 }
 
 /** @param {number} value */

@@ -40,7 +40,7 @@ export class Pointers {
   #touch(event) {
     const {camera} = this.app, {clientX, clientY, pointerType, timeStamp} = event;
     return {at: camera.toWorld(clientX, clientY), page: [clientX, clientY], time: timeStamp / 1000,
-      slop: (pointerType === 'touch' ? FINGER : MOUSE) / camera.scale};
+      slop: (pointerType === 'touch' ? FINGER : MOUSE) / camera.scale, grid: event.shiftKey ? camera.fineStep : 0};
   }
 
   /** @param {PointerEvent} event */
@@ -61,7 +61,7 @@ export class Pointers {
       this.working = event.pointerId;
       app.time.endRewind();
       const touch = this.#touch(event);
-      this.worked = app.arrow.isAt(touch) ? app.arrow : app.tool;
+      this.worked = [app.arrow, app.handles].find((handle) => handle.isAt(touch)) ?? app.tool;
       this.worked.down(touch);
     } else if (this.down.size > 1 && this.working >= 0 && !app.tool.turns) {
       this.worked.cancel();

@@ -33,5 +33,7 @@ export function gravityButtons(change) {
  * @param {(preset: T) => void} change
  */
 function presetButtons(presets, change) {
-  return inRow(...Object.entries(presets).map(([name, preset]) => textButton(name, () => change(preset))));
+  const row = inRow(...Object.entries(presets).map(([name, preset]) => textButton(name, () => change(preset))));
+  row.classList.add('presets');
+  return row;
 }

@@ -225,12 +225,18 @@ export class SceneView {
    * @param {number} row of a body that is selected or pointed at
    * @param {string} color
    * @param {Point} by displacement [m]
+   * @param {{turn: number, scale: number}} about  its centre of mass [rad], and its size
    */
-  outline(row, color, by = [0, 0]) {
+  outline(row, color, by = [0, 0], {turn, scale} = {turn: 0, scale: 1}) {
     const {ctx, camera, world} = this, body = world.scene.bodies[row];
     this.bodies.setTransform(world.frame, row, by);
+    const [x, y] = body.centroid;
+    ctx.translate(x, y);
+    ctx.rotate(turn);
+    ctx.scale(scale, scale);
+    ctx.translate(-x, -y);
     ctx.strokeStyle = color;
-    ctx.lineWidth = (body.shape.kind === 'chain' ? body.shape.thickness : 0) + 3 / camera.scale;
+    ctx.lineWidth = (body.shape.kind === 'chain' ? body.shape.thickness : 0) + 3 / camera.scale / scale;
     ctx.stroke(this.bodies.appearance(body).path);
     this.#toPixels();
   }

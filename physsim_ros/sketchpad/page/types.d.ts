@@ -27,6 +27,7 @@ export interface Shape {
   pieces: Shape[];
   /** Of a rectangle. */
   width?: number;
+  height?: number;
 }
 
 export interface Body {
@@ -202,6 +203,8 @@ export interface Touch {
   time: number;
   /** How far beside a body counts [m]. */
   slop: number;
+  /** Distance of the lines that it snaps to [m]; 0 where the key is not held. */
+  grid: number;
 }
 
 /** What works a pointer: a tool of the toolbar, or the arrow of a velocity. */
@@ -219,6 +222,8 @@ export interface Tool {
   clicks?: number;
   /** Finish an open gesture; false where there is none. */
   finish?(): boolean;
+  /** Whether it tells how fast a body is. */
+  measures?: boolean;
   /** Colour of the body that it is pointed at. */
   aims?: 'accent' | 'warn';
 }

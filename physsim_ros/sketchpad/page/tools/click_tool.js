@@ -5,6 +5,7 @@
  */
 
 import {threeDigits} from '../rounding.js';
+import {onGrid} from '../snapping.js';
 
 /** @import {App, Point, SceneView, Touch} from '../types.js' */
 
@@ -36,8 +37,9 @@ export class ClickTool {
     });
   }
 
-  /** @param {Touch} touch */
-  down(touch) {
+  /** @param {Touch} raw */
+  down(raw) {
+    const touch = this.#onGrid(raw);
     this.start = this.last = touch;
     if (!this.points.length && this.clicks > 1) this.#click(touch);
     else this.waits = true;
@@ -45,13 +47,13 @@ export class ClickTool {
 
   /** @param {Touch} touch */
   move(touch) {
-    this.last = touch;
+    this.last = this.#onGrid(touch);
     this.app.view.dirty = true;
   }
 
-  /** @param {Touch} touch */
-  up(touch) {
-    const [x, y] = this.start?.page ?? touch.page;
+  /** @param {Touch} raw */
+  up(raw) {
+    const touch = this.#onGrid(raw), [x, y] = this.start?.page ?? touch.page;
     const dragged = Math.hypot(touch.page[0] - x, touch.page[1] - y) > DRAG;
     if (this.waits || dragged) this.#click(touch);
     this.waits = false;
@@ -71,6 +73,16 @@ export class ClickTool {
     const open = this.id === 'polygon' && this.points.length > 2;
     if (open) this.#click(this.points[0]);
     return open;
+  }
+
+  /**
+   * @param {Touch} touch
+   * @returns {Touch} on the grid, where the key is held and no body is meant
+   */
+  #onGrid(touch) {
+    if (!touch.grid || this.aims) return touch;
+    const at = onGrid(touch.at, touch.grid);
+    return {...touch, at, page: this.app.camera.toPage(...at)};
   }
 
   /** @param {Touch} touch */

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Tools that are drawn with: the pen, whose strokes become bodies, and the lasso, whose loops select them. */
 
-import {inside} from '../body_path.js';
+import {inside, unionOf} from '../body_path.js';
+import {threeDigits} from '../rounding.js';
 
 /** @import {App, Point, SceneView, Touch} from '../types.js' */
 
@@ -48,7 +49,11 @@ export class Pen {
 
   /** @param {SceneView} view */
   draw(view) {
-    if (this.samples.length) view.line(this.samples.map(({at}) => at), view.palette.accent);
+    const last = this.samples.at(-1);
+    if (!last) return;
+    view.line(this.samples.map(({at}) => at), view.palette.accent);
+    const [left, low, right, high] = unionOf(this.samples.map(({at: [x, y]}) => [x, y, x, y]));
+    view.write(`${threeDigits(right - left)} × ${threeDigits(high - low)} m`, [last.page[0] + 14, last.page[1] - 14], view.palette.accent);
   }
 }
 

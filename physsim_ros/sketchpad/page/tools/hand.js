@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The hand pulls a body and throws it, places and turns it in a paused world, and moves the view beside bodies. */
 
+import {placed} from '../numbers.js';
+import {onGrid} from '../snapping.js';
+
 /** @import {App, Point, SceneView, Touch} from '../types.js' */
 
 const TAP = 4; // px
@@ -19,6 +22,8 @@ export class Hand {
     this.name = '';
     /** @type {Point} in the frame of the body [m] */
     this.grip = [0, 0];
+    /** @type {Point} from its origin to where it was grabbed [m] */
+    this.offset = [0, 0];
     this.yaw = 0;
     this.turned = false;
     this.moved = false;
@@ -31,6 +36,11 @@ export class Hand {
     return this.state === 'holding' && this.app.world.paused;
   }
 
+  /** @returns {boolean} whether it tells how fast the body is */
+  get measures() {
+    return this.state === 'holding';
+  }
+
   /** @param {Touch} touch */
   down(touch) {
     const {world, view} = this.app, row = world.bodyAt(touch.at, touch.slop);
@@ -41,6 +51,7 @@ export class Hand {
       this.name = world.scene.bodies[row].name;
       this.grip = world.gripOn(row, touch.at);
       this.yaw = world.frame.yaw[row];
+      this.offset = [touch.at[0] - world.frame.x[row], touch.at[1] - world.frame.y[row]];
       this.turned = false;
       this.state = world.scene.bodies[row].anchored ? 'carrying' : 'pressed';
       if (this.state === 'pressed') this.timer = setTimeout(() => this.#grab(), CATCH);
@@ -72,11 +83,12 @@ export class Hand {
     if (state === 'holding') {
       this.#sendMove();
       app.connection.send('let_go');
+      app.askForParts();
       app.hints.completeStep('throw');
     } else if (!this.moved) app.selection.selectAt(touch);
     else if (state === 'carrying' && start) {
       app.connection.send('move_bodies', {names: [this.name],
-        by: [touch.at[0] - start.at[0], touch.at[1] - start.at[1]]});
+        by: this.#carried(start, touch)});
     }
     app.view.dirty = true;
   }
@@ -101,6 +113,7 @@ export class Hand {
     this.state = 'holding';
     // The body has moved since it was pressed.
     connection.send('grab', {point: world.place(row, this.grip)});
+    this.app.askForParts();
   }
 
   /** Send where the hand is once a frame of the page. */
@@ -113,14 +126,39 @@ export class Hand {
 
   #sendMove() {
     const yaw = this.turned && this.app.world.paused ? {yaw: this.yaw} : {};
-    this.app.connection.send('move', {point: this.last?.at, ...yaw});
+    if (this.last) this.app.connection.send('move', {point: this.#target(this.last), ...yaw});
+  }
+
+  /**
+   * @param {Touch} touch
+   * @returns {Point} where the body is drawn to: its origin on the grid, while the key is held [m]
+   */
+  #target({at: [x, y], grid}) {
+    const [dx, dy] = this.offset, [atX, atY] = onGrid([x - dx, y - dy], grid);
+    return [atX + dx, atY + dy];
+  }
+
+  /**
+   * @param {Touch} start
+   * @param {Touch} touch
+   * @returns {Point} by which a body is carried [m]
+   */
+  #carried({at: [x, y]}, touch) {
+    const [atX, atY] = this.#target(touch);
+    return [atX - x, atY - y];
   }
 
   /** @param {SceneView} view */
   draw(view) {
-    if (this.state !== 'carrying' || !this.start || !this.last) return;
-    const row = this.app.world.row(this.name);
-    if (row >= 0) view.outline(row, view.palette.accent,
-      [this.last.at[0] - this.start.at[0], this.last.at[1] - this.start.at[1]]);
+    const {world} = this.app, row = world.row(this.name);
+    if (row < 0 || !this.start || !this.last || !['carrying', 'holding'].includes(this.state)) return;
+    /** @type {Point} */
+    let by = [0, 0];
+    if (this.state === 'carrying') {
+      by = this.#carried(this.start, this.last);
+      view.outline(row, view.palette.accent, by);
+    }
+    const [x, y] = this.last.page;
+    view.write(placed(world, row, by), [x + 18, y - 18], view.palette.accent);
   }
 }

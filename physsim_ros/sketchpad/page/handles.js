@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+/** Handles of the selected body: the round one turns it about its centre of mass, the square one scales it. */
+
+import {scaledShape} from './body_path.js';
+import {originOf} from './numbers.js';
+import {threeDigits} from './rounding.js';
+import {onGrid} from './snapping.js';
+
+/** @import {App, Body, Point, SceneView, Touch} from './types.js' */
+
+const TURN_GAP = 30, SCALE_GAP = 20; // px from the rim of a body to its handles
+const GRIP = 12, SIZE = 6; // px: within which a handle is grabbed; half of its size
+const FARTHEST = 0.35; // share of the page: handles of larger bodies lie nearer
+const STEP = Math.PI / 12, SHARE = 0.25; // rad and steps of the size, with the key of the grid
+const LEAST = 0.1, MOST = 10; // of its size
+
+export class Handles {
+  /** @param {App} app */
+  constructor(app) {
+    this.app = app;
+    /** @type {'turn' | 'scale' | ''} the handle that is dragged */
+    this.dragged = '';
+    /** @type {Point} [px] */
+    this.from = [0, 0];
+    /** @type {?Touch} */
+    this.last = null;
+    app.view.overlays.push((view) => this.#draw(view));
+  }
+
+  /**
+   * @param {Touch} touch
+   * @returns {boolean} whether it is on a handle
+   */
+  isAt(touch) {
+    return this.#handleAt(touch) !== '';
+  }
+
+  /** @param {Touch} touch */
+  down(touch) {
+    this.dragged = this.#handleAt(touch);
+    this.from = touch.page;
+    this.last = touch;
+  }
+
+  /** @param {Touch} touch */
+  move(touch) {
+    this.last = touch;
+  }
+
+  /** @param {Touch} touch */
+  up(touch) {
+    this.last = touch;
+    const {app, dragged} = this, {connection, world} = app, {name} = app.panel, row = world.row(name);
+    const {turn, scale} = this.#change();
+    this.cancel();
+    if (row < 0) return;
+    const body = world.scene.bodies[row];
+    if (dragged === 'turn') connection.send('change', {name, properties: {at: poseAbout(app, row, turn)}});
+    else if (dragged === 'scale') {
+      connection.send('spawn', {body: {name, ...scaledShape(body.shape, scale), at: poseAbout(app, row, 0, scale)}});
+    }
+  }
+
+  cancel() {
+    this.dragged = '';
+  }
+
+  /** @returns {?{center: Point, turn: Point, scale: Point}} [px]; null where no single body is selected */
+  places() {
+    const {world, camera, panel, view} = this.app, row = panel.name ? world.row(panel.name) : -1;
+    if (row < 0 || this.app.viewOnly) return null;
+    const body = world.scene.bodies[row], center = camera.toPage(...world.place(row, body.centroid));
+    const reach = Math.min(view.bodies.appearance(body).radius * camera.scale,
+      FARTHEST * Math.min(camera.width, camera.height));
+    const at = (/** @type {number} */ angle, /** @type {number} */ gap) => /** @type {Point} */ ([
+      center[0] + (reach + gap) * Math.cos(angle), center[1] - (reach + gap) * Math.sin(angle)]);
+    const yaw = world.frame.yaw[row];
+    return {center, turn: at(yaw + Math.PI / 2, TURN_GAP), scale: at(yaw - Math.PI / 4, SCALE_GAP)};
+  }
+
+  /** @returns {boolean} */
+  get #scales() {
+    const body = this.app.world.scene.bodies[this.app.world.row(this.app.panel.name)];
+    return !body.robot && body.shape.kind !== 'pieces';
+  }
+
+  /**
+   * @param {Touch} touch
+   * @returns {'turn' | 'scale' | ''}
+   */
+  #handleAt({page, slop}) {
+    const places = this.places(), reach = GRIP + slop * this.app.camera.scale;
+    if (!places) return '';
+    const near = ([x, y] = places.turn) => Math.hypot(page[0] - x, page[1] - y) <= reach;
+    return near() ? 'turn' : this.#scales && near(places.scale) ? 'scale' : '';
+  }
+
+  /** @returns {{turn: number, scale: number}} as it is dragged now: angle [rad] and share */
+  #change() {
+    const places = this.places(), change = {turn: 0, scale: 1};
+    if (!places || !this.last) return change;
+    const {center: [x, y]} = places, {page: [px, py], grid} = this.last, [fx, fy] = this.from;
+    if (this.dragged === 'turn') {
+      const turn = Math.atan2(fy - y, fx - x) - Math.atan2(py - y, px - x);
+      [change.turn] = onGrid([Math.atan2(Math.sin(turn), Math.cos(turn)), 0], grid && STEP);
+    } else if (this.dragged === 'scale') {
+      const [share] = onGrid([Math.hypot(px - x, py - y) / (Math.hypot(fx - x, fy - y) || 1), 0], grid && SHARE);
+      change.scale = Math.min(Math.max(share, LEAST), MOST);
+    }
+    return change;
+  }
+
+  /** @param {SceneView} view */
+  #draw(view) {
+    const places = this.places(), {palette, ctx} = view;
+    if (!places) return;
+    const row = this.app.world.row(this.app.panel.name);
+    view.onRim(palette.accent, 2, (rim) => {
+      ctx.beginPath();
+      ctx.arc(...places.turn, SIZE + rim, 0, 2 * Math.PI);
+      if (this.#scales) ctx.rect(places.scale[0] - SIZE - rim, places.scale[1] - SIZE - rim, 2 * (SIZE + rim), 2 * (SIZE + rim));
+      ctx.fill();
+    });
+    if (!this.dragged || !this.last) return;
+    const {turn, scale} = this.#change(), [x, y] = this.last.page;
+    view.outline(row, palette.accent, [0, 0], {turn, scale});
+    const text = this.dragged === 'turn' ?
+      `${Math.round((this.app.world.frame.yaw[row] + turn) * 180 / Math.PI)}°` : sizeOf(this.app.world.scene.bodies[row], scale);
+    view.write(text, [x + 14, y - 14], palette.accent);
+  }
+}
+
+/**
+ * @param {App} app
+ * @param {number} row
+ * @param {number} turn about the centre of mass [rad]
+ * @param {number} scale
+ * @returns {number[]} x, y [m], yaw [rad] of a body that is turned and scaled
+ */
+function poseAbout({world}, row, turn, scale = 1) {
+  const {centroid} = world.scene.bodies[row], yaw = world.frame.yaw[row] + turn;
+  return [...originOf([scale * centroid[0], scale * centroid[1]], world.place(row, centroid), yaw), yaw];
+}
+
+/**
+ * @param {Body} body
+ * @param {number} scale
+ * @returns {string} its size, scaled
+ */
+function sizeOf({shape: {kind, radius, width, height}}, scale) {
+  if (kind === 'disc') return `radius ${threeDigits(scale * radius)} m`;
+  if (width && height) return `${threeDigits(scale * width)} × ${threeDigits(scale * height)} m`;
+  return `× ${threeDigits(scale)}`;
+}

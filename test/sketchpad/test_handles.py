@@ -1,0 +1,143 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""A body by its handles and by typed numbers, the grid, the numbers of what is drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+import math
+from typing import Any
+
+import pytest
+
+from .chromium import Sheet
+
+# The texts that are written on the canvas from now on.
+SPY = """() => {
+    window.texts = [];
+    const write = CanvasRenderingContext2D.prototype.fillText;
+    CanvasRenderingContext2D.prototype.fillText = function (text, ...at) {
+        window.texts.push(text);
+        write.call(this, text, ...at);
+    };
+}"""
+
+
+@pytest.fixture
+def sheet(chromium: Any, address: str) -> Iterator[Sheet]:
+    """Give a test a page on which a box is selected, and the world from its beginning, paused."""
+    sheet = Sheet(chromium, address)
+    sheet.begin()
+    sheet.press('Hand')
+    sheet.page.mouse.click(*sheet.place(4.0, 0.5))
+    sheet.page.get_by_role('heading', name='box/0').wait_for()
+    sheet.wait('physsim.handles !== null')
+    sheet.page.evaluate(SPY)
+    yield sheet
+    sheet.close()
+
+
+def written(sheet: Sheet, text: str) -> None:
+    """Wait until a text is written on the canvas."""
+    sheet.wait('text => window.texts.includes(text)', text)
+
+
+def drag_handle(sheet: Sheet, handle: str, turn: float, share: float, *keys: str) -> None:
+    """
+    Drag a handle about the centre of its body.
+
+    :param turn: counter-clockwise [rad]
+    :param share: of its distance, at the end
+    :param keys: that are held
+    """
+    places = sheet.page.evaluate('physsim.handles')
+    (cx, cy), (x, y) = places['center'], places[handle]
+    angle, length = math.atan2(cy - y, x - cx) + turn, share * math.hypot(x - cx, y - cy)
+    sheet.page.mouse.move(x, y)
+    sheet.page.mouse.down()
+    for key in keys:
+        sheet.page.keyboard.down(key)
+    to = cx + length * math.cos(angle), cy - length * math.sin(angle)
+    sheet.page.mouse.move(*to, steps=5)
+    sheet.page.mouse.up()
+    for key in keys:
+        sheet.page.keyboard.up(key)
+
+
+def number(sheet: Sheet, label: str, text: str) -> None:
+    """Type a number of the body."""
+    field = sheet.page.get_by_label(label, exact=True)
+    field.fill(text)
+    field.press('Enter')
+
+
+def test_the_round_handle_turns_a_body(sheet: Sheet) -> None:
+    drag_handle(sheet, 'turn', math.radians(70.0), 1.3)
+    sheet.wait('Math.abs(physsim.bodies["box/0"][2] - 70 * Math.PI / 180) < 0.02')
+    written(sheet, '70°')
+    # About its centre of mass.
+    assert sheet.pose('box/0')[:2] == pytest.approx([4.0, 0.5], abs=1e-6)
+    sheet.press('Undo')
+    sheet.wait('physsim.bodies["box/0"][2] === 0')
+
+
+def test_with_the_key_of_the_grid_it_turns_by_steps(sheet: Sheet) -> None:
+    drag_handle(sheet, 'turn', math.radians(-47.0), 1.0, 'Shift')
+    sheet.wait('Math.abs(physsim.bodies["box/0"][2] + Math.PI / 4) < 1e-6')
+
+
+def test_the_square_handle_scales_a_body(sheet: Sheet) -> None:
+    panel = sheet.page.get_by_role('complementary', name='Body')
+    panel.get_by_text('1 kg · ').wait_for()
+    drag_handle(sheet, 'scale', 0.0, 1.52, 'Shift')
+    written(sheet, '1.5 × 1.5 m')
+    # Of the same density.
+    panel.get_by_text('2.25 kg · ').wait_for()
+    assert sheet.pose('box/0') == pytest.approx([4.0, 0.5, 0.0], abs=1e-6)
+    sheet.press('Undo')
+    panel.get_by_text('1 kg · ').wait_for()
+
+
+def test_a_body_is_where_numbers_say(sheet: Sheet) -> None:
+    sheet.page.get_by_text('Type numbers').click()
+    for label, text in (('x [m]', '2'), ('y [m]', '3.5'), ('Angle [°]', '30')):
+        number(sheet, label, text)
+    sheet.wait('Math.abs(physsim.bodies["box/0"][2] - Math.PI / 6) < 1e-6')
+    assert sheet.pose('box/0')[:2] == pytest.approx([2.0, 3.5], abs=1e-6)
+    number(sheet, 'Mass [kg]', '5')
+    number(sheet, 'vx [m/s]', '3')
+    number(sheet, 'vy [m/s]', '-4')
+    panel = sheet.page.get_by_role('complementary', name='Body')
+    panel.get_by_text('5 kg · at 2.00, 3.50 m · 30° · 5.00 m/s').wait_for()
+    # m v² / 2
+    panel.get_by_text('62.50 J').wait_for()
+
+
+def test_what_is_drawn_and_placed_snaps_to_the_grid_while_a_key_is_held(sheet: Sheet) -> None:
+    # Its fine lines are 0.4 m apart in this window.
+    before = sheet.names()
+    sheet.page.keyboard.press('Escape')
+    sheet.press('Circle')
+    sheet.page.keyboard.down('Shift')
+    with sheet.dragging((-1.06, 5.05), (-0.34, 5.07)):
+        written(sheet, 'radius 0.8 m')
+    name = sheet.wait_for_new(before)
+    assert sheet.pose(name) == pytest.approx([-1.2, 5.2, 0.0], abs=1e-6)
+    sheet.press('Hand')
+    with sheet.dragging((-1.13, 5.41), (-1.5, 6.32)):
+        sheet.wait('name => Math.abs(physsim.bodies[name][1] - 6.0) < 1e-3', name)
+    sheet.page.keyboard.up('Shift')
+    # By its centre, wherever it is held.
+    sheet.wait('name => Math.abs(physsim.bodies[name][0] + 1.6) < 1e-3', name)
+
+
+def test_the_hand_tells_where_a_body_is_and_how_fast(sheet: Sheet) -> None:
+    with sheet.dragging((-4.0, 3.0), (-4.0, 5.0)):
+        written(sheet, 'at -4.00, 5.00 m · 0°')
+    sheet.press('Play')
+    with sheet.dragging((0.0, 0.5), (1.0, 4.0)):
+        sheet.wait('window.texts.some((text) => / [1-9]\\.\\d+ m\\/s/.test(text))')
+    sheet.press('Pen')
+    with sheet.dragging((1.0, 5.0), (3.0, 5.0), (3.0, 6.5)):
+        written(sheet, '2 × 1.5 m')
