@@ -83,7 +83,11 @@ setup(
         ],
         # The site: `make docs`. 8.2 brings the pages of modules.
         'docs': ['furo', 'myst-parser>=4', 'sphinx>=8.2'],
+        # QR codes of the addresses of a class.
+        'class': ['segno>=1.6,<2'],
         'test': [
+            # That of a class.
+            'segno>=1.6,<2',
             # A second middleware, for readers that are not Fast DDS.
             'cyclonedds>=0.10',
             'hypothesis',

@@ -177,7 +177,7 @@ def test_pip_is_told_what_rosdep_cannot_bring(distribution):
     assert set(always) == named
     assert '1.26.4' not in always['numpy']
     assert '8.0.0' not in always['pymunk']
-    assert extras == {'extra == "docs"', 'extra == "jazzy"', 'extra == "test"'}
+    assert extras == {'extra == "class"', 'extra == "docs"', 'extra == "jazzy"', 'extra == "test"'}
 
 
 def test_the_wheels_of_ros_come_with_their_middleware(distribution):

@@ -10,6 +10,7 @@ folders import the names below.
 """
 
 from physsim_ros.drawing.clicks.tools import Tool
+from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.session import DrawingSession, submit_reading
 from physsim_ros.drawing.settings import DRAWING_RANGES, DrawingSettings
 from physsim_ros.drawing.strokes.interpretation import Reading
@@ -19,6 +20,7 @@ __all__ = [
     'DrawingSession',
     'DrawingSettings',
     'Reading',
+    'SceneQuery',
     'Tool',
     'submit_reading',
 ]

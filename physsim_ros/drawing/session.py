@@ -214,6 +214,7 @@ def submit_reading(
     topic: str,
     field: str = '',
     asker: str = '',
+    author: str = '',
 ) -> None:
     """
     Answer a stroke by its reading, and submit its requests as one gesture.
@@ -224,16 +225,18 @@ def submit_reading(
     :param topic: of the stroke
     :param field: of its message, to be named by a refusal
     :param asker: key of the message that asked
+    :param author: name of the person whose doing it is; '' is nobody's
     """
     queue = simulation.requests
     queue.tell(replace(reading_answer(reading, topic=topic), asker=asker))
     if reading.amends:
         amend = Amend(reading.amends, reading.requests)
-        queue.submit(amend, topic=topic, joined=True, field=field, asker=asker)
+        queue.submit(amend, topic=topic, joined=True, field=field, asker=asker, author=author)
         session.note_gesture(reading.amends[0])
         return
     for number, request in enumerate(reading.requests):
-        queue.submit(request, topic=topic, joined=number > 0, field=field, asker=asker)
+        joined = number > 0
+        queue.submit(request, topic=topic, joined=joined, field=field, asker=asker, author=author)
     if reading.requests:
         session.note_gesture(queue.gesture)
 

@@ -56,6 +56,8 @@ PARAMETERS = frozenset(
         'sketch_confidence',
         'sketchpad',
         'sketchpad_address',
+        'sketchpad_frozen',
+        'sketchpad_locked',
         'sketchpad_port',
         'snap',
         'speed',

@@ -172,9 +172,21 @@ class OutOfHistory(Refusal):
 
 
 class InPast(Refusal):
-    """A command of a robot's node while the past is shown, which repeats those of its day."""
+    """What the past does not take while it is shown: a robot's command, an undo of one person."""
 
     code = 'in_past'
+
+
+class NotAlone(Refusal):
+    """What is to be taken back is used by what was done since."""
+
+    code = 'not_alone'
+
+
+class Frozen(Refusal):
+    """A teacher has frozen the pages, or locked a body."""
+
+    code = 'frozen'
 
 
 class Running(Refusal):

@@ -135,7 +135,7 @@ class FrameOutputs:
             real_time_factor=self.statistics.real_time_factor,
             cost=self.statistics.frame_cost,
             title=_title_of(self._values['world_file']),
-            traced=parameters.traced_names(self._values['trace']),
+            traced=parameters.listed_names(self._values['trace']),
         )
         self.viewer.show(frame, context=context)
         if self.sketchpad is not None:

@@ -181,6 +181,10 @@ class PhysSimNode(NodeWithoutQosEvents):
             save_world=partial(self._perform_on, services['save_world']),
             set_speed=self._time_control.set_speed,
             seek=self._time_control.seek,
+            is_frozen=lambda: self._values['sketchpad_frozen'],
+            locked_bodies=lambda: parameters.listed_names(self._values['sketchpad_locked']),
+            set_frozen=self._set_frozen,
+            set_locked=self._set_locked,
         )
         self._pages = Pages(
             self,
@@ -205,6 +209,16 @@ class PhysSimNode(NodeWithoutQosEvents):
         except PhysSimError:
             self.set_parameters([Parameter('world_file', value=before)])
             raise
+
+    def _set_frozen(self, frozen: bool) -> str:  # noqa: FBT001 - the value of a parameter
+        """Set whether pages of pupils change nothing; return a message about it."""
+        self.set_parameters([Parameter('sketchpad_frozen', value=frozen)])
+        return 'the pages are frozen' if frozen else 'the pages are free again'
+
+    def _set_locked(self, names: tuple[str, ...]) -> str:
+        """Set the bodies that pages of pupils do not change; return a message about it."""
+        self.set_parameters([Parameter('sketchpad_locked', value=','.join(names))])
+        return f'locked {", ".join(names)}' if names else 'no body is locked'
 
     def start(self) -> None:
         """Start the viewer and the diagnostics; `tick` advances time from now on."""

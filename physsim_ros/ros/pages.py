@@ -95,7 +95,8 @@ class Pages:
                 '\n'
                 '  The page is at\n\n'
                 f'      {sketchpad.url()}\n\n'
-                f'  and for those who only watch: {sketchpad.url(Role.VIEW)}\n\n'
+                f'  and for those who only watch: {sketchpad.url(Role.VIEW)}\n'
+                f'  and for a teacher:            {sketchpad.url(Role.TEACH)}\n\n'
             )
             sys.stdout.flush()
 

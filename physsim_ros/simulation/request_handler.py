@@ -76,23 +76,24 @@ class RequestHandler:
                 return call()
             case Amend(gestures=gestures, requests=requests):
                 self._playback.seek_shown()
-                results = self._past.amend(gestures, requests)
+                results = self._past.amend(gestures, requests, waiting.author)
                 self._playback.note_jump()
                 return [_answer(result, waiting) for result in results]
             case Seek(stamp=stamp):
                 return [_answer(Done('', self.seek(stamp)), waiting)]
             case request:
                 self._playback.changed = True
-                done = self.apply(request, waiting.gesture)
+                done = self.apply(request, waiting.gesture, waiting.author)
                 # Moves and drives come at the rate of frames.
                 told = not isinstance(request, DriveRobot | MoveHand | KeepHand)
                 return [_answer(done, waiting)] if told else []
 
-    def apply(self, request: Request, gesture: int) -> Done:
+    def apply(self, request: Request, gesture: int, author: str = '') -> Done:
         """
         Apply a request now.
 
         :param gesture: its gesture; requests of a drag have that of the grab
+        :param author: name of the person whose doing it is; '' is nobody's
         :raises Refusal: and nothing is changed
         """
         timeline = self._past.timeline
@@ -105,7 +106,7 @@ class RequestHandler:
                 request = placing(request)
             gesture = self.hands.gesture_of(request, gesture)
         self._playback.seek_shown()
-        done = self._past.apply(request, gesture)
+        done = self._past.apply(request, gesture, author)
         if isinstance(request, HandRequest):
             self.hands.note_request(request, gesture, timeline.world.grips)
         if timeline.moment != before:

@@ -90,6 +90,7 @@ class Waiting:
     :param field: the only field of the message, which a refusal names; '' if it has several
     :param asker: key of the message that asks, which the answer names; '' for none
     :param size: memory of the request [bytes]
+    :param author: name of the person whose doing it is; '' is nobody's
     """
 
     request: Request | Amend | Seek | Call | Refusal | Answer
@@ -99,6 +100,7 @@ class Waiting:
     field: str = ''
     asker: str = ''
     size: int = 0
+    author: str = ''
 
     @property
     def is_for_world(self) -> bool:
@@ -168,23 +170,29 @@ class RequestQueue:
         *,
         topic: str,
         joined: bool = False,
+        gesture: int | None = None,
         field: str = '',
         asker: str = '',
+        author: str = '',
     ) -> None:
         """
         Add a request; the next frame applies and answers it.
 
         :param topic: its source
         :param joined: whether it is in the gesture of the entry before, and is undone with it
+        :param gesture: number of an earlier gesture that it is in, whatever came between
         :param field: the only field of its message, which a refusal names; '' if it has several
         :param asker: key of the message that asks, which the answer names; '' for none
+        :param author: name of the person whose doing it is; '' is nobody's
         """
         if isinstance(request, MoveHand) and request.hand in self._moves:
             self._moves[request.hand].request = request
             return
         size = size_of(request)
-        gesture = self.gesture if joined else self.begin_gesture()
-        waiting = Waiting(request, topic, subject_of(request), gesture, field, asker, size)
+        if gesture is None:
+            gesture = self.gesture if joined else self.begin_gesture()
+        subject = subject_of(request)
+        waiting = Waiting(request, topic, subject, gesture, field, asker, size, author)
         if busy := self._busy(size):
             self._add_answer(replace(waiting, request=busy, size=0))
             return

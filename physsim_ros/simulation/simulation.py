@@ -198,6 +198,18 @@ class Simulation:
         self.playback.note_jump()
         return f'undid {undone}, back at {self.playback.time}'
 
+    def take_back(self, author: str) -> str:
+        """
+        Take back the last gesture of a person, at this time; return a message about it.
+
+        :param author: name of the person
+        :raises Refusal: there is none, or it does not stand alone; nothing is changed
+        """
+        self._prepare_change()
+        taken = self.past.take_back(author)
+        self.playback.note_jump()
+        return f'undid {taken}'
+
     def redo(self) -> str:
         """
         Return to the moment of the last undo; return a message about it.

@@ -47,6 +47,12 @@ class Role(Enum):
 
     DRAW = 'draw'
     VIEW = 'view'
+    TEACH = 'teach'
+
+    @property
+    def draws(self) -> bool:
+        """Whether its pages change the world."""
+        return self is not Role.VIEW
 
 
 class Access:

@@ -16,6 +16,7 @@ import time
 
 from physsim_ros.appearance import LaserScans
 from physsim_ros.model.snapshot import Frame, Snapshot
+from physsim_ros.sketchpad.cursors import Cursors
 from physsim_ros.sketchpad.frame_codec import encode_frame, Show
 from physsim_ros.sketchpad.open_pages import OpenPage, OpenPages
 from physsim_ros.sketchpad.scene_codec import compact, SceneCodec
@@ -35,11 +36,13 @@ class FrameFeed:
     :param loop: of the server's thread
 
     :ivar pages: that are open
+    :ivar cursors: of the people at them
     :ivar newest: frame, and ghost beside it; the world's thread sets it
     """
 
     def __init__(self, loop: AbstractEventLoop) -> None:
         self.pages = OpenPages()
+        self.cursors = Cursors(loop, self.pages)
         self._loop = loop
         self.newest: tuple[Frame, Snapshot | None] | None = None
         self._codec = SceneCodec()

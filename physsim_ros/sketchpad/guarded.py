@@ -94,7 +94,7 @@ class Guarded(RequestHandler):
 
     def require_drawing(self) -> None:
         """Refuse a request of a page that only shows the world."""
-        if self.role is not Role.DRAW:
+        if self.role is None or not self.role.draws:
             self.refuse(403, 'this page only shows the world')
 
     def refuse(self, status: int, reason: str) -> NoReturn:

@@ -46,10 +46,14 @@ class Upload:
     server's thread, which then has waited too long.
 
     :param content: of the world file
+    :param role: of who uploads it
     :param reply: receives the answer, on the world's thread
     """
 
-    def __init__(self, content: Mapping[Any, Any], reply: Callable[[Answer], None]) -> None:
+    def __init__(
+        self, content: Mapping[Any, Any], role: Role, reply: Callable[[Answer], None]
+    ) -> None:
+        self.role = role
         self.reply = reply
         # A deque's `pop` is atomic.
         self._content = deque((content,))

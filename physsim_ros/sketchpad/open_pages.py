@@ -152,7 +152,7 @@ class OpenPages:
             if index >= MOST_ANSWERS_TO_OTHERS:
                 own[asker] += 1
                 continue
-            text = compact(answer_content(answer, ''))
+            text = compact(answer_content(answer, '') | {'page': asker})
             for page in self:
                 if page.number != asker:
                     page.send(text)

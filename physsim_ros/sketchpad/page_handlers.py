@@ -5,10 +5,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 from physsim_ros.sketchpad.access import Role
 from physsim_ros.sketchpad.guarded import Guarded, TYPES
+from physsim_ros.sketchpad.qr_code import qr_code
 from tornado.web import HTTPError, StaticFileHandler
 
 # The files that a browser runs.
@@ -62,7 +64,26 @@ class CookieCheck(Guarded):
 
     async def get(self) -> None:
         """Answer with the rights of the page."""
-        self.finish({'ok': True, 'view_only': self.role is not Role.DRAW})
+        self.finish({'ok': True, 'view_only': self.role is Role.VIEW})
+
+
+class QrCode(Guarded):
+    """The address of pupils as a QR code, for a teacher."""
+
+    def initialize(self, address: Callable[[], str]) -> None:
+        """Set what returns that address."""
+        self._address = address
+
+    async def get(self) -> None:
+        """Answer with the picture."""
+        if self.role is not Role.TEACH:
+            self.refuse(403, 'this is for teachers')
+        try:
+            image = qr_code(self._address())
+        except ImportError:
+            self.refuse(404, 'QR codes need segno: pip install segno')
+        self.set_header('Content-Type', TYPES['.svg'])
+        self.finish(image)
 
 
 class Missing(Guarded):

@@ -18,18 +18,23 @@ from physsim_ros.drawing import DrawingSession
 from physsim_ros.files import OwnWorlds
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.colors import Color
-from physsim_ros.model.errors import Busy, PhysSimError, Refusal
+from physsim_ros.model.errors import Busy, Frozen, PhysSimError, Refusal
+from physsim_ros.model.names import shown_name
 from physsim_ros.model.requests import HandRequest, KeepHand, LetGo, Request, Spawn
 from physsim_ros.model.snapshot import Answer, NO_PREVIEW, Preview
 from physsim_ros.simulation.deferred_calls import Wait
+from physsim_ros.sketchpad.access import Role
 from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.body_past import BodyPasts
+from physsim_ros.sketchpad.locks import bodies_of, is_locked
 from physsim_ros.sketchpad.message import answer_content, Content, KINDS, Message, Origin
 from physsim_ros.sketchpad.world_control import WorldControl
 
 # Time from one request of a resting hand to the next [s]; a hand without requests lets go after
 # 5 s.
 HAND_PERIOD = 2.0
+# Kinds of messages that pages may send while they are frozen: what changes no world.
+WHILE_FROZEN = ('watch', 'person', 'share', 'let_go', 'drop', 'draw_with')
 
 
 class PageSession:
@@ -37,6 +42,7 @@ class PageSession:
     The session of one page.
 
     :param number: of the page
+    :param role: its rights
     :param world: that it draws in
     :param send: sends a message to the page
     :param pasts: of bodies, for all pages
@@ -44,9 +50,10 @@ class PageSession:
     :param autosave: of the world
     :param list_worlds: sends all pages the list of worlds
 
+    :ivar person: name of the person at it, whose doings its requests are
     :ivar drawing: its strokes and clicks
     :ivar hand: name of its hand in the world
-    :ivar driven: name of the robot that it drives; '' is none
+    :ivar driven: name of the robot that it drives, '' is none; and the gesture of that
     :ivar material: properties of the bodies that it draws; those that are unset are the world's
     :ivar color: of the bodies that it draws; None is the world's choice
     """
@@ -54,6 +61,7 @@ class PageSession:
     def __init__(
         self,
         number: int,
+        role: Role,
         world: WorldControl,
         *,
         send: Callable[[Content], None],
@@ -63,6 +71,8 @@ class PageSession:
         list_worlds: Callable[[], None],
     ) -> None:
         self.number = number
+        self.role = role
+        self.person = f'Page {number}'
         self.world = world
         self.send = send
         self.pasts = pasts
@@ -71,7 +81,7 @@ class PageSession:
         self.list_worlds = list_worlds
         self.drawing = DrawingSession(world.drawing_settings())
         self.hand = f'page {number}'
-        self.driven = ''
+        self.driven = '', 0
         self.material = Properties()
         self.color: Color | None = None
         self._preview: Preview = NO_PREVIEW
@@ -84,6 +94,7 @@ class PageSession:
         kind = KINDS[message.kind]
         origin = Origin(self.number, message.request, kind.topic)
         try:
+            self._check_frozen(message.kind)
             kind.handle(self, origin, **message.arguments)
         except Refusal as refusal:
             self.refuse(origin, refusal)
@@ -107,22 +118,64 @@ class PageSession:
 
     # Requests
 
-    def submit(self, origin: Origin, requests: Iterable[Request], *, joined: bool = False) -> None:
+    def submit(
+        self, origin: Origin, requests: Iterable[Request], *, gesture: int | None = None
+    ) -> int:
         """
-        Submit requests that are undone together.
+        Submit requests that are undone together, and return the number of their gesture.
 
-        :param joined: whether they are undone with the request before them, too
+        :param gesture: number of an earlier gesture that they are in, too
+        :raises Frozen: one of them concerns a locked body; none is submitted
         """
+        requests = tuple(requests)
+        self.check_locked(requests)
         queue = self.world.simulation.requests
         for request in requests:
-            queue.submit(request, topic=origin.topic, joined=joined, asker=origin.asker)
-            joined = True
+            queue.submit(
+                request,
+                topic=origin.topic,
+                gesture=gesture,
+                asker=origin.asker,
+                author=self.person,
+            )
+            gesture = queue.gesture if gesture is None else gesture
+        return gesture or 0
 
     def use_hand(self, origin: Origin, request: HandRequest) -> None:
-        """Submit a request of the page's hand."""
+        """
+        Submit a request of the page's hand.
+
+        :raises Frozen: it grabs a locked body
+        """
+        self.check_locked((request,))
         self._hand_used = None if isinstance(request, LetGo) else time.monotonic()
         queue = self.world.simulation.requests
-        queue.submit(request, topic=origin.topic, asker=origin.asker)
+        queue.submit(request, topic=origin.topic, asker=origin.asker, author=self.person)
+
+    def check_locked(self, requests: Iterable[Request]) -> None:
+        """
+        Refuse requests that concern locked bodies, but for a teacher.
+
+        :raises Frozen: one of them does
+        """
+        patterns = self.world.locked_bodies()
+        if not patterns or self.role is Role.TEACH:
+            return
+        snapshot = self.world.current_snapshot()
+        for request in requests:
+            for name in bodies_of(request, snapshot):
+                if is_locked(name, patterns):
+                    raise Frozen(f'{shown_name(name)} is locked by a teacher', field='name')
+
+    def _check_frozen(self, kind: str) -> None:
+        """
+        Refuse what changes the world while pages are frozen, but for a teacher.
+
+        :param kind: of a message
+        :raises Frozen: it is refused
+        """
+        if self.role is Role.DRAW and kind not in WHILE_FROZEN and self.world.is_frozen():
+            raise Frozen('a teacher has frozen this world')
 
     def with_material(self, requests: Iterable[Request]) -> tuple[Request, ...]:
         """Return the requests of a drawing, with the page's material for the bodies they add."""

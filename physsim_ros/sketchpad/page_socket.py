@@ -13,6 +13,7 @@ from __future__ import annotations
 from physsim_ros.model.checks import flag
 from physsim_ros.model.errors import Busy, Refusal
 from physsim_ros.model.snapshot import Answer
+from physsim_ros.model.transform import Point
 from physsim_ros.sketchpad.access import Role
 from physsim_ros.sketchpad.frame_codec import Show
 from physsim_ros.sketchpad.frame_feed import FrameFeed
@@ -25,6 +26,8 @@ from physsim_ros.sketchpad.scene_codec import compact
 
 # Types of the messages that a page may send which only shows the world.
 OF_VIEWERS = ('show', 'watch')
+# Types of the messages that a teacher's page alone may send.
+OF_TEACHERS = ('freeze', 'lock', 'clear_of')
 
 
 class PageSocket(GuardedSocket):
@@ -51,8 +54,8 @@ class PageSocket(GuardedSocket):
     def open(self) -> None:  # noqa: A003 - tornado's name
         """Begin to send frames to the page, and tell the world's thread."""
         self.set_nodelay(True)
-        draws = self.role is Role.DRAW and 'view' not in self.request.arguments
-        self.role = Role.DRAW if draws else Role.VIEW
+        if self.role is None or 'view' in self.request.arguments:
+            self.role = Role.VIEW
         self._page = self._feed.add_page(self)
         self._inbox.put(self._page.number, Opened(role=self.role))
 
@@ -66,8 +69,12 @@ class PageSocket(GuardedSocket):
             self._answer(request, Answer.refused(checked, topic=''))
         elif checked.kind == 'show':
             self._feed.show_parts(self._page, *_show(**checked.arguments))
-        elif self.role is not Role.DRAW and checked.kind not in OF_VIEWERS:
+        elif self.role is Role.VIEW and checked.kind not in OF_VIEWERS:
             self._refuse(request, 'view_only', 'this page only shows the world')
+        elif self.role is not Role.TEACH and checked.kind in OF_TEACHERS:
+            self._refuse(request, 'teacher_only', 'this is for teachers')
+        elif checked.kind == 'here':
+            self._feed.cursors.move(self._page.number, _here(**checked.arguments))
         elif not self._inbox.put(self._page.number, checked):
             self._refuse(request, Busy.code, 'the world is too busy; nothing was done')
 
@@ -88,7 +95,7 @@ class PageSocket(GuardedSocket):
             self._page.send(compact(answer_content(answer, request)))
 
 
-# The world's thread never receives this kind.
+# The world's thread never receives these kinds.
 @message(
     'show',
     '',
@@ -107,3 +114,9 @@ def _show(
         | (Show.FORCES if forces else Show.POSES)
     )
     return parts, laser
+
+
+@message('here', '', point=fields.point)
+def _here(*, point: Point) -> Point:
+    """Return where the cursor of a page is [m]."""
+    return point

@@ -22,7 +22,15 @@ from physsim_ros.sketchpad.frame_feed import FrameFeed
 from physsim_ros.sketchpad.inbox import Inbox
 from physsim_ros.sketchpad.listening import BoundedServer, listening_sockets, reachable_host
 from physsim_ros.sketchpad.message import Content
-from physsim_ros.sketchpad.page_handlers import CookieCheck, Files, Login, Missing, PAGE, Page
+from physsim_ros.sketchpad.page_handlers import (
+    CookieCheck,
+    Files,
+    Login,
+    Missing,
+    PAGE,
+    Page,
+    QrCode,
+)
 from physsim_ros.sketchpad.page_socket import PageSocket
 from physsim_ros.sketchpad.recording_handlers import recording_routes, Recordings
 from physsim_ros.sketchpad.scene_codec import compact
@@ -80,6 +88,7 @@ class Server:
                 ('/', Page),
                 ('/login', Login),
                 ('/session', CookieCheck),
+                ('/qr.svg', QrCode, {'address': partial(self.url, Role.DRAW)}),
                 ('/ws', PageSocket, {'feed': self._feed, 'inbox': inbox}),
                 ('/page/(.*)', Files, {'path': str(PAGE)}),
                 ('/gallery/(.*)', Files, {'path': str(shipped_pictures())}),

@@ -18,7 +18,7 @@ import time
 from typing import Any
 
 from physsim_ros.files import OwnWorlds, state_from, text_of
-from physsim_ros.model.errors import Busy
+from physsim_ros.model.errors import Busy, Frozen
 from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.simulation.deferred_calls import Wait
 from physsim_ros.sketchpad.access import Role
@@ -84,6 +84,7 @@ class Sketchpad:
         self._pasts = BodyPasts(world.simulation, self._server.send)
         self._sessions: dict[int, PageSession] = {}
         self._sent_recording = self._recording_path()
+        self._sent_class: dict[str, Any] = {}
 
     def url(self, role: Role = Role.DRAW) -> str:
         """Return the address of a page with its token."""
@@ -98,6 +99,11 @@ class Sketchpad:
         """Carry out the messages of pages that have come, as many as there is time for."""
         now = time.monotonic()
         self._do_periodic_work(now)
+        self._handle_until(now + BUDGET)
+        self._send_class()
+
+    def _handle_until(self, end: float) -> None:
+        """Carry out messages until a steady time [s]."""
         while (entry := self._inbox.take()) is not None:
             match entry:
                 case page, Opened(role=role):
@@ -109,7 +115,7 @@ class Sketchpad:
                     self._replace_world(upload)
                 case page, message:
                     self._sessions[page].handle(message)
-            if time.monotonic() > now + BUDGET:
+            if time.monotonic() > end:
                 return
 
     def show(self, frame: Frame) -> None:
@@ -149,6 +155,26 @@ class Sketchpad:
             self._sent_recording = self._recording_path()
             self._server.send({'type': 'recording', 'rerun': self._sent_recording})
 
+    def _send_class(self) -> None:
+        """Tell all pages who is there, and what a teacher has frozen and locked, if it changed."""
+        content = self._class_content()
+        if self._sessions and content != self._sent_class:
+            self._sent_class = content
+            self._server.send(content)
+
+    def _class_content(self) -> dict[str, Any]:
+        people = [
+            {'page': number, 'name': session.person, 'role': session.role.value}
+            for number, session in self._sessions.items()
+            if session.role.draws
+        ]
+        return {
+            'type': 'class',
+            'frozen': self._world.is_frozen(),
+            'locked': self._world.locked_bodies(),
+            'people': people,
+        }
+
     def _save_unsaved(self) -> tuple[Answer, ...]:
         self._autosave.save()
         return ()
@@ -169,6 +195,8 @@ class Sketchpad:
 
         def load() -> str:
             content = upload.take()
+            if self._world.is_frozen() and upload.role is not Role.TEACH:
+                raise Frozen('a teacher has frozen this world')
             if content is None:
                 raise Busy('an upload has waited too long; nothing was done')
             settings, rate = simulation.settings, simulation.physics_rate
@@ -190,6 +218,7 @@ class Sketchpad:
         send = partial(self._server.send, page=number)
         self._sessions[number] = PageSession(
             number,
+            role,
             self._world,
             send=send,
             pasts=self._pasts,
@@ -207,8 +236,9 @@ class Sketchpad:
                 'physics_rate': self._simulation.physics_rate,
                 **self._welcome,
                 'rerun': self._recording_path(),
-                'view_only': role is not Role.DRAW,
-                'unsaved': self._autosave.unsaved_at if role is Role.DRAW else 0.0,
+                'view_only': not role.draws,
+                'teacher': role is Role.TEACH,
+                'unsaved': self._autosave.unsaved_at if role.draws else 0.0,
                 'settings': {
                     'density': settings.density,
                     'friction': settings.friction,
@@ -222,6 +252,7 @@ class Sketchpad:
         )
         send(timeline_content(self._simulation.status))
         self._server.list_worlds(number)
+        send(self._class_content())
 
     def _recording_path(self) -> str:
         """Return where the recording is shown; '' where no viewer serves browsers."""

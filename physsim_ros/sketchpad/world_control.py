@@ -4,7 +4,8 @@
 """
 The actions of a node that its pages use, besides the requests of its world.
 
-Law: a page can do nothing that a service, a topic or a parameter cannot do.
+Law: a page can do nothing that a service, a topic or a parameter cannot do; but only people at
+pages have names, and an undo of their own.
 """
 
 from __future__ import annotations
@@ -34,6 +35,10 @@ class WorldControl:
     :param save_world: saves the world under a name; raises a PhysSimError
     :param set_speed: sets the speed [simulation seconds a second]; raises a Refusal
     :param seek: goes to a simulation time [ns]; raises a Refusal
+    :param is_frozen: returns whether pages of pupils change nothing
+    :param locked_bodies: returns patterns of the names of bodies that they do not change
+    :param set_frozen: sets the first
+    :param set_locked: sets the second; raises a Refusal
     """
 
     simulation: Simulation
@@ -45,3 +50,7 @@ class WorldControl:
     save_world: Callable[[str], str]
     set_speed: Callable[[float], str]
     seek: Callable[[int], str]
+    is_frozen: Callable[[], bool]
+    locked_bodies: Callable[[], tuple[str, ...]]
+    set_frozen: Callable[[bool], str]
+    set_locked: Callable[[tuple[str, ...]], str]

@@ -29,6 +29,7 @@ from physsim_ros.files import (
 )
 from physsim_ros.model.errors import Malformed, Refusal
 from physsim_ros.model.snapshot import Answer
+from physsim_ros.sketchpad.access import Role
 from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.guarded import Guarded, TYPES
 from physsim_ros.sketchpad.inbox import Inbox, Upload, UPLOADERS
@@ -228,7 +229,7 @@ class UploadWorld(Guarded):
             with suppress(RuntimeError):
                 loop.call_soon_threadsafe(reply.set_result, answer)
 
-        upload = Upload(content, take_reply)
+        upload = Upload(content, self.role or Role.VIEW, take_reply)
         if self._inbox.put(UPLOADERS, upload):
             await asyncio.wait([reply], timeout=TIMEOUT)
         if not reply.done() and upload.take() is not None:

@@ -59,6 +59,8 @@ class Parameters(TypedDict, total=False):
     sketchpad: Literal['none', 'serve']
     sketchpad_address: str
     sketchpad_port: int
+    sketchpad_frozen: bool
+    sketchpad_locked: str
     iterations: int
     gravity: Sequence[float]
     damping: float

@@ -70,6 +70,8 @@ CONTRACT: dict[str, tuple[Any, str]] = {
     'sketchpad': ('none', 'live'),
     'sketchpad_address': ('127.0.0.1', 'read-only'),
     'sketchpad_port': (8765, 'read-only'),
+    'sketchpad_frozen': (False, 'live'),
+    'sketchpad_locked': ('', 'live'),
     'max_bodies': (20000, 'live'),
     'max_shapes': (50000, 'live'),
     'max_overlaps': (20000, 'live'),

@@ -13,7 +13,7 @@ from physsim_ros.ros.parameters.declaration import check, check_names, declare
 from physsim_ros.ros.parameters.settings import (
     drawing_settings,
     is_world_setting,
-    traced_names,
+    listed_names,
     world_changes,
     world_parameters,
     world_settings,
@@ -28,7 +28,7 @@ __all__ = [
     'declare',
     'drawing_settings',
     'is_world_setting',
-    'traced_names',
+    'listed_names',
     'world_changes',
     'world_parameters',
     'world_settings',

@@ -192,6 +192,15 @@ _OF_NODE = {
         high=65535,
         read_only=True,
     ),
+    'sketchpad_frozen': Spec(
+        default=False,
+        meaning='pages of pupils change nothing; those of a teacher do',
+    ),
+    'sketchpad_locked': Spec(
+        default='',
+        meaning='names of bodies, separated by commas, that pages of pupils do not change; with '
+        '*, ? and [] as in a shell',
+    ),
 }
 # Parameters of the world and of drawing, whose defaults and ranges are those of the settings.
 _MEANINGS = {

@@ -15,7 +15,8 @@ from bisect import bisect_left, bisect_right
 from itertools import pairwise
 
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
-from physsim_ros.model.requests import Request
+from physsim_ros.model.requests import Join, Request, Spawn
+from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.simulation.past.tree import Keyframe, Moment, Node, Tree
 
@@ -161,6 +162,20 @@ class History:
         opening = self.node(serial).opening
         return (self.node(opening), serial - opening + 1) if opening > self._first else None
 
+    def last_gesture_of(self, author: str) -> Node | None:
+        """Return the first request of the last gesture of a person; None if none is kept."""
+        for node in reversed(self.nodes[1:]):
+            if node.author == author:
+                return self.node(node.opening) if node.opening > self._first else None
+        return None
+
+    def added_by(self, author: str, scene: Scene) -> tuple[tuple[str, ...], tuple[str, ...]]:
+        """Return the bodies and the joints of a scene that a person has added, by name."""
+        requests = [node.request for node in self.nodes[1:] if node.author == author]
+        added = {each.name for each in requests if isinstance(each, Spawn | Join)}
+        joints = tuple(joint.name for joint in scene.joints if joint.name in added)
+        return tuple(name for name in scene.names if name in added), joints
+
     def gesture_start(self, gesture: int, serial: int) -> Moment | None:
         """Return the moment before the first request of a gesture up to a serial, if kept."""
         opening = self._openings.get(gesture, serial + 1)
@@ -243,12 +258,14 @@ class History:
         request: Request,
         *,
         gesture: int,
+        author: str,
         subject: str,
         settings: WorldSettings,
     ) -> None:
         """
         Add a request that changed the world at a moment of this line, and follow it.
 
+        :param author: name of the person whose doing it is; '' is nobody's
         :param subject: name of the body or joint concerned, or ''
         :param settings: of the world after the request
         """
@@ -260,6 +277,7 @@ class History:
             request,
             gesture=gesture,
             opening=opening if opening <= serial else serial + 1,
+            author=author,
             subject=subject,
             settings=settings,
         )

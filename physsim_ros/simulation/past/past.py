@@ -14,7 +14,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from physsim_ros.model.checkpoint import WorldState
-from physsim_ros.model.errors import OutOfHistory, Refusal
+from physsim_ros.model.errors import InPast, NotAlone, OutOfHistory, Refusal
 from physsim_ros.model.requests import Request
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer, Snapshot
@@ -28,6 +28,9 @@ from physsim_ros.simulation.past.lines import Line, Lines, MOST_COURSES
 from physsim_ros.simulation.past.timeline import Timeline
 from physsim_ros.simulation.past.tree import Moment, Node, Tree
 from physsim_ros.simulation.world import Done
+
+# Greatest simulation time that is simulated again where a gesture is taken back [s].
+LONGEST_AGAIN = 60.0
 
 
 class Past:
@@ -204,17 +207,18 @@ class Past:
 
     # Requests
 
-    def apply(self, request: Request, gesture: int) -> Done:
+    def apply(self, request: Request, gesture: int, author: str = '') -> Done:
         """
         Apply a request to the world; in the past it begins a course.
 
         :param gesture: number of its gesture
+        :param author: name of the person whose doing it is; '' is nobody's
         :raises Refusal: and nothing is changed
         """
         timeline = self.timeline
         left = self._lines.hold(self._line()) if not timeline.is_newest else None
         try:
-            done = timeline.apply(request, gesture)
+            done = timeline.apply(request, gesture, author)
         finally:
             if left is not None and not timeline.world.changed:
                 self._lines.drop(left)
@@ -233,16 +237,56 @@ class Past:
         message = f'course {self.course} begins at {step / self.physics_rate:.3f} s'
         self._answers.append(Answer(topic='branch', message=f'{message}; {left.course} is kept'))
 
-    def amend(self, gestures: Sequence[int], requests: Sequence[Request]) -> list[Done | Refusal]:
+    def amend(
+        self, gestures: Sequence[int], requests: Sequence[Request], author: str = ''
+    ) -> list[Done | Refusal]:
         """
         Replace the requests of earlier gestures, and simulate again up to this moment.
 
+        :param author: name of the person whose doing it is; '' is nobody's
         :return: for each request what `apply` returns, or its refusal
         """
-        step, done = self.timeline.amend(gestures, requests)
+        amended = self.timeline.amend(gestures, requests, author)
         self._lines.clear_undone(self._era)
-        self.frame_cache.drop_from(step)
-        return done
+        self.frame_cache.drop_from(amended.step)
+        return amended.done
+
+    def take_back(self, author: str) -> str:
+        """
+        Take back the last gesture of a person, and simulate again up to this moment.
+
+        What others have done since is done again as it was asked.
+
+        :param author: name of the person
+        :return: the phrase for it
+        :raises InPast: the past is shown
+        :raises OutOfHistory: the person has done nothing that is kept
+        :raises NotAlone: what was done since needs it, or is too much to be done again; nothing is
+            changed
+        """
+        timeline, history = self.timeline, self.timeline.history
+        if not timeline.is_newest:
+            raise InPast('the past is shown; go to its end first', field='history')
+        first = history.last_gesture_of(author)
+        if first is None:
+            raise OutOfHistory(f'there is nothing of {author} to undo', field='history')
+        if timeline.moment[0] - first.step > self.steps_in(LONGEST_AGAIN):
+            raise NotAlone(f'that was more than {LONGEST_AGAIN:g} s ago; delete it instead')
+        before = self._lines.hold(self._line())
+        before.words = gesture_phrase(first, 1)
+        amended = timeline.amend((first.gesture,), ())
+        if amended.refused:
+            left, _ = self._return_to(before)
+            self._lines.drop(left)
+            raise NotAlone('somebody has used it since; delete it instead')
+        self.frame_cache.drop_from(amended.step)
+        self._lines.clear_undone(self._era)
+        self._lines.undone.append(before)
+        return before.words
+
+    def doings_of(self, author: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
+        """Return the bodies and the joints in the world that a person has added, by name."""
+        return self.timeline.history.added_by(author, self.timeline.world.scene)
 
     # Moves of the cursor
 

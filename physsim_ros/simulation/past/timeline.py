@@ -44,6 +44,20 @@ class _Seek(NamedTuple):
     with_contacts: bool
 
 
+class Amended(NamedTuple):
+    """
+    The result of an amendment of the past.
+
+    :ivar step: the first one that differs
+    :ivar done: for each new request its result or its refusal
+    :ivar refused: whether a later request was refused, and dropped
+    """
+
+    step: int
+    done: list[Done | Refusal]
+    refused: bool
+
+
 class Timeline(Replay):
     """
     A world and its history, to which new steps and requests are added.
@@ -166,10 +180,11 @@ class Timeline(Replay):
 
     # Going on
 
-    def apply(self, request: Request, gesture: int) -> Done:
+    def apply(self, request: Request, gesture: int, author: str = '') -> Done:
         """
         Carry out a request; if it changes anything, it is the new tip.
 
+        :param author: name of the person whose doing it is; '' is nobody's
         :raises Refusal: and nothing is changed
         """
         self.continue_seek()
@@ -181,6 +196,7 @@ class Timeline(Replay):
                 self.moment,
                 request,
                 gesture=gesture,
+                author=author,
                 subject=done.subject,
                 settings=self.world.settings,
             )
@@ -256,8 +272,8 @@ class Timeline(Replay):
         return differs
 
     def amend(
-        self, gestures: Sequence[int], requests: Sequence[Request]
-    ) -> tuple[int, list[Done | Refusal]]:
+        self, gestures: Sequence[int], requests: Sequence[Request], author: str = ''
+    ) -> Amended:
         """
         Replace the requests of earlier gestures, and simulate again up to this moment.
 
@@ -267,28 +283,33 @@ class Timeline(Replay):
 
         :param gestures: their numbers, at least one; the requests get the first number
         :param requests: that replace theirs, at their first step
-        :return: that step; and for each request its result or its refusal
+        :param author: name of the person whose doing it is; '' is nobody's
         """
         now, history = self.moment, self.history
         starts = [history.gesture_start(each, now[1]) for each in gestures]
         found = [start for start in starts if start is not None]
         step, serial = min(found, key=lambda start: start[1], default=now)
         gesture = gestures[0]
+        # Commands of robots join the gesture before them, whose author is another one.
         later = [
-            each for each in history.nodes_between(serial, now[1]) if each.gesture not in gestures
+            each
+            for each in history.nodes_between(serial, now[1])
+            if each.gesture not in gestures or each.author != history.node(each.opening).author
         ]
         self.follow(history.node(serial), step, (step, serial))
-        done = [self._try_apply(request, gesture) for request in requests]
+        done = [self._try_apply(request, gesture, author) for request in requests]
+        refused = False
         for node in later:
             self.advance(node.step - self.world.step_count)
-            self._try_apply(node.request, node.gesture)
+            again = self._try_apply(node.request, node.gesture, node.author)
+            refused |= isinstance(again, Refusal)
         self.advance(now[0] - self.world.step_count)
         self.world.clear_contacts()
-        return step, done
+        return Amended(step, done, refused)
 
-    def _try_apply(self, request: Request, gesture: int) -> Done | Refusal:
+    def _try_apply(self, request: Request, gesture: int, author: str) -> Done | Refusal:
         try:
-            return self.apply(request, gesture)
+            return self.apply(request, gesture, author)
         except Refusal as refusal:
             return refusal
 

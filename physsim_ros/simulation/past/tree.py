@@ -113,6 +113,7 @@ class Node:
     :param request: that was applied; of a root, the one that loads the state
     :param gesture: number of its gesture; requests of one gesture are undone together
     :param opening: serial of the first request of the gesture
+    :param author: name of the person whose doing it is; '' is nobody's
     :param subject: name of the body or joint concerned, or ''
     :param loaded: the state that was loaded last
     :param settings: of the world after the request
@@ -135,6 +136,7 @@ class Node:
     after: int = -1
     gesture: int = 0
     opening: int = 0
+    author: str = ''
     subject: str = ''
     size: int = 0
     total: int = 0
@@ -179,6 +181,7 @@ class Tree:
         *,
         gesture: int,
         opening: int,
+        author: str,
         subject: str,
         settings: WorldSettings,
     ) -> Node:
@@ -193,6 +196,7 @@ class Tree:
             request=request,
             gesture=gesture,
             opening=opening,
+            author=author,
             subject=subject,
             settings=settings,
             loaded=Loaded(serial, request.state)

@@ -88,11 +88,19 @@ def _submit(page: PageSession, origin: Origin, read: Callable[[], Reading]) -> N
     except NotRecognised as refusal:
         page.send(_reading_content(origin, refusal.values, outline=[], built=False))
         raise
+    page.check_locked(reading.requests)
     outline = reading.outline.tolist()
     page.send(_reading_content(origin, reading.values, outline=outline, built=True))
     reading = replace(reading, requests=page.with_material(reading.requests))
     simulation, asker = page.world.simulation, origin.asker
-    submit_reading(simulation, page.drawing, reading, topic=origin.topic, asker=asker)
+    submit_reading(
+        simulation,
+        page.drawing,
+        reading,
+        topic=origin.topic,
+        asker=asker,
+        author=page.person,
+    )
 
 
 def _reading_content(

@@ -25,6 +25,7 @@ def _velocity(value: object, name: str) -> Twist:
 @message('drive', 'cmd_vel', name=fields.text, velocity=_velocity)
 def drive(page: PageSession, origin: Origin, name: str, velocity: Twist) -> None:
     """Drive a robot at a velocity; all commands up to one of rest are undone together."""
+    driven, gesture = page.driven
     request = DriveRobot(name=name, velocity=velocity)
-    page.submit(origin, (request,), joined=page.driven == name)
-    page.driven = '' if velocity == REST else name
+    gesture = page.submit(origin, (request,), gesture=gesture if driven == name else None)
+    page.driven = ('', 0) if velocity == REST else (name, gesture)

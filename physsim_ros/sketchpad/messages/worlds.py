@@ -11,6 +11,7 @@ from functools import partial
 from physsim_ros.files import check_world_name, text_of
 from physsim_ros.model.checks import flag, LONGEST, number, shown, Whole, Within
 from physsim_ros.model.errors import BadProperty, BadWorldFile, WorldFull
+from physsim_ros.model.requests import DeleteAll
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.deferred_calls import Wait
 from physsim_ros.sketchpad.message import message, Optional, Origin
@@ -61,6 +62,8 @@ def _world_name(value: object, name: str) -> str:
 def service(page: PageSession, origin: Origin, name: str, world: str = '') -> None:
     """Perform the action of a service, on the world file of a name where one is given."""
     origin = origin._replace(topic=f'~/{name}')
+    if name in ('clear', 'load_world'):
+        page.check_locked((DeleteAll(),))
     action, wait = page.world.services[name]
     if world and name == 'load_world':
         action = partial(page.world.load_world, world)
@@ -96,6 +99,7 @@ def return_to_course(page: PageSession, origin: Origin, course: int) -> None:
 @message('open', '~/load_world', name=_world_name)
 def open_world(page: PageSession, origin: Origin, name: str) -> None:
     """Load a world."""
+    page.check_locked((DeleteAll(),))
     page.perform(origin, partial(page.world.load_world, name), Wait.FOR_SEEK)
 
 

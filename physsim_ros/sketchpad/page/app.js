@@ -8,6 +8,7 @@
 import {Arrows} from './arrows.js';
 import {BodyPanel} from './body_panel.js';
 import {Camera} from './camera.js';
+import {Classroom} from './classroom.js';
 import {Connection} from './connection.js';
 import {Cursor} from './cursor.js';
 import {createElement, elementOf} from './dom.js';
@@ -81,6 +82,7 @@ export class App {
     this.pointers = new Pointers(this);
     this.keyboard = new Keyboard(this);
     this.topBar = new TopBar(this);
+    this.classroom = new Classroom(this);
     this.tips = new Tips(this.camera);
     this.card = new EmptyCard(this);
     this.#listen();
@@ -122,12 +124,14 @@ export class App {
 
   /** Keep the tools of a narrow page above its bar, and the world in a window that changes. */
   #followSizes() {
-    const bar = elementOf('bar', HTMLElement);
+    const bar = elementOf('bar', HTMLElement), top = elementOf('top', HTMLElement);
     const sizes = new ResizeObserver(() => {
+      document.documentElement.style.setProperty('--top', `${top.offsetHeight}px`);
       document.documentElement.style.setProperty('--bar', `${bar.offsetHeight}px`);
       if (this.camera.fitted) this.frame();
     });
     sizes.observe(bar, {box: 'border-box'});
+    sizes.observe(top, {box: 'border-box'});
     sizes.observe(this.view.canvas);
   }
 

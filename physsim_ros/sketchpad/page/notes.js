@@ -36,7 +36,8 @@ export class Notes {
     const {request, ok, code, message} = answer, own = request !== '';
     // A dialog asks about a name that is taken.
     if (SILENT.test(message) || own && code === 'exists' || !own && performance.now() < this.until) return;
-    const tell = () => this.showMessage(this.app.words.tell(answer), {ok, quiet: !own});
+    const who = own ? '' : this.app.classroom.nameOf(answer.page);
+    const tell = () => this.showMessage(`${who}${who && ': '}${this.app.words.tell(answer)}`, {ok, quiet: !own});
     this.expected = () => {};
     if (this.app.words.knows(answer.subject)) tell();
     else {

@@ -59,6 +59,8 @@ export class TimeBar {
   callService(service) {
     if (service === 'step' && !this.app.world.paused) this.callService('pause');
     if (service === 'play' && this.rate !== 1) this.app.connection.send('speed', {speed: this.rate});
+    // Where several people draw, each undoes what is its own.
+    else if (service === 'undo' && this.app.classroom.isShared) this.app.connection.send('take_back');
     else this.app.connection.send('service', {name: service});
   }
 

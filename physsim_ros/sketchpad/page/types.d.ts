@@ -163,6 +163,15 @@ export interface Answer {
   subject: string;
   topic: string;
   values: Record<string, string>;
+  /** Number of the page that asked, where that is another one. */
+  page?: number;
+}
+
+/** Somebody at a page of this world. */
+export interface Classmate {
+  page: number;
+  name: string;
+  role: string;
 }
 
 /** What a stroke is read as. */

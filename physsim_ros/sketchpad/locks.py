@@ -1,0 +1,55 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""Locked bodies: which bodies a request of a page concerns, and which of them are locked."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from fnmatch import fnmatchcase
+
+from physsim_ros.drawing import SceneQuery
+from physsim_ros.model import requests
+from physsim_ros.model.requests import Request
+from physsim_ros.model.snapshot import Snapshot
+
+# Requests that concern every body of the world.
+_OF_ALL = (requests.DeleteAll, requests.UnjoinAll, requests.Restore)
+
+
+def is_locked(name: str, patterns: Iterable[str]) -> bool:
+    """Return whether a body is among those of patterns, as in a shell."""
+    return any(fnmatchcase(name, pattern) for pattern in patterns)
+
+
+def bodies_of(request: Request, snapshot: Snapshot) -> tuple[str, ...]:
+    """
+    Return the bodies that a request concerns, by name.
+
+    :param snapshot: in which points are looked up
+    """
+    query = SceneQuery(snapshot)
+    match request:
+        case requests.MoveBodies(names=names) | requests.DeleteBodies(names=names):
+            return names
+        case requests.Spawn(name=name) | requests.ChangeBody(name=name):
+            return (name,)
+        case requests.Delete(name=name) | requests.DriveRobot(name=name):
+            return (name,)
+        case requests.Join(a=a, b=b, points=points):
+            return tuple(
+                each
+                for name, point in ((a, points[0]), (b, points[-1]))
+                for each in ((name,) if name else query.bodies_at(point)[:1])
+            )
+        case requests.Unjoin(name=name):
+            joints = (each for each in query.joints if each.name == name)
+            return tuple(each for joint in joints for each in (joint.a, joint.b))
+        case requests.Grab(point=point):
+            under = query.bodies_at(point)
+            return tuple(each for each in under if query.body(each).dynamic)[:1] or under[:1]
+        case requests.Anchor(point=point) | requests.Release(point=point):
+            return query.bodies_at(point)[:1]
+        case requests.Pin(point=point) | requests.Axle(point=point):
+            return query.bodies_at(point)[:2]
+    return query.names if isinstance(request, _OF_ALL) else ()

@@ -1,0 +1,78 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""Messages of a class: names of people, their own undo, and what a teacher alone may do."""
+
+from __future__ import annotations
+
+from functools import partial
+
+from physsim_ros.model.checks import flag
+from physsim_ros.model.errors import BadProperty, NothingThere
+from physsim_ros.model.requests import DeleteBodies, Unjoin
+from physsim_ros.model.texts import is_printable
+from physsim_ros.simulation.deferred_calls import Wait
+from physsim_ros.sketchpad.message import message, Origin
+from physsim_ros.sketchpad.messages import fields
+from physsim_ros.sketchpad.page_session import PageSession
+
+# Length of the name of a person [characters].
+LONGEST_PERSON = 24
+
+
+def _person(value: object, name: str) -> str:
+    """Return the name of a person."""
+    text = fields.text(value, name).strip()
+    if not 0 < len(text) <= LONGEST_PERSON or not is_printable(text):
+        raise BadProperty(f'a name has 1 to {LONGEST_PERSON} characters', field=name)
+    return text
+
+
+def _patterns(value: object, name: str) -> tuple[str, ...]:
+    """Return names of bodies, or patterns of them; there may be none."""
+    patterns = fields.names(value, name) if value != [] else ()
+    if any(',' in each for each in patterns):
+        raise BadProperty(f'a name in {name} has no comma', field=name)
+    return patterns
+
+
+@message('person', 'page', name=_person)
+def choose_name(page: PageSession, origin: Origin, name: str) -> None:
+    """Choose the name of the person at this page."""
+    page.person = name
+    page.answer_page(origin, f'you are {name}')
+
+
+@message('take_back', '~/undo')
+def take_back(page: PageSession, origin: Origin) -> None:
+    """Undo the last gesture of the person at this page, where it stands alone; time stays."""
+    action = partial(page.world.simulation.take_back, page.person)
+    page.perform(origin, action, Wait.BEHIND_REQUESTS)
+
+
+# A teacher's: `page_socket` refuses them to others
+
+
+@message('freeze', 'page', frozen=flag)
+def freeze(page: PageSession, origin: Origin, *, frozen: bool) -> None:
+    """Freeze the pages of pupils, or free them."""
+    page.answer_page(origin, page.world.set_frozen(frozen))
+
+
+@message('lock', 'page', names=_patterns)
+def lock(page: PageSession, origin: Origin, names: tuple[str, ...]) -> None:
+    """Lock bodies, so that pages of pupils do not change them, in place of those before."""
+    page.answer_page(origin, page.world.set_locked(names))
+
+
+@message('clear_of', '~/command', person=_person)
+def clear_of(page: PageSession, origin: Origin, person: str) -> None:
+    """Delete the bodies and joints that a person has added, as far as the history reaches."""
+    # Requests may wait that add some.
+    page.world.current_snapshot()
+    bodies, joints = page.world.simulation.past.doings_of(person)
+    if not bodies and not joints:
+        raise NothingThere(f'there is nothing of {person}', field='person')
+    deletion = [DeleteBodies(names=bodies)] if bodies else []
+    # First: a joint goes with its bodies.
+    page.submit(origin, [*(Unjoin(name=name) for name in joints), *deletion])

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The people in this world: names, colours, cursors; and what a teacher may do: freeze, lock, clear, show the address. */
+
+import {createElement, elementOf, iconButton, inRow, textButton} from './dom.js';
+
+/** @import {App, Classmate, Point, SceneView} from './types.js' */
+
+const NAME = 'physsim-name'; // of the person, in this browser
+const LONGEST = 24; // characters
+const PERIOD = 100; // ms between messages of the cursor
+const SHOWN = 10000; // ms: a cursor that rests
+const TITLE = 'People';
+
+export class Classroom {
+  /** @param {App} app */
+  constructor(app) {
+    this.app = app;
+    this.page = 0; // number of this one
+    this.teacher = false;
+    /** @type {{frozen: boolean, locked: string[], people: Classmate[]}} */
+    this.state = {frozen: false, locked: [], people: []};
+    /** @type {Map<number, {at: Point, until: number}>} */
+    this.cursors = new Map();
+    this.sent = 0; // [ms] when the cursor was sent last
+    this.thaw = () => {}; // takes the note away that says that the world is frozen
+    this.frozen = false; // whether it is there
+    const {connection, view} = app;
+    connection.on('welcome', ({client, teacher}) => {
+      this.page = Number(client);
+      this.teacher = Boolean(teacher);
+      const name = localStorage.getItem(NAME);
+      if (name && !app.viewOnly) connection.send('person', {name});
+    });
+    connection.on('class', (state) => this.#follow(state));
+    connection.on('cursors', ({cursors}) => {
+      for (const [page, x, y] of cursors) this.cursors.set(page, {at: [x, y], until: performance.now() + SHOWN});
+      view.dirty = true;
+    });
+    view.canvas.addEventListener('pointermove', (event) => this.#sendCursor(event));
+    view.overlays.push((each) => this.#draw(each));
+    this.button = iconButton(TITLE, 'people', () => this.#showPeople(), 'People in this world');
+    this.button.hidden = true;
+    elementOf('looks', HTMLElement).append(this.button);
+  }
+
+  /** @returns {boolean} whether several people draw in this world */
+  get isShared() {
+    return this.state.people.length > 1;
+  }
+
+  /**
+   * @param {number | undefined} page
+   * @returns {string} the name of the person there; '' where it is nobody, or this page
+   */
+  nameOf(page) {
+    return this.state.people.find((each) => each.page === page && page !== this.page)?.name ?? '';
+  }
+
+  /** @param {typeof this.state} state */
+  #follow(state) {
+    const {app} = this, pages = new Set(state.people.map(({page}) => page));
+    this.state = state;
+    for (const page of this.cursors.keys()) if (!pages.has(page)) this.cursors.delete(page);
+    this.button.hidden = !this.isShared && !this.teacher;
+    const frozen = state.frozen && !this.teacher && !app.viewOnly;
+    document.body.classList.toggle('frozen', frozen);
+    if (frozen && !this.frozen) this.thaw = app.notes.pin(() => null, ['Your teacher has frozen this world.'], {kind: 'docked', shown: 0});
+    else if (!frozen) this.thaw();
+    this.frozen = frozen;
+    if (app.gallery.dialog.open && app.gallery.dialog.ariaLabel === TITLE && !(document.activeElement instanceof HTMLInputElement)) this.#showPeople();
+    app.view.dirty = true;
+  }
+
+  #showPeople() {
+    const {app, state, teacher} = this, {connection} = app;
+    const own = state.people.find(({page}) => page === this.page)?.name ?? '';
+    const input = createElement('input', {value: own, required: true, maxLength: LONGEST, autocomplete: 'nickname', 'aria-label': 'Your name'});
+    const form = createElement('form', {className: 'row', onsubmit: (/** @type {Event} */ event) => {
+      event.preventDefault();
+      localStorage.setItem(NAME, input.value.trim());
+      connection.send('person', {name: input.value.trim()});
+      app.gallery.dialog.close();
+    }}, input, createElement('button', {textContent: 'That is my name'}));
+    const people = createElement('ul', {className: 'people'}, ...state.people.map(({page, name, role}) =>
+      createElement('li', {}, dot(name), `${name}${page === this.page ? ' (you)' : ''}${role === 'teach' ? ', teacher' : ''}`,
+        ...teacher ? [textButton(`Delete what ${name} drew`, () => connection.send('clear_of', {person: name}), 'danger')] : [])));
+    app.gallery.show(TITLE, ...app.viewOnly ? [] : [form], people, ...teacher ? this.#powers() : []);
+  }
+
+  /** @returns {Node[]} what a teacher may do */
+  #powers() {
+    const {app: {connection, selection}, state: {frozen, locked}} = this, chosen = [...selection.names];
+    const freeze = textButton(frozen ? 'Let them draw again' : 'Freeze all pupils', () => connection.send('freeze', {frozen: !frozen}));
+    const lock = chosen.length ? textButton(`Lock what is selected (${chosen.length})`, () => connection.send('lock', {names: [...locked, ...chosen]})) :
+      textButton('Lock all bodies', () => connection.send('lock', {names: ['*']}));
+    return [createElement('h3', {textContent: 'Teacher'}), inRow(freeze, lock,
+      ...locked.length ? [textButton('Unlock all', () => connection.send('lock', {names: []}))] : []),
+    ...locked.length ? [createElement('p', {textContent: `Locked: ${locked.join(', ')}`})] : [],
+    createElement('h3', {textContent: 'Pupils come here'}),
+    createElement('img', {src: '/qr.svg', alt: 'QR code of the address of pupils', className: 'code'})];
+  }
+
+  /** @param {PointerEvent} event */
+  #sendCursor({clientX, clientY}) {
+    const now = performance.now();
+    if (!this.isShared || this.app.viewOnly || now < this.sent + PERIOD) return;
+    this.sent = now;
+    this.app.connection.send('here', {point: this.app.camera.toWorld(clientX, clientY)});
+  }
+
+  /** @param {SceneView} view */
+  #draw(view) {
+    const {ctx} = view, now = performance.now();
+    for (const [page, {at, until}] of this.cursors) {
+      const name = this.nameOf(page);
+      if (now > until || !name) continue;
+      const [x, y] = this.app.camera.toPage(...at);
+      ctx.fillStyle = colorOf(name);
+      ctx.beginPath();
+      for (const [dx, dy] of [[0, 0], [0, 15], [4, 11], [11, 11]]) ctx.lineTo(x + dx, y + dy);
+      ctx.fill();
+      ctx.font = '13px system-ui, sans-serif';
+      ctx.beginPath();
+      ctx.roundRect(x + 10, y + 12, ctx.measureText(name).width + 12, 20, 6);
+      ctx.fill();
+      ctx.textAlign = 'left';
+      ctx.fillStyle = '#fff';
+      ctx.fillText(name, x + 16, y + 26);
+    }
+  }
+}
+
+/** @param {string} name of a person */
+function dot(name) {
+  const element = createElement('i', {'aria-hidden': 'true'});
+  element.style.background = colorOf(name);
+  return element;
+}
+
+/**
+ * @param {string} name of a person
+ * @returns {string} the same one on all pages; white is to be read on it
+ */
+export function colorOf(name) {
+  let hash = 0;
+  for (const character of name) hash = (hash * 31 + (character.codePointAt(0) ?? 0)) % 360;
+  return `hsl(${hash} 65% 34%)`;
+}

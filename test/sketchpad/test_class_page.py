@@ -1,0 +1,99 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""A class on the page: a teacher and a pupil in one world, in two browsers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+import re
+from typing import Any
+
+import pytest
+
+from .chromium import circle, Sheet
+from ..outside import Outside, Program
+
+PIXELS = """([x, y]) => {
+    const {data} = document.querySelector('canvas').getContext('2d')
+        .getImageData(x * devicePixelRatio, y * devicePixelRatio, 80, 40);
+    return new Set(new Uint32Array(data.buffer)).size;
+}"""
+
+
+def addresses(program: Program) -> list[str]:
+    """Return the addresses that a world prints: of pupils, of viewers, of a teacher."""
+    lines = [program.wait_for('/login?token=') for _ in range(3)]
+    program.wait_for('ready')
+    return [re.search(r'http\S+', line)[0] for line in lines]
+
+
+@pytest.fixture
+def pages(chromium: Any, outside: Outside, tmp_path: Any) -> Iterator[tuple[Sheet, Sheet]]:
+    """Give a test the pages of a teacher and of a pupil, in an empty world that plays."""
+    world = tmp_path / 'page.yaml'
+    world.write_text('format: 1\nbounds: [-8, 0, 8, 8]\nbodies: []\n')
+    program = outside.start_world(world_file=world, world_dir=tmp_path, sketchpad='serve')
+    pupil, _, teacher = addresses(program)
+    sheets = Sheet(chromium, teacher), Sheet(chromium, pupil)
+    for sheet in sheets:
+        sheet.wait('physsim.speed === 1')
+    yield sheets
+    for sheet in sheets:
+        sheet.close()
+    program.interrupt()
+
+
+def call(sheet: Sheet, name: str) -> None:
+    """Choose a name in the dialog of people."""
+    sheet.press('People')
+    sheet.page.get_by_role('textbox', name='Your name').fill(name)
+    sheet.press('That is my name')
+
+
+def test_a_teacher_freezes_a_pupil_and_sees_who_did_what(pages: tuple[Sheet, Sheet]) -> None:
+    teacher, pupil = pages
+    call(pupil, 'Anna')
+    pupil.drag(*circle(0.0, 4.0, 0.8))
+    teacher.page.get_by_role('status').get_by_text('Anna: Circle added').wait_for()
+    teacher.press('People')
+    teacher.page.get_by_role('listitem').get_by_text('Anna').wait_for()
+    teacher.page.get_by_role('img', name='QR code').wait_for()
+    teacher.press('Freeze all pupils')
+    frozen = pupil.page.get_by_text('Your teacher has frozen this world.')
+    frozen.wait_for()
+    before = pupil.names()
+    pupil.drag(*circle(3.0, 4.0, 0.8))
+    pupil.page.get_by_role('status').get_by_text('frozen').wait_for()
+    assert pupil.names() == before
+    teacher.press('Let them draw again')
+    frozen.wait_for(state='detached')
+    teacher.press('Delete what Anna drew')
+    pupil.wait('Object.keys(physsim.bodies).length === 0')
+
+
+def test_each_undoes_what_is_its_own_while_time_goes_on(pages: tuple[Sheet, Sheet]) -> None:
+    teacher, pupil = pages
+    pupil.drag(*circle(-3.0, 4.0, 0.8))
+    first = pupil.wait_for_new(set())
+    teacher.drag(*circle(3.0, 4.0, 0.8))
+    second = teacher.wait_for_new({first})
+    time = pupil.page.evaluate('physsim.time')
+    pupil.press('Undo')
+    pupil.wait('name => !(name in physsim.bodies)', first)
+    assert pupil.names() == {second}
+    assert pupil.page.evaluate('physsim.time') >= time
+
+
+def test_the_cursor_of_the_other_is_shown_with_its_name(pages: tuple[Sheet, Sheet]) -> None:
+    teacher, pupil = pages
+    call(pupil, 'Anna')
+    place = teacher.place(2.0, 3.0)
+    blank = teacher.page.evaluate(PIXELS, place)
+
+    def is_shown() -> bool:
+        pupil.page.mouse.move(*pupil.place(2.0, 3.0))
+        pupil.page.mouse.move(*pupil.place(2.01, 3.0))
+        return bool(teacher.page.evaluate(PIXELS, place) > blank + 5)
+
+    teacher.until(is_shown, 'a cursor')

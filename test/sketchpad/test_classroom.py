@@ -1,0 +1,192 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""A class in one world: its roles, what a teacher may do, and who did what."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from physsim_ros.sketchpad import Role
+import pytest
+from rclpy.parameter import Parameter
+
+from .browser import Browser, Page
+
+BALL = {'circle': {'radius': 0.5}}
+
+
+def url(browser: Browser, role: Role) -> str:
+    """Return the address of a role."""
+    address: str = browser.physsim.node.outputs.sketchpad.url(role)
+    return address
+
+
+def teacher(browser: Browser) -> Page:
+    """Open the page of a teacher."""
+    return browser.open_page(cookie=browser.login_cookie(url(browser, Role.TEACH)))
+
+
+def spawn(page: Page, name: str, x: float) -> dict[str, Any]:
+    """Add a ball, and return the answer."""
+    return page.ask('spawn', body=BALL | {'name': name, 'at': [x, 5.0]})
+
+
+def people(page: Page) -> list[tuple[str, str]]:
+    """Return name and role of each person, as a page knows them."""
+    return [(each['name'], each['role']) for each in page.of_type('class')[-1]['people']]
+
+
+def test_a_teacher_freezes_the_pages_of_pupils_and_not_the_own(browser: Browser) -> None:
+    pupil, boss = browser.open_page(), teacher(browser)
+    for page, teaches in ((pupil, False), (boss, True)):
+        page.until(lambda page=page: page.of_type('welcome'))
+        assert page.of_type('welcome')[0]['teacher'] is teaches
+    assert boss.ask('freeze', frozen=True)['ok']
+    pupil.until(lambda: pupil.of_type('class')[-1]['frozen'])
+    for kind, fields in (
+        ('spawn', {'body': BALL | {'name': 'a/0'}}),
+        ('stroke', {'points': [[0, 0, 0], [1, 1, 1]]}),
+        ('service', {'name': 'play'}),
+        ('seek', {'time': 0}),
+        ('open', {'name': 'demo'}),
+        ('grab', {'point': [0, 0]}),
+    ):
+        assert pupil.ask(kind, **fields)['code'] == 'frozen', kind
+    upload = browser.fetch(
+        '/world', method='POST', body='format: 1', headers={'Origin': browser.base}
+    )
+    assert b'frozen' in upload.body
+    assert browser.physsim.names == ()
+    assert spawn(boss, 'a/0', 0.0)['ok']
+    assert boss.ask('freeze', frozen=False)['ok']
+    assert spawn(pupil, 'b/0', 3.0)['ok']
+
+
+def test_freezing_and_locking_are_parameters_that_scripts_have_too(browser: Browser) -> None:
+    pupil = browser.open_page()
+    browser.physsim.node.set_parameters([Parameter('sketchpad_frozen', value=True)])
+    assert spawn(pupil, 'a/0', 0.0)['code'] == 'frozen'
+    parameters = [
+        Parameter('sketchpad_frozen', value=False),
+        Parameter('sketchpad_locked', value='a/*, b/0'),
+    ]
+    browser.physsim.node.set_parameters(parameters)
+    assert spawn(pupil, 'a/7', 0.0)['code'] == 'frozen'
+    assert spawn(pupil, 'b/1', 0.0)['ok']
+
+
+def test_locked_bodies_are_changed_by_a_teacher_alone(browser: Browser) -> None:
+    pupil, boss = browser.open_page(), teacher(browser)
+    for name, x in (('a/0', 0.0), ('b/0', 4.0)):
+        spawn(pupil, name, x)
+    assert boss.ask('lock', names=['a/*'])['ok']
+    refused = (
+        ('change', {'name': 'a/0', 'properties': {'mass': 2}}),
+        ('move_bodies', {'names': ['b/0', 'a/0'], 'by': [1, 0]}),
+        ('delete', {'names': ['a/0']}),
+        ('grab', {'point': [0, 5]}),
+        ('click', {'tool': 'anchor', 'point': [0, 5]}),
+        ('click', {'tool': 'delete', 'point': [0, 5]}),
+        ('service', {'name': 'clear'}),
+        ('open', {'name': 'demo'}),
+    )
+    for kind, fields in refused:
+        assert pupil.ask(kind, **fields)['code'] == 'frozen', (kind, fields)
+    # A scribble over it.
+    zigzag = [[-0.6 + 0.1 * n, 5.5 if n % 2 else 4.5, 0.05 * n] for n in range(13)]
+    pupil.ask('stroke', points=zigzag)
+    assert 'a/0' in browser.physsim.names
+    for kind, fields in (
+        ('grab', {'point': [4, 5]}),
+        ('let_go', {}),
+        ('delete', {'names': ['b/0']}),
+    ):
+        assert pupil.ask(kind, **fields)['ok'], kind
+    assert boss.ask('lock', names=[])['ok']
+    assert pupil.ask('delete', names=['a/0'])['ok']
+
+
+@pytest.mark.parametrize('role', [Role.DRAW, Role.VIEW])
+def test_what_is_for_teachers_is_refused_to_others(browser: Browser, role: Role) -> None:
+    page = browser.open_page(cookie=browser.login_cookie(url(browser, role)))
+    code = 'teacher_only' if role is Role.DRAW else 'view_only'
+    for kind, fields in (
+        ('freeze', {'frozen': True}),
+        ('lock', {'names': ['*']}),
+        ('clear_of', {'person': 'Anna'}),
+    ):
+        assert page.ask(kind, **fields)['code'] == code
+    assert browser.fetch('/qr.svg').code == 403
+
+
+def test_people_have_names_and_answers_say_who_did_it(browser: Browser) -> None:
+    anna, ben, viewer = browser.open_page(), teacher(browser), browser.open_page('/ws?view')
+    assert anna.ask('person', name=' Anna ')['ok']
+    ben.until(lambda: people(ben) == [('Anna', 'draw'), ('Page 2', 'teach')])
+    viewer.until(lambda: people(viewer)[0] == ('Anna', 'draw'))
+    spawn(anna, 'a/0', 0.0)
+    ben.until(lambda: any(each.get('subject') == 'a/0' for each in ben.of_type('answer')))
+    (told,) = (each for each in ben.of_type('answer') if each['subject'] == 'a/0')
+    assert told['page'] == int(anna.of_type('welcome')[0]['client'])
+    for name in ('', '  ', 'x' * 25, 'a\nb', 7):
+        assert anna.ask('person', name=name)['code'] == 'bad_property'
+    anna.close()
+    ben.until(lambda: people(ben) == [('Page 2', 'teach')])
+
+
+def test_each_undoes_what_is_its_own_and_a_teacher_clears_what_one_drew(browser: Browser) -> None:
+    anna, ben, boss = browser.open_page(), browser.open_page(), teacher(browser)
+    anna.ask('person', name='Anna')
+    ben.ask('person', name='Ben')
+    for page, name, x in ((anna, 'a/0', -6), (ben, 'b/0', 0), (anna, 'a/1', 6), (ben, 'b/1', 3)):
+        assert spawn(page, name, x)['ok']
+        browser.physsim.run(0.1)
+    assert anna.ask('take_back')['ok']
+    assert browser.physsim.names == ('a/0', 'b/0', 'b/1')
+    assert boss.ask('clear_of', person='Ben')['ok']
+    assert browser.physsim.names == ('a/0',)
+    assert boss.ask('clear_of', person='Ben')['code'] == 'nothing_there'
+    assert boss.ask('service', name='undo')['ok']
+    assert browser.physsim.names == ('a/0', 'b/0', 'b/1')
+    assert ben.ask('drop')['ok']
+    assert boss.ask('take_back')['code'] == 'out_of_history'
+
+
+def test_cursors_go_to_all_pages_without_the_world(browser: Browser) -> None:
+    anna, ben = browser.open_page(), browser.open_page()
+    for x in range(5):
+        anna.send('here', point=[x, 2.5])
+    ben.until(lambda: ben.of_type('cursors'))
+    (cursor,) = ben.of_type('cursors')[-1]['cursors']
+    assert cursor == [int(anna.of_type('welcome')[0]['client']), 4.0, 2.5]
+    assert anna.ask('here', point=[1])['code'] == 'malformed'
+
+
+def test_the_address_of_pupils_is_a_qr_code_for_teachers(browser: Browser) -> None:
+    segno = pytest.importorskip('segno', reason='segno is not installed')
+    image = browser.fetch('/qr.svg', cookie=browser.login_cookie(url(browser, Role.TEACH)))
+    assert image.headers['Content-Type'] == 'image/svg+xml'
+    size = segno.make(url(browser, Role.DRAW), micro=False).symbol_size(scale=8, border=4)[0]
+    assert f'width="{size}"'.encode() in image.body
+    assert browser.fetch('/qr.svg').code == 403
+
+
+def test_driving_is_one_gesture_though_others_draw_meanwhile(browser: Browser) -> None:
+    anna, ben = browser.open_page(), browser.open_page()
+    robot = {'name': 'r/0', 'robot': 'turtlebot4', 'at': [0, 0]}
+    anna.ask('gravity', gravity=[0, 0])
+    ben.ask('person', name='Ben')
+    anna.ask('person', name='Anna')
+    anna.ask('spawn', body=robot)
+    anna.send('drive', name='r/0', velocity=[0.2, 0, 0])
+    browser.physsim.run(0.1)
+    spawn(ben, 'b/0', 5.0)
+    anna.send('drive', name='r/0', velocity=[0.1, 0, 0])
+    anna.ask('drop')
+    browser.physsim.run(0.1)
+    # The moments of her drive are not in his gesture.
+    assert ben.ask('take_back')['ok']
+    assert browser.physsim.names == ('r/0',)
+    moved = browser.physsim.node.frame.snapshot.poses[0, 0]
+    assert moved > 0.01
