@@ -14,17 +14,16 @@ from functools import cached_property
 import math
 
 import numpy as np
-from numpy.typing import NDArray
-from physsim_ros.model.arrays import Floats
+from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.errors import BadProperty, UnknownFrame
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import split_name
 from physsim_ros.model.scene import Body, Joint
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Capsule, Circle, Convex, Piece
+from physsim_ros.model.shapes import contains
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.texts import nearest_name
-from physsim_ros.model.transform import Point, Pose, rotated, Twist
+from physsim_ros.model.transform import Point, Pose, rotated, rotated_each, Twist
 
 # The namespace of drawn bodies and joints.
 DRAWN = 'drawn'
@@ -95,22 +94,16 @@ class SceneQuery:
         return tuple(
             self.names[row]
             for row in np.flatnonzero(near)[::-1]
-            if self._covers(row, point, slack)
+            if self._covers(row, np.array([point]), slack).any()
         )
 
-    def covers(self, name: str, points: Floats) -> NDArray[np.bool_]:
+    def covers(self, name: str, points: Floats) -> Flags:
         """
         Return whether a body covers each of some points, (k,) bool.
 
         :param points: (k, 2) float64: in the world [m]
         """
-        row = self._rows[name]
-        offsets = points - self.snapshot.centers[row]
-        hits: NDArray[np.bool_] = np.hypot(offsets[:, 0], offsets[:, 1]) <= self._outer_radii[row]
-        for index in np.flatnonzero(hits).tolist():
-            x, y = points[index].tolist()
-            hits[index] = self._covers(row, (x, y), 0.0)
-        return hits
+        return self._covers(self._rows[name], points, 0.0)
 
     def local(self, name: str, point: Point) -> Point:
         """Return a point of the world in the frame of a body [m]."""
@@ -172,10 +165,10 @@ class SceneQuery:
         """(n,) float64: outer radius of each body about its centre of mass [m]."""
         return np.array([body.shape.form.outer for body in self.snapshot.scene.bodies])
 
-    def _covers(self, row: int, point: Point, slack: float) -> bool:
-        body = self.snapshot.scene.bodies[row]
-        local = self.local(body.name, point)
-        return any(piece_covers(piece, local, slack) for piece in body.shape.form.pieces)
+    def _covers(self, row: int, points: Floats, slack: float) -> Flags:
+        x, y, yaw = self.snapshot.poses[row]
+        local = rotated_each(points - (x, y), -yaw)
+        return contains(self.snapshot.scene.bodies[row].shape.form.pieces, local, slack)
 
 
 def _next_number(names: Iterable[str]) -> int:
@@ -183,36 +176,3 @@ def _next_number(names: Iterable[str]) -> int:
     numbers = (split_name(name) for name in names)
     drawn = (id_ for space, id_ in numbers if space == DRAWN and id_ < _NUMBER_LIMIT)
     return 1 + max(drawn, default=-1)
-
-
-def piece_covers(piece: Piece, point: Point, slack: float) -> bool:
-    """Return whether a convex piece covers a point, or lies within the slack of it."""
-    match piece:
-        case Circle(center, radius):
-            return math.dist(center, point) <= radius + slack
-        case Capsule(start, end, radius):
-            return math.dist(point, nearest_on_segment(start, end, point)) <= radius + slack
-        case Convex(vertices):
-            sides = list(zip(vertices, (*vertices[1:], vertices[0]), strict=True))
-            if all(_left_of(start, end, point) for start, end in sides):
-                return True
-            return (
-                slack > 0
-                and min(math.dist(point, nearest_on_segment(*side, point)) for side in sides)
-                <= slack
-            )
-
-
-def _left_of(start: Point, end: Point, point: Point) -> bool:
-    turn = (end[0] - start[0]) * (point[1] - start[1]) - (end[1] - start[1]) * (
-        point[0] - start[0]
-    )
-    return turn >= 0
-
-
-def nearest_on_segment(start: Point, end: Point, point: Point) -> Point:
-    """Return the point of a segment that is nearest to another point [m]."""
-    along = end[0] - start[0], end[1] - start[1]
-    dot = (point[0] - start[0]) * along[0] + (point[1] - start[1]) * along[1]
-    share = min(max(dot / max(along[0] ** 2 + along[1] ** 2, 1e-24), 0.0), 1.0)
-    return start[0] + share * along[0], start[1] + share * along[1]

@@ -12,11 +12,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from physsim_ros.drawing.scene_query import DRAWN, piece_covers, SceneQuery
+import numpy as np
+from physsim_ros.drawing.scene_query import DRAWN, SceneQuery
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import split_name, WORLD
 from physsim_ros.model.requests import Join, Request, Spawn
 from physsim_ros.model.scene import Joint
+from physsim_ros.model.shapes import contains
 from physsim_ros.model.transform import Point, rotated
 
 # Kinds of joints whose end on the background is a point that a body can cover.
@@ -36,7 +38,9 @@ def _joins_of(body: Spawn, scene: SceneQuery) -> Iterator[Join]:
         if joint.b != WORLD or split_name(joint.name)[0] != DRAWN or joint.kind not in _KINDS:
             continue
         end = joint.seat.bx, joint.seat.by
-        if _covers(body, end):
+        x, y, yaw = body.pose
+        local = rotated((end[0] - x, end[1] - y), -yaw)
+        if contains(body.shape.form.pieces, np.array([local])).any():
             yield Join(
                 name=joint.name,
                 kind=joint.kind,
@@ -54,9 +58,3 @@ def _points(joint: Joint, end: Point, scene: SceneQuery) -> tuple[Point, ...]:
 
 def _moves(body: Spawn) -> bool:
     return not body.properties.anchored and not body.properties.kinematic
-
-
-def _covers(body: Spawn, point: Point) -> bool:
-    x, y, yaw = body.pose
-    local = rotated((point[0] - x, point[1] - y), -yaw)
-    return any(piece_covers(piece, local, 0.0) for piece in body.shape.form.pieces)

@@ -75,7 +75,6 @@ class BodyTable:
         self._by_place = np.argsort(self.places)
         self._ascending = np.argsort(self.ids)
         self._sorted_ids = self.ids[self._ascending]
-        self._rows = {rigid.pm_body: row for row, rigid in enumerate(bodies)}
         self._state: Floats | None = None
         self._sizes: Floats | None = None
         # Bounds of positions and velocities within which a body is neither lost nor fast.
@@ -95,10 +94,6 @@ class BodyTable:
         """Return the rows of bodies by the places of their `cpBody`."""
         rows: Rows = self._by_place[np.searchsorted(self.places, places, sorter=self._by_place)]
         return rows
-
-    def row_of(self, pm_body: pymunk.Body) -> int | None:
-        """Return the row of one of the engine's bodies; None is the background."""
-        return self._rows.get(pm_body)
 
     @property
     def state(self) -> Floats:

@@ -66,9 +66,7 @@ class FloorMarks:
         for row in self.rows[near].tolist():
             body, pose = self.snapshot.scene.bodies[row], self.snapshot.poses[row]
             local = rotated_each(points - pose[:2], -pose[2])
-            inside = np.zeros(len(points), dtype=np.bool_)
-            for piece in body.shape.form.pieces:
-                inside |= contains(piece, local)
+            inside = contains(body.shape.form.pieces, local)
             alpha = body.color[3]
             colors[inside] = (1.0 - alpha) * colors[inside] + alpha * np.array(body.color[:3])
         return colors

@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 import math
 
-from physsim_ros.drawing.scene_query import nearest_on_segment, SceneQuery
+from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.strokes.meanings import Context
 from physsim_ros.drawing.strokes.plane import norms
 from physsim_ros.drawing.strokes.polyline import point_of
@@ -184,10 +184,10 @@ def _nearest(piece: Piece, point: Point) -> Iterator[Point]:
         case Circle(center, radius):
             yield _towards(center, point, radius)
         case Capsule(start, end, radius):
-            yield _towards(nearest_on_segment(start, end, point), point, radius)
+            yield _towards(_nearest_on_segment(start, end, point), point, radius)
         case Convex(vertices):
             for start, end in zip(vertices, (*vertices[1:], vertices[0]), strict=True):
-                yield nearest_on_segment(start, end, point)
+                yield _nearest_on_segment(start, end, point)
 
 
 def _towards(start: Point, end: Point, length: float) -> Point:
@@ -195,3 +195,11 @@ def _towards(start: Point, end: Point, length: float) -> Point:
     distance = max(math.dist(start, end), 1e-12)
     share = length / distance
     return start[0] + share * (end[0] - start[0]), start[1] + share * (end[1] - start[1])
+
+
+def _nearest_on_segment(start: Point, end: Point, point: Point) -> Point:
+    """Return the point of a segment that is nearest to another point [m]."""
+    along = end[0] - start[0], end[1] - start[1]
+    dot = (point[0] - start[0]) * along[0] + (point[1] - start[1]) * along[1]
+    share = min(max(dot / max(along[0] ** 2 + along[1] ** 2, 1e-24), 0.0), 1.0)
+    return start[0] + share * along[0], start[1] + share * along[1]

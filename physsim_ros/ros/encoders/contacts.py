@@ -11,7 +11,7 @@ its wrench the impulse on b [N s].
 from __future__ import annotations
 
 import numpy as np
-from physsim_ros.model.arrays import Floats, Ints
+from physsim_ros.model.arrays import Ints
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Frame
@@ -51,7 +51,9 @@ class ContactsEncoder:
             self._template = multi_dof_template(self._frame_id, names, wrenches=len(names))
             self._pairs = contacts.pairs
         transforms, _, wrenches = self._template.blocks
-        rotations = _rotations_to(contacts.normals)
+        x, y = contacts.normals.T
+        half = np.arctan2(y, x) / 2
+        rotations = np.sin(half), np.cos(half)
         fill_columns(transforms, POSE_COLUMNS, (*contacts.points.T, *rotations))
         fill_columns(wrenches, (0, 1), contacts.impulses.T)
         return self._template.stamped(snapshot.stamp)
@@ -81,22 +83,3 @@ class _PairNames(dict[int, bytes]):
         count = len(self._names)
         numbers = pairs[:, 0] * count + pairs[:, 1] % count
         return list(map(self.__getitem__, numbers.tolist()))
-
-
-def _rotations_to(normals: Floats) -> tuple[Floats, Floats]:
-    """
-    Return z and w of the quaternions about z that turn the x axis to unit vectors.
-
-    :param normals: (m, 2) float64: the unit vectors
-    :return: (m,) float64 each
-    """
-    x, y = normals.T
-    # Half-angle formulas, three times as fast as arctan2, sin and cos. The larger of z and w is a
-    # root, the smaller one follows from it, so that neither loses digits.
-    large = np.sqrt((1 + np.abs(x)) / 2)
-    small = y / (2 * large)
-    right = x >= 0
-    return (
-        np.where(right, small, np.copysign(large, y)),
-        np.where(right, large, np.abs(small)),
-    )

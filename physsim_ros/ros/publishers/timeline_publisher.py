@@ -9,6 +9,8 @@ Law: the last message is that of the last frame; while time runs, its times may 
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 from physsim_ros.model.timeline import TimelineStatus
 from rclpy.publisher import Publisher
@@ -38,26 +40,13 @@ class TimelinePublisher:
         """
         self._age += 1
         last = self._last
-        if status == last or (moving and self._age < PERIOD and _differs_in_time(status, last)):
+        if last is not None and moving and self._age < PERIOD:
+            # A change of times alone waits.
+            last = replace(last, oldest=status.oldest, now=status.now, newest=status.newest)
+        if status == last:
             return
         self._last, self._age = status, 0
         self._publisher.publish(_message(status))
-
-
-def _differs_in_time(one: TimelineStatus, other: TimelineStatus | None) -> bool:
-    """Return whether two statuses differ in nothing but times."""
-    return other is not None and _without_times(one) == _without_times(other)
-
-
-def _without_times(status: TimelineStatus) -> tuple[object, ...]:
-    return (
-        status.state,
-        status.speed,
-        status.course,
-        status.courses,
-        status.undo,
-        status.redo,
-    )
 
 
 def _message(status: TimelineStatus) -> DiagnosticStatus:
