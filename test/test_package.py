@@ -210,6 +210,69 @@ def test_pip_installs_every_world_the_manifest_and_the_marker(installed):
     assert (share / 'ament_index/resource_index/packages/physsim_ros').is_file()
 
 
+# Of the other project: its test asks for the fixture, and names nothing that finds the plugin.
+ELSEWHERE = """
+def test_a_ball_of_the_shipped_world_is_there(physsim):
+    physsim.load('demo')
+    physsim.run(0.1)
+    assert 'ball/0' in physsim.names
+"""
+INSTALL = 500
+
+
+@pytest.fixture(scope='module')
+def empty_environment(workspace, tmp_path_factory):
+    """Build the wheel, and let pip install it with ROS into an environment that has nothing."""
+    dist, environment = tmp_path_factory.mktemp('dist'), tmp_path_factory.mktemp('environment')
+    source = workspace / 'src' / 'physsim_ros'
+    build = ['wheel', '--no-deps', '--no-build-isolation', '--wheel-dir', dist, source]
+    _run(sys.executable, '-m', 'pip', '--disable-pip-version-check', *build, timeout=BUILD)
+    (wheel,) = dist.glob('*.whl')
+    _run(sys.executable, '-m', 'venv', environment, timeout=BUILD)
+    pip = [environment / 'bin' / 'python', '-m', 'pip', '--disable-pip-version-check']
+    # All of ROS is of wheels, as in a shell where none is sourced.
+    _run(*pip, 'install', f'{wheel}[jazzy]', 'pytest', env=_without_ros(), timeout=INSTALL)
+    yield environment
+    # 1 GB, which pytest would keep for three runs.
+    shutil.rmtree(environment)
+
+
+def _without_ros():
+    """Return the environment of this process less what leads to its ROS."""
+    leads = {
+        'LD_LIBRARY_PATH',
+        'PYTHONPATH',
+        'AMENT_PREFIX_PATH',
+        '_ROS_WHEELS_BOOTSTRAP_COMPLETE',
+    }
+    return {name: value for name, value in os.environ.items() if name not in leads}
+
+
+def test_the_wheel_runs_in_an_empty_environment(empty_environment, tmp_path):
+    alone = {
+        'ROS_DOMAIN_ID': str(1 + os.getpid() % 101),
+        'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
+        'ROS_LOG_DIR': str(tmp_path),
+    }
+    command = [empty_environment / 'bin' / 'physsim', '--ros-args', '-p', 'world_file:=demo']
+
+    with _running(*command, '-p', 'viewer:=none', cwd=tmp_path, env=_without_ros() | alone) as (
+        node,
+        lines,
+    ):
+        _wait_for('ready', lines, READY)
+        node.send_signal(signal.SIGINT)
+
+        assert node.wait(EXIT) == 0, ''.join(iter(lines.get, None))
+
+
+def test_the_wheel_is_a_plugin_of_pytest_in_an_empty_environment(empty_environment, tmp_path):
+    (tmp_path / 'test_elsewhere.py').write_text(ELSEWHERE)
+    pytest_there = [empty_environment / 'bin' / 'python', '-m', 'pytest', '-q', tmp_path]
+
+    assert '1 passed' in _run(*pytest_there, cwd=tmp_path, env=_without_ros(), timeout=TEST)
+
+
 FOREIGN = """
 from physsim_ros.testing import Contact, PhysSim, Refused
 
