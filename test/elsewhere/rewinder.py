@@ -4,8 +4,7 @@
 """
 Travel through a world's time by its topics alone, and note every frame bit for bit.
 
-Given `travel` and a seed: disturb a running world at random, then go back, on, and to any time.
-Given `step` and a number: note the state, and so many steps from there.
+Given a seed: disturb a running world at random, then go back, on, and to any time.
 """
 
 from __future__ import annotations
@@ -370,18 +369,9 @@ def travel(traveller: Traveller, seed: int) -> dict[str, Any]:
     return journey.seen
 
 
-def step(traveller: Traveller, count: int) -> dict[str, Any]:
-    traveller.meet()
-    return {'frames': [traveller.step() for _ in range(count)]}
-
-
 def main() -> None:
-    what, number = sys.argv[1], int(sys.argv[2])
     traveller = Traveller()
-    if what == 'travel':
-        traveller.finish(**travel(traveller, number))
-    else:
-        traveller.finish(**step(traveller, number))
+    traveller.finish(**travel(traveller, int(sys.argv[1])))
 
 
 if __name__ == '__main__':

@@ -3,8 +3,6 @@
 
 """Kinematic bodies, sensors, groups, and material of bodies in the engine."""
 
-import math
-
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.requests import (
     Anchor,
@@ -143,15 +141,6 @@ def test_a_group_is_kept_where_the_body_is_changed(world: World) -> None:
 
 
 # Material
-
-
-def test_the_pair_has_the_geometric_mean_of_the_elasticities(world: World) -> None:
-    spawn(world, 'a/0', DISC, (-1.0, 0.0, 0.0), velocity=(1.0, 0.0), elasticity=0.9)
-    spawn(world, 'a/1', DISC, (1.0, 0.0, 0.0), elasticity=0.4, anchored=True)
-
-    world.step(480)
-
-    assert twist(world, 'a/0')[0] == pytest.approx(-math.sqrt(0.9 * 0.4), abs=1e-6)
 
 
 @pytest.mark.parametrize('mass', [1.0, 250.0])

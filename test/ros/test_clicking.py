@@ -9,7 +9,7 @@ import math
 from typing import Any
 
 from geometry_msgs.msg import PointStamped
-from physsim_ros.testing import box, delete_all, disc, PhysSim, point
+from physsim_ros.testing import box, disc, PhysSim, point
 import pytest
 from rclpy.parameter import Parameter
 from visualization_msgs.msg import Marker, MarkerArray
@@ -118,55 +118,12 @@ def test_bodies_are_anchored_released_and_deleted_by_a_click(hand: Hand) -> None
         refused(hand.draw(tool, (0, 0)), 'nothing_there')
 
 
-def test_a_velocity_is_given_by_an_arrow(hand: Hand) -> None:
-    hand.physsim.spawn(disc('a/0', text='{spin: 2}'))
-    accepted(hand.draw('velocity', (0.2, 0.0), (3.2, -4.0)), 'a/0')
-    assert hand.physsim.twist('a/0') == pytest.approx((3.0, -4.0, 2.0), abs=1e-12)
-
-
 def test_gravity_is_turned_by_an_arrow_and_the_parameter_tells(hand: Hand) -> None:
     node = hand.physsim.node
     node.set_parameters([Parameter('gravity', value=[0.0, -2.0])])
     accepted(hand.draw('gravity', (0, 0), (3, 0)), '')
     assert list(node.get_parameter('gravity').value) == pytest.approx([2.0, 0.0])
     assert hand.physsim.node.simulation.world.settings.gravity == pytest.approx((2.0, 0.0))
-
-
-@pytest.mark.parametrize('tool', ['spring', 'rod', 'rope'])
-def test_two_bodies_are_joined_by_a_line(hand: Hand, tool: str) -> None:
-    hand.physsim.spawn(disc('a/0'))
-    hand.physsim.spawn(disc('a/1', at=(3, 0)))
-    accepted(hand.draw(tool, (0.2, 0), (2.8, 0)), 'drawn/0')
-    (joint,) = hand.physsim.node.simulation.world.snapshot().scene.joints
-    assert (joint.kind, joint.a, joint.b) == (tool, 'a/0', 'a/1')
-    # Another one, to the background.
-    accepted(hand.draw(tool, (0.0, 3.0), (0.0, 0.2)), 'drawn/1')
-
-
-@pytest.mark.parametrize('tool', ['pin', 'axle'])
-def test_bodies_are_held_by_a_click_on_them_and_let_go_by_another(hand: Hand, tool: str) -> None:
-    hand.physsim.spawn(disc('a/0'))
-    accepted(hand.draw(tool, (0.2, 0.1)), f'{tool}/0')
-    hand.physsim.spawn(disc('a/1', at=(0.4, 0)))
-    accepted(hand.draw(tool, (0.2, 0.1)), f'{tool}/1')
-    joints = hand.physsim.node.simulation.world.snapshot().scene.joints
-    assert {(joint.kind, joint.a, joint.b) for joint in joints} == {
-        (tool, 'a/0', 'world'),
-        (tool, 'a/1', 'a/0'),
-    }
-    accepted(hand.draw('release', (0.2, 0.1)), 'a/1')
-    joints = hand.physsim.node.simulation.world.snapshot().scene.joints
-    assert f'{tool}/1' not in {joint.name for joint in joints}
-    refused(hand.draw(tool, (9, 9)), 'nothing_there')
-
-
-def test_without_a_tool_clicks_are_ignored(hand: Hand) -> None:
-    hand.physsim.spawn(disc('a/0'))
-    before = hand.physsim.node.simulation.world.save()
-    event = hand.draw('none', (0, 0))
-    accepted(event, '')
-    assert 'ignored' in event.message
-    assert hand.physsim.node.simulation.world.save() == before
 
 
 def test_what_is_drawn_is_as_the_parameters_say(hand: Hand) -> None:
@@ -219,29 +176,12 @@ def test_what_cannot_be_drawn_is_refused_with_a_code_and_changes_nothing(
     assert client.physsim.digest() == before
 
 
-def test_what_a_full_world_does_not_take_is_refused_and_its_name_is_not_given_again(
-    hand: Hand,
-) -> None:
-    hand.take('wall', max_bodies=0)
-    hand.click(0, 0)
-    refused(hand.click(1, 0), 'world_full')
-    hand.take('wall', max_bodies=10)
-    accepted(hand.draw('wall', (0, 0), (1, 0)), 'drawn/1')
-
-
 def test_an_unknown_frame_is_refused_and_the_gesture_goes_on(hand: Hand) -> None:
     hand.take('circle')
     hand.click(0, 0)
     event = hand.click(1, 0, 'nobody/0')
     assert (event.code, event.field) == ('unknown_frame', 'header.frame_id')
     accepted(hand.click(1, 0, 'world'), 'drawn/0')
-
-
-def test_a_tool_starts_afresh_after_a_refusal(hand: Hand) -> None:
-    refused(hand.draw('circle', (0, 0), (0, 0)), 'bad_size')
-    hand.click(5, 5)
-    accepted(hand.click(6, 5), 'drawn/0')
-    assert hand.physsim.pose('drawn/0') == (5.0, 5.0, 0.0)
 
 
 @pytest.mark.parametrize(
@@ -273,15 +213,6 @@ def test_a_parameter_of_drawing_that_is_wrong_is_refused_and_the_gesture_goes_on
 # Frames and order
 
 
-def test_a_point_of_a_body_is_fixed_to_the_world_at_the_click(hand: Hand) -> None:
-    hand.physsim.spawn(disc('a/0', at=(1.0, 2.0), text='{velocity: [6, 0]}'))
-    hand.take('circle')
-    hand.click(1, 0, 'a/0')
-    hand.physsim.step(30)
-    accepted(hand.click(2, 2.5), 'drawn/0')
-    assert hand.physsim.pose('drawn/0') == pytest.approx((2.0, 2.0, 0.0), abs=1e-12)
-
-
 def test_a_click_sees_what_was_asked_just_before(client: Client) -> None:
     hand = Hand(client, 0)
     hand.take('delete')
@@ -307,13 +238,6 @@ def test_many_clicks_at_once_are_all_answered_in_order(client: Client) -> None:
     done = [event.hardware_id for event in client.events if event.hardware_id]
     assert done == [f'drawn/{number}' for number in range(100)]
     assert len(client.events) == 200
-
-
-def test_numbers_are_not_given_again_after_a_world_is_cleared(client: Client) -> None:
-    hand = Hand(client, 0)
-    hand.draw('wall', (0, 0), (1, 0))
-    client.ask('~/spawn', delete_all())
-    accepted(hand.draw('wall', (0, 0), (1, 0)), 'drawn/1')
 
 
 # Preview

@@ -7,9 +7,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from physsim_ros.testing import box, disc, marker, PhysSim, point, Refused
+from physsim_ros.testing import box, marker, PhysSim, point, Refused
 import pytest
-from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from visualization_msgs.msg import Marker, MarkerArray
 
@@ -73,14 +72,6 @@ def test_a_point_pins_and_another_one_lets_go(physsim: PhysSim, client: Client) 
     assert physsim.joints == ()
 
 
-def test_a_disc_on_an_axle_stays_where_it_is(physsim: PhysSim) -> None:
-    physsim.spawn(disc('wheel/0', at=(0.0, 2.0, 0.0)))
-    physsim.axle((0.0, 2.0))
-    physsim.run(1.0)
-    assert physsim.pose('wheel/0').y == pytest.approx(2.0, abs=1e-4)
-    assert physsim.force('axle/0') > 0.0
-
-
 def test_a_joint_is_deleted_by_marker_and_leaves_the_picture(
     physsim: PhysSim, client: Client
 ) -> None:
@@ -112,14 +103,6 @@ def test_a_joint_that_breaks_is_told(
     assert ']: joint_broken: joint/0 broke at' in capfd.readouterr().err
 
 
-def test_clear_deletes_joints_too(physsim: PhysSim, client: Client) -> None:
-    pair(physsim)
-    physsim.pin((0.4, 0.0))
-    assert client.call('~/clear').success
-    physsim.step()
-    assert physsim.joints == physsim.names == ()
-
-
 @pytest.mark.parametrize(
     ('text', 'code', 'field'),
     [
@@ -142,19 +125,3 @@ def test_what_cannot_be_a_joint_is_refused_and_changes_nothing(
         physsim.join(joint(text, [(0.4, 0.0)]))
     assert (caught.value.code, caught.value.field) == (code, field)
     assert physsim.digest() == before
-
-
-def test_a_saved_machine_loads_to_the_bit(physsim: PhysSim, client: Client) -> None:
-    pair(physsim)
-    physsim.join(joint('{kind: spring, stiffness: 3}', [(0.4, 0.0), (3.0, 2.0)]))
-    physsim.axle((0.4, 0.0))
-    physsim.run(0.7)
-    physsim.node.set_parameters([Parameter('world_file', value='machine')])
-    assert client.call('~/save_world').success
-    saved = physsim.digest()
-    physsim.run(0.5)
-    later = physsim.digest()
-    assert client.call('~/load_world').success
-    physsim.run(0.5)
-    assert saved != later
-    assert physsim.joints == ('joint/0', 'axle/0')

@@ -492,31 +492,6 @@ def test_gravity_takes_effect_at_once(physsim: PhysSim) -> None:
     assert physsim.pose('a/0').y == pytest.approx(before.y + twist.vy * 0.5, abs=1e-9)
 
 
-def test_damping_takes_effect_at_once(physsim: PhysSim) -> None:
-    take(physsim, 'gravity', [0.0, 0.0])
-    physsim.spawn(disc('a/0', text='{velocity: [8, 0]}'))
-    take(physsim, 'damping', 0.5)
-    physsim.run(1.0)
-    # m/s: half of it is lost in a second
-    assert physsim.twist('a/0').vx == pytest.approx(4.0)
-
-
-def test_bounds_take_effect_at_once(physsim: PhysSim) -> None:
-    take(physsim, 'bounds', [-5.0, -2.0, 5.0, 9.0])
-    physsim.spawn(disc('a/0', text='{elasticity: 0}'))
-    physsim.run(2.0)
-    # m: on the floor, less the engine's slop of 5 mm
-    assert physsim.pose('a/0').y == pytest.approx(-1.5, abs=0.007)
-    take(physsim, 'bounds', [])
-    physsim.run(1.0)
-    assert physsim.pose('a/0').y < -5.0
-
-
-def test_iterations_take_effect(physsim: PhysSim) -> None:
-    take(physsim, 'iterations', 50)
-    assert physsim.node.simulation.world.settings.iterations == 50
-
-
 def test_setting_what_is_set_changes_nothing(physsim: PhysSim) -> None:
     physsim.spawn(disc('a/0'))
     physsim.step(3)

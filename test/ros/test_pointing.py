@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from physsim_ros.testing import box, command, disc, marker, PhysSim, point, polygon, Refused
+from physsim_ros.testing import box, marker, PhysSim, point, polygon, Refused
 import pytest
 from visualization_msgs.msg import Marker, MarkerArray
 
@@ -80,15 +80,6 @@ def test_a_point_may_be_given_in_the_frame_of_the_body(
     assert not is_anchored(physsim, 'a/0')
 
 
-@pytest.mark.parametrize('angle', [0.0, 0.7, 2.0, 4.0])
-def test_a_disc_is_hit_just_inside_of_its_rim(physsim: PhysSim, angle: float) -> None:
-    physsim.spawn(disc('a/0', diameter=3.0, at=AT))
-    cos, sin = math.cos(angle), math.sin(angle)
-    with pytest.raises(Refused, match='nothing_there'):
-        physsim.anchor((AT[0] + (1.5 + JUST) * cos, AT[1] + (1.5 + JUST) * sin))
-    assert physsim.anchor((AT[0] + (1.5 - JUST) * cos, AT[1] + (1.5 - JUST) * sin)) == 'a/0'
-
-
 @pytest.mark.parametrize(
     ('message', 'inside', 'outside'),
     [
@@ -130,87 +121,6 @@ def test_other_shapes_are_hit_where_they_are_and_not_where_they_are_not(
     for place in inside:
         assert physsim.anchor(in_world(*place)) == 'body/0'
         assert physsim.release(in_world(*place)) == 'body/0'
-
-
-def test_what_was_spawned_last_lies_on_top(physsim: PhysSim) -> None:
-    markers = [disc(f'a/{number}', diameter=2.0) for number in (5, 3, 4)]
-    physsim.spawn(MarkerArray(markers=markers))
-    assert physsim.anchor((0.0, 0.0)) == 'a/4'
-    # A change in place leaves it where it lies; anchoring does too.
-    physsim.spawn(disc('a/3', diameter=3.0))
-    assert physsim.release((0.0, 0.0)) == 'a/4'
-    assert physsim.anchor((1.2, 0.0)) == 'a/3'
-
-
-def test_a_sensor_can_be_pointed_at(physsim: PhysSim) -> None:
-    physsim.spawn(box('a/0', text='{sensor: true}'))
-    assert physsim.anchor((0.0, 0.0)) == 'a/0'
-
-
-def test_asking_twice_does_nothing_twice(physsim: PhysSim) -> None:
-    physsim.spawn(box('a/0'))
-    physsim.anchor((0.0, 0.0))
-    before = physsim.digest()
-    assert physsim.anchor((0.0, 0.0)) == 'a/0'
-    assert physsim.digest() == before
-    physsim.release((0.0, 0.0))
-    before = physsim.digest()
-    assert physsim.release((0.0, 0.0)) == 'a/0'
-    assert physsim.digest() == before
-
-
-def test_an_anchored_body_stops_at_once_and_a_released_one_falls_from_rest(
-    physsim: PhysSim,
-) -> None:
-    physsim.spawn(box('a/0', text='{velocity: [4, 0], spin: 1}'))
-    physsim.step(6)
-    held = physsim.pose('a/0')
-    assert physsim.anchor((held.x, held.y)) == 'a/0'
-    physsim.run(0.5)
-    assert physsim.pose('a/0') == pytest.approx(held, abs=1e-12)
-    physsim.release((held.x, held.y))
-    physsim.run(0.5)
-    x, y, yaw = physsim.pose('a/0')
-    # m, rad
-    assert (x, yaw) == pytest.approx((held.x, held.yaw), abs=1e-12)
-    assert y - held.y == pytest.approx(-9.81 * 0.5**2 / 2, abs=1e-9)
-
-
-def test_a_kinematic_body_can_be_held_and_let_go(physsim: PhysSim) -> None:
-    physsim.spawn(box('a/0', text='{kinematic: true, velocity: [1, 0]}'))
-    physsim.anchor((0.0, 0.0))
-    assert is_anchored(physsim, 'a/0')
-    physsim.release((0.0, 0.0))
-    physsim.run(1.0)
-    # It is kinematic still, and falls no more than before.
-    assert physsim.pose('a/0') == (0.0, 0.0, 0.0)
-    physsim.command(command('a/0', twists=[(2.0, 0.0, 0.0)]))
-    physsim.run(1.0)
-    assert physsim.pose('a/0') == pytest.approx((2.0, 0.0, 0.0))
-
-
-def test_an_anchored_body_holds_up_another_and_a_released_one_does_not(physsim: PhysSim) -> None:
-    physsim.spawn(box('a/0', size=(4.0, 0.2), text='{elasticity: 0}'))
-    physsim.anchor((1.5, 0.0))
-    physsim.spawn(box('b/0', at=(0.0, 0.6), text='{elasticity: 0}'))
-    physsim.run(1.0)
-    # m; the engine lets it sink in by 5 mm
-    assert physsim.pose('b/0').y == pytest.approx(0.6, abs=0.007)
-    physsim.release((1.5, 0.0))
-    physsim.run(0.5)
-    assert physsim.pose('b/0').y < 0.0
-
-
-def test_a_point_follows_a_body_that_has_been_moved(physsim: PhysSim) -> None:
-    physsim.spawn(box('a/0'))
-    physsim.command(command('a/0', poses=[(50.0, 0.0, 0.3)]))
-    with pytest.raises(Refused, match='nothing_there'):
-        physsim.anchor((0.0, 0.0))
-    assert physsim.anchor((50.0, 0.0)) == 'a/0'
-    physsim.spawn(box('a/0', at=(-50.0, 0.0)))
-    with pytest.raises(Refused, match='nothing_there'):
-        physsim.release((50.0, 0.0))
-    assert physsim.release((-50.0, 0.0)) == 'a/0'
 
 
 def test_an_anchor_is_drawn_and_its_symbol_goes_with_it(physsim: PhysSim, client: Client) -> None:

@@ -26,7 +26,7 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import MultiDOFJointState
-from visualization_msgs.msg import Marker, MarkerArray
+from visualization_msgs.msg import MarkerArray
 
 from ..building import DISC, PLAIN_BODY
 
@@ -147,27 +147,6 @@ def encoded(monkeypatch):
     return calls
 
 
-@pytest.mark.parametrize(
-    ('topic', 'durability', 'depth'),
-    [
-        ('/physsim/poses', DurabilityPolicy.VOLATILE, 5),
-        ('/physsim/states', DurabilityPolicy.VOLATILE, 5),
-        ('/physsim/contacts', DurabilityPolicy.VOLATILE, 5),
-        ('/physsim/markers', DurabilityPolicy.TRANSIENT_LOCAL, 1),
-        ('/physsim/events', DurabilityPolicy.VOLATILE, 1000),
-        ('/clock', DurabilityPolicy.VOLATILE, 10),
-    ],
-)
-def test_each_stream_has_the_type_and_qos_of_the_contract(bench, topic, durability, depth):
-    bench.spin_until(lambda: bench.listener.get_publishers_info_by_topic(topic))
-    (info,) = bench.listener.get_publishers_info_by_topic(topic)
-    assert info.topic_type.split('/')[-1] == ALL[topic].__name__
-    assert info.qos_profile.reliability == ReliabilityPolicy.RELIABLE
-    assert info.qos_profile.durability == durability
-    # Discovery does not tell the depth.
-    assert bench.publishers[topic].qos_profile.depth == depth
-
-
 def test_who_listens_gets_every_stream_of_a_frame(bench):
     received = {topic: bench.listen(topic) for topic in ALL}
     frame = frame_of(scene_of('a/0', 'b/1'), step=3, contacts=touching())
@@ -273,17 +252,6 @@ def test_a_frame_without_contacts_gives_no_message_of_them(bench, encoded):
     assert 'contacts' not in encoded
 
 
-def test_the_clock_is_never_0_and_follows_the_world_back(bench):
-    clocks = bench.listen('/clock')
-    scene = scene_of()
-    for step in (0, 5, 4, 0, 1):
-        bench.streams.publish_frame(frame_of(scene, step))
-    bench.settle()
-    stamps = [message.clock.nanosec for message in clocks]
-    assert stamps[2] == 1
-    assert [stamp // 1_000_000 for stamp in stamps] == [5, 4, 0, 1]
-
-
 def test_the_clock_can_be_switched_off_and_on(bench):
     clocks = bench.listen('/clock')
     scene = scene_of()
@@ -297,36 +265,3 @@ def test_the_clock_can_be_switched_off_and_on(bench):
     bench.streams.publish_frame(frame_of(scene, 3))
     bench.settle()
     assert [message.clock.nanosec // 1_000_000 for message in clocks] == [2, 3]
-
-
-def test_a_refusal_is_reported_with_its_code_and_field(bench):
-    events = bench.listen('/physsim/events')
-    answer = Answer(topic='~/spawn', subject='a/0', message='too small')
-    bench.streams.events.publish(answer)
-    bench.streams.events.publish(replace(answer, code='bad_size', field='scale'))
-    bench.spin_until(lambda: len(events) == 2)
-    good, bad = events
-    assert good.level == DiagnosticStatus.OK
-    assert {each.key: each.value for each in good.values} == {'code': 'ok'}
-    assert bad.level == DiagnosticStatus.ERROR
-    assert (bad.name, bad.hardware_id, bad.message) == ('~/spawn', 'a/0', 'too small')
-    assert {each.key: each.value for each in bad.values} == {'code': 'bad_size', 'field': 'scale'}
-
-
-def test_a_burst_of_answers_arrives_whole_and_in_order(bench):
-    events = bench.listen('/physsim/events')
-    for number in range(500):
-        bench.streams.events.publish(Answer(topic='~/spawn', message=str(number)))
-    bench.spin_until(lambda: len(events) == 500)
-    assert [event.message for event in events] == [str(number) for number in range(500)]
-
-
-def test_what_has_gone_reaches_the_listener_as_a_deletion(bench):
-    pictures = bench.listen('/physsim/markers')
-    bench.streams.publish_frame(frame_of(scene_of('a/0', 'b/1'), 1))
-    bench.streams.publish_frame(frame_of(scene_of('a/0'), 2))
-    # The keeper of one message may drop the first picture; the last one always comes.
-    bench.spin_until(lambda: pictures and pictures[-1].markers[0].pose.position.x == 2.0)
-    kept, gone = pictures[-1].markers
-    assert (kept.ns, kept.action) == ('a', Marker.ADD)
-    assert (gone.ns, gone.id, gone.action) == ('b', 1, Marker.DELETE)

@@ -61,19 +61,6 @@ def test_a_seek_while_time_runs_lets_it_run_on(journey: Journey) -> None:
     journey.compare(frames, 18)
 
 
-def test_a_seek_while_time_runs_back_lets_it_run_on_back(journey: Journey) -> None:
-    journey.live(100)
-    succeeded(journey.client.call('~/rewind'))
-    journey.tick(3)
-
-    journey.seek(1.5 * SECOND)
-    frames = journey.tick(20)
-
-    assert frames[-1][0] < 1.25 * SECOND
-    assert parameter(journey.physsim, 'speed') == -1.0
-    journey.compare(frames, 18)
-
-
 # Just before the oldest step, just after the newest, and as far off as a clock tells.
 @pytest.mark.parametrize('off', [-3_000_000, 3_000_000, 2_000_000_000 * 10**9])
 def test_a_seek_out_of_history_is_refused_and_changes_nothing(journey: Journey, off: int) -> None:

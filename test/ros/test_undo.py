@@ -20,7 +20,6 @@ from .journey import (
     succeeded,
 )
 from ..client import set_parameter
-from ..outside import Outside
 
 # Undo, redo
 
@@ -159,46 +158,6 @@ def test_a_reset_is_undone_and_redone(journey: Journey) -> None:
     assert (physsim.time, physsim.names) == (0.0, ())
 
 
-# Worlds that are saved
-
-
-def test_a_saved_world_goes_on_in_another_process_as_it_does_here(
-    journey: Journey, outside: Outside, tmp_path: Path
-) -> None:
-    journey.live(100)
-    journey.run(80)
-    set_parameter(journey.physsim, 'world_file', 'mine')
-    succeeded(journey.client.call('~/save_world'))
-    journey.shown()
-
-    journey.physsim.step(240)
-    here = journey.shown()
-    with outside.start_world(world_file=tmp_path / 'mine.yaml', speed=0.0) as world:
-        world.wait_for('ready')
-        there = outside.run_program('rewinder', 'step', 240)['frames']
-        assert world.interrupt() == 0
-
-    assert len(here) == len(there) == 240
-    assert [one == other for (_, one), (_, other) in zip(here, there, strict=True)] == [True] * 240
-
-
-def test_a_load_can_be_rewound_through(journey: Journey) -> None:
-    journey.live(60)
-    set_parameter(journey.physsim, 'world_file', 'demo')
-    bounds = parameter(journey.physsim, 'bounds')
-    succeeded(journey.client.call('~/load_world'))
-    journey.run(60)
-
-    succeeded(journey.client.call('~/rewind'))
-    back = journey.tick(100)
-    assert parameter(journey.physsim, 'bounds') == bounds
-    succeeded(journey.client.call('~/play'))
-    on = journey.tick(80)
-
-    journey.compare(back, 95)
-    journey.compare(on, 75)
-
-
 # Nothing twice
 
 
@@ -221,14 +180,3 @@ def test_a_service_does_nothing_twice(journey: Journey, tmp_path: Path, service:
     assert speeds[0] == speeds[1]
     assert len(files) == (service == 'save_world')
     assert journey.seek(journey.end).code == 'ok'
-
-
-def test_a_clear_after_a_clear_leaves_the_first_to_be_undone(journey: Journey) -> None:
-    journey.live(60)
-    before = journey.physsim.digest()
-
-    succeeded(journey.client.call('~/clear'))
-    succeeded(journey.client.call('~/clear'))
-    succeeded(journey.client.call('~/undo'))
-
-    assert journey.physsim.digest() == before
