@@ -33,7 +33,7 @@ endif
 TSC := npx --yes --package=typescript -- tsc
 
 .DEFAULT_GOAL := help
-.PHONY: help run test test-all lint bench ablate evaluate gallery docs soak clean
+.PHONY: help run class test test-all lint bench ablate evaluate gallery docs soak clean
 
 # The comments after `##` are the help.
 help:  ## list the targets
@@ -48,6 +48,13 @@ run: $(STAMP)  ## start the demo world, and its page in the browser
 	@echo '  Foxglove  layout config/foxglove.json'
 	@echo '  ros2      topics and services under /physsim'
 	@exec $(BIN)/physsim --ros-args -p world_file:=demo -p sketchpad:=serve $(ARGS)
+
+# Pupils of a class, and the address at which they reach it.
+PUPILS ?= 20
+ADDRESS ?= 0.0.0.0
+
+class: $(STAMP)  ## start a world for each pupil of a class, PUPILS=20, open to the network
+	@exec $(BIN)/physsim_class --pupils $(PUPILS) --address $(ADDRESS) --ros-args -p world_file:=demo $(ARGS)
 
 # A worker that a test takes down is replaced, but not without end.
 PYTEST := $(BIN)/python -m pytest --numprocesses=auto --maxprocesses=8 --dist=worksteal --max-worker-restart=4

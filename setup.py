@@ -125,6 +125,7 @@ setup(
     entry_points={
         'console_scripts': [
             'physsim = physsim_ros.ros.programs.physsim:main',
+            'physsim_class = physsim_ros.ros.programs.physsim_class:main',
             'physsim_draw = physsim_ros.ros.programs.physsim_draw:main',
         ],
         'pytest11': ['physsim = physsim_ros.testing.plugin'],

@@ -150,6 +150,11 @@ def test_pip_installs_the_executable_and_the_pytest_plugin(installed, distributi
 
     assert points == {
         ('console_scripts', 'physsim', 'physsim_ros.ros.programs.physsim:main'),
+        (
+            'console_scripts',
+            'physsim_class',
+            'physsim_ros.ros.programs.physsim_class:main',
+        ),
         ('console_scripts', 'physsim_draw', 'physsim_ros.ros.programs.physsim_draw:main'),
         ('pytest11', 'physsim', 'physsim_ros.testing.plugin'),
     }

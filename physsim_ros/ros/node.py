@@ -50,6 +50,7 @@ class PhysSimNode(NodeWithoutQosEvents):
     A physics world on the ROS graph.
 
     :param context: of ROS; None is the default one
+    :param namespace: of the node; '' is that of the command line
     :param parameter_overrides: values that override those of the command line
     :raises PhysSimError: a parameter or the world file is refused
 
@@ -65,11 +66,13 @@ class PhysSimNode(NodeWithoutQosEvents):
         self,
         *,
         context: Context | None = None,
+        namespace: str = '',
         parameter_overrides: list[Parameter] | None = None,
     ) -> None:
         super().__init__(
             'physsim',
             context=context,
+            namespace=namespace,
             parameter_overrides=parameter_overrides,
             start_parameter_services=False,
         )

@@ -54,7 +54,7 @@ class Machine:
     def run(self, monkeypatch: pytest.MonkeyPatch, until: int) -> None:
         node: Any = self
         monkeypatch.setattr(real_time_loop.time, 'monotonic_ns', self.monotonic_ns)
-        RealTimeLoop(node, node, lambda: self.now >= until).run()
+        RealTimeLoop([node], node, lambda: self.now >= until).run()
 
 
 def gaps(times: list[int]) -> list[int]:

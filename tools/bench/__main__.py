@@ -9,6 +9,7 @@ import sys
 from . import (
     capacity,
     chromium_page,
+    classroom,
     crowd,
     fixture,
     frames,
@@ -36,6 +37,7 @@ joints.table()
 sensors.table()
 rewinding.table()
 pages.table()
+classroom.table()
 chromium_page.table()
 picture.table()
 recording_page.table()

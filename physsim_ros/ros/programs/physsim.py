@@ -154,7 +154,7 @@ def main() -> None:
         gc.freeze()
         # EventsExecutor.spin (rclpy 7, Jazzy) never returns; spin_once does, and raises the
         # exceptions of callbacks.
-        RealTimeLoop(node, executor, lambda: watch.requested).run()
+        RealTimeLoop([node], executor, lambda: watch.requested).run()
     finally:
         # Also after an exception, so that no viewer process remains.
         executor.remove_node(node)

@@ -11,7 +11,7 @@ stop the answers. A timer of rclpy would wait behind all messages that have arri
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 import time
 
 from physsim_ros.ros.node import PhysSimNode
@@ -23,29 +23,30 @@ _LONGEST_SPIN = 0.1
 
 class RealTimeLoop:
     """
-    Alternates between ticks of a node and the handling of its messages, on one thread.
+    Alternates between ticks of nodes and the handling of their messages, on one thread.
 
-    :param node: whose ticks advance the world
-    :param executor: that has the node
+    :param nodes: whose ticks advance their worlds, all at the rate of the first
+    :param executor: that has the nodes
     :param is_over: whether the loop is to end
     """
 
-    def __init__(self, node: PhysSimNode, executor: Executor, is_over: Callable[[], bool]) -> None:
-        self._node = node
-        self._messages = node.requests.queue
+    def __init__(
+        self, nodes: Sequence[PhysSimNode], executor: Executor, is_over: Callable[[], bool]
+    ) -> None:
+        self._nodes = nodes
+        self._marks = [_Mark(node) for node in nodes]
         self._executor = executor
         self._is_over = is_over
-        self._period = round(node.publish_period * 1e9)
-        # Steady time at which the last mark was queued [ns]; None if it is reached.
-        self._queued: int | None = None
+        self._period = round(nodes[0].publish_period * 1e9)
 
     def run(self) -> None:
         """Run until it is over."""
         due = time.monotonic_ns()
         while not self._is_over():
             began = time.monotonic_ns()
-            self._node.tick(began)
-            self._queue_mark()
+            for node, mark in zip(self._nodes, self._marks, strict=True):
+                node.tick(time.monotonic_ns())
+                mark.queue()
             ended = time.monotonic_ns()
             due += self._period
             if due > ended:
@@ -64,19 +65,39 @@ class RealTimeLoop:
 
     def _handle_waiting(self, latest: int) -> None:
         """Handle the messages that have arrived, at most until a steady time [ns]."""
-        while self._queued is not None and time.monotonic_ns() < latest and not self._is_over():
+        while not all(mark.is_reached for mark in self._marks):
+            if time.monotonic_ns() >= latest or self._is_over():
+                return
             self._executor.spin_once(timeout_sec=0)
 
-    def _queue_mark(self) -> None:
-        """Queue a call behind the messages that have arrived, to measure how long they wait."""
+
+class _Mark:
+    """
+    A call behind the messages of a node that have arrived, to measure how long they wait.
+
+    :param node: that is told their delay
+    """
+
+    def __init__(self, node: PhysSimNode) -> None:
+        self._node = node
+        # Steady time at which it was queued [ns]; None if it is reached.
+        self._queued: int | None = None
+
+    @property
+    def is_reached(self) -> bool:
+        """Whether all messages before it are handled."""
+        return self._queued is None
+
+    def queue(self) -> None:
+        """Queue it, unless it waits already."""
         now = time.monotonic_ns()
         if self._queued is None:
             self._queued = now
-            self._messages.add_call_behind_arrived(self._reach_mark)
+            self._node.requests.queue.add_call_behind_arrived(self._reach)
         else:
             self._node.message_delay = (now - self._queued) * 1e-9
 
-    def _reach_mark(self) -> None:
+    def _reach(self) -> None:
         if self._queued is not None:
             self._node.message_delay = (time.monotonic_ns() - self._queued) * 1e-9
         self._queued = None

@@ -10,22 +10,10 @@ from functools import partial
 from physsim_ros.model.checks import flag
 from physsim_ros.model.errors import BadProperty, NothingThere
 from physsim_ros.model.requests import DeleteBodies, Unjoin
-from physsim_ros.model.texts import is_printable
 from physsim_ros.simulation.deferred_calls import Wait
 from physsim_ros.sketchpad.message import message, Origin
 from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.page_session import PageSession
-
-# Length of the name of a person [characters].
-LONGEST_PERSON = 24
-
-
-def _person(value: object, name: str) -> str:
-    """Return the name of a person."""
-    text = fields.text(value, name).strip()
-    if not 0 < len(text) <= LONGEST_PERSON or not is_printable(text):
-        raise BadProperty(f'a name has 1 to {LONGEST_PERSON} characters', field=name)
-    return text
 
 
 def _patterns(value: object, name: str) -> tuple[str, ...]:
@@ -36,7 +24,7 @@ def _patterns(value: object, name: str) -> tuple[str, ...]:
     return patterns
 
 
-@message('person', 'page', name=_person)
+@message('person', 'page', name=fields.person)
 def choose_name(page: PageSession, origin: Origin, name: str) -> None:
     """Choose the name of the person at this page."""
     page.person = name
@@ -65,7 +53,7 @@ def lock(page: PageSession, origin: Origin, names: tuple[str, ...]) -> None:
     page.answer_page(origin, page.world.set_locked(names))
 
 
-@message('clear_of', '~/command', person=_person)
+@message('clear_of', '~/command', person=fields.person)
 def clear_of(page: PageSession, origin: Origin, person: str) -> None:
     """Delete the bodies and joints that a person has added, as far as the history reaches."""
     # Requests may wait that add some.

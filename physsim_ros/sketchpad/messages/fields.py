@@ -16,7 +16,11 @@ from physsim_ros.model.checks import check_point, number, pair, shown
 from physsim_ros.model.colors import Color, color_from
 from physsim_ros.model.errors import BadProperty, Malformed
 from physsim_ros.model.names import LONGEST_NAME
+from physsim_ros.model.texts import is_printable
 from physsim_ros.model.transform import Point, Pose
+
+# Length of the name of a person [characters].
+LONGEST_PERSON = 24
 
 
 def text(value: object, name: str) -> str:
@@ -26,6 +30,14 @@ def text(value: object, name: str) -> str:
     if len(value) > LONGEST_NAME:
         raise BadProperty(f'{name} has more than {LONGEST_NAME} characters', field=name)
     return value
+
+
+def person(value: object, name: str) -> str:
+    """Return the name of a person."""
+    checked = text(value, name).strip()
+    if not 0 < len(checked) <= LONGEST_PERSON or not is_printable(checked):
+        raise BadProperty(f'a name has 1 to {LONGEST_PERSON} characters', field=name)
+    return checked
 
 
 def names(value: object, name: str) -> tuple[str, ...]:

@@ -28,6 +28,12 @@ export class Classroom {
     connection.on('welcome', ({client, teacher}) => {
       this.page = Number(client);
       this.teacher = Boolean(teacher);
+      // The page of a class has asked for it.
+      const given = /^#name=(.+)/.exec(location.hash)?.[1];
+      if (given) {
+        localStorage.setItem(NAME, decodeURIComponent(given));
+        history.replaceState(null, '', location.pathname + location.search);
+      }
       const name = localStorage.getItem(NAME);
       if (name && !app.viewOnly) connection.send('person', {name});
     });

@@ -1,0 +1,94 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+Some worlds of a class in one process, which `physsim_class` starts and ends.
+
+It prints a line of JSON for each world: its number and its addresses.
+"""
+
+from __future__ import annotations
+
+from argparse import ArgumentParser
+import gc
+import json
+import os
+import sys
+
+from physsim_ros.files import user_worlds
+from physsim_ros.model.errors import PhysSimError
+from physsim_ros.ros.node import PhysSimNode
+from physsim_ros.ros.programs.physsim import (
+    limit_fragmentation,
+    open_closed_streams,
+    reduce_latency,
+    TerminationWatch,
+)
+from physsim_ros.ros.programs.real_time_loop import RealTimeLoop
+from physsim_ros.sketchpad import Role
+import rclpy
+from rclpy.experimental import EventsExecutor
+from rclpy.parameter import Parameter
+from rclpy.signals import SignalHandlerOptions
+from rclpy.utilities import remove_ros_args
+
+# Memory of the past of each world [MB]: thirty of them have that of six.
+HISTORY_MEMORY = 48.0
+
+
+def main() -> None:
+    """Run the worlds until the process is interrupted, or its parent has ended."""
+    open_closed_streams()
+    watch, parent = TerminationWatch(), os.getppid()
+    reduce_latency()
+    limit_fragmentation()
+    parser = ArgumentParser(prog='class_worlds')
+    parser.add_argument('--first', type=int, required=True)
+    parser.add_argument('--count', type=int, required=True)
+    parser.add_argument('--port', type=int, required=True)
+    parser.add_argument('--address', required=True)
+    options = parser.parse_args(remove_ros_args(sys.argv)[1:])
+
+    def parameters(number: int) -> list[Parameter]:
+        """Return the parameters in which a world of a class differs from another one."""
+        values = {
+            'sketchpad': 'serve',
+            'sketchpad_address': options.address,
+            'sketchpad_port': options.port + number if options.port else 0,
+            # Nobody looks at thirty viewers, and there is one clock.
+            'viewer': 'none',
+            'publish_clock': False,
+            'history_memory': HISTORY_MEMORY,
+            'world_dir': str(user_worlds() / 'class' / f'pupil_{number}'),
+        }
+        return [Parameter(name, value=value) for name, value in values.items()]
+
+    try:
+        rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
+        numbers = range(options.first, options.first + options.count)
+        nodes = [
+            PhysSimNode(namespace=f'/pupil_{number}', parameter_overrides=parameters(number))
+            for number in numbers
+        ]
+    except (PhysSimError, RuntimeError) as error:
+        sys.exit(f'physsim_class: {error}')
+    executor = EventsExecutor()
+    for number, node in zip(numbers, nodes, strict=True):
+        executor.add_node(node)
+        node.start()
+        sketchpad = node.outputs.sketchpad
+        if sketchpad is not None:
+            addresses = {'pupil': sketchpad.url(), 'teacher': sketchpad.url(Role.TEACH)}
+            sys.stdout.write(json.dumps({'number': number, **addresses}) + '\n')
+    sys.stdout.flush()
+    gc.collect()
+    gc.freeze()
+    is_over = lambda: watch.requested or os.getppid() != parent  # noqa: E731
+    RealTimeLoop(nodes, executor, is_over).run()
+    sys.stdout.flush()
+    # As in `physsim`: the interpreter would free each space piece by piece.
+    os._exit(0)
+
+
+if __name__ == '__main__':
+    main()

@@ -1,0 +1,122 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+The program `physsim_class`: a world for each pupil, in one process for each processor.
+
+A world is the node `/pupil_<number>/physsim`, with a page of its own. The page of the class sends
+each pupil to a world, and shows a teacher who is where.
+"""
+
+from __future__ import annotations
+
+from argparse import ArgumentParser
+from contextlib import suppress
+from itertools import pairwise
+import json
+import os
+import subprocess
+import sys
+
+from physsim_ros.model.errors import PhysSimError
+from physsim_ros.ros.programs.physsim import open_closed_streams, TerminationWatch
+from physsim_ros.sketchpad import ClassServer, Role, World
+
+# Most worlds of a class.
+MOST_PUPILS = 60
+# Time for an orderly end of the worlds [s].
+_ENDING = 2.0
+
+
+def shares(pupils: int, processes: int) -> list[range]:
+    """Return the numbers of the worlds of each process, from 1, as even as can be."""
+    bounds = [1 + pupils * each // processes for each in range(processes + 1)]
+    return [range(*pair) for pair in pairwise(bounds) if range(*pair)]
+
+
+def main() -> None:
+    """Run a class until it is interrupted."""
+    open_closed_streams()
+    watch = TerminationWatch()
+    parser = ArgumentParser(
+        prog='physsim_class',
+        description='Run a physics world for each pupil of a class.',
+        epilog='Arguments after --ros-args are those of each world, as: '
+        'physsim_class --pupils 20 --ros-args -p world_file:=free_fall',
+    )
+    parser.add_argument('--pupils', type=int, default=20, help=f'worlds, 1 to {MOST_PUPILS}')
+    parser.add_argument(
+        '--address', default='127.0.0.1', help='to listen on; 0.0.0.0 is the whole network'
+    )
+    parser.add_argument(
+        '--port', type=int, default=8800, help='of the class; those after it are the worlds'
+    )
+    split = sys.argv.index('--ros-args') if '--ros-args' in sys.argv else len(sys.argv)
+    options = parser.parse_args(sys.argv[1:split])
+    if not 1 <= options.pupils <= MOST_PUPILS:
+        parser.error(f'--pupils must be 1 to {MOST_PUPILS}')
+    parts = shares(options.pupils, len(os.sched_getaffinity(0)))
+    processes = [_start(part, options.address, options.port, sys.argv[split:]) for part in parts]
+    try:
+        worlds = [
+            world
+            for process, part in zip(processes, parts, strict=True)
+            for world in _worlds(process, len(part))
+        ]
+        if len(worlds) < options.pupils and not watch.requested:
+            sys.exit('physsim_class: a world has not started; see above')
+        server = ClassServer(worlds, address=options.address, port=options.port)
+        sys.stdout.write(
+            f'\n  {len(worlds)} worlds in {len(processes)} processes. The page of the class:\n\n'
+            f'      {server.url(Role.DRAW)}\n\n'
+            f'  and for a teacher: {server.url(Role.TEACH)}\n\n'
+        )
+        sys.stdout.flush()
+        server.run(lambda: watch.requested or any(each.poll() is not None for each in processes))
+    except PhysSimError as error:
+        sys.exit(f'physsim_class: {error}')
+    finally:
+        _end(processes)
+
+
+def _start(part: range, address: str, port: int, arguments: list[str]) -> subprocess.Popen[str]:
+    """Start the process of some worlds."""
+    module = 'physsim_ros.ros.programs.class_worlds'
+    counts = ['--first', str(part.start), '--count', str(len(part))]
+    place = ['--port', str(port), '--address', address]
+    return subprocess.Popen(  # noqa: S603 - the arguments are those of the user
+        [sys.executable, '-m', module, *counts, *place, *arguments],
+        stdout=subprocess.PIPE,
+        text=True,
+        # Ctrl-C at a terminal goes to this process alone, which ends the others.
+        process_group=0,
+    )
+
+
+def _worlds(process: subprocess.Popen[str], count: int) -> list[World]:
+    """Wait for the worlds of a process, and return their addresses; fewer where it has ended."""
+    worlds: list[World] = []
+    while process.stdout is not None and len(worlds) < count:
+        line = process.stdout.readline()
+        if not line:
+            break
+        # Other lines are for people.
+        if line.startswith('{'):
+            content = json.loads(line)
+            worlds.append(World(pupil=content['pupil'], teacher=content['teacher']))
+    return worlds
+
+
+def _end(processes: list[subprocess.Popen[str]]) -> None:
+    """End the processes of the worlds."""
+    for process in processes:
+        process.terminate()
+    for process in processes:
+        with suppress(subprocess.TimeoutExpired):
+            process.wait(_ENDING)
+        process.kill()
+        process.wait()
+
+
+if __name__ == '__main__':
+    main()

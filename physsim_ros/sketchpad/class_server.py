@@ -1,0 +1,188 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+The page of a class with a world for each pupil.
+
+Pupils come to it by one address, and each is sent to a world. A teacher sees who is where, and
+opens any of them.
+
+Laws: a pupil comes back to the same world from the same browser, and gets no other pupil's.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Sequence
+from functools import partial
+import json
+import secrets
+from typing import NamedTuple
+from urllib.parse import quote
+
+from physsim_ros.model.errors import Malformed, Refusal, WorldFull
+from physsim_ros.sketchpad.access import Access, Role
+from physsim_ros.sketchpad.guarded import Guarded, TYPES
+from physsim_ros.sketchpad.listening import BoundedServer, listening_sockets, reachable_host
+from physsim_ros.sketchpad.messages import fields
+from physsim_ros.sketchpad.page_handlers import Files, Login, Missing, PAGE, QrCode
+from tornado.web import Application
+
+# Size of a request [bytes].
+_MOST_BYTES = 4096
+# Time from one check whether the class is over to the next [s].
+_CHECK_PERIOD = 0.2
+
+
+class World(NamedTuple):
+    """
+    The addresses of a world, with their tokens.
+
+    :ivar pupil: to draw
+    :ivar teacher: to teach
+    """
+
+    pupil: str
+    teacher: str
+
+
+class Seats:
+    """
+    The worlds of a class, and the pupils in them.
+
+    :param worlds: their addresses
+
+    :ivar names: of the pupils, by world; '' where it is free
+    """
+
+    def __init__(self, worlds: Sequence[World]) -> None:
+        self.worlds = tuple(worlds)
+        self.names = [''] * len(self.worlds)
+        # Of the browser that has come to each world.
+        self._keys = [''] * len(self.worlds)
+
+    def join(self, name: str, key: str) -> tuple[int, str]:
+        """
+        Return the number of a pupil's world, from 0, and the key of the browser.
+
+        :param name: of the pupil
+        :param key: that the browser was given when it came before; '' at first
+        :raises WorldFull: no world is free
+        """
+        known = bool(key) and key in self._keys
+        if not known and '' not in self._keys:
+            raise WorldFull('every world of this class has a pupil')
+        number = self._keys.index(key if known else '')
+        self._keys[number] = key if known else secrets.token_urlsafe()
+        self.names[number] = name
+        return number, self._keys[number]
+
+
+class ClassServer:
+    """
+    The server of a class.
+
+    :param worlds: addresses of the worlds
+    :param address: to listen on
+    :param port: to listen on, or the first free one after it
+    :raises PhysSimError: it cannot listen there
+    """
+
+    def __init__(self, worlds: Sequence[World], *, address: str, port: int) -> None:
+        self._sockets = listening_sockets(address, port)
+        self._port = self._sockets[0].getsockname()[1]
+        self._host = reachable_host(address)
+        self._access = Access(address, self._port)
+        seats = Seats(worlds)
+        self._application = Application(
+            [
+                ('/', _ClassPage),
+                ('/login', Login),
+                ('/page/(.*)', Files, {'path': str(PAGE)}),
+                ('/seats', _SeatList, {'seats': seats}),
+                ('/join', _Join, {'seats': seats}),
+                ('/qr.svg', QrCode, {'address': partial(self.url, Role.DRAW)}),
+            ],
+            access=self._access,
+            compress_response=True,
+            default_handler_class=Missing,
+            log_function=lambda _: None,
+        )
+
+    def url(self, role: Role) -> str:
+        """Return the address of the class with its token."""
+        return f'http://{self._host}:{self._port}/login?token={self._access.tokens[role]}'
+
+    def run(self, is_over: Callable[[], bool]) -> None:
+        """Serve until it is over."""
+        asyncio.run(self._serve(is_over))
+
+    async def _serve(self, is_over: Callable[[], bool]) -> None:
+        server = BoundedServer(
+            self._application, max_body_size=_MOST_BYTES, idle_connection_timeout=10.0
+        )
+        server.add_sockets(self._sockets)
+        # It is asked, since a signal handler of a thread sets it.
+        while not is_over():  # noqa: ASYNC110
+            await asyncio.sleep(_CHECK_PERIOD)
+        server.stop()
+        await server.close_all_connections()
+
+
+class _ClassPage(Guarded):
+    """The page itself."""
+
+    async def get(self) -> None:
+        """Answer with the page."""
+        self.set_header('Content-Type', TYPES['.html'])
+        self.finish((PAGE / 'class.html').read_bytes())
+
+
+class _OfSeats(Guarded):
+    """A handler of the seats of a class."""
+
+    def initialize(self, seats: Seats) -> None:
+        """Set the seats."""
+        self.seats = seats
+
+
+class _SeatList(_OfSeats):
+    """Who is where."""
+
+    async def get(self) -> None:
+        """Answer a teacher with names and addresses, others with nothing but their role."""
+        teaches = self.role is Role.TEACH
+        seats = zip(self.seats.names, self.seats.worlds, strict=True)
+        listed = [{'name': name, 'address': world.teacher} for name, world in seats]
+        self.finish({'teacher': teaches, 'seats': listed if teaches else []})
+
+
+class _Join(_OfSeats):
+    """A pupil comes to the class."""
+
+    async def post(self) -> None:
+        """Answer with the address of the pupil's world, and the key of the browser."""
+        self.require_origin()
+        self.require_drawing()
+        try:
+            number, key = self.seats.join(*_name_and_key(self.request.body))
+        except WorldFull as refusal:
+            self.refuse(409, str(refusal))
+        except Refusal as refusal:
+            self.refuse(400, str(refusal))
+        name = quote(self.seats.names[number], safe='')
+        self.finish({'address': f'{self.seats.worlds[number].pupil}#name={name}', 'key': key})
+
+
+def _name_and_key(body: bytes) -> tuple[str, str]:
+    """
+    Return the name of a pupil, and the key of the browser.
+
+    :raises Refusal: the request is not well-formed
+    """
+    try:
+        content = json.loads(body)
+    except (ValueError, RecursionError) as error:
+        raise Malformed('the request is not JSON', field='message') from error
+    given = fields.mapping(content, 'message')
+    return fields.person(given.get('name'), 'name'), fields.text(given.get('key', ''), 'key')

@@ -1,0 +1,88 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""A class with a world for each pupil: its program, its page, and who gets which world."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+from physsim_ros.model.errors import WorldFull
+from physsim_ros.ros.programs.physsim_class import shares
+from physsim_ros.sketchpad.class_server import Seats, World
+import pytest
+
+from .chromium import circle, Sheet
+from ..outside import Outside
+
+WORLDS = [World(pupil=f'http://p/{each}', teacher=f'http://t/{each}') for each in range(2)]
+
+
+def test_a_browser_comes_back_to_its_world_and_gets_no_other_one() -> None:
+    seats = Seats(WORLDS)
+    anna, key = seats.join('Anna', '')
+    ben, other = seats.join('Ben', 'a key of another class')
+    assert (anna, ben) == (0, 1)
+    assert key != other
+    assert seats.join('Anna B.', key) == (anna, key)
+    assert seats.names == ['Anna B.', 'Ben']
+    # A name alone opens nobody's world.
+    with pytest.raises(WorldFull):
+        seats.join('Anna', '')
+
+
+@pytest.mark.parametrize(('pupils', 'processes'), [(1, 2), (5, 2), (20, 2), (30, 4), (3, 8)])
+def test_worlds_are_shared_out_evenly_from_one(pupils: int, processes: int) -> None:
+    parts = shares(pupils, processes)
+    assert [number for part in parts for number in part] == list(range(1, pupils + 1))
+    sizes = [len(part) for part in parts]
+    assert max(sizes) - min(sizes) <= 1
+    assert len(parts) == min(pupils, processes)
+
+
+def come(chromium: Any, address: str, name: str) -> Sheet:
+    """Come to the class as a pupil, and wait for the world."""
+    sheet = Sheet(chromium, address)
+    sheet.page.get_by_role('textbox', name='Your name').fill(name)
+    sheet.press('Go to my world')
+    sheet.until(lambda: sheet.page.locator('#world').count() == 1, 'a world')
+    sheet.wait('"physsim" in window && "heavy/0" in physsim.bodies')
+    return sheet
+
+
+def test_pupils_come_by_one_address_each_to_a_world_and_a_teacher_sees_them(
+    chromium: Any, outside: Outside
+) -> None:
+    outside.environment['XDG_DATA_HOME'] = str(outside.directory)
+    arguments = ['--pupils', 2, '--port', 0, '--ros-args', '-p', 'world_file:=free_fall']
+    program = outside.start_installed('physsim_class', *arguments)
+    lines = [program.wait_for('/login?token=') for _ in range(2)]
+    pupils, teacher = (re.search(r'http\S+', line)[0] for line in lines)
+
+    anna, ben = come(chromium, pupils, 'Anna'), come(chromium, pupils, 'Ben')
+    before = anna.names()
+    anna.drag(*circle(0.0, 3.0, 0.6))
+    drawn = anna.wait_for_new(before)
+    assert drawn not in ben.names()
+    late = Sheet(chromium, pupils)
+    late.page.get_by_role('textbox', name='Your name').fill('Cleo')
+    late.press('Go to my world')
+    late.page.get_by_role('alert').get_by_text('every world').wait_for()
+    # The browser tells of the refusal, too.
+    assert all('409' in each for each in late.errors)
+    late.context.close()
+
+    sheet = Sheet(chromium, teacher)
+    links = sheet.page.get_by_role('listitem').get_by_role('link')
+    links.nth(1).wait_for()
+    assert links.all_inner_texts() == ['Anna', 'Ben']
+    with sheet.context.expect_page() as opened:
+        links.first.click()
+    opened.value.get_by_role('button', name='People').click()
+    opened.value.get_by_role('listitem').get_by_text('Anna').wait_for()
+    opened.value.get_by_role('button', name='Freeze all pupils').click()
+    anna.page.get_by_text('Your teacher has frozen this world.').wait_for()
+    for each in (sheet, anna, ben):
+        each.close()
+    assert program.interrupt() == 0

@@ -1,0 +1,129 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+A class: as many worlds as pupils, each with a page that reads all that comes, in real time.
+
+A world has ten balls in a box, one of which its pupil lifts each second.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Sequence
+import json
+import os
+from pathlib import Path
+import re
+import struct
+import subprocess
+import sys
+import tempfile
+from test.outside import own_domain
+import time
+
+import psutil
+from tornado.httpclient import AsyncHTTPClient, HTTPRequest
+from tornado.websocket import websocket_connect, WebSocketClientConnection
+
+PUPILS = (10, 30)
+# Wall time in which the worlds are watched [s].
+SECONDS = 20.0
+WORLD = 'format: 1\nbounds: [-5, 0, 5, 8]\nelasticity: 0.6\nbodies:\n' + ''.join(
+    f'  - {{name: ball/{each}, circle: {{radius: 0.3}}, at: [{each - 4.5}, {1 + each % 4}]}}\n'
+    for each in range(10)
+)
+
+
+async def _cookie(login: str) -> str:
+    response = await AsyncHTTPClient().fetch(login, follow_redirects=False, raise_error=False)
+    return str(response.headers['Set-Cookie'].partition(';')[0])
+
+
+async def _open_pages(teacher: str) -> list[WebSocketClientConnection]:
+    """Open a page of each world of a class."""
+    base = teacher.partition('/login')[0]
+    headers = {'Cookie': await _cookie(teacher)}
+    response = await AsyncHTTPClient().fetch(f'{base}/seats', headers=headers)
+    pages = []
+    for seat in json.loads(response.body)['seats']:
+        origin = seat['address'].partition('/login')[0]
+        headers = {'Cookie': await _cookie(seat['address']), 'Origin': origin}
+        request = HTTPRequest(origin.replace('http', 'ws') + '/ws', headers=headers)
+        pages.append(await websocket_connect(request))
+    return pages
+
+
+async def _watch(teacher: str) -> list[float]:
+    """Return the simulation time of each world in the time in which they are watched [s]."""
+    pages = await _open_pages(teacher)
+    times: list[list[float]] = [[] for _ in pages]
+
+    async def read(number: int) -> None:
+        while (message := await pages[number].read_message()) is not None:
+            if isinstance(message, bytes):
+                times[number].append(struct.unpack_from('<d', message, 8)[0])
+
+    readers = [asyncio.create_task(read(number)) for number in range(len(pages))]
+    await asyncio.sleep(2.0)
+    first = [each[-1] for each in times]
+    end = time.monotonic() + SECONDS
+    while time.monotonic() < end:
+        for page in pages:
+            lift = {'id': '', 'type': 'move_bodies', 'names': ['ball/0'], 'by': [0, 0.5]}
+            await page.write_message(json.dumps(lift))
+        await asyncio.sleep(1.0)
+    passed = [each[-1] - begun for each, begun in zip(times, first, strict=True)]
+    for reader in readers:
+        reader.cancel()
+    return passed
+
+
+def _processor_time(program: subprocess.Popen[str]) -> float:
+    """Return the processor time of a program and its children [s]."""
+    processes = [psutil.Process(program.pid), *psutil.Process(program.pid).children()]
+    return sum(sum(each.cpu_times()[:2]) for each in processes)
+
+
+def _measured(pupils: int) -> tuple[float, float, float]:
+    """Return the least and the mean pace of the worlds, and their processors."""
+    with own_domain() as domain, tempfile.TemporaryDirectory() as directory:
+        local = {'XDG_DATA_HOME': directory, 'XDG_STATE_HOME': directory}
+        ros = {'ROS_DOMAIN_ID': str(domain), 'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST'}
+        command = ['-m', 'physsim_ros.ros.programs.physsim_class', '--port', '0']
+        world = Path(directory) / 'balls.yaml'
+        world.write_text(WORLD, encoding='utf-8')
+        ros_arguments = ['--ros-args', '-p', f'world_file:={world}', '--log-level', 'warn']
+        program = subprocess.Popen(
+            [sys.executable, *command, '--pupils', str(pupils), *ros_arguments],
+            env=os.environ | local | ros,
+            cwd=Path(__file__).parents[2],
+            stdout=subprocess.PIPE,
+            text=True,
+        )
+        try:
+            assert program.stdout is not None
+            line = next(each for each in program.stdout if 'teacher' in each)
+            teacher = re.search(r'http\S+', line)
+            assert teacher is not None
+            before, began = _processor_time(program), time.monotonic()
+            paces = [each / SECONDS for each in asyncio.run(_watch(teacher[0]))]
+            processors = (_processor_time(program) - before) / (time.monotonic() - began)
+        finally:
+            program.terminate()
+            program.wait()
+    return min(paces), sum(paces) / len(paces), processors
+
+
+def table(pupils: Sequence[int] = PUPILS) -> None:
+    """Print the pace of a class."""
+    print('\nA class with a world for each pupil, a page open in each')
+    print(f'{"pupils":>8}{"least pace":>12}{"mean pace":>12}{"processors":>12}{"at pace 1":>12}')
+    for count in pupils:
+        least, mean, processors = _measured(count)
+        needed = processors / mean
+        print(f'{count:8d}{least:12.2f}{mean:12.2f}{processors:12.2f}{needed:12.2f}')
+
+
+if __name__ == '__main__':
+    table([int(word) for word in sys.argv[1:]] or PUPILS)
