@@ -49,8 +49,8 @@ class History:
         self.spacing = spacing
         # Serial of the first request of each gesture.
         self._openings: dict[int, int] = {}
-        # By the tip of another line, the step at which that line parts from this one.
-        self._partings: dict[Node, int | None] = {}
+        # By tip and head of another line, the step at which that line parts from this one.
+        self._partings: dict[tuple[Node, int], int | None] = {}
 
     # Reading
 
@@ -182,20 +182,22 @@ class History:
         kept = self._first < opening <= serial
         return (self.node(opening).step, opening - 1) if kept else None
 
-    def parting(self, tip: Node) -> int | None:
+    def parting(self, tip: Node, head: int) -> int | None:
         """
         Return the first step at which another line differs from this one.
 
         :param tip: of the other line
+        :param head: the last step that it has reached
         :return: None if they have no kept moment in common
         """
-        if tip not in self._partings:
+        if (tip, head) not in self._partings:
             kept, apart = self._apart(tip)
-            root = self.keyframes[0]
-            lost = kept == 0 or (kept == 1 and apart and apart[0].after < root.step)
+            # The last step of the root's run that the other line needs a checkpoint before.
+            after = apart[0].after if apart else head
+            lost = kept == 0 or (kept == 1 and after < self.keyframes[0].step)
             steps = [each[0].step for each in (self.nodes[kept:], apart) if each]
-            self._partings[tip] = None if lost else min(steps, default=self.head)
-        return self._partings[tip]
+            self._partings[tip, head] = None if lost else min(steps, default=self.head)
+        return self._partings[tip, head]
 
     def _apart(self, tip: Node) -> tuple[int, list[Node]]:
         """Return the number of nodes in common with another line, and its other nodes."""

@@ -389,7 +389,7 @@ class Past:
     def _courses_left(self) -> Iterator[tuple[Line, int]]:
         """Yield the courses that can be returned to, each with the step at which it parts."""
         for line in self._lines.left.values():
-            step = self.timeline.history.parting(line.tip)
+            step = self.timeline.history.parting(line.tip, line.head)
             if step is not None:
                 yield line, step
 
@@ -437,5 +437,5 @@ class Past:
         if self._oldest is not history.keyframes[0]:
             self._oldest = history.keyframes[0]
             self._lines.drop_where(
-                lambda line: line.era == self._era and history.parting(line.tip) is None
+                lambda line: line.era == self._era and history.parting(line.tip, line.head) is None
             )
