@@ -29,6 +29,8 @@ from pymunk._chipmunk_cffi import lib
 # impact on a row acts on all discs at once. Ten times the rounding of a position within a
 # kilometre of the origin (1.1e-13 m).
 GRAZE = 1e-12
+# Distance at which a point counts as inside [m]: on the seam of two pieces it lies inside neither.
+SEAM = 1e-9
 
 
 @dataclass(slots=True, eq=False)
@@ -73,6 +75,16 @@ class RigidBody:
         self.pm_body.angle = yaw
         self.pm_body.position = x + offset_x, y + offset_y
         self._reindex()
+
+    def covers(self, point: Point) -> bool:
+        """Return whether a point of the world lies in the body where it is now, edge included."""
+        if math.dist(self.pm_body.position, point) > self.body.shape.form.outer + SEAM:
+            return False
+        for shape in self.pm_body.shapes:
+            shape.cache_bb()
+            if shape.point_query(point).distance <= SEAM:
+                return True
+        return False
 
     def lead(self, gravity: Point, dt: float) -> Twist:
         """Return how far the engine's velocity is ahead of the true one in free flight."""

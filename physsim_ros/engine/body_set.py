@@ -18,8 +18,6 @@ from physsim_ros.engine.warm_start import ShapeIds
 from physsim_ros.model.transform import Point
 import pymunk
 
-# Distance at which a point counts as inside [m]: on the seam of two pieces it lies inside neither.
-SEAM = 1e-9
 EVERYTHING = pymunk.ShapeFilter()
 
 
@@ -59,12 +57,14 @@ class BodySet:
         del self._names[rigid.pm_body]
 
     def at(self, point: Point) -> list[str]:
-        """Return the bodies that cover a point of the world [m], the highest serial first."""
-        names = set()
-        for hit in self._pm_space.point_query(point, SEAM, EVERYTHING):
-            if hit.shape is not None and hit.shape.body in self._names:
-                names.add(self._names[hit.shape.body])
-        return sorted(names, key=lambda name: -self.by_name[name].serial)
+        """
+        Return the bodies that cover a point of the world [m], the highest serial first.
+
+        Pymunk's own query knows shapes where the last step has compared them; since then stages
+        may have moved their bodies, but not in a space that is restored from a checkpoint.
+        """
+        found = [rigid for rigid in self.by_name.values() if rigid.covers(point)]
+        return [rigid.body.name for rigid in sorted(found, key=lambda rigid: -rigid.serial)]
 
     def count_near(
         self,

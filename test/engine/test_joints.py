@@ -282,3 +282,20 @@ def test_a_rod_or_spring_under_a_weight_pushes_and_over_one_it_pulls(
     assert snapshot.forces == pytest.approx([DISC.form.area * abs(gravity)], rel=0.2)
     # Gravity upward presses the body against what is above it.
     assert snapshot.compressed.tolist() == [gravity > 0]
+
+
+def test_a_point_just_inside_a_body_is_in_it_after_its_joints_have_moved_it() -> None:
+    world = World()
+    spawn(world, 'a/0', BOX)
+    spawn(world, 'a/1', BOX, (0.5, 0.0, 0.0), density=40.0)
+    world.apply(joining('axle', [(-0.2, 0.0)], name='j/0', a='a/0', b='world'))
+    world.apply(joining('axle', [(0.2, 0.0)], name='j/1', a='a/0', b='a/1'))
+    inside = 0.5 - 1e-7
+    for _ in range(60):
+        world.step(1)
+        x, y, yaw = pose(world, 'a/1')
+        corner = (
+            x + inside * (math.cos(yaw) - math.sin(yaw)),
+            y + inside * (math.sin(yaw) + math.cos(yaw)),
+        )
+        assert 'a/1' in world.space.bodies.at(corner)
