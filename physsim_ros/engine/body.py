@@ -17,10 +17,11 @@ from dataclasses import dataclass, replace
 import math
 import operator
 
+import numpy as np
 from physsim_ros.model.checkpoint import BodyState, Motion
 from physsim_ros.model.scene import Body
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Capsule, Circle, Convex, Piece
+from physsim_ros.model.shapes import Capsule, Circle, contains, Convex, Piece
 from physsim_ros.model.transform import NO_WRENCH, Point, Pose, REST, rotated, Twist, Wrench
 import pymunk
 from pymunk._chipmunk_cffi import lib
@@ -80,11 +81,9 @@ class RigidBody:
         """Return whether a point of the world lies in the body where it is now, edge included."""
         if math.dist(self.pm_body.position, point) > self.body.shape.form.outer + SEAM:
             return False
-        for shape in self.pm_body.shapes:
-            shape.cache_bb()
-            if shape.point_query(point).distance <= SEAM:
-                return True
-        return False
+        x, y, yaw = self.pose
+        local = rotated((point[0] - x, point[1] - y), -yaw)
+        return bool(contains(self.body.shape.form.pieces, np.array([local]), SEAM)[0])
 
     def lead(self, gravity: Point, dt: float) -> Twist:
         """Return how far the engine's velocity is ahead of the true one in free flight."""
