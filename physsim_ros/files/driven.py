@@ -5,7 +5,15 @@
 
 from __future__ import annotations
 
-from physsim_ros.model.checks import check_finite, known_mapping, LONGEST, number, shown, Within
+from physsim_ros.model.checks import (
+    check_finite,
+    known_mapping,
+    LONGEST,
+    number,
+    pair,
+    shown,
+    Within,
+)
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.robot_states import Driven
 from physsim_ros.model.scene import Body
@@ -14,13 +22,14 @@ from physsim_ros.model.transform import Pose
 _POSES = ('aim', 'wheels', 'travel', 'odometry')
 # Greatest number in them, as of a motion [m, rad, m/s, rad/s].
 _GREATEST = 1e12
+_LENGTH = Within(0.0, _GREATEST)
 
 
 def driven_entry(driven: Driven, physics_rate: float) -> dict[str, object]:
     """Return the entry of the state of a robot."""
     entry: dict[str, object] = {key: list(getattr(driven, key)) for key in _POSES}
     seconds = None if driven.steps is None else driven.steps / physics_rate
-    return {**entry, 'seconds': seconds}
+    return {**entry, 'path': list(driven.path), 'seconds': seconds}
 
 
 def driven_from(entry: object, body: Body, physics_rate: float) -> Driven:
@@ -31,7 +40,7 @@ def driven_from(entry: object, body: Body, physics_rate: float) -> Driven:
     :param physics_rate: of the world [Hz]
     :raises Refusal: the body is no robot, or the entry is not what `driven_entry` has returned
     """
-    values = known_mapping(entry, 'driven', [*_POSES, 'seconds'])
+    values = known_mapping(entry, 'driven', [*_POSES, 'path', 'seconds'])
     if body.robot is None:
         raise BadProperty(f'{body.name} is no robot; nothing has driven it', field='driven')
     seconds = values.get('seconds')
@@ -40,7 +49,9 @@ def driven_from(entry: object, body: Body, physics_rate: float) -> Driven:
         steps = round(Within(0.0, LONGEST, 's')(seconds, 'seconds') * physics_rate)
     poses = [_three(values.get(key, [0.0, 0.0, 0.0]), key) for key in _POSES]
     aim, wheels, travel, odometry = poses
-    return Driven(aim, steps, wheels, travel, odometry)
+    way, turned = pair(values.get('path', [0.0, 0.0]), 'path')
+    path = _LENGTH(way, 'path'), _LENGTH(turned, 'path')
+    return Driven(aim, steps, wheels, travel, odometry, path)
 
 
 def _three(value: object, name: str) -> Pose:

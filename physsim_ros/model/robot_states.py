@@ -10,7 +10,7 @@ from typing import NamedTuple, Self
 
 import numpy as np
 from physsim_ros.model.arrays import Floats, Ints
-from physsim_ros.model.transform import ORIGIN, Pose, REST, Twist
+from physsim_ros.model.transform import ORIGIN, Point, Pose, REST, Twist
 
 # Step at which a command without a timeout ends.
 NEVER = 2**62
@@ -28,10 +28,11 @@ class Driven(NamedTuple):
     wheels: Twist
     travel: Pose
     odometry: Pose
+    path: Point
 
 
 # Of a robot that was just spawned.
-SPAWNED = Driven(REST, 0, REST, ORIGIN, ORIGIN)
+SPAWNED = Driven(REST, 0, REST, ORIGIN, ORIGIN, (0.0, 0.0))
 
 
 class RobotStates(NamedTuple):
@@ -48,6 +49,8 @@ class RobotStates(NamedTuple):
         of its drive times this, over its radius
     :ivar odometry: (r, 3) float64: x, y [m], yaw [rad] by wheels and gyroscope, from the pose in
         which the robot was spawned
+    :ivar path: (r, 2) float64: length of the way of the wheels [m], and sum of the turns of the
+        body in either direction [rad]; the variance of the odometry grows with them
     """
 
     aim: Floats
@@ -55,19 +58,27 @@ class RobotStates(NamedTuple):
     wheels: Floats
     travel: Floats
     odometry: Floats
+    path: Floats
 
     @classmethod
     def at_rest(cls, count: int) -> Self:
         """Return the states of a number of robots that were just spawned."""
         aim, wheels, travel, odometry = (np.zeros((count, 3)) for _ in range(4))
-        return cls(aim, np.zeros(count, np.int64), wheels, travel, odometry)
+        until, path = np.zeros(count, np.int64), np.zeros((count, 2))
+        return cls(aim, until, wheels, travel, odometry, path)
 
     def copy(self) -> Self:
         """Return a copy; of no robots the same value, which frames share."""
         if not len(self.until):
             return self
-        aim, until, wheels, travel, odometry = self
-        return type(self)(aim.copy(), until.copy(), wheels.copy(), travel.copy(), odometry.copy())
+        return type(self)(
+            aim=self.aim.copy(),
+            until=self.until.copy(),
+            wheels=self.wheels.copy(),
+            travel=self.travel.copy(),
+            odometry=self.odometry.copy(),
+            path=self.path.copy(),
+        )
 
     @classmethod
     def of(cls, robots: Sequence[Driven], step: int) -> RobotStates:
@@ -78,7 +89,8 @@ class RobotStates(NamedTuple):
         poses = ([each.aim, each.wheels, each.travel, each.odometry] for each in robots)
         columns = np.array([*poses], np.float64).swapaxes(0, 1)
         aim, wheels, travel, odometry = (np.ascontiguousarray(column) for column in columns)
-        return cls(aim, np.array(until, np.int64), wheels, travel, odometry)
+        path = np.array([each.path for each in robots], np.float64)
+        return cls(aim, np.array(until, np.int64), wheels, travel, odometry, path)
 
     def driven(self, step: int) -> list[Driven]:
         """Return the states for a file, of a world that has made so many steps."""
@@ -90,8 +102,9 @@ class RobotStates(NamedTuple):
                 wheels=tuple(wheels),
                 travel=tuple(travel),
                 odometry=tuple(odometry),
+                path=tuple(path),
             )
-            for aim, until, wheels, travel, odometry in rows
+            for aim, until, wheels, travel, odometry, path in rows
         ]
 
     @property

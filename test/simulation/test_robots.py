@@ -107,6 +107,28 @@ def test_two_robots_have_two_namespaces():
     world.apply(spawn)
 
 
+@pytest.mark.parametrize(
+    ('namespace', 'sensor', 'other', 'name'),
+    [
+        ('tb', 'x/odom', 'tb/x', 'tb/x/odom'),
+        ('tb', 'x/base_link', 'tb/x', 'tb/x/base_link'),
+        ('', 'tb/imu/cmd_vel', 'tb/imu', 'tb/imu/cmd_vel'),
+    ],
+)
+def test_two_robots_have_no_name_in_common(namespace, sensor, other, name):
+    world = _world()
+    sensors = [{'kind': 'imu', 'name': sensor}]
+    _spawn(world, 'a/0', robot={'drive': DRIVE, 'namespace': namespace, 'sensors': sensors})
+    nested = Properties(robot={'drive': DRIVE, 'namespace': other})
+    spawn = Spawn(name='b/0', shape=Disc(radius=0.1), pose=(1.0, 0.0, 0.0), properties=nested)
+    _refused(world, spawn, Exists, 'namespace')
+    with pytest.raises(Exists, match=f'one topic or frame, /{name};'):
+        world.apply(spawn)
+
+    # A namespace within another one is none of its names.
+    _spawn(world, 'c/0', 2.0, robot={'drive': DRIVE, 'namespace': f'{other}/y'})
+
+
 @pytest.mark.parametrize('name', ['7/0', 'a/-1', 'ä/0'])
 def test_a_name_that_is_no_namespace_needs_one(name):
     world = _world()
@@ -225,6 +247,8 @@ def test_motion_under_way_is_saved_and_loaded_to_the_bit(tmp_path):
         ('{name: b/0, circle: {radius: 1}, robot: car, driven: {aim: [1, 2, .nan]}}', 'malformed'),
         ('{name: b/0, circle: {radius: 1}, robot: car, driven: {seconds: -1}}', 'bad_property'),
         ('{name: b/0, circle: {radius: 1}, robot: car, driven: {wheel: 1}}', 'unknown_property'),
+        ('{name: b/0, circle: {radius: 1}, robot: car, driven: {path: [1, -1]}}', 'bad_property'),
+        ('{name: b/0, circle: {radius: 1}, robot: car, driven: {path: [1]}}', 'malformed'),
         ('{name: b/0, circle: {radius: 1}, robot: car, anchored: true}', 'bad_property'),
     ],
 )

@@ -102,6 +102,15 @@ class Robot(Checked):
         """
         return body.replace('/', '_') if self.namespace is None else self.namespace
 
+    def names_below(self, namespace: str) -> list[str]:
+        """
+        Return the names of its topics and frames in the world, without a slash at their beginning.
+
+        :param namespace: of its topics, without a slash at its beginning
+        """
+        names = [*OWN_TOPICS, *_OWN_FRAMES, *(sensor.name for sensor in self.sensors)]
+        return [f'{namespace}/{name}' for name in names] if namespace else names
+
     def entry(self) -> dict[str, object]:
         """Return the mapping that it is made from."""
         entry: dict[str, object] = {} if self.namespace is None else {'namespace': self.namespace}

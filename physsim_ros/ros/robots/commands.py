@@ -54,6 +54,8 @@ class Commands:
         self._body = body
         self._refuse = refuse
         self._mixed = False
+        # Whether the last command had a stamp of 0, which is none.
+        self._unstamped = False
         # Type and bytes of the last command.
         self._last: tuple[type, bytes] | None = None
         # Type and reliability of the subscription.
@@ -62,9 +64,10 @@ class Commands:
         self.match_publishers()
 
     @property
-    def is_stamped(self) -> bool:
-        """Whether a publisher of stamped commands is there."""
-        return self._heard is not None and self._heard[0] is TwistStamped
+    def is_awaited(self) -> bool:
+        """Whether a publisher of commands that have stamps has not answered the last scan."""
+        stamped = self._heard is not None and self._heard[0] is TwistStamped
+        return stamped and not self._unstamped and self.awaited is not None
 
     def match_publishers(self) -> bool:
         """
@@ -85,7 +88,7 @@ class Commands:
         changed = heard != self._heard
         if changed:
             self.close()
-            self._heard = heard
+            self._heard, self._unstamped = heard, False
             if heard is not None:
                 qos = QoSProfile(depth=_DEPTH, reliability=heard[1])
                 self._subscription = self._node.create_subscription(
@@ -125,7 +128,9 @@ class Commands:
 
     def _receive(self, kind: type, data: bytes) -> None:
         self._last = kind, data
-        if kind is TwistStamped and self.awaited is not None:
+        if kind is TwistStamped:
             with suppress(Truncated):
-                if CdrReader(data).stamp() >= self.awaited:
+                stamp = CdrReader(data).stamp()
+                self._unstamped = stamp == 0
+                if self.awaited is not None and stamp >= self.awaited:
                     self.awaited = None

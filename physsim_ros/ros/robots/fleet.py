@@ -123,7 +123,7 @@ class Fleet:
         the wall from the first time it is asked.
         """
         longest = self._values['lockstep']
-        if not longest or not any(map(_is_awaited, self.robots.values())):
+        if not longest or not any(each.commands.is_awaited for each in self.robots.values()):
             self._deadline = None
             return False
         now = time.monotonic()
@@ -139,19 +139,25 @@ class Fleet:
         if before is None or before.stamp != snapshot.stamp:
             self.before = before
         self._shown = snapshot
+        frozen = frame.past and self._values['robots_in_past'] == 'freeze'
+        if frozen or (before is not None and snapshot.stamp < before.stamp):
+            # The scan that was to be answered is of a time that is not shown.
+            for robot in self.robots.values():
+                robot.commands.awaited = None
         if snapshot.scene is not self._scene:
             self._scene = snapshot.scene
             self._update(snapshot.scene)
         if not self.robots or (before is not None and before.stamp == snapshot.stamp):
             return
-        if frame.past and self._values['robots_in_past'] == 'freeze':
+        if frozen:
             return
         self._deadline = None
         view, rows = View(frame, before), snapshot.scene.robot_rows
         for number, (row, robot) in enumerate(
             zip(rows.tolist(), self.robots.values(), strict=True)
         ):
-            robot.publish(view, row, number)
+            if robot.publish(view, row, number):
+                robot.commands.awaited = snapshot.stamp
 
     def _update(self, scene: Scene) -> None:
         """Make topics for robots that have come, and take those of others back."""
@@ -174,9 +180,3 @@ class Fleet:
             world_frame=self._values['frame_id'],
             refuse=partial(self._refuse, body),
         )
-
-
-def _is_awaited(robot: RobotTopics) -> bool:
-    """Return whether a robot with stamped commands has not answered its last scan."""
-    commands = robot.commands
-    return commands.awaited is not None and commands.is_stamped

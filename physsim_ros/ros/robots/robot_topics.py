@@ -129,14 +129,16 @@ class RobotTopics:
             for sensor, publisher in self._sensors
         )
 
-    def publish(self, view: View, row: int, number: int) -> None:
+    def publish(self, view: View, row: int, number: int) -> bool:
         """
         Publish what is due at a frame and has subscribers.
 
         :param view: of the frame
         :param row: of the robot's body in the scene
         :param number: of the robot among those of the scene
+        :return: whether a scan is among it
         """
+        scanned = False
         # Before the readings, which are looked up in it by their stamps.
         if _is_heard(self._tf):
             odometry = view.snapshot.robots.odometry[number].tolist()
@@ -150,17 +152,17 @@ class RobotTopics:
         for sensor, publisher in self._sensors:
             if _is_heard(publisher) and self._is_due(sensor.name, sensor.rate, view):
                 publisher.publish(self.reading(view, row, sensor))
-                if isinstance(sensor, Laser):
-                    self.commands.awaited = view.snapshot.stamp
+                scanned |= isinstance(sensor, Laser)
+        return scanned
 
     def odometry(self, view: View, number: int) -> Odometry:
         """Return where wheels and gyroscope tell that the robot is, and how it moves."""
         states = view.snapshot.robots
         ahead, aside, turn = states.wheels[number].tolist()
         way, heading = (deviation**2 for deviation in self.robot.odometry.slip)
-        # Drifts are random walks along the way. That of the twist is their mean rate from one
+        # Drifts are random walks along the path. That of the twist is their mean rate from one
         # message to the next.
-        travelled = max(abs(each) for each in states.travel[number].tolist())
+        path, turned = states.path[number].tolist()
         speed, rate = math.hypot(ahead, aside), self.robot.odometry.rate
         of_twist = way * speed * rate, way * speed * rate, heading * (speed + abs(turn)) * rate
         return odometry_message(
@@ -169,7 +171,7 @@ class RobotTopics:
             (ahead, aside, turn),
             parent=self._frames.name(ODOM),
             child=self._frames.name(FOOTPRINT),
-            variances=((way * travelled, way * travelled, heading * travelled), of_twist),
+            variances=((way * path, way * path, heading * (path + turned)), of_twist),
         )
 
     def truth(self, view: View, row: int) -> Odometry:

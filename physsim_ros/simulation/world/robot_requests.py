@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Requests for robots, and what a world refuses of them: no two robots have one namespace."""
+"""Requests for robots, and what a world refuses of them: no two robots have one topic."""
 
 from __future__ import annotations
 
@@ -35,10 +35,10 @@ def drive(live: LiveSpace, request: DriveRobot) -> Done:
 
 def check_robot(space: Space, body: Body) -> None:
     """
-    Refuse a robot that has joints, or whose namespace another one has.
+    Refuse a robot that has joints, or a topic or frame of another one.
 
     :raises BadProperty: it has joints
-    :raises Exists: the namespace is taken
+    :raises Exists: its namespace or another of its names is taken
     """
     if body.robot is None:
         return
@@ -49,7 +49,9 @@ def check_robot(space: Space, body: Body) -> None:
 
 def check_namespaces(bodies: Iterable[Body]) -> None:
     """
-    Refuse two robots of one namespace; of two bodies of one name the first counts.
+    Refuse two robots of one namespace, topic or frame; of two bodies of one name the first counts.
+
+    A sensor may have the topic of another robot, whose namespace is nested in that of its own.
 
     :raises Exists: there are
     """
@@ -60,9 +62,11 @@ def check_namespaces(bodies: Iterable[Body]) -> None:
             continue
         seen.add(body.name)
         namespace = body.robot.namespace_of(body.name)
-        other = taken.setdefault(namespace, body.name)
-        if other != body.name:
-            raise Exists(
-                f'the robots {other} and {body.name} have one namespace, /{namespace}',
-                field='namespace',
-            )
+        for name in body.robot.names_below(namespace):
+            other = taken.setdefault(name, body.name)
+            if other != body.name:
+                raise Exists(
+                    f'the robots {other} and {body.name} have one topic or frame, /{name}; give '
+                    'one of them another namespace',
+                    field='namespace',
+                )

@@ -9,6 +9,7 @@ import math
 from types import SimpleNamespace
 from typing import Any
 
+from builtin_interfaces.msg import Time
 from geometry_msgs.msg import Twist, TwistStamped
 from nav_msgs.msg import Odometry
 from physsim_ros.testing import box, delete, PhysSim, Refused, UnknownName
@@ -320,6 +321,38 @@ def test_a_scan_after_a_rewind_waits_for_an_answer_of_its_own(flat: PhysSim) -> 
     assert commands.awaited <= 1.5e9
 
 
+@pytest.fixture
+def waiting(flat: PhysSim) -> PhysSim:
+    """Give a world in which a robot has a scan that its stamped controller has not answered."""
+    flat.robot('turtlebot3_burger')
+    driver = Driver(flat.context, kind=TwistStamped)
+    driver.send = lambda *_, **__: None  # type: ignore[method-assign] # it hears, and is silent
+    flat.add(driver)
+    flat.run(1.0)
+    set_parameter(flat, 'lockstep', 1e3)
+    assert flat.node.fleet.is_waiting
+    return flat
+
+
+def test_a_frozen_past_does_not_wait_for_an_answer(waiting: PhysSim) -> None:
+    set_parameter(waiting, 'robots_in_past', 'freeze')
+    waiting.rewind(0.5)
+    assert not waiting.node.fleet.is_waiting
+    waiting.run(0.4)
+    assert not waiting.node.fleet.is_waiting
+
+
+def test_commands_without_a_stamp_are_not_waited_for(waiting: PhysSim) -> None:
+    sender = Driver(waiting.context, kind=TwistStamped, looks=False)
+    sender.send(0.1)
+    waiting.settle()
+    assert not waiting.node.fleet.is_waiting
+    waiting.run(1.0)
+    sender.send(0.1, stamp=Time(nanosec=1))
+    waiting.settle()
+    assert waiting.node.fleet.is_waiting
+
+
 def test_a_robot_that_is_not_there_has_no_readings(flat: PhysSim) -> None:
     flat.run(1.0)
     robot = flat.robot('turtlebot3_burger')
@@ -364,6 +397,21 @@ def test_the_covariance_of_the_twist_is_that_of_its_speed(flat: PhysSim) -> None
     odometry = robot.odom()
     assert max(odometry.twist.covariance[0], odometry.twist.covariance[35]) <= 1e-9
     assert odometry.pose.covariance[0] > 1e-5
+
+
+def test_the_covariance_of_the_pose_grows_on_the_way_back(flat: PhysSim) -> None:
+    robot = flat.robot({'from': 'turtlebot3_burger', 'odometry': {'slip': [0.01, 0.02]}})
+    variances = []
+    for speed, turn in ((0.2, 0.0), (-0.2, 0.0), (0.0, 1.0), (0.0, -1.0)):
+        robot.drive(speed, turn)
+        flat.run(2.0)
+        covariance = robot.odom().pose.covariance
+        variances.append((covariance[0], covariance[35]))
+    (there, _), (back, heading), (_, turned), (around, twice) = variances
+    assert back == pytest.approx(2 * there, rel=0.1)
+    assert around == pytest.approx(back, rel=0.05)
+    assert turned - heading == pytest.approx(0.02**2 * 2.0, rel=0.15)
+    assert twice - heading == pytest.approx(0.02**2 * 4.0, rel=0.15)
 
 
 def test_a_robot_of_a_world_file_is_found_and_driven(flat: PhysSim) -> None:
