@@ -10,9 +10,10 @@ Law: a session changes only itself; it returns ordinary requests, to be submitte
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 import math
+from typing import Any
 
 import numpy as np
 from physsim_ros.drawing import body_requests
@@ -38,12 +39,13 @@ from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.drawing.waiting_joints import requests_with_waiting_joints
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NotRecognised, UnknownBody
-from physsim_ros.model.names import split_name
+from physsim_ros.model.names import split_name, WORLD
 from physsim_ros.model.requests import Join, Request, Spawn
 from physsim_ros.model.snapshot import Answer, Line, NO_PREVIEW, Preview, Snapshot
 from physsim_ros.model.transform import Point, rotated_each
 from physsim_ros.simulation.request_queue import Amend
 from physsim_ros.simulation.simulation import Simulation
+from physsim_ros.simulation.world.joint_requests import drawn_points
 
 # The least confidence in a runner-up that the label of a preview mentions.
 _MENTIONED = 0.05
@@ -192,6 +194,46 @@ class DrawingSession:
         )
         self._reserve_names((request,))
         return request
+
+    def copy_machine(
+        self, names: Sequence[str], by: Point, snapshot: Snapshot
+    ) -> tuple[Request, ...]:
+        """
+        Return the requests for copies of bodies, at rest, and of the joints among them.
+
+        A joint to the background is copied with its body. Limits of a copied joint count from
+        where its bodies are now.
+
+        :param names: of the bodies
+        :param by: vector from each body to its copy [m]
+        :param snapshot: of the world
+        :raises UnknownBody: there is no such body
+        """
+        scene, requests = self._query(snapshot), list[Request]()
+        copies = {WORLD: WORLD}
+        for name in names:
+            if name not in scene.names:
+                raise UnknownBody(f'there is no body {name}', field='names')
+            x, y, _ = scene.pose(name)
+            spawn = self.copy(name, (x + by[0], y + by[1]), snapshot)
+            copies[name] = spawn.name
+            requests.append(spawn)
+        poses = {name: scene.pose(name) for name in names}
+        for joint in scene.joints:
+            if joint.a in copies and joint.b in copies:
+                points, lengths = drawn_points(joint, poses), joint.drawn_values()
+                join = Join(
+                    name=self._query(snapshot).next_joint(),
+                    kind=joint.kind,
+                    points=tuple((x + by[0], y + by[1]) for x, y in points),
+                    a=copies[joint.a],
+                    b=copies[joint.b],
+                    # Lengths that were measured when it was drawn are those of the copy, too.
+                    properties=replace(joint.properties, **dict[str, Any](lengths)),
+                )
+                self._reserve_names((join,))
+                requests.append(join)
+        return tuple(requests)
 
     def _query(self, snapshot: Snapshot) -> SceneQuery:
         return SceneQuery(snapshot, first=self._next_body, first_joint=self._next_joint)

@@ -12,9 +12,9 @@ import math
 import numpy as np
 from physsim_ros.drawing import DrawingSession, DrawingSettings, Reading, submit_reading
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.errors import NotRecognised
+from physsim_ros.model.errors import NotRecognised, UnknownBody
 from physsim_ros.model.joints import JointKind
-from physsim_ros.model.requests import Configure, Request
+from physsim_ros.model.requests import Configure, Join, MoveBodies, Request
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Disc
@@ -298,3 +298,34 @@ def test_a_rod_from_the_middle_of_a_disc_is_no_mark() -> None:
     desk.draw(circle(0.0, 0.0, 0.5))
 
     assert desk.draw([(0.0, 0.0), (0.0, 1.5)]).meaning == 'rod'
+
+
+def test_a_machine_is_copied_with_the_joints_among_its_bodies() -> None:
+    sim = Simulation()
+    for name, x in (('a/0', 0.0), ('b/0', 2.0), ('c/0', 4.0)):
+        sim.perform(spawning(name, Disc(radius=0.3), (x, 1.0, 0.5)))
+    joints = (
+        Join(name='j/0', kind=JointKind.SPRING, points=((0, 1), (2, 1)), a='a/0', b='b/0'),
+        Join(name='j/1', kind=JointKind.ROD, points=((2, 1), (4, 1)), a='b/0', b='c/0'),
+        Join(name='j/2', kind=JointKind.ROPE, points=((0, 1), (0, 3)), a='a/0', b='world'),
+    )
+    for join in joints:
+        sim.perform(join)
+    # The spring is not as long as it was drawn.
+    sim.perform(MoveBodies(names=('a/0',), by=(0.5, 0.0)))
+    session = DrawingSession(DrawingSettings())
+
+    requests = session.copy_machine(('a/0', 'b/0'), (10.0, 2.0), sim.world.snapshot())
+    for request in requests:
+        sim.perform(request)
+
+    scene, poses = sim.world.scene, sim.world.snapshot().poses
+    assert scene.names == ('a/0', 'b/0', 'c/0', 'drawn/0', 'drawn/1')
+    assert poses[3:, :2].tolist() == [[10.5, 3.0], [12.0, 3.0]]
+    assert poses[3:, 2].tolist() == [0.5, 0.5]
+    spring, rope = scene.joints[3:]
+    assert (spring.kind, spring.a, spring.b) == (JointKind.SPRING, 'drawn/0', 'drawn/1')
+    assert spring.rest_length == 2.0
+    assert (rope.kind, rope.a, rope.b) == (JointKind.ROPE, 'drawn/0', 'world')
+    with pytest.raises(UnknownBody):
+        session.copy_machine(('a/0', 'x/0'), (1.0, 0.0), sim.world.snapshot())

@@ -76,6 +76,12 @@ def copy(page: PageSession, origin: Origin, name: str, to: Point) -> None:
     page.submit(origin, (page.drawing.copy(name, to, page.world.current_snapshot()),))
 
 
+@message('copy_machine', '~/spawn', names=fields.names, by=fields.point)
+def copy_machine(page: PageSession, origin: Origin, names: tuple[str, ...], by: Point) -> None:
+    """Add bodies like others, with the joints among them, at rest, at a distance [m]."""
+    page.submit(origin, page.drawing.copy_machine(names, by, page.world.current_snapshot()))
+
+
 @message('delete', '~/spawn', names=fields.names)
 def delete(page: PageSession, origin: Origin, names: tuple[str, ...]) -> None:
     """Delete bodies."""

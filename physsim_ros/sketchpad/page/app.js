@@ -26,6 +26,7 @@ import {Refusals} from './refusals.js';
 import {SceneView} from './scene_view.js';
 import {Selection} from './selection.js';
 import {EmptyCard} from './strokes.js';
+import {Sound} from './sound.js';
 import {TimeBar} from './time_bar.js';
 import {Tips} from './tips.js';
 import {Toolbar} from './toolbar.js';
@@ -68,6 +69,7 @@ export class App {
     this.refusals = new Refusals(this);
     this.readings = new Readings(this);
     this.driving = new Driving(this);
+    this.sound = new Sound(this);
     this.panel = new BodyPanel(this);
     this.joints = new JointPanel(this);
     this.arrow = new VelocityArrow(this);
@@ -141,7 +143,7 @@ export class App {
     const robot = this.world.scene.bodies.some((body) => body.name === name && body.robot);
     this.view.dirty = true;
     // The drag of the air follows from velocities.
-    this.connection.send('show', {velocities: velocities || forces || name !== '' || this.tool.measures === true, contacts: forces, forces: true, laser: robot ? name : ''});
+    this.connection.send('show', {velocities: velocities || forces || name !== '' || this.tool.measures === true, contacts: forces || this.sound.on, forces: true, laser: robot ? name : ''});
   }
 
   /** Frame the world. */
@@ -194,6 +196,8 @@ Object.assign(window, {physsim: {
   get speed() { return app.world.frame.speed; },
   /** Forces as they are drawn. */
   get forces() { return app.arrows.drawn; },
+  /** Impacts that were heard. */
+  get heard() { return app.sound.heard; },
   /** Lengths of arrows [px] to a newton and to a metre a second. */
   get scales() { return {newton: app.arrows.newtons.length(1), speed: app.arrows.speeds.length(1)}; },
   /** Places of the handles of the selected body [px]. */

@@ -86,7 +86,10 @@ export class BodyPanel {
     this.plots.watch('');
     this.show(`${names.length} bodies`, [
       createElement('p', {textContent: 'Drag them with the lasso.'}),
-      inRow(textButton('Delete bodies', () => this.app.selection.deleteBodies(), 'danger'))]);
+      inRow(textButton('Copy beside', () => {
+        const [left, , right] = this.app.world.boundsOfAll(names);
+        this.app.connection.send('copy_machine', {names, by: [right - left + BESIDE, 0]});
+      }), textButton('Delete bodies', () => this.app.selection.deleteBodies(), 'danger'))]);
   }
 
   /** Show the material of the next drawings, and gravity. */
@@ -128,7 +131,11 @@ export class BodyPanel {
         this.turn = angle;
         pull();
       })),
-      range('Air drag [of the speed, each second]', 0, 0.95, 0.05, scene.damping, (damping) => app.connection.send('air', {damping}))]);
+      range('Air drag [of the speed, each second]', 0, 0.95, 0.05, scene.damping, (damping) => app.connection.send('air', {damping})),
+      createElement('label', {}, 'Sound of impacts', createElement('input', {type: 'checkbox', checked: app.sound.on, onchange: () => {
+        app.sound.toggle();
+        app.askForParts();
+      }}))]);
     this.shown = this.#worldKey();
   }
 

@@ -89,6 +89,14 @@ export class WorldState {
   }
 
   /**
+   * @param {Iterable<string>} names of bodies
+   * @returns {number[]} xmin, ymin, xmax, ymax of those that are there [m]
+   */
+  boundsOfAll(names) {
+    return unionOf([...names].map((name) => this.row(name)).filter((row) => row >= 0).map((row) => this.#boundsOf(row)));
+  }
+
+  /**
    * @param {number} row
    * @returns {number[]} xmin, ymin, xmax, ymax of a body [m]
    */

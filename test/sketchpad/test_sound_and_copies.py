@@ -1,0 +1,64 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""Impacts are heard where somebody wants it; several bodies are copied together."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+
+from .chromium import Sheet, started_world
+from ..outside import Outside
+
+WORLD = """
+format: 1
+bounds: [-10, 0, 10, 8]
+elasticity: 0.5
+bodies:
+  - {name: ball/0, circle: {radius: 0.4}, at: [-3, 4]}
+  - {name: box/0, box: {width: 1, height: 1}, at: [-1, 0.5]}
+joints:
+  - {name: rod/0, kind: rod, a: ball/0, b: box/0, points: [[-3, 4], [-1, 0.5]]}
+"""
+
+
+@pytest.fixture
+def sheet(chromium: Any, outside: Outside) -> Iterator[Sheet]:
+    """Give a test a page of a world with a ball in the air, paused."""
+    program, address = started_world(outside, world=WORLD)
+    sheet = Sheet(chromium, address)
+    sheet.wait('Object.keys(physsim.bodies).length === 2')
+    sheet.press('Pause')
+    sheet.press('Reset')
+    sheet.wait('physsim.time === 0 && physsim.speed === 0')
+    yield sheet
+    sheet.close()
+    program.interrupt()
+
+
+def test_an_impact_is_heard_after_sound_was_switched_on(sheet: Sheet) -> None:
+    sheet.press('Play')
+    sheet.wait('physsim.bodies["ball/0"][1] < 1')
+    assert sheet.page.evaluate('physsim.heard') == 0
+    sheet.press('Material')
+    sheet.page.get_by_label('Sound of impacts').check()
+    sheet.press('Reset')
+    sheet.press('Play')
+    sheet.wait('physsim.heard > 0')
+
+
+def test_bodies_of_the_lasso_are_copied_beside_with_their_joint(sheet: Sheet) -> None:
+    sheet.press('Lasso')
+    sheet.drag((-5, 6), (1, 6), (1, 0.1), (-5, 0.1), (-5, 6))
+    sheet.press('Copy beside')
+    sheet.wait('Object.keys(physsim.bodies).length === 4')
+    ball, box = sheet.pose('drawn/0'), sheet.pose('drawn/1')
+    assert ball[1] == 4.0
+    assert box[0] - ball[0] == pytest.approx(2.0)
+    assert ball[0] > 0.0
+    sheet.page.get_by_role('status').get_by_text('Rod added').wait_for()
+    sheet.press('Undo')
+    sheet.wait('Object.keys(physsim.bodies).length === 2')
