@@ -66,8 +66,8 @@ class ContactReport:
         self._ids: Ids = NO_PAIRS
         self._sums: Floats = np.empty((0, 2))
         self._impulses: Floats = np.empty((0, 2))
-        # The body that the engine has first in each listed pair, and the sign of its impulses.
-        self._first_ids: Ids = np.empty(0, np.uint64)
+        # Those of them that are awake as the engine lists them, and the signs of their impulses.
+        self._listed: Ids = NO_PAIRS
         self._signs: Floats = np.empty((0, 1))
         # Manifolds of the pairs, (5, m), where another space has made the last step.
         self._copied_manifolds: Floats | None = None
@@ -82,8 +82,6 @@ class ContactReport:
         self._parted: list[tuple[Ids, Floats]] = []
         self._last = LastManifolds()
         self._listing: PairListing | None = None
-        # The ids of the last step as the engine listed them; None where they were dropped.
-        self._listed: Ids | None = None
 
     def add_first_touches(self, touches: Touches) -> None:
         """Store the manifolds of shapes that begin to touch: they may part within the frame."""
@@ -104,15 +102,13 @@ class ContactReport:
         self._copied_manifolds = None
         slots = table, table.slot_changes
         sleep_changed = slots != self._slots
-        ints, impulses = self._io.read_contacts(_PAIRS_AND_IMPULSES)
-        impulses = impulses.reshape(-1, 2)
-        listed = self._listed
-        if listed is not None and not sleep_changed and same_ids(ints, listed):
+        listed, impulses = self._io.read_contacts(_PAIRS_AND_IMPULSES)
+        listed, impulses = listed.reshape(-1, 2), impulses.reshape(-1, 2)
+        if not sleep_changed and same_ids(listed, self._listed):
             self._add_impulses(impulses)
             return
-        self._listed, self._first_ids = ints.copy(), ints[::2].copy()
-        impulses = impulses.copy()
-        ids, self._signs = oriented(ints.reshape(-1, 2))
+        self._listed, impulses = listed.copy(), impulses.copy()
+        ids, self._signs = oriented(self._listed)
         if sleep_changed:
             self._sleeping = self._find_sleeping(table, ids)
             self._slots = slots
@@ -152,10 +148,6 @@ class ContactReport:
             self._impulses = np.concatenate((self._impulses, self._sleeping.impulses))
         self._sums += self._impulses
 
-    def _signs_of(self, firsts: Ids) -> Floats:
-        """Return (k, 1) float64: -1 where the engine has the greater id first, else 1."""
-        return np.where(firsts == self._ids[: len(firsts), 0], 1.0, -1.0)[:, None]
-
     def _begin_listing(self, ids: Ids) -> None:
         """Replace the pairs by those of the step that has just been made."""
         # A pair that parts in the first step of a frame has not touched in it.
@@ -189,9 +181,9 @@ class ContactReport:
 
         :param body: its id in the engine
         """
-        self._listed = None
         stays = (self._ids != body).all(axis=1)
-        self._first_ids = self._first_ids[stays[: len(self._first_ids)]]
+        listed = stays[: len(self._listed)]
+        self._listed, self._signs = self._listed[listed], self._signs[listed]
         if self._copied_manifolds is not None:
             self._copied_manifolds = self._copied_manifolds[:, stays]
         self._ids, self._sums = self._ids[stays], self._sums[stays]
@@ -206,8 +198,8 @@ class ContactReport:
         self._sleeping, self._slots = SleepingPairs(), None
         self._ids, self._sums = NO_PAIRS, np.empty((0, 2))
         self._impulses = self._sums
+        self._listed, self._signs = NO_PAIRS, np.empty((0, 1))
         self.clear()
-        self._listed = None
 
     def clear(self) -> None:
         """Drop the sums since the last call of `take_contacts`."""
@@ -277,16 +269,16 @@ class ContactReport:
         """
         if self._copied_manifolds is not None:
             return self._copied_manifolds
-        if not len(self._first_ids):
+        if not len(self._listed):
             return self._sleeping.manifolds
         ints, floats = self._io.read_contacts(_MANIFOLDS)
         firsts, counts = ints.reshape(-1, 2).T
-        if not same_ids(firsts, self._first_ids):
+        if not same_ids(firsts, self._listed[:, 0]):
             return self._last.of_pairs(self._ids)
         # Columns, because numpy adds them up five times as fast as pairs.
         columns = np.ascontiguousarray(floats.reshape(-1, 10).T)
         manifolds = np.empty((5, len(counts)))
-        manifolds[:2] = columns[:2] * self._signs_of(firsts).T
+        manifolds[:2] = columns[:2] * self._signs.T
         manifolds[2] = counts
         # On either body; the second point is zero where there is but one.
         first, second = columns[2:4] + columns[4:6], columns[6:8] + columns[8:10]
