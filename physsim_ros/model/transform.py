@@ -73,7 +73,7 @@ def dot(a: complex, b: complex) -> float:
     return a.real * b.real + a.imag * b.imag
 
 
-def lengths(vectors: Floats) -> Floats:
+def norms(vectors: Floats) -> Floats:
     """Return (...) float64: the lengths of plane vectors (..., 2)."""
     length: Floats = np.hypot(vectors[..., 0], vectors[..., 1])
     return length

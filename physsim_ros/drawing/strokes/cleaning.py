@@ -17,9 +17,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from physsim_ros.drawing.strokes.plane import norms
 from physsim_ros.drawing.strokes.polyline import size_of
 from physsim_ros.model.arrays import Floats
+from physsim_ros.model.transform import norms
 
 # The least distance of two samples that are kept, in shares of the stroke's size: a resting pen
 # jitters by some 0.2 % (standard deviation), and no side of a figure is shorter than 4 %.

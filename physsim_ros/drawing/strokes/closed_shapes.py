@@ -29,12 +29,12 @@ from physsim_ros.drawing.strokes.meanings import (
     RECTANGLE,
 )
 from physsim_ros.drawing.strokes.outer_boundary import outer_boundary
-from physsim_ros.drawing.strokes.plane import angles, norms, principal_axis
+from physsim_ros.drawing.strokes.plane import angles, principal_axis
 from physsim_ros.drawing.strokes.polyline import point_of, size_of, widened
 from physsim_ros.drawing.strokes.signs import axle, weld
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.shapes import crosses_itself, is_convex, signed_area
-from physsim_ros.model.transform import cross, Point, rotated_each
+from physsim_ros.model.transform import cross, norms, Point, rotated_each
 
 # The name of a form whose meaning is a polygon.
 OVAL = 'oval'

@@ -17,11 +17,11 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.drawing.strokes.fitting import line
-from physsim_ros.drawing.strokes.plane import angles, dot, norms
+from physsim_ros.drawing.strokes.plane import angles
 from physsim_ros.drawing.strokes.polyline import smoothed, turns
 from physsim_ros.drawing.strokes.stroke import HOOK, HOOK_TURN
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.transform import cross, Point
+from physsim_ros.model.transform import cross, dots, norms, Point
 
 # Standard deviation of the Gaussian before detection, and arms of the turning angle [points].
 SMOOTHING, ARM = 1.5, 5
@@ -88,7 +88,7 @@ def vertices(points: Floats, at: list[int], *, closed: bool) -> Floats:
         lines.append(line(points[rows]))
     if not closed:
         for corner, (middle, along, _) in ((0, lines[0]), (-1, lines[-2])):
-            found[corner] = middle + along * dot(found[corner] - middle, along)
+            found[corner] = middle + along * dots(found[corner] - middle, along)
     for corner in range(0 if closed else 1, count if closed else count - 1):
         (p, u, _), (q, v, _) = lines[corner - 1], lines[corner]
         sine = float(cross(u, v))

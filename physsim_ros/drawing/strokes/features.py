@@ -16,11 +16,10 @@ import math
 
 import numpy as np
 from physsim_ros.drawing.strokes.hypothesis import falls
-from physsim_ros.drawing.strokes.plane import norms
 from physsim_ros.drawing.strokes.polyline import COUNT, path_length
 from physsim_ros.drawing.strokes.stroke import Stroke
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.transform import cross
+from physsim_ros.model.transform import cross, norms
 
 # Directions in which swings are counted.
 _ANGLES = np.arange(12) * math.pi / 12

@@ -29,7 +29,6 @@ from physsim_ros.drawing.strokes.meanings import (
     POLYGON,
     RECTANGLE,
 )
-from physsim_ros.drawing.strokes.plane import norms
 from physsim_ros.drawing.strokes.polyline import COUNT, path_length, size_of
 from physsim_ros.drawing.strokes.stroke import resample_stroke, Stroke
 from physsim_ros.drawing.strokes.stroke_order import joined_strokes
@@ -37,6 +36,7 @@ from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.requests import Join, Request
+from physsim_ros.model.transform import norms
 
 # The greatest number of strokes of one figure.
 MOST_STROKES = 12

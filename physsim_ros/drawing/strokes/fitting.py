@@ -14,16 +14,14 @@ import math
 
 import numpy as np
 from physsim_ros.drawing.strokes.plane import (
-    dot,
     least_squares,
-    norms,
     principal_axis,
     quarter_heading,
     unit_vector,
 )
 from physsim_ros.drawing.strokes.polyline import COUNT, size_of, smoothed, spaced
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.transform import rotated_each
+from physsim_ros.model.transform import dots, norms, rotated_each
 
 # The greatest distance of an open stroke from straight sides, root mean square, at which it is no
 # curve; and the tolerance to which a curve is simplified. Both in shares of its size.
@@ -46,7 +44,7 @@ def rectangle(corners: Floats) -> Floats:
     middle = corners.mean(axis=0)
     sides = np.roll(corners, -1, axis=0) - corners
     # Sides weigh by their length².
-    angle = quarter_heading(sides, dot(sides, sides))
+    angle = quarter_heading(sides, dots(sides, sides))
     local = rotated_each(corners - middle, -angle)
     signs = np.where(local >= 0, 1.0, -1.0)
     nearest: Floats = middle + rotated_each(signs * np.abs(local).mean(axis=0), angle)
@@ -140,7 +138,7 @@ def _traced(path: Floats, tolerance: float) -> Floats:
 def _off(points: Floats, start: Floats, end: Floats) -> Floats:
     """Return the distances of points from a segment, (n,) float64 [m]."""
     along = end - start
-    share = np.clip(dot(points - start, along) / max(float(dot(along, along)), 1e-300), 0.0, 1.0)
+    share = np.clip(dots(points - start, along) / max(float(dots(along, along)), 1e-300), 0.0, 1.0)
     away = points - start - share[:, None] * along
     result: Floats = norms(away)
     return result

@@ -20,13 +20,12 @@ from physsim_ros.drawing.strokes.features import Features, loop_roundness
 from physsim_ros.drawing.strokes.fitting import simplified
 from physsim_ros.drawing.strokes.hypothesis import falls, Hypothesis, LEAST, rises
 from physsim_ros.drawing.strokes.meanings import BETWEEN, Context, Interpretation
-from physsim_ros.drawing.strokes.plane import norms
 from physsim_ros.drawing.strokes.polyline import COUNT, path_length, point_of
 from physsim_ros.drawing.strokes.signs import hatching
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
-from physsim_ros.model.transform import cross
+from physsim_ros.model.transform import cross, norms
 
 LINE = 'line'
 # The greatest length of a loop that is a mistake of the hand, in shares of the length.

@@ -14,10 +14,9 @@ import itertools
 import math
 
 import numpy as np
-from physsim_ros.drawing.strokes.plane import norms
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.shapes import crosses_itself, signed_area
-from physsim_ros.model.transform import cross
+from physsim_ros.model.transform import cross, norms
 
 # The least length of an outer boundary, in shares of that of the polyline: 0.76 for a pentagram,
 # 0.63 for a spiral of two and a half rounds.

@@ -14,9 +14,9 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.drawing.scene_query import SceneQuery
-from physsim_ros.drawing.strokes.plane import norms
 from physsim_ros.drawing.strokes.snapping import End
 from physsim_ros.model.arrays import Floats
+from physsim_ros.model.transform import norms
 
 # Stride of the points that are tested: 43 of a stroke, 8 to 10 of each swing of a scribble.
 _STRIDE = 3

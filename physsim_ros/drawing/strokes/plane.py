@@ -15,20 +15,9 @@ import math
 
 import numpy as np
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.transform import cross
+from physsim_ros.model.transform import cross, dots, norms
 
 _atan2 = np.frompyfunc(math.atan2, 2, 1)
-
-
-def dot(a: Floats, b: Floats) -> Floats:
-    """Return (...) float64: the dot products of plane vectors (..., 2)."""
-    product: Floats = a[..., 0] * b[..., 0] + a[..., 1] * b[..., 1]
-    return product
-
-
-def norms(vectors: Floats) -> Floats:
-    """Return (...) float64: the lengths of plane vectors (..., 2)."""
-    return np.hypot(vectors[..., 0], vectors[..., 1])
 
 
 def headings(vectors: Floats) -> Floats:
@@ -38,7 +27,7 @@ def headings(vectors: Floats) -> Floats:
 
 def angles(a: Floats, b: Floats) -> Floats:
     """Return the angles from directions a to directions b [rad], counter-clockwise."""
-    return np.asarray(_atan2(cross(a, b), dot(a, b)), dtype=np.float64)
+    return np.asarray(_atan2(cross(a, b), dots(a, b)), dtype=np.float64)
 
 
 def unit_vector(angle: float) -> Floats:
@@ -78,7 +67,7 @@ def principal_axis(away: Floats) -> tuple[float, float, float]:
 
 def stretched(points: Floats, along: Floats, factor: float) -> Floats:
     """Return points stretched by a factor along a unit vector: straight lines stay straight."""
-    return points + ((factor - 1.0) * dot(points, along))[..., None] * along
+    return points + ((factor - 1.0) * dots(points, along))[..., None] * along
 
 
 def least_squares(columns: Floats, target: Floats) -> tuple[float, float]:

@@ -14,9 +14,9 @@ from functools import lru_cache, partial
 import math
 
 import numpy as np
-from physsim_ros.drawing.strokes.plane import angles, norms, principal_axis, stretched, unit_vector
+from physsim_ros.drawing.strokes.plane import angles, principal_axis, stretched, unit_vector
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.transform import Point
+from physsim_ros.model.transform import norms, Point
 
 # Number of points of a resampled stroke: a dozen for each side of a five-pointed star.
 COUNT = 128

@@ -14,10 +14,10 @@ import math
 
 import numpy as np
 from physsim_ros.drawing.strokes import fitting
-from physsim_ros.drawing.strokes.plane import dot, headings, norms, quarter_heading
+from physsim_ros.drawing.strokes.plane import headings, quarter_heading
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.shapes import crosses_itself
-from physsim_ros.model.transform import cross, Pose
+from physsim_ros.model.transform import cross, dots, norms, Pose
 
 
 def rectangle(corners: Floats, tolerance: float) -> tuple[Pose, float, float]:
@@ -147,5 +147,5 @@ def _isosceles(corners: Floats, tolerance: float) -> Floats:
     base = corners[[apex - 1, (apex + 1) % 3]]
     along = (base[1] - base[0]) / norms(base[1] - base[0])
     result = corners.copy()
-    result[apex] -= along * float(dot(corners[apex] - base.mean(axis=0), along))
+    result[apex] -= along * float(dots(corners[apex] - base.mean(axis=0), along))
     return result

@@ -15,12 +15,11 @@ import math
 
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.strokes.meanings import Context
-from physsim_ros.drawing.strokes.plane import norms
 from physsim_ros.drawing.strokes.polyline import point_of
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.shapes import Capsule, Chain, Circle, Convex, Disc, Piece
-from physsim_ros.model.transform import Point
+from physsim_ros.model.transform import norms, Point
 
 # The least share of a circle on a second body, across whose edge it was drawn.
 _ACROSS = 0.25

@@ -15,12 +15,13 @@ import math
 
 import numpy as np
 from physsim_ros.drawing.strokes.cleaning import clean_samples
-from physsim_ros.drawing.strokes.plane import angles, norms
+from physsim_ros.drawing.strokes.plane import angles
 from physsim_ros.drawing.strokes.polyline import COUNT, path_length, size_of, spaced
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.checks import FARTHEST
 from physsim_ros.model.errors import BadSize, Malformed
 from physsim_ros.model.shapes import SMALLEST
+from physsim_ros.model.transform import norms
 
 # Factor of the finer resampling, for the ends of narrow outlines, and its number of points.
 FINER = 4

@@ -20,7 +20,7 @@ import numpy as np
 from physsim_ros.engine.ccd.hulls import Hull
 from physsim_ros.engine.scene_columns import SAFE_SHARE
 from physsim_ros.model.arrays import Flags, Floats, Ints
-from physsim_ros.model.transform import cross, dots, lengths, rotated_each
+from physsim_ros.model.transform import cross, dots, norms, rotated_each
 
 # Advances of a pair in a step, at most: straight motion takes two or three, a fast turning stick
 # that grazes a disc about twenty. A pair that takes more ends its step as far as it has come.
@@ -122,7 +122,7 @@ def _advance(motions: Motions, pairs: Pairs) -> Floats:
     radii = radii[pairs.shapes[0]] + radii[pairs.shapes[1]]
     reaches = np.array([each.reach for each in pairs.hulls])[np.stack(pairs.shapes)]
     for rows, reach in zip(pairs.rows, reaches, strict=True):
-        np.add(reach, lengths(motions.poses[rows, :2] - motions.pivots[rows]), out=reach)
+        np.add(reach, norms(motions.poses[rows, :2] - motions.pivots[rows]), out=reach)
     target, live = -skin, np.arange(len(one))
     for advance in range(_ADVANCES):
         now, rows_a, rows_b = shares[live], one[live], other[live]
@@ -207,7 +207,7 @@ def _speed_bound(
     :param lapse: (k,) what is left of the step
     """
     relative = rates[0][:, :2] - rates[1][:, :2]
-    length = lengths(relative)
+    length = norms(relative)
     turns = np.abs(rates[0][:, 2]), np.abs(rates[1][:, 2])
     bound: Floats = (relative * axis).sum(axis=1) + turns[0] * reaches[0] + turns[1] * reaches[1]
     for side in (0, 1):
@@ -218,7 +218,7 @@ def _speed_bound(
 
 def _farthest(side: _Side, points: Floats) -> Floats:
     """Return (k,) the greatest distance of a corner from a point [m]."""
-    distance: Floats = lengths(side.corners - points[:, None]).max(axis=1)
+    distance: Floats = norms(side.corners - points[:, None]).max(axis=1)
     return distance
 
 

@@ -53,7 +53,7 @@ from physsim_ros.engine.settings import COLLISION_SLOP
 from physsim_ros.engine.step_context import StepContext
 from physsim_ros.engine.work_correction import are_jointed, corrected_twists
 from physsim_ros.model.arrays import Flags, Floats, Ints
-from physsim_ros.model.transform import cross, dot, dots, lengths, rotated_each
+from physsim_ros.model.transform import cross, dot, dots, norms, rotated_each
 import pymunk
 
 # Distance from a corner within which overlaps of the slop along two faces lie [m]: the diagonal
@@ -144,7 +144,7 @@ def move_to_impact(touches: Touches, context: StepContext) -> None:
     shapes, dt = touches.shapes, context.dt
     arms = touches.places[:, :, 0] - touches.states[..., memory.BODY_POSITION]
     velocities = touches.states[..., memory.BODY_VELOCITY]
-    ways = lengths(velocities) + np.abs(touches.states[..., memory.BODY_SPIN]) * lengths(arms)
+    ways = norms(velocities) + np.abs(touches.states[..., memory.BODY_SPIN]) * norms(arms)
     # Pairs that are deeper than they can have approached overlapped before.
     discs = -touches.distances[:, 0] <= ways.sum(axis=0) * dt
     # The engine has the disc first.
@@ -231,12 +231,12 @@ def slide_over_edges(touches: Touches) -> None:
     """Replace contacts at seams by those with the face that the shapes approach slowest."""
     shapes, normals = touches.shapes, touches.shapes.normals
     points, reach = touches.places[:, :, :1], (_NEAR + shapes.radii)[..., None]
-    near = lengths(shapes.corners - points) <= reach
+    near = norms(shapes.corners - points) <= reach
     # At a corner of both; a disc is one.
     rows = np.flatnonzero(near.any(axis=2).all(axis=0) & normals.any(axis=(0, 2, 3)))
     if not len(rows):
         return
-    near |= lengths(shapes.begins - points) <= reach
+    near |= norms(shapes.begins - points) <= reach
     # The spin of a disc does not move its surface along a face.
     discs = shapes.kinds == memory.CIRCLE
     centers = touches.states[..., memory.BODY_POSITION]
@@ -244,7 +244,7 @@ def slide_over_edges(touches: Touches) -> None:
     a, b = velocities_at(touches, arms)[:, rows]
     velocity = b - a
     approach = -dots(velocity, touches.normals[rows])
-    slowest = np.minimum(approach, _GRAZING * lengths(velocity))[:, None]
+    slowest = np.minimum(approach, _GRAZING * norms(velocity))[:, None]
     approaches = -dots(normals[:, rows], velocity[:, None]) * _OUTWARDS[:, None, None]
     slides = near[:, rows] & normals[:, rows].any(axis=3) & (approaches < slowest)
     slides &= approach[:, None] > 0.0

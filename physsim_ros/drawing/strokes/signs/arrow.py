@@ -22,13 +22,12 @@ from physsim_ros.drawing.strokes.meanings import (
     MISPLACED,
     Outcome,
 )
-from physsim_ros.drawing.strokes.plane import dot, norms
 from physsim_ros.drawing.strokes.polyline import path_length, point_of, smoothed, turns
 from physsim_ros.drawing.strokes.signs.cross import absence as no_x
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NotRecognised
 from physsim_ros.model.requests import Command, Configure
-from physsim_ros.model.transform import cross
+from physsim_ros.model.transform import cross, dots, norms
 
 PRIMITIVE = 'arrow'
 # The least gap between the ends of an arrow, in shares of its length.
@@ -95,8 +94,8 @@ def _in_frame(points: Floats, origin: Floats, one: Floats) -> Floats:
     """Return points in the frame in which one point is (0, 0) and another (1, 0)."""
     along = one - origin
     away = points - origin
-    local = np.column_stack((dot(away, along), cross(along, away)))
-    return local / max(float(dot(along, along)), 1e-300)
+    local = np.column_stack((dots(away, along), cross(along, away)))
+    return local / max(float(dots(along, along)), 1e-300)
 
 
 def interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[Interpretation]:

@@ -15,7 +15,7 @@ from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.strokes.features import Features
 from physsim_ros.drawing.strokes.hypothesis import falls, Hypothesis, rises
 from physsim_ros.drawing.strokes.meanings import Context, Interpretation, MISPLACED, Outcome
-from physsim_ros.drawing.strokes.plane import angles, least_squares, norms
+from physsim_ros.drawing.strokes.plane import angles, least_squares
 from physsim_ros.drawing.strokes.polyline import point_of, smoothed
 from physsim_ros.drawing.strokes.signs.cross import absence as no_x
 from physsim_ros.model.arrays import Floats
@@ -25,7 +25,7 @@ from physsim_ros.model.names import WORLD
 from physsim_ros.model.requests import Join
 from physsim_ros.model.scene import Joint
 from physsim_ros.model.shapes import Disc
-from physsim_ros.model.transform import Point
+from physsim_ros.model.transform import norms, Point
 
 PRIMITIVE = 'round arrow'
 # Distance of the points between which the pen turns at the tip [points].
