@@ -270,6 +270,7 @@ def test_an_empty_array_changes_nothing(physsim: PhysSim, client: Client) -> Non
     (event,) = client.ask('~/spawn_array', MarkerArray())
     assert (event.level, event.message) == (0, 'the array is empty')
     assert physsim.names == ()
+    assert physsim.spawn(MarkerArray()) == ''
 
 
 def test_an_array_of_thousands_is_answered_one_by_one(physsim: PhysSim, client: Client) -> None:

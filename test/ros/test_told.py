@@ -114,12 +114,6 @@ def test_what_parameters_changed_or_refused_is_told(physsim: PhysSim, client: Cl
     assert physsim.node.simulation.speed == 2.0
 
 
-def test_an_empty_array_is_answered(physsim: PhysSim, client: Client) -> None:
-    (event,) = client.ask('~/spawn_array', MarkerArray())
-    assert (event.level, event.name, event.hardware_id) == (0, '~/spawn_array', '')
-    assert physsim.spawn(MarkerArray()) == ''
-
-
 TOPICS = {
     Marker: '~/spawn',
     MarkerArray: '~/spawn_array',
