@@ -25,7 +25,7 @@ from physsim_ros.engine.step_context import StepContext
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.robot_states import NO_ROBOTS, RobotStates
 from physsim_ros.model.scene import Scene
-from physsim_ros.model.transform import lengths, rotated_each, Twist
+from physsim_ros.model.transform import norms, rotated_each, Twist
 
 
 class WheelMotion(NamedTuple):
@@ -113,7 +113,7 @@ class Drives:
         ways = self._mean * context.dt
         states.travel[:] += ways
         turns = context.table.state[columns.rows, 2] - context.poses[columns.rows, 2]
-        states.path[:, 0] += lengths(ways[:, :2])
+        states.path[:, 0] += norms(ways[:, :2])
         states.path[:, 1] += np.abs(turns)
         reckon(states.odometry, ways, turns, columns, context)
 
