@@ -14,56 +14,65 @@ Law: noise is a function of seed, name and step; without slip there is none.
 from __future__ import annotations
 
 from functools import lru_cache
+import math
 
-import numpy as np
-from physsim_ros.engine.robots.robot_columns import RobotColumns
-from physsim_ros.engine.step_context import StepContext
-from physsim_ros.model.arrays import Floats
 from physsim_ros.model.noise import normals
-from physsim_ros.model.transform import rotated_each
+from physsim_ros.model.transform import Point, Pose, rotated
 
 # Steps whose noise is made at once: a call of `normals` takes as long as 300 of its numbers.
 _BLOCK = 64
 
 
-def reckon(
-    poses: Floats, ways: Floats, turns: Floats, columns: RobotColumns, context: StepContext
-) -> None:
+def reckoned(pose: Pose, way: Point, turn: float) -> Pose:
     """
-    Add a step to reckoned poses.
+    Return a reckoned pose after a step.
 
-    :param poses: (r, 3) float64: changed in place [m, rad]
-    :param ways: (r, 3) float64: of the wheels in this step, as seen from the robot [m, rad]
-    :param turns: (r,) float64: of the bodies in this step [rad]
+    :param pose: before it [m, rad]
+    :param way: of the wheels in this step, as seen from the robot [m]
+    :param turn: of the body in this step [rad]
     """
-    ways = ways[:, :2]
-    noisy = np.flatnonzero(columns.slip.any(axis=1))
-    if len(noisy):
-        ways, turns = ways.copy(), turns.copy()
-        length = np.hypot(ways[noisy, 0], ways[noisy, 1])
-        moved = (length > 0.0) | (turns[noisy] != 0.0)
-        noisy, length = noisy[moved], length[moved]
-    if len(noisy):
-        block, place = divmod(context.step, _BLOCK)
-        seed = context.settings.seed
-        noise = np.array([_noise(seed, columns.names[row], block)[place] for row in noisy])
-        error = noise[:, 0] * columns.slip[noisy, 0] / np.sqrt(np.where(length > 0.0, length, 1.0))
-        ways[noisy] *= 1.0 + error[:, None]
-        root = np.sqrt(length + np.abs(turns[noisy]))
-        turns[noisy] += noise[:, 1] * columns.slip[noisy, 1] * root
-    poses[:, :2] += rotated_each(ways * chord_by_arc(turns)[:, None], poses[:, 2] + turns / 2)
-    poses[:, 2] += turns
+    x, y, yaw = pose
+    chord = chord_by_arc(turn)
+    ahead, aside = rotated((way[0] * chord, way[1] * chord), yaw + turn / 2)
+    return x + ahead, y + aside, yaw + turn
 
 
-def chord_by_arc(turns: Floats) -> Floats:
-    """Return (r,) float64: chords of arcs by their lengths, for the turns along them [rad]."""
-    half = turns / 2
-    straight = half == 0.0
-    result: Floats = np.where(straight, 1.0, np.sin(half) / np.where(straight, 1.0, half))
-    return result
+def slipped(way: Point, turn: float, slip: Point, noise: Point) -> tuple[Point, float]:
+    """
+    Return way and turn of a step with errors.
+
+    :param way: of the wheels in this step, as seen from the robot [m]
+    :param turn: of the body in this step [rad]
+    :param slip: drift of the odometry (`model.robots.Odometry`)
+    :param noise: two normal numbers of mean 0 and variance 1
+    """
+    length = abs(complex(*way))
+    if length > 0.0:
+        scale = 1.0 + noise[0] * slip[0] / math.sqrt(length)
+        way = way[0] * scale, way[1] * scale
+    return way, turn + noise[1] * slip[1] * math.sqrt(length + abs(turn))
+
+
+def noise_of_step(seed: int, name: str, step: int) -> Point:
+    """
+    Return two normal numbers of mean 0 and variance 1.
+
+    :param seed: of all noise of the world
+    :param name: of the robot
+    :param step: number of the step
+    """
+    block, place = divmod(step, _BLOCK)
+    return _noise(seed, name, block)[place]
+
+
+def chord_by_arc(turn: float) -> float:
+    """Return the chord of an arc by its length, for the turn along it [rad]."""
+    half = turn / 2
+    return math.sin(half) / half if half else 1.0
 
 
 @lru_cache(maxsize=1024)
-def _noise(seed: int, name: str, block: int) -> Floats:
-    """Return (64, 2) float64: normal numbers for the way and the heading of as many steps."""
-    return normals(seed, f'odometry of {name}', block, 2 * _BLOCK).reshape(-1, 2)
+def _noise(seed: int, name: str, block: int) -> list[Point]:
+    """Return normal numbers for the way and the heading of 64 steps."""
+    numbers = normals(seed, f'odometry of {name}', block, 2 * _BLOCK).tolist()
+    return list(zip(numbers[::2], numbers[1::2], strict=True))

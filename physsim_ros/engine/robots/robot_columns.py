@@ -10,9 +10,9 @@ from typing import NamedTuple
 
 import numpy as np
 from physsim_ros.engine.graph_search import Rows
-from physsim_ros.model.arrays import Floats
 from physsim_ros.model.robots import Robot
 from physsim_ros.model.scene import Scene
+from physsim_ros.model.transform import Point, Pose
 
 
 class RobotColumns(NamedTuple):
@@ -22,21 +22,17 @@ class RobotColumns(NamedTuple):
     :ivar rows: (r,) intp: of the body table
     :ivar names: of the robots
     :ivar robots: in the order of the rows
-    :ivar rims: (r, w, 3) float64: speed of the rim of each wheel by the velocity of the floor
-    :ivar acceleration: (r,) float64: greatest of a rim [m/s²]
-    :ivar curvature: (r,) float64: greatest of its way [1/m]
-    :ivar centers: (r, 2) float64: centre of mass in the frame of the body [m]
-    :ivar slip: (r, 2) float64: drift of the odometry (`model.robots.Odometry`)
+    :ivar rims: for each robot, speed of the rim of each wheel by the velocity of the floor
+    :ivar curvatures: greatest of the way of each [1/m]
+    :ivar centers: centre of mass of each in the frame of the body [m]
     """
 
     rows: Rows
     names: tuple[str, ...]
     robots: tuple[Robot, ...]
-    rims: Floats
-    acceleration: Floats
-    curvature: Floats
-    centers: Floats
-    slip: Floats
+    rims: tuple[tuple[Pose, ...], ...]
+    curvatures: tuple[float, ...]
+    centers: tuple[Point, ...]
 
 
 # A world is often built anew from the scene that it has, and then another one follows it.
@@ -47,17 +43,11 @@ def robot_columns(scene: Scene) -> RobotColumns:
         (row, body, body.robot) for row, body in enumerate(scene.bodies) if body.robot is not None
     ]
     robots = tuple(robot for _, _, robot in found)
-    wheels = [list(robot.drive.wheels.values()) for robot in robots]
-    rims = np.zeros((len(robots), max(map(len, wheels), default=0), 3))
-    for number, factors in enumerate(wheels):
-        rims[number, : len(factors)] = factors
     return RobotColumns(
         rows=np.array([row for row, _, _ in found], np.intp),
         names=tuple(body.name for _, body, _ in found),
         robots=robots,
-        rims=rims,
-        acceleration=np.array([robot.drive.acceleration for robot in robots]),
-        curvature=np.array([robot.drive.most_curved for robot in robots]),
-        centers=np.array([body.shape.form.centroid for _, body, _ in found]).reshape(-1, 2),
-        slip=np.array([robot.odometry.slip for robot in robots]).reshape(-1, 2),
+        rims=tuple(tuple(robot.drive.wheels.values()) for robot in robots),
+        curvatures=tuple(robot.drive.most_curved for robot in robots),
+        centers=tuple(body.shape.form.centroid for _, body, _ in found),
     )
