@@ -43,6 +43,7 @@ TIMES = {
     'worlds/incline': 1.6,
     'worlds/newtons_cradle': 1.1,
     'worlds/pendulums': 6.0,
+    'worlds/warehouse': 8.0,
 }
 USUAL = 3.0
 # Rate of the animation [Hz], its width [pixels], and how long its last picture stays [ms].
