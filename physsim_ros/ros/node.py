@@ -32,6 +32,8 @@ from physsim_ros.ros.requests.request_topics import RequestTopics
 from physsim_ros.ros.requests.services import create_services, Service, ServiceCalls
 from physsim_ros.ros.requests.subscriptions import RequestSubscriptions
 from physsim_ros.ros.robots import Fleet
+from physsim_ros.ros.simulation_services import create_simulation_services
+from physsim_ros.ros.simulation_services.control import SimulationControl
 from physsim_ros.ros.time_control import TimeControl
 from physsim_ros.ros.world_files import WorldFiles
 from physsim_ros.simulation.deferred_calls import DeferredCalls, Wait
@@ -174,6 +176,20 @@ class PhysSimNode(NodeWithoutQosEvents):
         calls = ServiceCalls(self.requests.queue, deferred_calls, self._reply_pacer)
         create_services(self, services, calls, on_success=self._note_change)
         self._parameter_services = ParameterServices(self, calls)
+        create_simulation_services(
+            self,
+            SimulationControl(
+                simulation=simulation,
+                values=self._values,
+                current_snapshot=self._current_snapshot,
+                actions=self._time_control.actions,
+                reset=simulation.reset,
+                load_world=partial(self._perform_on, services['load_world']),
+                note_change=self._note_change,
+                world_dir=self.world_files.directory,
+            ),
+            calls,
+        )
         control = WorldControl(
             simulation=simulation,
             drawing_settings=lambda: parameters.drawing_settings(self._values),

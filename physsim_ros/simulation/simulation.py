@@ -116,6 +116,11 @@ class Simulation:
         return self.past.status(self.playback.moment, speed=self.speed)
 
     @property
+    def loaded(self) -> WorldState:
+        """Return the state that was loaded last, to which `reset` returns."""
+        return self.past.timeline.history.tip.loaded.state
+
+    @property
     def history(self) -> float:
         """Return the length of the past that is kept [s of simulation time]."""
         return self.past.length

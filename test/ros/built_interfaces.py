@@ -12,6 +12,7 @@ definitions, this file and the versions of the generators.
 
 from __future__ import annotations
 
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 import ctypes
 from fcntl import flock, LOCK_EX
@@ -24,6 +25,7 @@ import shutil
 import subprocess
 import sys
 import sysconfig
+from types import ModuleType
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -37,10 +39,12 @@ INTERFACES = Path(__file__).parent / 'interfaces'
 TYPE_SUPPORTS = ('rosidl_typesupport_fastrtps_c', 'rosidl_typesupport_introspection_c')
 COMPILERS = {'.c': 'cc', '.cpp': 'c++'}
 KINDS = ('msg', 'srv', 'action')
+# Modules of packages that no test has at the moment.
+_LOADED: dict[str, dict[str, ModuleType]] = {}
 
 
-def import_built(package: str, config: pytest.Config, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Make a package importable for a test, or skip it with the reason."""
+def import_built(package: str, request: pytest.FixtureRequest) -> None:
+    """Make a package importable until a fixture ends, or skip the test with the reason."""
     if find_spec(package) is not None:
         return
     if missing := [each for each in COMPILERS.values() if shutil.which(each) is None]:
@@ -54,7 +58,7 @@ def import_built(package: str, config: pytest.Config, monkeypatch: pytest.Monkey
     found = _definitions(package)
     texts = [path.read_bytes() for path in (Path(__file__), *found)]
     digest = hashlib.sha256(b'\0'.join((repr((generators, sys.version)).encode(), *texts)))
-    cache = config.cache.mkdir('interfaces')
+    cache = request.config.cache.mkdir('interfaces')
     built = cache / f'{package}-{digest.hexdigest()[:16]}'
     with _locked(cache / f'{package}.lock'):
         if not built.exists():
@@ -64,7 +68,16 @@ def import_built(package: str, config: pytest.Config, monkeypatch: pytest.Monkey
             unfinished.rename(built)
     for kind in TYPE_SUPPORTS:
         ctypes.CDLL(str(built / package / f'lib{package}__{kind}.so'), ctypes.RTLD_GLOBAL)
-    monkeypatch.syspath_prepend(str(built))
+    sys.modules.update(_LOADED.pop(package, {}))
+    sys.path.insert(0, str(built))
+
+    def take_away() -> None:
+        # Other worlds find out what is installed. Classes are loaded once in a process.
+        sys.path.remove(str(built))
+        names = [name for name in sys.modules if name.partition('.')[0] == package]
+        _LOADED[package] = {name: sys.modules.pop(name) for name in names}
+
+    request.addfinalizer(take_away)
 
 
 def _definitions(package: str) -> list[Path]:
@@ -121,23 +134,38 @@ def _generate(package: str, definitions: list[Path], generated: Path, prefix: Pa
     for generator in (
         GenerateC('c'),
         fastrtps.GenerateFastRTPSCTypesupport('fastrtps_c'),
-        introspection.GenerateIntrospectionCTypesupport('introspection_c'),
         GenerateCTypesupport('c', typesupport_implementations=TYPE_SUPPORTS),
         GeneratePython('py', typesupport_implementations=['rosidl_typesupport_c']),
     ):
         generator.generate(package, idl, include, generated)
+    # Elsewhere: some of its files have the names of others.
+    beside = generated.parent / 'introspection' / package
+    generator = introspection.GenerateIntrospectionCTypesupport('introspection_c')
+    generator.generate(package, idl, include, beside)
 
 
 def _compile(package: str, generated: Path, into: Path, prefix: Path) -> None:
     libraries = prefix / 'lib'
     python, all_headers = sysconfig.get_paths()['include'], prefix / 'include'
-    headers = [into, python, np.get_include(), all_headers, *all_headers.iterdir()]
+    headers = [
+        into,
+        into / 'introspection',
+        python,
+        np.get_include(),
+        all_headers,
+        *all_headers.iterdir(),
+    ]
     flags = ['-O0', '-fPIC', '-w', *(f'-I{each}' for each in headers)]
-    objects: list[Path] = []
-    for kind, compiler in COMPILERS.items():
-        for source in sorted(generated.rglob(f'*{kind}')):
-            objects.append(source.with_suffix(f'{kind}.o'))
-            subprocess.check_call([compiler, *flags, '-c', str(source), '-o', str(objects[-1])])
+    sources = [path for path in sorted(into.rglob('*.c*')) if path.suffix in COMPILERS]
+
+    def compiled(source: Path) -> Path:
+        result = source.with_suffix(f'{source.suffix}.o')
+        compiler = COMPILERS[source.suffix]
+        subprocess.check_call([compiler, *flags, '-c', str(source), '-o', str(result)])
+        return result
+
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        objects = list(pool.map(compiled, sources))
     needed = [
         *libraries.glob('lib*_msgs__rosidl_generator_[cp]*.so'),
         *(each for kind in TYPE_SUPPORTS for each in libraries.glob(f'lib*_msgs__{kind}.so')),

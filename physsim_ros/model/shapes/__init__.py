@@ -16,7 +16,7 @@ from physsim_ros.model.shapes.chain import Chain
 from physsim_ros.model.shapes.compound import Compound
 from physsim_ros.model.shapes.containment import contains
 from physsim_ros.model.shapes.disc import Disc
-from physsim_ros.model.shapes.form import Capsule, Circle, Convex, Form, Piece
+from physsim_ros.model.shapes.form import Capsule, Circle, Convex, extent_of, Form, Piece
 from physsim_ros.model.shapes.lever import lever_of
 from physsim_ros.model.shapes.polygon import Polygon
 from physsim_ros.model.shapes.polygon_geometry import crosses_itself, is_convex, signed_area
@@ -46,6 +46,7 @@ __all__ = [
     'Triangles',
     'contains',
     'crosses_itself',
+    'extent_of',
     'is_convex',
     'lever_of',
     'signed_area',

@@ -133,6 +133,27 @@ def form_of(pieces: tuple[Piece, ...], whole: tuple[Piece, ...] = ()) -> Form:
     )
 
 
+def extent_of(form: Form) -> tuple[Point, Point]:
+    """Return the lower left and the upper right corner of the box around a form [m]."""
+    boxes = [_extent(piece) for piece in form.pieces]
+    left, bottom, right, top = zip(*boxes, strict=True)
+    return (min(left), min(bottom)), (max(right), max(top))
+
+
+def _extent(piece: Piece) -> tuple[float, float, float, float]:
+    """Return left, bottom, right and top of a piece [m]."""
+    points: tuple[Point, ...]
+    match piece:
+        case Circle(center, radius):
+            points, margin = (center,), radius
+        case Capsule(start, end, radius):
+            points, margin = (start, end), radius
+        case Convex(vertices):
+            points, margin = vertices, 0.0
+    xs, ys = zip(*points, strict=True)
+    return min(xs) - margin, min(ys) - margin, max(xs) + margin, max(ys) + margin
+
+
 def half_width(piece: Piece) -> float:
     """Return half the least width of a piece [m]."""
     match piece:

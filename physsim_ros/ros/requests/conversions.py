@@ -44,6 +44,7 @@ from physsim_ros.model.requests import (
     Unjoin,
     UnjoinAll,
 )
+from physsim_ros.model.transform import Pose
 from physsim_ros.ros.marker_shapes import points_from, shape_from
 from physsim_ros.ros.requests.cdr_reader import MOST_ELEMENTS
 from physsim_ros.ros.requests.decoders import CommandMessage
@@ -103,16 +104,16 @@ def body_request(marker: Marker, *, frame_id: str) -> Spawn | Delete | DeleteAll
         return DeleteAll(namespace=marker.ns or None)
     if marker.action != Marker.ADD:
         raise BadProperty(f'there is no action {marker.action}', field='action')
-    position, turn = marker.pose.position, marker.pose.orientation
-    rotation = (turn.x, turn.y, turn.z, turn.w)
     return Spawn(
         name=name_of(marker),
         shape=shape_from(marker),
-        pose=(position.x, position.y, _yaw(rotation, 'pose.orientation')),
+        pose=planar_pose(marker.pose, 'pose'),
         frame=named_frame(marker.header.frame_id, frame_id),
         color=_color(marker),
         lifetime=marker.lifetime.sec + marker.lifetime.nanosec * 1e-9,
-        properties=Properties.from_mapping(with_shipped_robot(_mapping(marker.text), PROPERTIES)),
+        properties=Properties.from_mapping(
+            with_shipped_robot(mapping_of(marker.text, 'text'), PROPERTIES)
+        ),
     )
 
 
@@ -131,7 +132,7 @@ def joint_request(marker: Marker, *, frame_id: str) -> Join | Unjoin | UnjoinAll
     if marker.action != Marker.ADD:
         raise BadProperty(f'there is no action {marker.action}', field='action')
     return join_from(
-        _mapping(marker.text),
+        mapping_of(marker.text, 'text'),
         name=joint_name_of(marker),
         points=points_from(marker.points),
         frame=named_frame(marker.header.frame_id, frame_id),
@@ -236,6 +237,33 @@ def named_frame(frame: str, world_frame: str) -> str:
     return '' if frame in ('', world_frame) else frame
 
 
+def planar_pose(pose: Any, field: str) -> Pose:
+    """
+    Return x, y [m] and yaw [rad] of a geometry_msgs/Pose; the position is not validated.
+
+    :param field: of the message, for the refusal
+    :raises Malformed: the rotation is not finite
+    :raises NotPlanar: it is not about z
+    """
+    turn = pose.orientation
+    yaw = _yaw((turn.x, turn.y, turn.z, turn.w), f'{field}.orientation')
+    return pose.position.x, pose.position.y, yaw
+
+
+def mapping_of(text: str, field: str) -> dict[Any, Any]:
+    """
+    Return the mapping of a short text in YAML.
+
+    :param field: of the message, for the refusal
+    :raises Malformed: it is too long, or none
+    """
+    if len(text) > LONGEST_TEXT:
+        raise Malformed(f'{field} is longer than {LONGEST_TEXT} characters', field=field)
+    if text.count('[') + text.count('{') > MOST_BRACKETS:
+        raise Malformed(f'{field} has more than {MOST_BRACKETS} brackets', field=field)
+    return load_mapping(text, field=field)
+
+
 def _yaw(parts: Sequence[float], field: str) -> float:
     """
     Return the yaw of a rotation [rad]; all zero is the identity, as RViz reads it.
@@ -264,11 +292,3 @@ def _yaw(parts: Sequence[float], field: str) -> float:
 def _color(marker: Marker) -> Color | None:
     color = (marker.color.r, marker.color.g, marker.color.b, marker.color.a)
     return None if marker.color.a == 0.0 else color
-
-
-def _mapping(text: str) -> dict[Any, Any]:
-    if len(text) > LONGEST_TEXT:
-        raise Malformed(f'text is longer than {LONGEST_TEXT} characters', field='text')
-    if text.count('[') + text.count('{') > MOST_BRACKETS:
-        raise Malformed(f'text has more than {MOST_BRACKETS} brackets', field='text')
-    return load_mapping(text, field='text')

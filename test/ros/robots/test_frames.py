@@ -24,7 +24,7 @@ def seen_from_above(
     request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch
 ) -> Callable[[str], Any]:
     """Give a test a world of robots whose transforms go where it says."""
-    import_built('tf2_msgs', request.config, monkeypatch)
+    import_built('tf2_msgs', request)
 
     @contextmanager
     def world(robot_tf: str) -> Iterator[tuple[PhysSim, Client]]:

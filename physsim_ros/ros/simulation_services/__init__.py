@@ -1,0 +1,38 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+The services of the standard `simulation_interfaces`, where that package is installed.
+
+Laws: they do what topics and services of the node do, by the same requests; what is refused
+changes nothing, and has a result code of the standard.
+"""
+
+from __future__ import annotations
+
+from importlib.util import find_spec
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from physsim_ros.ros.requests.services import ServiceCalls
+    from physsim_ros.ros.simulation_services.control import SimulationControl
+    from rclpy.node import Node
+
+__all__ = ['create_simulation_services']
+
+
+def create_simulation_services(
+    node: Node, control: SimulationControl, calls: ServiceCalls
+) -> None:
+    """
+    Offer the services below `~/simulation/`, if their package is installed.
+
+    :param node: that offers them
+    :param control: what they do to the node
+    :param calls: of services
+    """
+    if find_spec('simulation_interfaces') is None:
+        return
+    from physsim_ros.ros.simulation_services.services import SimulationServices  # noqa: PLC0415
+
+    SimulationServices(node, control, calls)

@@ -1,0 +1,47 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""Result codes of `simulation_interfaces` for refusals."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from physsim_ros.model.errors import BadProperty, Refusal, UnknownBody
+from simulation_interfaces.msg import Result
+
+# Of refusals that have a code of their own in every service; all others have failed.
+_RESULTS = {UnknownBody.code: Result.RESULT_NOT_FOUND}
+
+
+class Failed(Exception):
+    """
+    A refusal with its result code.
+
+    :param refusal: why it is refused
+    :param result: code of the standard
+    """
+
+    def __init__(self, refusal: Refusal, result: int) -> None:
+        super().__init__(str(refusal))
+        self.refusal, self.result = refusal, result
+
+
+def failed(message: str, result: int, *, field: str = '') -> Failed:
+    """Return the failure of a call whose values are wrong."""
+    return Failed(BadProperty(message, field=field), result)
+
+
+@contextmanager
+def failing_with(result: int) -> Iterator[None]:
+    """Give refusals a result code."""
+    try:
+        yield
+    except Refusal as refusal:
+        raise Failed(refusal, result) from refusal
+
+
+def result_of(refusal: Refusal) -> int:
+    """Return the result code of a refusal that no service gives another one."""
+    return int(_RESULTS.get(refusal.code, Result.RESULT_OPERATION_FAILED))

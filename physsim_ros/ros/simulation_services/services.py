@@ -1,0 +1,129 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""The services and the action below `~/simulation/`: types, and when their calls are done."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from typing import Any, NamedTuple
+
+from physsim_ros.model.errors import Busy, Refusal
+from physsim_ros.model.snapshot import Answer
+from physsim_ros.ros.requests.reply_pacer import SERVICE_QOS
+from physsim_ros.ros.requests.services import ServiceCalls
+from physsim_ros.ros.simulation_services.control import SimulationControl
+from physsim_ros.ros.simulation_services.entities import Entities
+from physsim_ros.ros.simulation_services.results import Failed, result_of
+from physsim_ros.ros.simulation_services.time_and_worlds import TimeAndWorlds
+from physsim_ros.simulation.deferred_calls import Wait
+from rclpy.action import ActionServer
+from rclpy.node import Node
+from rclpy.task import Future
+from simulation_interfaces import srv
+from simulation_interfaces.action import SimulateSteps
+from simulation_interfaces.msg import Result
+
+# Fills in the response to a request, and returns a message about what was done.
+_Perform = Callable[[Any, Any], str]
+
+
+class _Offer(NamedTuple):
+    """A service: its type, and what it does."""
+
+    kind: Any
+    perform: _Perform
+
+
+class SimulationServices:
+    """
+    The services of `simulation_interfaces`, below `~/simulation/`.
+
+    :param node: that offers them
+    :param control: what they do to the node
+    :param calls: of services
+    """
+
+    def __init__(self, node: Node, control: SimulationControl, calls: ServiceCalls) -> None:
+        self._control = control
+        self._calls = calls
+        entities, self._time = Entities(control), TimeAndWorlds(control)
+        time = self._time
+        for name, offer in {
+            'get_simulator_features': _Offer(srv.GetSimulatorFeatures, time.features),
+            'get_spawnables': _Offer(srv.GetSpawnables, entities.spawnables),
+            'spawn_entity': _Offer(srv.SpawnEntity, entities.spawn),
+            'delete_entity': _Offer(srv.DeleteEntity, entities.delete),
+            'get_entity_state': _Offer(srv.GetEntityState, entities.state),
+            'set_entity_state': _Offer(srv.SetEntityState, entities.set_state),
+            'get_entities': _Offer(srv.GetEntities, entities.names),
+            'get_entities_states': _Offer(srv.GetEntitiesStates, entities.states),
+            'get_entity_info': _Offer(srv.GetEntityInfo, entities.info),
+            'get_entity_bounds': _Offer(srv.GetEntityBounds, entities.bounds),
+            'get_simulation_state': _Offer(srv.GetSimulationState, time.state),
+            'set_simulation_state': _Offer(srv.SetSimulationState, time.set_state),
+            'step_simulation': _Offer(srv.StepSimulation, time.step),
+            'reset_simulation': _Offer(srv.ResetSimulation, time.reset),
+            'get_available_worlds': _Offer(srv.GetAvailableWorlds, time.worlds),
+            'load_world': _Offer(srv.LoadWorld, time.load),
+            'get_current_world': _Offer(srv.GetCurrentWorld, time.current_world),
+        }.items():
+            self._create(node, f'~/simulation/{name}', offer)
+        ActionServer(node, SimulateSteps, '~/simulation/simulate_steps', self._simulate_steps)
+
+    def _create(self, node: Node, topic: str, offer: _Offer) -> None:
+        def callback(request: Any, response: Any) -> Future:
+            fill = partial(self._fill, topic, offer.perform, request, response)
+            return self._calls.add(response, fill, Wait.FOR_SEEK)
+
+        service = node.create_service(offer.kind, topic, callback, qos_profile=SERVICE_QOS)
+        self._calls.delay_replies(service)
+
+    def _fill(
+        self, topic: str, perform: _Perform, request: Any, response: Any, busy: Busy | None
+    ) -> list[Answer]:
+        """Fill in a response, and return the answer; what only reads has none."""
+        # Of all but one service.
+        result = getattr(response, 'result', Result())
+        try:
+            if busy is not None:
+                raise busy
+            message = perform(request, response)
+        except Failed as failure:
+            refusal, result.result = failure.refusal, failure.result
+        except Refusal as error:
+            refusal, result.result = error, result_of(error)
+        else:
+            result.result = Result.RESULT_OK
+            if not message:
+                return []
+            self._control.note_change()
+            return [Answer(topic=topic, message=message)]
+        result.error_message = str(refusal)
+        return [Answer.refused(refusal, topic=topic)]
+
+    def _simulate_steps(self, goal: Any) -> SimulateSteps.Result:
+        """Advance a paused world by frames, and tell each."""
+        response = SimulateSteps.Result()
+
+        def perform(request: Any, _: Any) -> str:
+            self._time.check_steps(request.steps)
+            message = ''
+            for done in range(1, request.steps + 1):
+                message = self._time.step_once()
+                goal.publish_feedback(
+                    SimulateSteps.Feedback(
+                        completed_steps=done, remaining_steps=request.steps - done
+                    )
+                )
+            return message
+
+        topic = '~/simulation/simulate_steps'
+        for answer in self._fill(topic, perform, goal.request, response, None):
+            self._control.simulation.requests.tell(answer)
+        if response.result.result == Result.RESULT_OK:
+            goal.succeed()
+        else:
+            goal.abort()
+        return response

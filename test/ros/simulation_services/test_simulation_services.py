@@ -1,0 +1,360 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""The services of `simulation_interfaces`, called with classes that are built for the test."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from importlib.util import find_spec
+import math
+from typing import Any
+
+from physsim_ros.testing import box, disc, own_context, PhysSim
+import pytest
+from rclpy.action import ActionClient
+
+from ..built_interfaces import import_built
+from ...client import Client, set_parameter
+
+pytestmark = pytest.mark.slow
+
+
+class Caller:
+    """Calls services of the standard by their names."""
+
+    def __init__(self, physsim: PhysSim) -> None:
+        self.physsim, self.client = physsim, Client(physsim)
+
+    def __call__(self, service: str, **fields: Any) -> Any:
+        from simulation_interfaces import srv  # noqa: PLC0415 - built for the test
+
+        kind = getattr(srv, service)
+        name = ''.join(f'_{each.lower()}' if each.isupper() else each for each in service)
+        request = kind.Request()
+        for path, value in fields.items():
+            *parts, last = path.split('__')
+            target = request
+            for part in parts:
+                target = getattr(target, part)
+            setattr(target, last, value)
+        return self.client.request(kind, f'~/simulation/{name[1:]}', request)
+
+
+@pytest.fixture
+def caller(
+    request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch, tmp_path: Any
+) -> Iterator[Caller]:
+    """Give a test a world, paused at time 0, with the services."""
+    import_built('simulation_interfaces', request)
+    with (
+        own_context(monkeypatch) as context,
+        PhysSim(context, speed=0.0, gravity=[0.0, 0.0], world_dir=str(tmp_path)) as physsim,
+    ):
+        yield Caller(physsim)
+
+
+def names_in(physsim: PhysSim) -> tuple[str, ...]:
+    """Return the names of the bodies of a world, whether a frame has shown them or not."""
+    return physsim.node.simulation.world.snapshot().scene.names
+
+
+OK, NOT_FOUND, UNSUPPORTED, OPERATION_FAILED = 1, 2, 0, 4
+NAME_NOT_UNIQUE, NAME_INVALID, UNSUPPORTED_FORMAT, NO_RESOURCE = 101, 102, 103, 104
+NAMESPACE_INVALID, RESOURCE_PARSE_ERROR, INVALID_POSE = 105, 106, 109
+
+
+def test_what_is_told_of_the_simulator_is_what_it_has(caller: Caller) -> None:
+    from simulation_interfaces.msg import SimulatorFeatures  # noqa: PLC0415
+
+    told = set(caller('GetSimulatorFeatures').features.features)
+    assert {SimulatorFeatures.SPAWNING, SimulatorFeatures.STEP_SIMULATION_ACTION} <= told
+    assert SimulatorFeatures.NAMED_POSES not in told
+    spawnables = caller('GetSpawnables', sources=['elsewhere'])
+    assert 'elsewhere' in spawnables.result.error_message
+    uris = {each.uri for each in spawnables.spawnables}
+    assert {'turtlebot3_burger', 'omni', 'disc', 'box'} <= uris
+    # All of them can be spawned.
+    for number, uri in enumerate(sorted(uris)):
+        spawned = caller('SpawnEntity', name=f'some/{number}', uri=uri)
+        assert (spawned.result.result, spawned.result.error_message) == (OK, '')
+        assert spawned.entity_name == f'some/{number}'
+
+
+def test_an_entity_lives_from_spawn_to_delete(caller: Caller) -> None:
+    spawned = caller(
+        'SpawnEntity',
+        name='tb/0',
+        uri='turtlebot3_burger',
+        entity_namespace='/left',
+        initial_pose__pose__position__x=2.0,
+        initial_pose__pose__orientation__z=1.0,
+        initial_pose__pose__orientation__w=0.0,
+    )
+    assert spawned.result.result == OK
+    state = caller('GetEntityState', entity='tb/0').state
+    assert (state.header.frame_id, state.pose.position.x) == ('world', 2.0)
+    assert state.pose.orientation.z == pytest.approx(1.0)
+    caller.physsim.step()
+    topics = {name for name, _ in caller.client.node.get_topic_names_and_types()}
+    assert '/left/odom' in topics
+    info = caller('GetEntityInfo', entity='tb/0').info
+    assert 'robot' in info.tags
+    assert info.category.category == info.category.CATEGORY_ROBOT
+    assert caller('DeleteEntity', entity='tb/0').result.result == OK
+    assert caller.physsim.names == ()
+    assert caller('DeleteEntity', entity='tb/0').result.result == NOT_FOUND
+
+
+def test_an_entry_of_a_world_file_is_spawned_relative_to_a_body(caller: Caller) -> None:
+    caller.physsim.spawn(box('table/0', at=(1.0, 0.0, math.pi / 2)))
+    spawned = caller(
+        'SpawnEntity',
+        resource_string='{name: cup/0, circle: {radius: 0.25}, mass: 3, anchored: true}',
+        initial_pose__header__frame_id='table/0',
+        initial_pose__pose__position__x=2.0,
+    )
+    assert (spawned.result.result, spawned.entity_name) == (OK, 'cup/0')
+    assert caller.physsim.pose('cup/0')[:2] == pytest.approx((1.0, 2.0))
+    bounds = caller('GetEntityBounds', entity='cup/0').bounds
+    assert bounds.type == bounds.TYPE_BOX
+    assert [(each.x, each.y) for each in bounds.points] == [(0.25, 0.25), (-0.25, -0.25)]
+
+
+@pytest.mark.parametrize(
+    ('fields', 'result'),
+    [
+        ({'name': 'a/0', 'uri': 'disc'}, NAME_NOT_UNIQUE),
+        ({'name': '', 'uri': 'disc'}, NAME_INVALID),
+        ({'name': 'no number', 'uri': 'disc'}, NAME_INVALID),
+        ({'name': 'b/0'}, NO_RESOURCE),
+        ({'name': 'b/0', 'uri': 'nothing'}, NOT_FOUND),
+        ({'name': 'b/0', 'uri': '/etc/passwd'}, NOT_FOUND),
+        ({'name': 'b/0', 'uri': 'model.sdf'}, UNSUPPORTED_FORMAT),
+        ({'name': 'b/0', 'resource_string': '<robot/>'}, UNSUPPORTED_FORMAT),
+        ({'name': 'b/0', 'resource_string': '{circle: '}, RESOURCE_PARSE_ERROR),
+        ({'name': 'b/0', 'resource_string': '[1, 2]'}, RESOURCE_PARSE_ERROR),
+        ({'name': 'b/0', 'resource_string': '{mass: 1}'}, RESOURCE_PARSE_ERROR),
+        ({'name': 'b/0', 'resource_string': '{circle: {radius: -1}}'}, RESOURCE_PARSE_ERROR),
+        ({'name': 'b/0', 'resource_string': '{' * 60}, RESOURCE_PARSE_ERROR),
+        ({'name': 'b/0', 'resource_string': 'x' * 100_000}, RESOURCE_PARSE_ERROR),
+        ({'name': 'b/0', 'uri': 'omni', 'entity_namespace': '0 bad'}, NAMESPACE_INVALID),
+        ({'name': 'b/0', 'uri': 'omni', 'entity_namespace': 'taken'}, NAMESPACE_INVALID),
+        ({'name': 'b/0', 'uri': 'disc', 'x': math.nan}, INVALID_POSE),
+        ({'name': 'b/0', 'uri': 'disc', 'x': 1e30}, INVALID_POSE),
+        ({'name': 'b/0', 'uri': 'disc', 'w': math.inf}, INVALID_POSE),
+        ({'name': 'b/0', 'uri': 'disc', 'roll': 1.0}, INVALID_POSE),
+        ({'name': 'b/0', 'uri': 'disc', 'frame': 'nowhere'}, INVALID_POSE),
+    ],
+)
+def test_what_cannot_be_spawned_is_told_and_changes_nothing(
+    caller: Caller, fields: dict[str, Any], result: int
+) -> None:
+    caller.physsim.spawn(disc('a/0', at=(9.0, 0.0)))
+    caller('SpawnEntity', name='robot/0', uri='omni', entity_namespace='taken')
+    before = caller.physsim.digest()
+    short = {
+        'x': 'initial_pose__pose__position__x',
+        'w': 'initial_pose__pose__orientation__w',
+        'roll': 'initial_pose__pose__orientation__x',
+        'frame': 'initial_pose__header__frame_id',
+    }
+    refused = caller('SpawnEntity', **{short.get(key, key): each for key, each in fields.items()})
+    assert refused.result.result == result
+    assert refused.result.error_message
+    assert refused.entity_name == ''
+    assert caller.physsim.digest() == before
+
+
+def test_names_are_changed_where_that_is_allowed(caller: Caller) -> None:
+    names = [
+        caller('SpawnEntity', name=name, uri='disc', allow_renaming=True).entity_name
+        for name in ('a/0', 'a/0', '', 'two words')
+    ]
+    assert names == ['a/0', 'a/1', 'disc/0', 'two_words/0']
+
+
+def test_a_state_that_is_set_is_the_one_that_is_told(caller: Caller) -> None:
+    caller.physsim.spawn(disc('a/0'))
+    fields = {
+        'state__pose__position__x': 3.0,
+        'state__twist__linear__y': 2.0,
+        'state__twist__angular__z': 0.5,
+    }
+    assert caller('SetEntityState', entity='a/0', **fields).result.result == OK
+    caller.physsim.run(1.0)
+    states = caller('GetEntitiesStates')
+    assert states.entities == ['a/0']
+    (state,) = states.states
+    position, twist = state.pose.position, state.twist
+    assert (position.x, position.y) == pytest.approx((3.0, 2.0))
+    assert (twist.linear.y, twist.angular.z) == pytest.approx((2.0, 0.5))
+    assert state.header.stamp.sec == 1
+
+
+@pytest.mark.parametrize(
+    ('fields', 'result'),
+    [
+        ({'entity': 'b/0'}, NOT_FOUND),
+        ({'state__pose__position__x': math.nan}, OPERATION_FAILED),
+        ({'state__twist__linear__x': math.inf}, OPERATION_FAILED),
+        ({'state__twist__linear__x': 1e30}, OPERATION_FAILED),
+        ({'state__header__frame_id': 'a/0'}, UNSUPPORTED),
+    ],
+)
+def test_a_state_that_cannot_be_is_refused(
+    caller: Caller, fields: dict[str, Any], result: int
+) -> None:
+    caller.physsim.spawn(disc('a/0'))
+    before = caller.physsim.digest()
+    refused = caller('SetEntityState', **{'entity': 'a/0', **fields})
+    assert refused.result.result == result
+    assert refused.result.error_message
+    assert caller.physsim.digest() == before
+
+
+def test_entities_are_filtered(caller: Caller) -> None:
+    from geometry_msgs.msg import Vector3  # noqa: PLC0415
+    from simulation_interfaces.msg import Bounds, EntityCategory, TagsFilter  # noqa: PLC0415
+
+    physsim = caller.physsim
+    physsim.spawn(box('wall/0', at=(0.0, 5.0), size=(4.0, 1.0), anchored=True))
+    for number in range(3):
+        physsim.spawn(disc(f'ball/{number}', at=(2.0 * number, 0.0)))
+    caller('SpawnEntity', name='robot/0', uri='omni', initial_pose__pose__position__x=-5.0)
+
+    def names(**filters: Any) -> list[str]:
+        found = caller('GetEntities', **{f'filters__{key}': each for key, each in filters.items()})
+        assert found.result.result == OK
+        return list(found.entities)
+
+    assert names(filter='^ball/[02]$') == ['ball/0', 'ball/2']
+    assert names(filter='(a+)+$') == []
+    robots = [EntityCategory(category=EntityCategory.CATEGORY_ROBOT)]
+    assert names(categories=robots) == ['robot/0']
+    assert names(tags=TagsFilter(tags=['anchored', 'robot'])) == ['wall/0', 'robot/0']
+    both = TagsFilter(tags=['anchored', 'box'], filter_mode=TagsFilter.FILTER_MODE_ALL)
+    assert names(tags=both) == ['wall/0']
+    sphere = [Vector3(x=1.0), Vector3(x=0.6)]
+    assert names(bounds=Bounds(type=Bounds.TYPE_SPHERE, points=sphere)) == ['ball/0', 'ball/1']
+    corners = [Vector3(x=9.0, y=9.0), Vector3(x=1.9, y=4.0)]
+    assert names(bounds=Bounds(type=Bounds.TYPE_BOX, points=corners)) == ['wall/0']
+    hull = Bounds(type=Bounds.TYPE_CONVEX_HULL, points=[*sphere, Vector3()])
+    assert caller('GetEntities', filters__bounds=hull).result.result == UNSUPPORTED
+    assert caller('GetEntities', filters__filter='(').result.result == OPERATION_FAILED
+    nowhere = Bounds(type=Bounds.TYPE_BOX, points=[Vector3(x=math.nan)])
+    assert caller('GetEntities', filters__bounds=nowhere).result.result == OPERATION_FAILED
+    for service in ('GetEntityState', 'GetEntityInfo', 'GetEntityBounds'):
+        assert caller(service, entity='ball/9').result.result == NOT_FOUND
+
+
+def test_time_is_stopped_played_and_paused(caller: Caller) -> None:
+    stopped, playing, paused, quitting = range(4)
+
+    def change(state: int) -> int:
+        return int(caller('SetSimulationState', state__state=state).result.result)
+
+    def now() -> int:
+        return int(caller('GetSimulationState').state.state)
+
+    caller.physsim.spawn(disc('a/0'))
+    assert now() == stopped
+    assert change(stopped) == 101
+    assert change(paused) == 103
+    assert change(quitting) == UNSUPPORTED
+    assert change(99) == UNSUPPORTED
+    assert (change(playing), now()) == (OK, playing)
+    assert caller('StepSimulation', steps=1).result.result == OPERATION_FAILED
+    caller.physsim.run(0.5)
+    assert (change(paused), now()) == (OK, paused)
+    assert (change(stopped), now()) == (OK, stopped)
+    # A stop is a reset.
+    assert caller.physsim.node.simulation.step == 0
+    assert names_in(caller.physsim) == ()
+
+
+def test_a_paused_world_goes_on_by_steps(caller: Caller) -> None:
+    world = caller.physsim.node.simulation
+    assert caller('StepSimulation', steps=3).result.result == OK
+    assert world.step == 3 * world.frame_steps
+    for steps in (0, 601, 2**64 - 1):
+        assert caller('StepSimulation', steps=steps).result.result == OPERATION_FAILED
+    assert world.step == 3 * world.frame_steps
+
+
+def test_an_action_goes_on_by_steps_and_tells_each(caller: Caller) -> None:
+    from simulation_interfaces.action import SimulateSteps  # noqa: PLC0415
+
+    client = ActionClient(caller.client.node, SimulateSteps, '/physsim/simulation/simulate_steps')
+    caller.client.spin_until(client.server_is_ready)
+    told: list[tuple[int, int]] = []
+
+    def call(steps: int) -> Any:
+        sent = client.send_goal_async(
+            SimulateSteps.Goal(steps=steps),
+            lambda message: told.append(
+                (message.feedback.completed_steps, message.feedback.remaining_steps)
+            ),
+        )
+        caller.client.spin_until(sent.done)
+        result = sent.result().get_result_async()
+        caller.client.spin_until(result.done)
+        return result.result().result.result
+
+    world = caller.physsim.node.simulation
+    assert call(3).result == OK
+    assert world.step == 3 * world.frame_steps
+    caller.client.spin_until(lambda: len(told) == 3)
+    assert told == [(1, 2), (2, 1), (3, 0)]
+    set_parameter(caller.physsim, 'speed', 1.0)
+    assert call(3).result == OPERATION_FAILED
+    client.destroy()
+
+
+def test_a_reset_has_scopes(caller: Caller) -> None:
+    physsim = caller.physsim
+    assert caller('LoadWorld', uri='corridor').result.result == OK
+    loaded = set(names_in(physsim))
+    caller('SpawnEntity', name='mine/0', uri='disc')
+    physsim.run(0.5)
+    time, spawned, all_of_it = 1, 4, 255
+    assert caller('ResetSimulation', scope=time).result.result == UNSUPPORTED
+    assert 'mine/0' in physsim.names
+    assert caller('ResetSimulation', scope=spawned).result.result == OK
+    simulation = physsim.node.simulation
+    assert set(names_in(physsim)) == loaded
+    assert simulation.step > 0
+    assert caller('ResetSimulation', scope=all_of_it).result.result == OK
+    assert simulation.step == 0
+
+
+def test_worlds_are_listed_and_loaded(caller: Caller) -> None:
+    from simulation_interfaces.msg import TagsFilter  # noqa: PLC0415
+
+    listed = {each.uri: each for each in caller('GetAvailableWorlds').worlds}
+    assert {'corridor', 'maze', 'demo'} <= set(listed)
+    own = caller('GetAvailableWorlds', filter=TagsFilter(tags=['own']))
+    assert list(own.worlds) == []
+    set_parameter(caller.physsim, 'speed', 1.0)
+    answer = caller('LoadWorld', uri='maze')
+    assert (answer.result.result, answer.world.name) == (OK, 'maze')
+    assert caller('GetCurrentWorld').world.uri == 'maze'
+    assert caller('GetSimulationState').state.state == 0
+    names = names_in(caller.physsim)
+    for fields, result in (
+        ({}, 102),
+        ({'uri': 'nowhere'}, NOT_FOUND),
+        ({'uri': '../../etc/passwd'}, NOT_FOUND),
+        ({'uri': 'world.sdf'}, 101),
+        ({'resource_string': 'format: 1'}, UNSUPPORTED),
+    ):
+        assert caller('LoadWorld', **fields).result.result == result
+    assert names_in(caller.physsim) == names
+    assert caller('GetCurrentWorld').world.uri == 'maze'
+
+
+@pytest.mark.skipif(
+    find_spec('simulation_interfaces') is not None, reason='simulation_interfaces is installed'
+)
+def test_without_the_package_there_are_no_services(physsim: PhysSim) -> None:
+    assert not [each for each in physsim.node.services if '/simulation/' in each.srv_name]
