@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Clicks on `clicked_point` make and change bodies, while the world runs and while it stands."""
+"""Clicks on `clicked_point` make and change bodies; `test/drawing` has them at all times."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ UP = math.pi / 2
 
 
 class Hand:
-    """Somebody who clicks, while the world stands or while it runs."""
+    """Somebody who clicks, and lets the world go on by frames after each click."""
 
     def __init__(self, client: Client, frames: int) -> None:
         self.client = client
@@ -34,9 +34,7 @@ class Hand:
 
     def click(self, x: float, y: float, frame: str = '') -> Event:
         """Click, and return the one answer."""
-        events = self.client.ask('/clicked_point', point(x, y, frame))
-        # The first change in the past begins a course, and that is an event too.
-        (event,) = (each for each in events if each.name == 'clicked_point')
+        (event,) = self.client.ask('/clicked_point', point(x, y, frame))
         self.physsim.step(self._frames)
         return event
 
@@ -51,20 +49,12 @@ class Hand:
         return self.click(*last)
 
 
-@pytest.fixture(params=['paused', 'running', 'past'])
-def hand(client: Client, request: pytest.FixtureRequest) -> Hand:
-    """Give a hand that clicks in a world without gravity, once a frame where it runs."""
-    physsim = client.physsim
-    (result,) = physsim.node.set_parameters([Parameter('gravity', value=[0.0, 0.0])])
+@pytest.fixture
+def hand(client: Client) -> Hand:
+    """Give a hand that clicks once a frame in a world without gravity."""
+    (result,) = client.physsim.node.set_parameters([Parameter('gravity', value=[0.0, 0.0])])
     assert result.successful
-    if request.param == 'past':
-        # A body that was spawned after one second is not there yet at half of it.
-        physsim.step(60)
-        physsim.spawn(disc('later/0', at=(1.0, 1.0)))
-        physsim.step(60)
-        physsim.seek(0.5)
-        client.spin_until(lambda: physsim.names == ())
-    return Hand(client, int(request.param == 'running'))
+    return Hand(client, 1)
 
 
 def accepted(event: Event, name: str) -> None:

@@ -44,18 +44,10 @@ def line(start: tuple[float, float], end: tuple[float, float], count: int = 60) 
     ]
 
 
-@pytest.fixture(params=[0, 1], ids=['paused', 'running'])
-def frames(client: Client, request: pytest.FixtureRequest) -> int:
-    """Give how many frames the world goes on between strokes, in a world without gravity."""
-    client.physsim.node.set_parameters([Parameter('gravity', value=[0.0, 0.0])])
-    return int(request.param)
-
-
 def test_a_stroke_becomes_a_body_and_is_told_with_its_confidence(
-    client: Client, frames: int
+    client: Client,
 ) -> None:
     told, spawned = client.ask('~/stroke', stroke(circle(3.0, 2.0, 1.5)))
-    client.physsim.step(frames)
 
     assert (told.level, told.name, told.code) == (0, '~/stroke', 'ok')
     assert told.hardware_id == 'drawn/0'
@@ -79,10 +71,9 @@ def test_a_reading_is_shown_until_the_next_or_until_a_tool_is_taken(client: Clie
     client.spin_until(lambda: len(pictures[-1].markers) == 1)
 
 
-def test_a_stroke_may_be_drawn_in_the_frame_of_a_body(client: Client, frames: int) -> None:
+def test_a_stroke_may_be_drawn_in_the_frame_of_a_body(client: Client) -> None:
     client.physsim.spawn(disc('a/0', at=(10.0, 5.0, math.pi / 2)))
     events = client.ask('~/stroke', stroke(circle(3.0, 0.0, 1.0), 'a/0'))
-    client.physsim.step(frames)
     assert [event.code for event in events] == ['ok', 'ok']
     assert client.physsim.pose('drawn/0')[:2] == pytest.approx((10.0, 8.0), abs=0.01)
 

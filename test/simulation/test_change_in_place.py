@@ -320,21 +320,3 @@ def test_an_anchored_body_still_answers_to_changes(born: bool) -> None:
     world.apply(Release(point=(-4.0, 1.0)))
     world.step(24)
     assert pose(world, 'a/0')[1] < 1.0
-
-
-def test_an_anchored_body_is_never_moved_by_hits(world: World) -> None:
-    spawn(world, 'a/0', BOX, (0.1, 0.2, 0.7))
-    world.apply(Anchor(point=(0.1, 0.2)))
-    held = pose(world, 'a/0').tolist()
-    for number in range(8):
-        angle = 2 * math.pi * number / 8
-        x, y = math.cos(angle), math.sin(angle)
-        spawn(world, f'hit/{number}', DISC, (3 * x, 3 * y, 0.0), velocity=(-20 * x, -20 * y),
-              mass=100.0)  # fmt: skip
-
-    world.step(240)
-
-    assert pose(world, 'a/0').tolist() == held
-    assert twist(world, 'a/0').tolist() == [0.0, 0.0, 0.0]
-    speeds = np.hypot(*world.snapshot().twists[1:, :2].T)
-    assert (speeds > 1.0).all()
