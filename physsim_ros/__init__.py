@@ -87,30 +87,28 @@ __all__ = [
     'load_world',
     'save_world',
 ]
-# The module of each of them.
-_NAMES = {
-    'files': ('find_world', 'load_world', 'save_world'),
-    'model.body_properties': ('Properties',),
-    'model.errors': ('PhysSimError', 'Refusal'),
-    'model.joints': ('JointKind', 'JointProperties'),
-    'model.requests': (
-        *('Anchor', 'Axle', 'ChangeBody', 'Command', 'Configure', 'Delete', 'DeleteAll', 'Grab'),
-        *('Join', 'LetGo', 'MoveBodies', 'MoveHand', 'Pin', 'Release', 'Request', 'Spawn'),
-        *('Unjoin', 'UnjoinAll'),
-    ),
-    'model.settings': ('WorldSettings',),
-    'model.shapes': ('Box', 'Chain', 'Compound', 'Disc', 'Polygon', 'Shape', 'Triangles'),
-    'model.snapshot': ('Answer', 'Contacts', 'Frame', 'Snapshot'),
-    'simulation.simulation': ('Simulation',),
-}
-_MODULES = {name: f'{__name__}.{module}' for module, names in _NAMES.items() for name in names}
+# The modules that have them, each after those that it imports.
+_MODULES = (
+    'model.errors',
+    'model.settings',
+    'model.shapes',
+    'model.joints',
+    'model.body_properties',
+    'model.requests',
+    'model.snapshot',
+    'simulation.simulation',
+    'files',
+)
 
 
 def __getattr__(name: str) -> Any:
     """Import a name of the front."""
-    if name not in _MODULES:
-        raise AttributeError(f'module {__name__!r} has no attribute {name!r}')
-    return getattr(import_module(_MODULES[name]), name)
+    if name in __all__:
+        for module in _MODULES:
+            found = import_module(f'{__name__}.{module}')
+            if hasattr(found, name):
+                return getattr(found, name)
+    raise AttributeError(f'module {__name__!r} has no attribute {name!r}')
 
 
 def __dir__() -> list[str]:
