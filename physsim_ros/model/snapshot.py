@@ -186,6 +186,9 @@ class Contacts:
     :param impulses: (m, 2) float64: sum over the frame of the impulses on the second body by the
         first, world [N s]
     :param steps: number of steps over which the impulses are summed
+    :param begun: (k, 2) int64: rows, as in `pairs`, of the pairs that began to touch during the
+        frame, in the order of time; a pair that touched again is there again
+    :param begun_in: (k,) int64: the step of the frame in which each began, 1 .. steps
     """
 
     pairs: Ints
@@ -193,12 +196,14 @@ class Contacts:
     normals: Floats
     impulses: Floats
     steps: int = 0
+    begun: Ints = field(default_factory=lambda: np.empty((0, 2), np.int64))
+    begun_in: Ints = field(default_factory=lambda: np.empty(0, np.int64))
 
     @property
     def nbytes(self) -> int:
         """Memory it takes [bytes]."""
         # Each pair has two rows, a point, a normal and an impulse of 16 bytes each.
-        return 4 * self.pairs.nbytes
+        return 4 * self.pairs.nbytes + self.begun.nbytes + self.begun_in.nbytes
 
 
 NO_CONTACTS = Contacts(

@@ -89,13 +89,13 @@ def _body_content(name: str, request_id: str, snapshots: Sequence[Snapshot]) -> 
 
 def body_past(snapshots: Sequence[Snapshot], name: str) -> dict[str, list[float]]:
     """
-    Return the columns of a body's past: time [s], x, y of its centre of mass [m], vx, vy [m/s], w.
+    Return the columns of a body's past: time [s], x, y of its centre of mass [m], yaw, velocities.
 
     :param snapshots: in the order of time
     :param name: of the body; of one that was not there the columns are empty
     """
     times: list[float] = []
-    columns = [np.empty((0, 5))]
+    columns = [np.empty((0, 6))]
     row = -1
     for scene, group in groupby(snapshots, attrgetter('scene')):
         row = _row_of(name, scene, row)
@@ -106,9 +106,9 @@ def body_past(snapshots: Sequence[Snapshot], name: str) -> dict[str, list[float]
             twists = np.array([each.twists[row] for each in shown])
             centroid = np.array(scene.bodies[row].shape.form.centroid)
             centers = poses[:, :2] + rotated_each(centroid, poses[:, 2])
-            columns.append(np.concatenate((centers, twists), axis=1))
-    x, y, vx, vy, spin = np.concatenate(columns).T.tolist()
-    return {'time': times, 'x': x, 'y': y, 'vx': vx, 'vy': vy, 'w': spin}
+            columns.append(np.concatenate((centers, poses[:, 2:], twists), axis=1))
+    x, y, yaw, vx, vy, spin = np.concatenate(columns).T.tolist()
+    return {'time': times, 'x': x, 'y': y, 'yaw': yaw, 'vx': vx, 'vy': vy, 'w': spin}
 
 
 def _row_of(name: str, scene: Scene, before: int) -> int:

@@ -14,7 +14,7 @@ from dataclasses import replace
 
 import numpy as np
 from physsim_ros.model.arrays import Flags, Ints
-from physsim_ros.model.snapshot import Contacts, Frame, Snapshot
+from physsim_ros.model.snapshot import Contacts, Frame, NO_CONTACTS, Snapshot
 
 
 class LastContacts:
@@ -49,6 +49,9 @@ def _still_there(contacts: Contacts, before: Snapshot, now: Snapshot) -> Contact
         points=contacts.points[kept],
         normals=contacts.normals[kept],
         impulses=contacts.impulses[kept],
+        # They were told with the first frame.
+        begun=NO_CONTACTS.begun,
+        begun_in=NO_CONTACTS.begun_in,
     )
 
 

@@ -21,13 +21,14 @@ from physsim_ros.model.colors import Color
 from physsim_ros.model.errors import Busy, Frozen, PhysSimError, Refusal
 from physsim_ros.model.names import shown_name
 from physsim_ros.model.requests import HandRequest, KeepHand, LetGo, Request, Spawn
-from physsim_ros.model.snapshot import Answer, NO_PREVIEW, Preview
+from physsim_ros.model.snapshot import Answer, Frame, NO_PREVIEW, Preview
 from physsim_ros.simulation.deferred_calls import Wait
 from physsim_ros.sketchpad.access import Role
 from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.body_past import BodyPasts
 from physsim_ros.sketchpad.locks import bodies_of, is_locked
 from physsim_ros.sketchpad.message import answer_content, Content, KINDS, Message, Origin
+from physsim_ros.sketchpad.touches import touches_content
 from physsim_ros.sketchpad.world_control import WorldControl
 
 # Time from one request of a resting hand to the next [s]; a hand without requests lets go after
@@ -54,6 +55,7 @@ class PageSession:
     :ivar drawing: its strokes and clicks
     :ivar hand: name of its hand in the world
     :ivar driven: name of the robot that it drives, '' is none; and the gesture of that
+    :ivar followed: names of the bodies whose touches it is told of
     :ivar material: properties of the bodies that it draws; those that are unset are the world's
     :ivar color: of the bodies that it draws; None is the world's choice
     """
@@ -82,6 +84,7 @@ class PageSession:
         self.drawing = DrawingSession(world.drawing_settings())
         self.hand = f'page {number}'
         self.driven = '', 0
+        self.followed: frozenset[str] = frozenset()
         self.material = Properties()
         self.color: Color | None = None
         self._preview: Preview = NO_PREVIEW
@@ -109,6 +112,14 @@ class PageSession:
         if self._hand_used is not None and now - self._hand_used > HAND_PERIOD:
             self._hand_used = now
             self._submit_unasked(KeepHand(hand=self.hand))
+
+    def tell_touches(self, frame: Frame) -> None:
+        """Tell the page which of the bodies that it follows were touched in a frame, and when."""
+        if self.followed:
+            rate = self.world.simulation.physics_rate
+            content = touches_content(frame, self.followed, rate)
+            if content is not None:
+                self.send(content)
 
     def close(self) -> None:
         """Let go with the hand of the page, and forget the pasts that it has asked for."""

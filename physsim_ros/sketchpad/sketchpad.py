@@ -92,8 +92,10 @@ class Sketchpad:
 
     @property
     def wants_contacts(self) -> bool:
-        """Whether a page shows contacts."""
-        return self._server.wants_contacts
+        """Whether a page shows contacts, or follows bodies."""
+        return self._server.wants_contacts or any(
+            session.followed for session in self._sessions.values()
+        )
 
     def handle_messages(self) -> None:
         """Carry out the messages of pages that have come, as many as there is time for."""
@@ -125,6 +127,8 @@ class Sketchpad:
         if not self._sessions:
             self._server.keep(frame)
             return
+        for session in self._sessions.values():
+            session.tell_touches(frame)
         status = self._timeline.take_status(frame, time.monotonic())
         self._server.show(frame, self._timeline.ghost(frame.snapshot))
         if status is not None:

@@ -393,6 +393,30 @@ def test_a_change_of_the_past_branches_and_the_old_course_stays_as_a_ghost(
     assert len(told) == 1
 
 
+def test_touches_of_a_body_that_a_page_follows_have_the_time_of_their_step(
+    browser: Browser,
+) -> None:
+    physsim, page, other = browser.physsim, browser.open_page(), browser.open_page()
+    gate = {'name': 'gate/0', 'box': {'width': 0.2, 'height': 2}, 'at': [3, 0], 'anchored': True}
+    assert page.ask('gravity', gravity=[0, 0])['ok']
+    assert page.ask('spawn', body=gate | {'sensor': True})['ok']
+    ball = {'name': 'ball/0', 'circle': {'radius': 0.5}, 'at': [0, 0], 'velocity': [1, 0]}
+    assert page.ask('spawn', body=ball)['ok']
+    assert page.ask('follow', names=['gate/0'])['ok']
+    physsim.run(3.0)
+    page.until(lambda: page.of_type('touches'))
+    (message,) = page.of_type('touches')
+    ((name, toucher, time),) = message['touches']
+    assert (name, toucher) == ('gate/0', 'ball/0')
+    # 2.4 m at 1 m/s; the time is that of a step.
+    assert time == pytest.approx(2.4, abs=1.1 / 240.0)
+    assert round(time * 240.0) / 240.0 == time
+    assert not other.of_type('touches')
+    assert page.ask('follow', names=[])['ok']
+    assert page.ask('follow', names='gate/0')['code'] == 'bad_property'
+    assert page.ask('follow', names=[f'a/{number}' for number in range(65)])['ok'] is False
+
+
 def spawned_robot(page: Page) -> None:
     body = {'name': 'tb3/0', 'robot': 'turtlebot3_burger', 'at': [0, 0]}
     assert page.ask('gravity', gravity=[0, 0])['ok']

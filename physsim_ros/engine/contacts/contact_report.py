@@ -39,7 +39,7 @@ from physsim_ros.engine.contacts.pair_ids import (
     same_ids,
 )
 from physsim_ros.engine.contacts.touches import Touches
-from physsim_ros.model.arrays import Floats
+from physsim_ros.model.arrays import Floats, Ints
 from physsim_ros.model.snapshot import Contacts, NO_CONTACTS
 from pymunk import batch
 
@@ -80,6 +80,8 @@ class ContactReport:
         # Pairs that touched at the end of an earlier step of the frame and not of the next: ids
         # and sums of impulses.
         self._parted: list[tuple[Ids, Floats]] = []
+        # Pairs that began to touch in the frame, by the number of the step.
+        self._begun: list[tuple[int, Ids]] = []
         self._last = LastManifolds()
         self._listing: PairListing | None = None
 
@@ -101,7 +103,7 @@ class ContactReport:
         self._steps += 1
         self._copied_manifolds = None
         slots = table, table.slot_changes
-        sleep_changed = slots != self._slots
+        sleep_changed, read_before = slots != self._slots, self._slots is not None
         listed, impulses = self._io.read_contacts(_PAIRS_AND_IMPULSES)
         listed, impulses = listed.reshape(-1, 2), impulses.reshape(-1, 2)
         if not sleep_changed and same_ids(listed, self._listed):
@@ -114,6 +116,9 @@ class ContactReport:
             self._slots = slots
         ids = np.concatenate((ids, self._sleeping.ids))
         if not same_ids(ids, self._ids):
+            # Without the pairs of the step before it is not known which of these are new.
+            if read_before:
+                self._add_begun(ids)
             self._begin_listing(ids)
         self._add_impulses(impulses)
 
@@ -147,6 +152,12 @@ class ContactReport:
         if len(self._sleeping.ids):
             self._impulses = np.concatenate((self._impulses, self._sleeping.impulses))
         self._sums += self._impulses
+
+    def _add_begun(self, ids: Ids) -> None:
+        """Store the pairs of a step that did not touch in the step before."""
+        begun = ids[~find_pairs(ids, self._ids)[1]]
+        if len(begun):
+            self._begun.append((self._steps, begun))
 
     def _begin_listing(self, ids: Ids) -> None:
         """Replace the pairs by those of the step that has just been made."""
@@ -192,6 +203,7 @@ class ContactReport:
         for number, (ids, sums) in enumerate(self._parted):
             stays = (ids != body).all(axis=1)
             self._parted[number] = ids[stays], sums[stays]
+        self._begun = [(step, ids[(ids != body).all(axis=1)]) for step, ids in self._begun]
 
     def skip_step(self) -> None:
         """Drop all contacts: those of the step that has just been made are not read."""
@@ -203,7 +215,7 @@ class ContactReport:
 
     def clear(self) -> None:
         """Drop the sums since the last call of `take_contacts`."""
-        self._parted = []
+        self._parted, self._begun = [], []
         self._sums = np.zeros_like(self._sums)
         self._steps = 0
         self._last.drop_first_touches()
@@ -223,6 +235,9 @@ class ContactReport:
             rows = renaming.rename_pairs(old._ids, old._read_manifolds().T)[1]
             self._copied_manifolds = rows.T
         self._parted = [renaming.rename_pairs(*each) for each in old._parted]
+        self._begun = [
+            (step, renaming.rename_pairs(ids, np.zeros(ids.shape))[0]) for step, ids in old._begun
+        ]
         self._last.copy(old._last, renaming)
 
     def take_contacts(self, table: BodyTable, centers: Callable[[], Floats]) -> Contacts:
@@ -236,6 +251,7 @@ class ContactReport:
         if self._steps == 0:
             return NO_CONTACTS
         steps, self._steps = self._steps, 0
+        begun, self._begun = self._begun, []
         if not (len(self._ids) or self._parted):
             self._last.end_frame(NO_PAIRS, NO_MANIFOLDS)
             return replace(NO_CONTACTS, steps=steps)
@@ -258,7 +274,8 @@ class ContactReport:
             with_wall, places = contacts.pairs[:, 1] < 0, centers()
             set_overlap_manifolds(contacts, np.flatnonzero(pointless & ~with_wall), places)
             set_wall_manifolds(contacts, np.flatnonzero(pointless & with_wall), places, table)
-        return replace(contacts, steps=steps)
+        begun_pairs, begun_in = _rows_of_begun(begun, table)
+        return replace(contacts, steps=steps, begun=begun_pairs, begun_in=begun_in)
 
     def _read_manifolds(self) -> Floats:
         """
@@ -287,3 +304,14 @@ class ContactReport:
         if len(self._sleeping.ids):
             return np.concatenate((manifolds, self._sleeping.manifolds), axis=1)
         return manifolds
+
+
+def _rows_of_begun(begun: list[tuple[int, Ids]], table: BodyTable) -> tuple[Ints, Ints]:
+    """Return rows of pairs, each once a step, as `Contacts` has them, and their steps."""
+    pairs, steps = [np.empty((0, 2), np.int64)], [np.empty(0, np.int64)]
+    for step, ids in begun:
+        # Rows of the walls are the greatest ones, and come second.
+        rows = np.unique(np.sort(table.rows_of(ids), axis=1), axis=0)
+        pairs.append(np.where(rows == len(table.bodies), -1, rows))
+        steps.append(np.full(len(rows), step))
+    return np.concatenate(pairs), np.concatenate(steps)

@@ -10,7 +10,7 @@ from typing import Any
 from physsim_ros.files import spawn_from, with_shipped_robot
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checks import pair, Within
-from physsim_ros.model.errors import UnknownJoint
+from physsim_ros.model.errors import BadProperty, UnknownJoint
 from physsim_ros.model.joints import JointProperties
 from physsim_ros.model.names import shown_name
 from physsim_ros.model.requests import (
@@ -27,6 +27,7 @@ from physsim_ros.simulation.world.joint_requests import drawn_points
 from physsim_ros.sketchpad.message import message, Origin
 from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.page_session import PageSession
+from physsim_ros.sketchpad.touches import MOST_FOLLOWED
 
 
 def _body(value: object, name: str) -> Spawn:
@@ -47,6 +48,13 @@ def _changes(value: object, name: str) -> dict[str, Any]:
 
 def _joint_properties(value: object, name: str) -> JointProperties:
     return JointProperties.from_mapping(fields.mapping(value, name))
+
+
+def _followed(value: object, name: str) -> frozenset[str]:
+    names = fields.names(value, name) if value else ()
+    if len(names) > MOST_FOLLOWED:
+        raise BadProperty(f'a page follows at most {MOST_FOLLOWED} bodies', field=name)
+    return frozenset(names)
 
 
 # Bodies
@@ -92,6 +100,13 @@ def delete(page: PageSession, origin: Origin, names: tuple[str, ...]) -> None:
 def watch(page: PageSession, origin: Origin, name: str) -> None:
     """Send the page the past of a body, as far as it was shown; '' is no body."""
     page.pasts.ask(page.number, name, origin.request)
+
+
+@message('follow', 'page', names=_followed)
+def follow(page: PageSession, origin: Origin, names: frozenset[str]) -> None:
+    """Tell the page from now on when other bodies begin to touch these; none is no body."""
+    page.followed = names
+    page.answer_page(origin, f'following {len(names)} bodies')
 
 
 # Joints

@@ -536,3 +536,31 @@ def test_impulses_say_over_how_many_steps_they_are_summed() -> None:
     assert weights == pytest.approx([-G] * 3, rel=1e-6)
     # Without a step there is nothing to report.
     assert world.contacts(world.snapshot()).steps == 0
+
+
+def test_a_pair_that_begins_to_touch_is_told_once_with_its_step() -> None:
+    world = watched()
+    spawn(world, 'gate/0', BOX, (3.0, 0.0, 0.0), anchored=True, sensor=True)
+    spawn(world, 'ball/0', DISC, (0.0, 0.0, 0.0), velocity=(2.4, 0.0))
+    begun = []
+    for number in range(120):
+        contacts = frame(world)
+        pairs = zip(contacts.begun.tolist(), contacts.begun_in.tolist(), strict=True)
+        begun += [(pair, FRAME * number + step) for pair, step in pairs]
+    # At 1 cm a step the rim is at the face once it has gone there.
+    way = 3.0 - BOX.width / 2 - DISC.radius
+    ((pair, step),) = begun
+    assert pair == [0, 1]
+    assert step == pytest.approx(way / (2.4 * DT), abs=1.0)
+
+
+def test_a_body_that_rests_begins_nothing_and_one_that_bounces_begins_each_time() -> None:
+    world = watched(replace(YARD, gravity=(0.0, -G)))
+    spawn(world, 'box/0', BOX, (0.0, 0.5, 0.0))
+    spawn(world, 'ball/0', DISC, (5.0, 3.0, 0.0), elasticity=0.9)
+    begun = [pair for _ in range(60) for pair in frame(world).begun.tolist()]
+    # The box touched in the first step; of that it is not known when it began.
+    assert begun in ([[1, -1]], [[0, -1], [1, -1]])
+    later = [pair for _ in range(120) for pair in frame(world).begun.tolist()]
+    assert later
+    assert set(map(tuple, later)) == {(1, -1)}
