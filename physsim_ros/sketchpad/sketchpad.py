@@ -127,10 +127,10 @@ class Sketchpad:
         if not self._sessions:
             self._server.keep(frame)
             return
-        for session in self._sessions.values():
-            session.tell_touches(frame)
         status = self._timeline.take_status(frame, time.monotonic())
         self._server.show(frame, self._timeline.ghost(frame.snapshot))
+        for session in self._sessions.values():
+            session.tell_touches(frame)
         if status is not None:
             self._server.send(timeline_content(status))
 

@@ -20,17 +20,21 @@ import {JointPanel} from './joint_panel.js';
 import {Keyboard} from './keyboard.js';
 import {Lessons} from './lessons.js';
 import {Notes} from './notes.js';
+import {PlotWindow} from './plot_window.js';
 import {Pointers} from './pointer.js';
 import {Readings} from './readings.js';
+import {Records} from './records.js';
 import {Refusals} from './refusals.js';
 import {SceneView} from './scene_view.js';
 import {Selection} from './selection.js';
+import {Stopwatch} from './stopwatch.js';
 import {EmptyCard} from './strokes.js';
 import {Sound} from './sound.js';
 import {TimeBar} from './time_bar.js';
 import {Tips} from './tips.js';
 import {Toolbar} from './toolbar.js';
 import {TopBar} from './top_bar.js';
+import {Trail} from './trail.js';
 import {VelocityArrow} from './velocity_arrow.js';
 import {shapeWord, Words} from './words.js';
 import {WorldState} from './world_state.js';
@@ -70,8 +74,12 @@ export class App {
     this.readings = new Readings(this);
     this.driving = new Driving(this);
     this.sound = new Sound(this);
+    this.records = new Records(this);
+    this.trail = new Trail(this);
+    this.plotWindow = new PlotWindow(this);
     this.panel = new BodyPanel(this);
     this.joints = new JointPanel(this);
+    this.stopwatch = new Stopwatch(this);
     this.arrow = new VelocityArrow(this);
     this.handles = new Handles(this);
     this.time = new TimeBar(this);
@@ -143,7 +151,7 @@ export class App {
     const robot = this.world.scene.bodies.some((body) => body.name === name && body.robot);
     this.view.dirty = true;
     // The drag of the air follows from velocities.
-    this.connection.send('show', {velocities: velocities || forces || name !== '' || this.tool.measures === true, contacts: forces || this.sound.on, forces: true, laser: robot ? name : ''});
+    this.connection.send('show', {velocities: velocities || forces || name !== '' || this.records.records || this.tool.measures === true, contacts: forces || this.sound.on, forces: true, laser: robot ? name : ''});
   }
 
   /** Frame the world. */
@@ -200,6 +208,10 @@ Object.assign(window, {physsim: {
   get heard() { return app.sound.heard; },
   /** Lengths of arrows [px] to a newton and to a metre a second. */
   get scales() { return {newton: app.arrows.newtons.length(1), speed: app.arrows.speeds.length(1)}; },
+  /** Numbers of samples of the bodies that are recorded, and of the course that was left. */
+  get records() {
+    return Object.fromEntries([...app.records.bodies].map(([name, {samples, left}]) => [name, [samples.length, left.length]]));
+  },
   /** Places of the handles of the selected body [px]. */
   get handles() { return app.handles.places(); },
   get bodies() {

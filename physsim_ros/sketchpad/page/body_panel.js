@@ -42,13 +42,12 @@ export class BodyPanel {
     const body = this.app.world.scene.bodies.find((each) => each.name === name);
     if (!body) return;
     this.name = name;
-    const change = (/** @type {object} */ properties) =>
-      this.app.connection.send('change', {name, properties});
+    const {app} = this, change = (/** @type {object} */ properties) =>
+      app.connection.send('change', {name, properties});
     const anchored = createElement('input', {type: 'checkbox', checked: body.anchored,
       onchange: () => change({anchored: anchored.checked})});
     const gate = createElement('input', {type: 'checkbox', checked: body.sensor,
       onchange: () => change({sensor: gate.checked})});
-    this.shown = JSON.stringify(body);
     this.show(this.app.words.title(name), [
       this.numbers.element,
       ...body.robot ? this.app.driving.show(body.robot) : [],
@@ -60,8 +59,10 @@ export class BodyPanel {
         textButton('Copy', () => this.copy()),
         textButton('Delete body', () => this.app.selection.deleteBodies(), 'danger')),
       createElement('p', {hidden: body.anchored, textContent: 'Drag the ring of its arrow, the round handle to turn it, the square one to scale it.'}),
+      ...app.trail.switches(name),
       this.plots.element,
     ], isDrawn(name) ? name : '');
+    this.shown = JSON.stringify(body);
     this.plots.watch(name);
     this.#uncover(this.app.world.row(name));
   }
@@ -157,6 +158,7 @@ export class BodyPanel {
    * @param {string} name of the body, where that is not the title
    */
   show(title, content, name = '') {
+    this.shown = '';
     this.element.replaceChildren(createElement('header', {},
       createElement('h2', {}, `${title} `, createElement('small', {textContent: name})),
       iconButton('Close', 'close', () => this.app.selection.select([]))), ...content);
@@ -167,8 +169,7 @@ export class BodyPanel {
   /** Follow a scene in which the body was changed or deleted, by whomever. */
   #follow() {
     if (!this.name) {
-      const shows = !this.element.hidden && !this.app.selection.names.size && !this.app.selection.joint;
-      if (shows && this.shown !== this.#worldKey() && !this.element.contains(document.activeElement)) {
+      if (!this.element.hidden && this.shown && this.shown !== this.#worldKey() && !this.element.contains(document.activeElement)) {
         queueMicrotask(() => this.showMaterial());
       }
       return;

@@ -5,6 +5,7 @@ import {createElement, elementOf, iconButton} from './dom.js';
 import {ClickTool} from './tools/click_tool.js';
 import {Lasso, Pen} from './tools/freehand.js';
 import {Hand} from './tools/hand.js';
+import {Protractor, Ruler} from './tools/measuring.js';
 
 /** @import {App, Tool} from './types.js' */
 
@@ -31,10 +32,13 @@ export const TOOLS = [[
   ['velocity', 'Velocity', 'v', 'drag an arrow from a body: 1 m is 1 m/s'],
   ['gravity', 'Gravity', 'u', 'drag an arrow: down is there'],
   ['delete', 'Delete', 't', 'take a body away'],
+], [
+  ['ruler', 'Ruler', 'm', 'drag from point to point; a tap takes it away'],
+  ['protractor', 'Protractor', 'q', 'drag from the corner along one side, then click the other one; a tap takes it away'],
 ]];
 
 /** @type {Record<string, new (app: App) => Tool>} */
-const OWN = {pen: Pen, hand: Hand, lasso: Lasso};
+const OWN = {pen: Pen, hand: Hand, lasso: Lasso, ruler: Ruler, protractor: Protractor};
 
 export class Toolbar {
   /** @param {App} app */
@@ -52,6 +56,7 @@ export class Toolbar {
       }
       bar.append(box);
     }
+    bar.lastElementChild?.append(iconButton('Measure', 'measure', () => app.stopwatch.show(), 'Stopwatch with gates, counter of collisions'));
     this.#select('pen');
   }
 

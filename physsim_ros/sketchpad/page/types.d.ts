@@ -123,6 +123,17 @@ export interface Frame {
   scan?: {x: Float32Array, y: Float32Array, hit: Float32Array};
 }
 
+/** The motion of a body's centre of mass at a time [s, m, rad, m/s, rad/s]. */
+export interface Sample {
+  time: number;
+  x: number;
+  y: number;
+  yaw: number;
+  vx: number;
+  vy: number;
+  spin: number;
+}
+
 /** On the body of a row. */
 export interface Force {
   kind: 'weight' | 'normal' | 'friction' | 'joint' | 'air' | 'sum';

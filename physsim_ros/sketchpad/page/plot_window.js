@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+/** A plot that the last row can read: chosen axes, several bodies, readings under the pointer, tables. */
+
+import {drawChart} from './chart.js';
+import {createElement, download, elementOf, iconButton, inRow, textButton} from './dom.js';
+import {QUANTITIES, tableOf} from './quantities.js';
+import {threeDigits} from './rounding.js';
+
+/** @import {App, Palette, Sample} from './types.js' */
+/** @import {Curve, Scales} from './chart.js' */
+
+const SIZE = 18, NARROW_SIZE = 14; // px: of the font, and on a telephone
+const NARROW = 560; // px
+const EVERY = 80; // ms
+const LISTED = 200; // bodies that can be added
+/** Colours of the bodies, one after the other. @type {(keyof Palette)[]} */
+const COLORS = ['accent', 'force', 'friction', 'weight', 'joint', 'air'];
+
+export class PlotWindow {
+  /** @param {App} app */
+  constructor(app) {
+    this.app = app;
+    this.element = elementOf('plot', HTMLElement);
+    /** @type {string[]} of bodies */
+    this.names = [];
+    this.axes = {x: 'time', y: 'y'};
+    this.canvas = createElement('canvas', {role: 'img', 'aria-label': 'Large plot'});
+    this.reading = createElement('output', {textContent: ''});
+    this.legend = createElement('div', {className: 'row legend'});
+    /** @type {?Scales} */
+    this.scales = null;
+    /** @type {?[number, number]} pointer on the canvas [px] */
+    this.pointed = null;
+    this.canvas.onpointermove = ({offsetX, offsetY}) => {
+      this.pointed = [offsetX, offsetY];
+      this.#draw();
+    };
+    this.canvas.onpointerleave = () => {
+      this.pointed = null;
+      this.#draw();
+    };
+    app.connection.on('frame', () => this.#drawSoon());
+    app.connection.on('body', () => this.#drawSoon());
+    new ResizeObserver(() => this.#draw()).observe(this.element);
+  }
+
+  /** @param {string[]} names of bodies */
+  open(names) {
+    const select = (/** @type {'x' | 'y'} */ axis, /** @type {string} */ label) => {
+      const input = createElement('select', {'aria-label': label, onchange: () => {
+        this.axes[axis] = input.value;
+        this.#draw();
+      }}, ...Object.entries(QUANTITIES).map(([value, quantity]) => createElement('option', {value, textContent: quantity.label})));
+      input.value = this.axes[axis];
+      return input;
+    };
+    this.element.replaceChildren(createElement('header', {},
+      inRow(select('y', 'Upwards'), createElement('span', {textContent: 'against'}), select('x', 'To the right'),
+        this.#adder(), textButton('Copy table', () => this.#copyTable())),
+      iconButton('Close the plot', 'close', () => this.close())), this.legend, this.canvas, this.reading);
+    this.element.hidden = false;
+    this.#show(names);
+    // On a telephone there is no room for both.
+    if (this.app.camera.narrow) this.app.selection.select([]);
+  }
+
+  close() {
+    this.element.hidden = true;
+    this.names = [];
+    this.app.records.want(this, []);
+  }
+
+  #adder() {
+    const {bodies} = this.app.world.scene;
+    const input = createElement('select', {'aria-label': 'Add a body', onchange: () => {
+      this.#show([...this.names.filter((name) => name !== input.value), input.value]);
+      input.value = '';
+    }}, ...['', ...bodies.slice(0, LISTED).map(({name}) => name)].map((name) =>
+      createElement('option', {value: name, textContent: name || 'Add a body …'})));
+    return input;
+  }
+
+  /** @param {string[]} names */
+  #show(names) {
+    this.names = names;
+    this.app.records.want(this, names);
+    this.legend.replaceChildren(...names.map((name, i) => {
+      const button = textButton(`${this.app.words.title(name)} ×`, () => this.#show(names.filter((each) => each !== name)));
+      button.style.color = this.app.view.palette[COLORS[i % COLORS.length]];
+      button.title = `Take ${name} out of the plot`;
+      return button;
+    }));
+    this.#draw();
+  }
+
+  #drawSoon() {
+    if (this.waits || this.element.hidden) return;
+    this.waits = true;
+    setTimeout(() => {
+      this.waits = false;
+      this.#draw();
+    }, EVERY);
+  }
+
+  #draw() {
+    if (this.element.hidden) return;
+    const {world, view: {palette}, records} = this.app, {gravity} = world.scene, {x, y} = this.axes;
+    /** @type {Curve[]} */
+    const curves = [];
+    this.names.forEach((name, i) => {
+      const body = world.scene.bodies.find((each) => each.name === name), record = records.bodies.get(name);
+      if (!body || !record) return;
+      const points = (/** @type {Sample[]} */ samples) => samples.map((sample) =>
+        [QUANTITIES[x].of(sample, body, gravity), QUANTITIES[y].of(sample, body, gravity)]);
+      const color = palette[COLORS[i % COLORS.length]];
+      curves.push({points: points(record.samples), color, width: 3},
+        {points: points(record.left), color, width: 2, dash: [6, 6], alpha: 0.7});
+    });
+    const width = this.canvas.clientWidth, height = this.canvas.clientHeight;
+    if (!width || !height) return;
+    this.scales = drawChart(this.canvas, {width, height, size: width < NARROW ? NARROW_SIZE : SIZE, palette, curves,
+      xLabel: QUANTITIES[x].label, yLabel: QUANTITIES[y].label, range: rangeOf(curves),
+      mark: x === 'time' ? world.frame.time : undefined});
+    this.#read(curves);
+  }
+
+  /**
+   * Tell the point of a curve next to the pointer.
+   * @param {Curve[]} curves
+   */
+  #read(curves) {
+    const {pointed, scales} = this;
+    if (!pointed || !scales) {
+      this.reading.textContent = '';
+      return;
+    }
+    let least = Infinity, nearest = [0, 0], color = '';
+    for (const curve of curves) for (const point of curve.points) {
+      const distance = Math.hypot(scales.x(point[0]) - pointed[0], scales.y(point[1]) - pointed[1]);
+      if (distance < least) [least, nearest, color] = [distance, point, curve.color];
+    }
+    if (!color) return;
+    const told = (/** @type {'x' | 'y'} */ axis, /** @type {number} */ value) =>
+      QUANTITIES[this.axes[axis]].label.replace('[', `${threeDigits(value)} `).replace(']', '');
+    this.reading.textContent = `${told('x', nearest[0])} · ${told('y', nearest[1])}`;
+    const ctx = /** @type {CanvasRenderingContext2D} */ (this.canvas.getContext('2d'));
+    ctx.fillStyle = color;
+    ctx.beginPath();
+    ctx.arc(scales.x(nearest[0]), scales.y(nearest[1]), 6, 0, 2 * Math.PI);
+    ctx.fill();
+  }
+
+  /**
+   * @param {string[]} names of bodies
+   * @returns {string} CSV
+   */
+  #tableOf(names) {
+    const {world: {scene}, records} = this.app;
+    return tableOf(names.flatMap((name) => {
+      const body = scene.bodies.find((each) => each.name === name);
+      return body ? [{name, body, samples: records.samples(name)}] : [];
+    }), scene.gravity);
+  }
+
+  /** @param {string[]} names of bodies */
+  saveTable(names) {
+    download(`${names[0].replaceAll('/', '-')}.csv`, new Blob([this.#tableOf(names)], {type: 'text/csv'}));
+  }
+
+  async #copyTable() {
+    try {
+      await navigator.clipboard.writeText(this.#tableOf(this.names));
+      this.app.notes.showMessage('Table copied');
+    } catch {
+      // Browsers give the clipboard to pages of this machine or with TLS only.
+      this.saveTable(this.names);
+    }
+  }
+}
+
+/**
+ * @param {Curve[]} curves
+ * @returns {number[]} least and greatest x
+ */
+function rangeOf(curves) {
+  let least = Infinity, most = -Infinity;
+  for (const {points} of curves) for (const [x] of points) [least, most] = [Math.min(least, x), Math.max(most, x)];
+  if (least > most) return [0, 1];
+  return most - least > 1e-6 ? [least, most] : [least - 0.5, most + 0.5];
+}

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+/** Tools that measure on the page: a ruler and a protractor, which stay until they are tapped away. */
+
+import {threeDigits} from '../rounding.js';
+import {onGrid} from '../snapping.js';
+
+/** @import {App, Point, SceneView, Touch} from '../types.js' */
+
+const TAP = 5; // px: no farther is a tap
+const TICK = 5, LONG_TICK = 9; // px of the marks of a ruler
+const LEAST_TICK = 6; // px from mark to mark
+const ARC = 34; // px: radius of the arc of an angle
+
+/** A line from point to point, with marks, its length, slope and differences. */
+export class Ruler {
+  /** @param {App} app */
+  constructor(app) {
+    this.app = app;
+    /** @type {Point[]} [m] */
+    this.ends = [];
+    /** @type {?Touch} */
+    this.start = null;
+    app.view.overlays.push((view) => this.#draw(view));
+  }
+
+  /** @param {Touch} touch */
+  down(touch) {
+    this.start = touch;
+    this.ends = [];
+  }
+
+  /** @param {Touch} touch */
+  move(touch) {
+    if (this.start) this.ends = [onGrid(this.start.at, touch.grid), onGrid(touch.at, touch.grid)];
+  }
+
+  /** @param {Touch} touch */
+  up(touch) {
+    if (isTap(this.start, touch)) this.ends = [];
+    this.start = null;
+  }
+
+  cancel() {
+    if (this.start) this.ends = [];
+    this.start = null;
+  }
+
+  draw() {}
+
+  /** @param {SceneView} view */
+  #draw(view) {
+    const [p, q] = this.ends;
+    if (!q) return;
+    const dx = q[0] - p[0], dy = q[1] - p[1], length = Math.hypot(dx, dy), {ctx, camera, palette} = view;
+    view.line([p, q], palette.accent);
+    const step = camera.fineStep * Math.max(1, Math.ceil(LEAST_TICK / (camera.fineStep * camera.scale)));
+    const [px, py] = camera.toPage(...p), ux = dx / length, uy = -dy / length;
+    ctx.strokeStyle = palette.accent;
+    ctx.lineWidth = 1.5;
+    ctx.beginPath();
+    for (let i = 0; length && i * step <= length * (1 + 1e-9); i++) {
+      const along = i * step * camera.scale, half = i % 5 ? TICK : LONG_TICK;
+      ctx.moveTo(px + along * ux - half * uy, py + along * uy + half * ux);
+      ctx.lineTo(px + along * ux + half * uy, py + along * uy - half * ux);
+    }
+    ctx.stroke();
+    const [x, y] = camera.toPage(...q), align = dx < 0 ? 'right' : 'left', aside = x + (dx < 0 ? -14 : 14);
+    view.write(`${threeDigits(length)} m, ${degrees(Math.atan2(dy, dx))}`, [aside, y - 3], palette.accent, align);
+    view.write(`Δx ${threeDigits(dx)} m, Δy ${threeDigits(dy)} m`, [aside, y + 14], palette.accent, align);
+  }
+}
+
+/** The angle between two arms: the first one is dragged from the corner, the second one clicked. */
+export class Protractor {
+  /** @param {App} app */
+  constructor(app) {
+    this.app = app;
+    this.clicks = 2;
+    /** @type {Point[]} corner, ends of the arms [m] */
+    this.points = [];
+    this.open = false; // the second arm follows the pointer
+    /** @type {?Touch} */
+    this.start = null;
+    app.view.overlays.push((view) => this.#draw(view));
+  }
+
+  /** @param {Touch} touch */
+  down(touch) {
+    this.start = touch;
+    if (!this.open) this.points = [onGrid(touch.at, touch.grid)];
+  }
+
+  /** @param {Touch} touch */
+  move(touch) {
+    const at = onGrid(touch.at, touch.grid);
+    if (this.open) this.points[2] = at;
+    else if (this.start) this.points[1] = at;
+  }
+
+  /** @param {Touch} touch */
+  up(touch) {
+    this.move(touch);
+    if (this.open) this.open = false;
+    else if (isTap(this.start, touch)) this.points = [];
+    else this.open = true;
+    this.start = null;
+  }
+
+  cancel() {
+    if (this.open || this.start) this.points = [];
+    this.open = false;
+    this.start = null;
+  }
+
+  draw() {}
+
+  /** @param {SceneView} view */
+  #draw(view) {
+    const [corner, p, q] = this.points;
+    if (!p) return;
+    const {ctx, camera, palette} = view;
+    view.line(q ? [p, corner, q] : [corner, p], palette.accent);
+    const [first, second] = [p, q ?? [corner[0] + 1, corner[1]]].map(([x, y]) => Math.atan2(y - corner[1], x - corner[0]));
+    const turn = Math.atan2(Math.sin(second - first), Math.cos(second - first)), middle = first + turn / 2;
+    const [x, y] = camera.toPage(...corner);
+    ctx.beginPath();
+    ctx.arc(x, y, ARC, -first, -first - turn, turn > 0);
+    ctx.stroke();
+    view.write(degrees(Math.abs(turn)), [x + 2 * ARC * Math.cos(middle), y - 2 * ARC * Math.sin(middle) + 5], palette.accent, 'center');
+  }
+}
+
+/**
+ * @param {?Touch} start
+ * @param {Touch} end
+ */
+function isTap(start, {page: [x, y]}) {
+  return !start || Math.hypot(x - start.page[0], y - start.page[1]) <= TAP;
+}
+
+/** @param {number} angle [rad] */
+function degrees(angle) {
+  return `${Math.round(angle * 1800 / Math.PI) / 10}°`;
+}

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The trail of a body: its way, and as in a stroboscope where it was at equal times, with arrows of v and a. */
+
+import {createElement} from './dom.js';
+
+/** @import {App, Point, Sample, SceneView} from './types.js' */
+
+const FLASH = 0.1; // s from flash to flash
+const MOST_FLASHES = 100;
+const LONGEST = 90; // px: longer arrows, of impacts, are cut
+const ACCELERATION = 0.2; // s: the arrow of a is as long as that of the velocity that it gives in this time
+
+export class Trail {
+  /** @param {App} app */
+  constructor(app) {
+    this.app = app;
+    /** @type {Map<string, boolean>} names of bodies with a trail, and whether it has flashes */
+    this.bodies = new Map();
+    app.view.overlays.push((view) => {
+      for (const [name, flashes] of this.bodies) this.#draw(view, name, flashes);
+    });
+  }
+
+  /**
+   * @param {string} name of a body
+   * @returns {HTMLElement[]} its switches
+   */
+  switches(name) {
+    const trail = createElement('input', {type: 'checkbox', checked: this.bodies.has(name)});
+    const flashes = createElement('input', {type: 'checkbox', checked: this.bodies.get(name) ?? false});
+    const change = () => {
+      if (trail.checked || flashes.checked) this.bodies.set(name, flashes.checked);
+      else this.bodies.delete(name);
+      this.app.records.want(this, [...this.bodies.keys()]);
+    };
+    trail.onchange = flashes.onchange = change;
+    return [createElement('label', {}, 'Trail', trail), createElement('label', {}, 'Stroboscope, with v and a', flashes)];
+  }
+
+  /**
+   * @param {SceneView} view
+   * @param {string} name
+   * @param {boolean} flashes
+   */
+  #draw(view, name, flashes) {
+    const {world, records} = this.app, row = world.row(name), now = world.frame.time + 1e-9;
+    const samples = records.samples(name).filter(({time}) => time <= now);
+    if (row < 0 || samples.length < 2) return;
+    const {palette} = view;
+    view.line(samples.map(({x, y}) => [x, y]), palette.faint, [2, 5]);
+    if (flashes) for (const number of flashesOf(samples)) this.#flash(view, row, samples, number);
+  }
+
+  /**
+   * @param {SceneView} view
+   * @param {number} row
+   * @param {Sample[]} samples
+   * @param {number} number of the sample
+   */
+  #flash(view, row, samples, number) {
+    const {world, camera, arrows} = this.app, {palette} = view, sample = samples[number];
+    const {x, y, yaw, vx, vy} = sample, [nowX, nowY] = world.place(row, world.scene.bodies[row].centroid);
+    view.outline(row, palette.faint, [x - nowX, y - nowY], {turn: yaw - world.frame.yaw[row], scale: 1});
+    const from = camera.toPage(x, y), pixels = arrows.speeds.length(1);
+    const [ax, ay] = accelerationAt(samples, number);
+    drawArrow(view, from, vx * pixels, vy * pixels, palette.accent);
+    drawArrow(view, from, ax * pixels * ACCELERATION, ay * pixels * ACCELERATION, palette.weight);
+  }
+}
+
+/**
+ * @param {SceneView} view
+ * @param {Point} from [px]
+ * @param {number} x [px], y up
+ * @param {number} y
+ * @param {string} color
+ */
+function drawArrow(view, [px, py], x, y, color) {
+  const length = Math.hypot(x, y), share = Math.min(1, LONGEST / length);
+  view.arrow([px, py], [px + x * share, py - y * share], color, {width: 1.5, cut: share < 1});
+}
+
+/**
+ * @param {Sample[]} samples
+ * @returns {number[]} numbers of those next after whole multiples of the time of a flash, the last ones
+ */
+function flashesOf(samples) {
+  const numbers = [];
+  for (let i = 1; i < samples.length; i++) {
+    if (Math.floor(samples[i].time / FLASH + 1e-6) > Math.floor(samples[i - 1].time / FLASH + 1e-6)) numbers.push(i);
+  }
+  return numbers.slice(-MOST_FLASHES);
+}
+
+/**
+ * @param {Sample[]} samples
+ * @param {number} number
+ * @returns {[number, number]} the change of velocity from the sample before to the one after [m/s²]
+ */
+export function accelerationAt(samples, number) {
+  const p = samples[Math.max(number - 1, 0)], q = samples[Math.min(number + 1, samples.length - 1)];
+  const time = q.time - p.time || 1;
+  return [(q.vx - p.vx) / time, (q.vy - p.vy) / time];
+}

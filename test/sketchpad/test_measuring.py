@@ -1,0 +1,208 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""Measuring on the page: plots, tables, trails, ruler and protractor, stopwatch and counter."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+import math
+import re
+from typing import Any
+
+import pytest
+
+from .chromium import Sheet, started_world
+from ..outside import Outside
+
+G = 9.81
+# A ball that is thrown, one that falls, a cart that passes two gates without friction.
+WORLD = """
+format: 1
+bounds: [-8, 0, 8, 10]
+gravity: [0, -9.81]
+bodies:
+  - {name: ball/0, circle: {radius: 0.3}, at: [-7.5, 8], velocity: [2, 0]}
+  - {name: ball/1, circle: {radius: 0.3}, at: [3, 8], elasticity: 1}
+  - {name: rail/0, box: {width: 9, height: 0.4}, at: [0, 2], anchored: true, friction: 0, elasticity: 1}
+  - {name: cart/0, box: {width: 0.6, height: 0.4}, at: [-3, 2.4], velocity: [1.5, 0], friction: 0}
+  - {name: gate/0, box: {width: 0.1, height: 1}, at: [-1, 2.8], anchored: true, sensor: true}
+  - {name: gate/1, box: {width: 0.1, height: 1}, at: [1.1, 2.8], anchored: true, sensor: true}
+"""
+# Whether there are pixels of a colour in a square around a point of the page [px].
+HAS_COLOR = """([x, y, half, name]) => {
+    const canvas = document.querySelector('canvas'), ratio = devicePixelRatio;
+    const color = getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+    const wanted = color.match(/\\w\\w/g).map((each) => parseInt(each, 16));
+    const {data} = canvas.getContext('2d').getImageData(
+        (x - half) * ratio, (y - half) * ratio, 2 * half * ratio, 2 * half * ratio);
+    for (let i = 0; i < data.length; i += 4) {
+        if (wanted.every((each, channel) => Math.abs(each - data[i + channel]) < 24)) return true;
+    }
+    return false;
+}"""
+
+
+@pytest.fixture(scope='module')
+def address(outside: Outside) -> str:
+    """Give the module the address of a world to measure in."""
+    return started_world(outside, world=WORLD)[1]
+
+
+@pytest.fixture
+def sheet(chromium: Any, address: str) -> Iterator[Sheet]:
+    """Give a test a page with the hand, and the world from its beginning, paused."""
+    sheet = Sheet(chromium, address, permissions=['clipboard-read', 'clipboard-write'])
+    sheet.begin(6)
+    sheet.press('Hand')
+    yield sheet
+    sheet.close()
+
+
+def chosen(sheet: Sheet, x: float, y: float) -> None:
+    """Choose the body at a place [m]."""
+    sheet.page.mouse.click(*sheet.place(x, y))
+    sheet.page.get_by_role('button', name='Delete body').wait_for()
+
+
+def play_until(sheet: Sheet, seconds: float) -> float:
+    """Play to a time, pause, and return the time."""
+    sheet.press('Play')
+    sheet.wait('seconds => physsim.time > seconds', seconds)
+    sheet.press('Pause')
+    sheet.wait('physsim.speed === 0')
+    return float(sheet.page.evaluate('physsim.time'))
+
+
+def pointed(sheet: Sheet, share: float) -> list[float]:
+    """Point into the large plot, that far from its left, and return the numbers read there."""
+    box = sheet.page.get_by_label('Large plot').bounding_box()
+    sheet.page.mouse.move(box['x'] + share * box['width'], box['y'] + box['height'] / 2)
+    reading = sheet.page.locator('#plot output')
+    sheet.until(lambda: '·' in reading.inner_text(), 'a reading')
+    return [float(each) for each in re.findall(r' (-?[\d.]+)', reading.inner_text())]
+
+
+def test_a_large_plot_tells_what_is_under_the_pointer(sheet: Sheet) -> None:
+    chosen(sheet, -7.5, 8.0)
+    play_until(sheet, 0.9)
+    sheet.press('Large plot')
+    time, height = pointed(sheet, 0.5)
+    assert 0.2 < time < 0.8
+    # To three digits of the time and of the height.
+    assert height == pytest.approx(8.0 - G * time**2 / 2, abs=0.01 + G * time * 0.001)
+
+
+def test_a_plot_has_axes_of_choice_and_several_bodies(sheet: Sheet) -> None:
+    chosen(sheet, -7.5, 8.0)
+    play_until(sheet, 0.8)
+    sheet.press('Large plot')
+    sheet.page.get_by_label('To the right').select_option(label='Height [m]')
+    sheet.page.get_by_label('Upwards').select_option(label='vy [m/s]')
+    height, speed = pointed(sheet, 0.5)
+    # v² is 2 g h.
+    assert speed == pytest.approx(-math.sqrt(2.0 * G * (8.0 - height)), abs=0.03)
+    sheet.page.get_by_label('Add a body').select_option('ball/1')
+    sheet.wait('physsim.records["ball/1"] && physsim.records["ball/1"][0] > 20')
+    sheet.press('Copy table')
+    sheet.page.get_by_role('status').get_by_text('Table copied').wait_for()
+    head, *rows = sheet.page.evaluate('navigator.clipboard.readText()').splitlines()
+    assert head.split(',')[:4] == ['time [s]', 'x [m]', 'y [m]', 'vx [m/s]']
+    assert {row.split(',')[-1] for row in rows} == {'"ball/0"', '"ball/1"'}
+    sheet.press('ball/0 ×')
+    sheet.press('Close the plot')
+    assert not sheet.page.get_by_label('Large plot').is_visible()
+
+
+def test_the_course_that_was_left_stays_as_a_second_line(sheet: Sheet) -> None:
+    chosen(sheet, 3.0, 8.0)
+    play_until(sheet, 1.0)
+    assert sheet.page.evaluate('physsim.records["ball/1"][1]') == 0
+    slider = sheet.page.get_by_role('slider', name='Time', exact=True)
+    slider.fill('0.5')
+    sheet.wait('Math.abs(physsim.time - 0.5) < 0.02')
+    sheet.page.get_by_text('Type numbers').click()
+    field = sheet.page.get_by_label('vy [m/s]')
+    field.fill('5')
+    field.press('Enter')
+    sheet.wait('physsim.records["ball/1"][1] > 20')
+    before = sheet.page.evaluate('physsim.records["ball/1"]')
+    play_until(sheet, 0.8)
+    after = sheet.page.evaluate('physsim.records["ball/1"]')
+    assert after[0] > before[0]
+    assert after[1] == before[1]
+
+
+def test_a_stroboscope_shows_where_a_body_was_with_v_and_a(sheet: Sheet) -> None:
+    chosen(sheet, -7.5, 8.0)
+    sheet.page.get_by_label('Stroboscope, with v and a').check()
+    # The panel follows nothing else; the trail stays without a selection.
+    sheet.page.keyboard.press('Escape')
+    sheet.page.keyboard.press('Escape')
+    play_until(sheet, 1.0)
+    time = 0.5
+    x, y = sheet.place(-7.5 + 2.0 * time, 8.0 - G * time**2 / 2)
+    for color in ('--faint', '--accent', '--weight'):
+        sheet.until(lambda color=color: sheet.page.evaluate(HAS_COLOR, [x, y, 30, color]), color)
+    # Where it would have been after 1.1 s it was not yet.
+    x, y = sheet.place(-7.5 + 2.0 * 1.25, 8.0 - G * 1.25**2 / 2)
+    assert not sheet.page.evaluate(HAS_COLOR, [x, y, 10, '--weight'])
+
+
+def test_a_ruler_and_a_protractor_measure(sheet: Sheet) -> None:
+    sheet.page.evaluate("""() => {
+        window.texts = [];
+        const write = CanvasRenderingContext2D.prototype.fillText;
+        CanvasRenderingContext2D.prototype.fillText = function (text, ...at) {
+            window.texts.push(text);
+            write.call(this, text, ...at);
+        };
+    }""")
+    sheet.press('Ruler')
+    sheet.page.keyboard.down('Shift')
+    sheet.drag((-4.03, 4.02), (0.05, 7.18))
+    sheet.wait('window.texts.includes("5.12 m, 38.7°")')
+    sheet.wait('window.texts.includes("Δx 4 m, Δy 3.2 m")')
+    sheet.press('Protractor')
+    sheet.drag((0.0, 4.0), (4.0, 4.0))
+    sheet.page.mouse.click(*sheet.place(4.0, 8.0))
+    sheet.wait('window.texts.includes("45°")')
+    sheet.page.keyboard.up('Shift')
+    # The ruler stays beside another tool, until it is tapped away.
+    assert sheet.page.evaluate('window.texts.includes("5.12 m, 38.7°")')
+    sheet.press('Ruler')
+    sheet.page.mouse.click(*sheet.place(-2.0, 6.0))
+    sheet.page.evaluate('window.texts = []')
+    sheet.press('Frame the world')
+    sheet.wait('window.texts.includes("45°")')
+    assert not sheet.page.evaluate('window.texts.includes("5.12 m, 38.7°")')
+
+
+def test_gates_start_and_stop_the_clock_to_the_step(sheet: Sheet) -> None:
+    sheet.press('Measure')
+    panel = sheet.page.get_by_role('complementary', name='Body')
+    panel.get_by_label('Starts when touched').select_option('gate/0')
+    panel.get_by_label('Stops when touched').select_option('gate/1')
+    clock = panel.get_by_label('Stopwatch')
+    play_until(sheet, 3.0)
+    sheet.until(lambda: clock.inner_text() == '1.4000 s', '2.1 m at 1.5 m/s')
+    panel.get_by_text('started at').wait_for()
+    first = panel.inner_text()
+    # Again, by the same bits.
+    sheet.press('Reset')
+    sheet.until(lambda: clock.inner_text() == '–', 'a clock that has not started')
+    play_until(sheet, 3.0)
+    sheet.until(lambda: panel.inner_text() == first, 'the same times')
+
+
+def test_collisions_of_a_body_are_counted(sheet: Sheet) -> None:
+    sheet.press('Measure')
+    panel = sheet.page.get_by_role('complementary', name='Body')
+    panel.get_by_label('Collisions of').select_option('ball/1')
+    count = panel.get_by_label('Number of collisions')
+    assert count.inner_text() == '0'
+    # From 8 m onto the rail whose top is at 2.2 m: after 1.07 s, and then each 2.14 s.
+    play_until(sheet, 5.0)
+    sheet.until(lambda: count.inner_text() == '2', 'two bounces')
+    sheet.press('Count from here')
+    assert count.inner_text() == '0'
