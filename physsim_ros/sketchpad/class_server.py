@@ -25,7 +25,7 @@ from physsim_ros.sketchpad.access import Access, Role
 from physsim_ros.sketchpad.guarded import Guarded, TYPES
 from physsim_ros.sketchpad.listening import BoundedServer, listening_sockets, reachable_host
 from physsim_ros.sketchpad.messages import fields
-from physsim_ros.sketchpad.page_handlers import Files, Login, Missing, PAGE, QrCode
+from physsim_ros.sketchpad.page_handlers import Login, Missing, PAGE, PageFiles, QrCode
 from tornado.web import Application
 
 # Size of a request [bytes].
@@ -98,7 +98,7 @@ class ClassServer:
             [
                 ('/', _ClassPage),
                 ('/login', Login),
-                ('/page/(.*)', Files, {'path': str(PAGE)}),
+                ('/page/(.*)', PageFiles, {'path': str(PAGE)}),
                 ('/seats', _SeatList, {'seats': seats}),
                 ('/join', _Join, {'seats': seats}),
                 ('/qr.svg', QrCode, {'address': partial(self.url, Role.DRAW)}),

@@ -5,8 +5,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Generator
 from pathlib import Path
+import re
 
 from physsim_ros.sketchpad.access import Role
 from physsim_ros.sketchpad.guarded import Guarded, TYPES
@@ -15,6 +16,8 @@ from tornado.web import HTTPError, StaticFileHandler
 
 # The files that a browser runs.
 PAGE = Path(__file__).with_name('page')
+# Descriptions, types of editors, and lines that are comments, but for the licence.
+_COMMENTS = re.compile(rb'/\*\*.*?\*/|^[ \t]*//(?! SPDX)[^\n]*', re.DOTALL | re.MULTILINE)
 
 
 class _CookieSetting(Guarded):
@@ -110,3 +113,21 @@ class Files(Guarded, StaticFileHandler):
         """Return the type of a file of the page; other files are bytes."""
         path = Path(self.absolute_path or '')
         return TYPES.get(path.suffix, 'application/octet-stream')
+
+
+class PageFiles(Files):
+    """The files of the page; scripts without comments, in the same lines."""
+
+    @classmethod
+    def get_content(
+        cls, abspath: str, start: int | None = None, end: int | None = None
+    ) -> Generator[bytes, None, None]:
+        """Yield a part of a file."""
+        content = Path(abspath).read_bytes()
+        if abspath.endswith('.js'):
+            content = _COMMENTS.sub(lambda found: b'\n' * found[0].count(b'\n'), content)
+        yield content[start:end]
+
+    def get_content_size(self) -> int:
+        """Return the size of the file [bytes]."""
+        return sum(map(len, self.get_content(self.absolute_path or '')))

@@ -35,7 +35,7 @@ from physsim_ros.sketchpad.world_control import WorldControl
 # 5 s.
 HAND_PERIOD = 2.0
 # Kinds of messages that pages may send while they are frozen: what changes no world.
-WHILE_FROZEN = ('watch', 'person', 'share', 'let_go', 'drop', 'draw_with')
+WHILE_FROZEN = ('watch', 'follow', 'person', 'share', 'let_go', 'drop', 'draw_with')
 
 
 class PageSession:

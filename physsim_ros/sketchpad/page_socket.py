@@ -25,7 +25,7 @@ from physsim_ros.sketchpad.open_pages import MOST_PAGES, OpenPage
 from physsim_ros.sketchpad.scene_codec import compact
 
 # Types of the messages that a page may send which only shows the world.
-OF_VIEWERS = ('show', 'watch')
+OF_VIEWERS = ('show', 'watch', 'follow')
 # Types of the messages that a teacher's page alone may send.
 OF_TEACHERS = ('freeze', 'lock', 'clear_of')
 

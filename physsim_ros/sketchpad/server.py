@@ -29,6 +29,7 @@ from physsim_ros.sketchpad.page_handlers import (
     Missing,
     PAGE,
     Page,
+    PageFiles,
     QrCode,
 )
 from physsim_ros.sketchpad.page_socket import PageSocket
@@ -90,7 +91,7 @@ class Server:
                 ('/session', CookieCheck),
                 ('/qr.svg', QrCode, {'address': partial(self.url, Role.DRAW)}),
                 ('/ws', PageSocket, {'feed': self._feed, 'inbox': inbox}),
-                ('/page/(.*)', Files, {'path': str(PAGE)}),
+                ('/page/(.*)', PageFiles, {'path': str(PAGE)}),
                 ('/gallery/(.*)', Files, {'path': str(shipped_pictures())}),
                 ('/world', UploadWorld, {'inbox': inbox}),
                 (r'/world/([^/]+)\.yaml', Download, {'own_worlds': own_worlds}),

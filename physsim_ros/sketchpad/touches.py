@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Touches of bodies that a page follows: gates that start and stop its clock, bodies whose collisions
-it counts.
+Touches of bodies that a page follows: gates of its stopwatch, bodies whose collisions it counts.
 
 Law: a touch has the time of the step in which it began, whatever the frames are.
 """

@@ -24,8 +24,17 @@ gravity: [0, -9.81]
 bodies:
   - {name: ball/0, circle: {radius: 0.3}, at: [-7.5, 8], velocity: [2, 0]}
   - {name: ball/1, circle: {radius: 0.3}, at: [3, 8], elasticity: 1}
-  - {name: rail/0, box: {width: 9, height: 0.4}, at: [0, 2], anchored: true, friction: 0, elasticity: 1}
-  - {name: cart/0, box: {width: 0.6, height: 0.4}, at: [-3, 2.4], velocity: [1.5, 0], friction: 0}
+  - name: rail/0
+    box: {width: 9, height: 0.4}
+    at: [0, 2]
+    anchored: true
+    friction: 0
+    elasticity: 1
+  - name: cart/0
+    box: {width: 0.6, height: 0.4}
+    at: [-3, 2.4]
+    velocity: [1.5, 0]
+    friction: 0
   - {name: gate/0, box: {width: 0.1, height: 1}, at: [-1, 2.8], anchored: true, sensor: true}
   - {name: gate/1, box: {width: 0.1, height: 1}, at: [1.1, 2.8], anchored: true, sensor: true}
 """

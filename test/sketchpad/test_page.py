@@ -402,7 +402,8 @@ def test_what_is_drawn_next_is_made_of_a_material_on_another_planet(sheet: Sheet
     name = sheet.wait_for_new(before)
     sheet.press('Hand')
     sheet.page.mouse.click(*sheet.place(0.0, 5.0))
-    panel.get_by_text('0.864 kg').wait_for()
+    panel.get_by_role('heading', name='Circle').wait_for()
+    assert panel.get_by_label('Density [kg/m²], typed').input_value() == '1.1'
     sheet.press('Play')
     sheet.wait('physsim.time > 0.5')
     sheet.press('Pause')

@@ -25,6 +25,7 @@ export class BodyPanel {
     this.numbers = new Numbers(app);
     this.name = '';
     this.shown = ''; // part of the scene that the panel shows, as text
+    this.subject = ''; // that is shown
     this.turn = 0; // of gravity from down, counter-clockwise [rad]
     app.connection.on('scene', () => this.#follow());
   }
@@ -163,6 +164,10 @@ export class BodyPanel {
       createElement('h2', {}, `${title} `, createElement('small', {textContent: name})),
       iconButton('Close', 'close', () => this.app.selection.select([]))), ...content);
     this.element.hidden = false;
+    // The panel of the same body stays where it was scrolled to.
+    const subject = title + name;
+    if (subject !== this.subject) this.element.scrollTop = 0;
+    this.subject = subject;
     this.app.card?.update();
   }
 
