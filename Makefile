@@ -54,7 +54,7 @@ PUPILS ?= 20
 ADDRESS ?= 0.0.0.0
 
 class: $(STAMP)  ## start a world for each pupil of a class, PUPILS=20, open to the network
-	@exec $(BIN)/physsim_class --pupils $(PUPILS) --address $(ADDRESS) --ros-args -p world_file:=demo $(ARGS)
+	@exec $(BIN)/physsim_class --pupils $(PUPILS) --address $(ADDRESS) --ros-args -p world_file:=free_fall -p speed:=0.0 $(ARGS)
 
 # A worker that a test takes down is replaced, but not without end.
 PYTEST := $(BIN)/python -m pytest --numprocesses=auto --maxprocesses=8 --dist=worksteal --max-worker-restart=4

@@ -73,6 +73,8 @@ def main() -> None:
         )
         sys.stdout.flush()
         server.run(lambda: watch.requested or any(each.poll() is not None for each in processes))
+        if not watch.requested:
+            sys.exit('physsim_class: the process of some worlds has ended; see above')
     except PhysSimError as error:
         sys.exit(f'physsim_class: {error}')
     finally:

@@ -136,12 +136,12 @@ export class App {
   #followSizes() {
     const bar = elementOf('bar', HTMLElement), top = elementOf('top', HTMLElement);
     const sizes = new ResizeObserver(() => {
-      document.documentElement.style.setProperty('--top', `${top.offsetHeight}px`);
       document.documentElement.style.setProperty('--bar', `${bar.offsetHeight}px`);
       if (this.camera.fitted) this.frame();
     });
     sizes.observe(bar, {box: 'border-box'});
-    sizes.observe(top, {box: 'border-box'});
+    // What is said there makes it higher and lower: the world stays where it is.
+    new ResizeObserver(() => document.documentElement.style.setProperty('--top', `${top.offsetHeight}px`)).observe(top);
     sizes.observe(this.view.canvas);
   }
 
