@@ -65,12 +65,21 @@ test: $(STAMP)  ## run all tests but the slow ones: some minutes
 test-all: $(STAMP)  ## run every test: a quarter of an hour
 	$(PYTEST) $(ARGS)
 
+# Side by side; ament's checks take a minute the first time, then look only at files that have changed.
+LINTS := lint-ruff lint-mypy lint-imports lint-style lint-page
+.PHONY: $(LINTS)
 lint: $(STAMP)  ## check style, types and imports
+	@$(MAKE) --no-print-directory --jobs=4 --output-sync --keep-going $(LINTS)
+lint-ruff:
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
+lint-mypy:
 	$(BIN)/mypy physsim_ros
+lint-imports:
 	$(BIN)/lint-imports
-	$(BIN)/python -m pytest -q test/style
+lint-style:
+	$(BIN)/python -m pytest -q -n0 test/style
+lint-page:
 	@if $(TSC) --version >/dev/null 2>&1; then $(TSC) -p physsim_ros/sketchpad/page; \
 	else echo 'Node or TypeScript is not there: the types of the page are not checked.'; fi
 

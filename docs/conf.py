@@ -11,12 +11,14 @@ Sphinx, since it is what docs.ros.org is made with and the docstrings are writte
 from pathlib import Path
 import re
 import sys
+from typing import Any
 
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
 
 project = 'physsim_ros'
 author = 'physsim_ros maintainers'
+project_copyright = '2026 physsim_ros maintainers'
 (release,) = re.findall('<version>(.*)</version>', (ROOT / 'package.xml').read_text('utf-8'))
 version = release
 
@@ -24,6 +26,8 @@ extensions = ['myst_parser', 'sphinx.ext.apidoc', 'sphinx.ext.autodoc']
 exclude_patterns = ['_build']
 html_theme = 'furo'
 html_title = f'physsim_ros {release}'
+# Pages come before names of the code.
+html_search_scorer = str(ROOT / 'docs' / 'search_scorer.js')
 
 # Single backticks in docstrings are names of the code.
 default_role = 'literal'
@@ -45,3 +49,24 @@ autodoc_member_order = 'bysource'
 suppress_warnings = ['ref.python']
 autodoc_typehints = 'description'
 autodoc_typehints_description_target = 'documented'
+
+# Links of README lead from the repository; those of its pages from here.
+MOVED = {
+    '](docs/': '](',
+    '](CONTRIBUTING.md': '](contributing.md',
+    '](CHANGELOG.rst': '](changelog.rst',
+}
+
+
+def begin_with_readme(_app: object, name: str, source: list[str]) -> None:
+    """Put README before the tables of contents of the first page."""
+    if name == 'index':
+        readme = (ROOT / 'README.md').read_text(encoding='utf-8')
+        for old, new in MOVED.items():
+            readme = readme.replace(old, new)
+        source[0] = f'{readme}\n{source[0]}'
+
+
+def setup(app: Any) -> None:
+    """Connect what Sphinx calls for each page."""
+    app.connect('source-read', begin_with_readme)

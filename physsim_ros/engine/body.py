@@ -13,11 +13,12 @@ lead.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 import math
 import operator
 
 import numpy as np
+from physsim_ros.engine.memory import place_of
 from physsim_ros.model.checkpoint import BodyState, Motion
 from physsim_ros.model.scene import Body
 from physsim_ros.model.settings import WorldSettings
@@ -46,6 +47,9 @@ class RigidBody:
     :param free: in free flight, so that the engine's velocity leads
     :param wrench: force [N] and torque [N m] that act on the centre of mass
     :param wrench_until: step at which the wrench ends; None is never
+
+    :ivar pm_id: the engine's number of the body
+    :ivar place: of its `cpBody`, by which `memory` reads it
     """
 
     body: Body
@@ -55,6 +59,12 @@ class RigidBody:
     free: bool = True
     wrench: Wrench = NO_WRENCH
     wrench_until: int | None = None
+    pm_id: int = field(init=False)
+    place: int = field(init=False)
+
+    def __post_init__(self) -> None:
+        # Kept, since Pymunk takes a microsecond for each, and a table of all bodies has both.
+        self.pm_id, self.place = self.pm_body.id, place_of(self.pm_body._body)  # noqa: SLF001
 
     @property
     def offset(self) -> Point:

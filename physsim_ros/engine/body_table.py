@@ -17,7 +17,7 @@ from physsim_ros.engine.batch_io import BatchIO, Ids
 from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.ccd.fast_bodies import slow_bounds
 from physsim_ros.engine.graph_search import Rows
-from physsim_ros.engine.memory import places_of
+from physsim_ros.engine.memory import place_of
 from physsim_ros.engine.scene_columns import columns_of
 from physsim_ros.model.arrays import Floats, Ints
 from physsim_ros.model.scene import Scene
@@ -69,9 +69,9 @@ class BodyTable:
         self.free = np.array([rigid.free for rigid in bodies], np.bool_)
         self.slot_changes = 0
         self._io = io
-        ids = [rigid.pm_body.id for rigid in bodies]
-        self.ids: Ids = np.array([*ids, background.id], np.uint64)
-        self.places = places_of((*(rigid.pm_body for rigid in bodies), background))
+        self.ids: Ids = np.array([*(rigid.pm_id for rigid in bodies), background.id], np.uint64)
+        places = (rigid.place for rigid in bodies)
+        self.places = np.array([*places, place_of(background._body)], np.int64)  # noqa: SLF001
         self._by_place = np.argsort(self.places)
         self._ascending = np.argsort(self.ids)
         self._sorted_ids = self.ids[self._ascending]

@@ -15,7 +15,7 @@ from physsim_ros.engine.settings import COLLISION_SLOP
 from physsim_ros.model.arrays import Flags, Floats, greatest, Ints
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.scene import Body, Scene
-from physsim_ros.model.shapes import Chain, Convex
+from physsim_ros.model.shapes import Chain, Convex, Form
 
 # A pair that approaches by less than this share of the lesser inner radius in a step needs no time
 # of impact: each keeps its centre well on the side it came from.
@@ -89,6 +89,11 @@ def columns_of(scene: Scene, dt: float) -> SceneColumns:
     :param dt: of a step [s]
     """
     bodies, count = scene.bodies, len(scene.bodies)
+    forms = [body.shape.form for body in bodies]
+    # Equal shapes share one form.
+    by_form = {form: _numbers_of(form) for form in dict.fromkeys(forms)}
+    numbers = np.array([by_form[form] for form in forms]).reshape(-1, 5)
+    reach, half_widths, turning_radii, corners, pieces = numbers.T.copy()
     anchored = np.array([*(body.anchored for body in bodies), True], np.bool_)
     dynamic = np.array([*(body.dynamic for body in bodies), False], np.bool_)
     sensor = np.array([body.sensor for body in bodies], np.bool_)
@@ -113,15 +118,15 @@ def columns_of(scene: Scene, dt: float) -> SceneColumns:
         anchored=anchored,
         friction=np.sqrt(friction),
         elasticity=elasticity,
-        reach=np.array([body.shape.form.outer for body in bodies]),
+        reach=reach,
         offsets=np.where(anchored[:-1, None], 0.0, scene.centroids),
         gravity_lead=np.where(dynamic[:-1, None], lead, 0.0),
         solid=~anchored[:-1] & ~sensor,
-        safe_depths=_safe_depths(bodies),
-        turning_radii=np.array([_turning_radius(body) for body in bodies]),
-        corners=np.array([_corner_count(body) for body in bodies], np.float64),
-        pieces=np.array([len(body.shape.form.pieces) for body in bodies], np.float64),
-        half_widths=np.array([body.shape.form.inner for body in bodies]),
+        safe_depths=_safe_depths(bodies, half_widths, anchored[:-1]),
+        turning_radii=turning_radii,
+        corners=corners,
+        pieces=pieces,
+        half_widths=half_widths,
         groups=np.array([body.group for body in bodies], np.int64),
         joined=joined,
         not_colliding=joined[~collide],
@@ -150,29 +155,22 @@ def _sprung(dynamic: Flags, joined: Rows, springs: Flags) -> Flags:
     return (islands_with(~within) & islands_with(springs))[:-1]
 
 
-def _safe_depths(bodies: Sequence[Body]) -> Floats:
+def _safe_depths(bodies: Sequence[Body], half_widths: Floats, anchored: Flags) -> Floats:
     """
     Return how far each body may be entered in a step unseen, (n,) [m].
 
     An anchored chain does not count: what meets it keeps its own centre on its side.
     """
-    inner = np.array([body.shape.form.inner * SAFE_SHARE for body in bodies])
-    anchored = np.array([body.anchored for body in bodies], dtype=np.bool_)
+    inner = half_widths * SAFE_SHARE
     thin = np.array([isinstance(body.shape, Chain) for body in bodies], dtype=np.bool_)
     return np.where(anchored, np.where(thin, np.inf, np.maximum(inner, COLLISION_SLOP)), inner)
 
 
-def _turning_radius(body: Body) -> float:
-    """Return how far out a body's turning counts [m]: a disc covers the same ground anyway."""
-    form = body.shape.form
-    return 0.0 if form.inner >= form.outer else form.outer
-
-
-def _corner_count(body: Body) -> float:
-    """Return the corners of a body's pieces; a round one costs as much as `ROUND_COST`."""
-    return float(
-        sum(
-            len(piece.vertices) if isinstance(piece, Convex) else ROUND_COST
-            for piece in body.shape.form.pieces
-        )
+def _numbers_of(form: Form) -> tuple[float, float, float, int, int]:
+    """Return reach, half width, turning radius, corners and count of pieces of a shape."""
+    # A disc covers the same ground however it turns.
+    turning_radius = 0.0 if form.inner >= form.outer else form.outer
+    corners = sum(
+        len(piece.vertices) if isinstance(piece, Convex) else ROUND_COST for piece in form.pieces
     )
+    return form.outer, form.inner, turning_radius, corners, len(form.pieces)

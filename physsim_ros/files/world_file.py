@@ -14,7 +14,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 import re
-import textwrap
 
 from physsim_ros.files.entry_lines import load_entries
 from physsim_ros.files.map_file import with_map_walls
@@ -36,8 +35,6 @@ from physsim_ros.model.garbage_collection import suspended_collection
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.texts import nearest_name
 
-# Length of a list of names in a message [characters].
-_LONGEST_LIST = 500
 # Suffix of world files.
 _SUFFIX = '.yaml'
 # Greatest size of a world file [bytes]: 100,000 bodies have 30 MB.
@@ -102,7 +99,6 @@ def find_world(name: str, *, world_dir: Path | None = None, confined: bool = Fal
                 _check_place(path.resolve(), name, (world_dir, *ours))
             return path
     known = sorted({plain for each in (*own, *ours) for plain in worlds_in(each)})
-    there = textwrap.shorten(', '.join(known), _LONGEST_LIST, placeholder=' …')
     # Peers on the graph are not told the directories of this machine.
     directories = (
         ('world_dir', 'config/worlds', 'config/lessons')
@@ -112,7 +108,7 @@ def find_world(name: str, *, world_dir: Path | None = None, confined: bool = Fal
     looked = ' and '.join(sorted(str(each) for each in directories))
     raise BadWorldFile(
         f'there is no world {name!r} in {looked}'
-        f'{nearest_name(Path(name).stem, known)}; there are {there}',
+        f'{nearest_name(Path(name).stem, known)}; physsim --help lists the shipped ones',
         field='world_file',
     )
 

@@ -48,6 +48,8 @@ _IDENTITY = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 _UNTEXTURED = struct.pack('<ii4s8xi4si4sii', 0, 1, b'', 1, b'', 1, b'', 0, 0)
 # No mesh_resource, mesh_file (filename, data), mesh_use_embedded_materials.
 _UNMESHED = struct.pack('<i4si4six', 1, b'', 1, b'', 0)
+# From the end of a marker to the next one [bytes].
+_PADDING = -len(_UNMESHED) % 4
 
 # Number of messages in which a marker is deleted. The depth of the stream is 1, so that a slow
 # subscriber misses some; of those of one second it gets at least one.
@@ -116,13 +118,18 @@ class MarkersEncoder:
         writer.ints(len(markers))
         starts: list[int] = []
         offsets: list[int] = []
+        parts: list[bytes] = []
+        size = len(writer.data)
         for _, marker in markers:
-            writer.align(4)
-            starts.append(len(writer.data))
-            writer.data += marker.head
-            writer.align(8)
-            offsets.append(len(writer.data))
-            writer.data += marker.rest
+            starts.append(size)
+            # All begin at a multiple of 4 bytes, some of 8.
+            part = marker.at_8 if size % 8 == 0 else marker.at_4
+            parts.append(part)
+            size += len(part)
+            offsets.append(size - marker.size_of_rest)
+        writer.data += b''.join(parts)
+        if parts:
+            del writer.data[-_PADDING:]
         self._template = MessageTemplate(writer, starts)
         last = before + len(joints)
         self._joint_columns = _JointColumns(scene, offsets[before:last]) if joints else None
@@ -182,22 +189,32 @@ class MarkersEncoder:
         rest.text(symbol.text)
         rest.align(4)
         rest.data += _UNMESHED
-        return _MarkerBytes(key=symbol.key, head=bytes(head.data), rest=bytes(rest.data))
+        rest.data += bytes(_PADDING)
+        head.align(4)
+        gap = -len(head.data) % 8
+        return _MarkerBytes(
+            key=symbol.key,
+            at_8=bytes(head.data + bytes(gap) + rest.data),
+            at_4=bytes(head.data + bytes(4 - gap) + rest.data),
+            size_of_rest=len(rest.data),
+        )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _MarkerBytes:
     """
-    A serialised marker, in two parts, since the padding between them depends on its offset.
+    A serialised marker, padded up to the next one; its padding depends on its offset.
 
     :param key: namespace and id
-    :param head: all before the pose
-    :param rest: from the pose on, the same at any offset that is a multiple of 8
+    :param at_8: at an offset that is a multiple of 8
+    :param at_4: at another multiple of 4
+    :param size_of_rest: from the pose on, which is at a multiple of 8 [bytes]
     """
 
     key: Key
-    head: bytes
-    rest: bytes
+    at_8: bytes
+    at_4: bytes
+    size_of_rest: int
 
 
 class _JointColumns:
