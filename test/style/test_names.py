@@ -152,6 +152,8 @@ def _is_known(span, *, everywhere):
         return _path_exists(path)
     if re.fullmatch(r'\w+\.py', path):
         return any(ROOT.rglob(f'physsim_ros/**/{path}')) or path in {'setup.py', '__init__.py'}
+    if path.endswith('.rrd'):
+        return True  # a recording, though functions are called as it is
     if re.fullmatch(r'[A-Za-z_]\w*(\.\w+)+', path):
         known = head in MODULES or head in CLASSES or head in IMPORTED
         return ELSEWHERE.fullmatch(head) or not known or _resolves(path)
