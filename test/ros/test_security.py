@@ -30,8 +30,11 @@ def allowed(enclave: str) -> dict[tuple[str, str], set[str]]:
 
 def test_the_world_may_do_what_it_does_and_no_more(physsim: PhysSim) -> None:
     node = physsim.node
-    # Names of parameter services are not resolved.
-    services = {'/physsim/' + each.srv_name.rpartition('/')[2] for each in node.services}
+    # Names of services are not resolved; those of parameters begin with the node's.
+    services = {
+        f'/physsim/{each.srv_name.removeprefix("~/").removeprefix("physsim/")}'
+        for each in node.services
+    }
     does = {
         ('services', 'reply'): services,
         ('topics', 'publish'): {each.topic_name for each in node.publishers},

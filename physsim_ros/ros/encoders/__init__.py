@@ -17,6 +17,7 @@ from physsim_ros.model.snapshot import Frame
 from physsim_ros.ros.encoders.clock import ClockEncoder
 from physsim_ros.ros.encoders.contacts import ContactsEncoder
 from physsim_ros.ros.encoders.events import encode_event
+from physsim_ros.ros.encoders.interactive_poses import InteractivePosesEncoder
 from physsim_ros.ros.encoders.map import MapEncoder
 from physsim_ros.ros.encoders.markers import DELETE_REPEATS, MarkersEncoder
 from physsim_ros.ros.encoders.poses import PosesEncoder
@@ -29,6 +30,7 @@ __all__ = [
     'ClockEncoder',
     'ContactsEncoder',
     'Encoder',
+    'InteractivePosesEncoder',
     'MapEncoder',
     'MarkersEncoder',
     'PosesEncoder',

@@ -16,6 +16,7 @@ from physsim_ros.model.snapshot import Frame, NO_PREVIEW, Preview
 from physsim_ros.ros import encoders
 from physsim_ros.ros.encoders import Encoder
 from physsim_ros.ros.publishers.event_publisher import EventPublisher, EVENTS_DEPTH
+from physsim_ros.ros.publishers.interactive_markers import InteractiveMarkers
 from physsim_ros.ros.publishers.stream import LatchedStream, Stream
 from physsim_ros.ros.publishers.timeline_publisher import TimelinePublisher
 from rclpy.node import Node
@@ -74,6 +75,7 @@ class Publishers:
             # The depth that tf2_ros has.
             tf = stream(_tf_message(), '/tf', 100, encoders.TransformsEncoder(frame_id))
             self._state_streams += (tf,)
+        self._interactive_markers = InteractiveMarkers(node, frame_id)
         self.timeline = TimelinePublisher(latched(DiagnosticStatus, '~/timeline'))
         self._preview_publisher = latched(MarkerArray, '~/preview')
         self._frame_id = frame_id
@@ -91,6 +93,7 @@ class Publishers:
         self._frame = frame
         for stream in (*self._state_streams, self.contacts):
             stream.publish(frame)
+        self._interactive_markers.publish(frame)
 
     def publish_to_late_subscribers(self) -> None:
         """Publish the last frame to later subscribers; called at ticks without a frame."""

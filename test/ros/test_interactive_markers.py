@@ -1,0 +1,138 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""Bodies as interactive markers, as the client of interactive_markers, in RViz, reads them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from geometry_msgs.msg import Point
+from physsim_ros.ros.publishers.interactive_markers import FRAMES
+from physsim_ros.testing import box, delete, disc, PhysSim
+import pytest
+from std_msgs.msg import Header
+from visualization_msgs.msg import InteractiveMarkerFeedback as Feedback
+from visualization_msgs.msg import InteractiveMarkerUpdate, Marker
+from visualization_msgs.srv import GetInteractiveMarkers
+
+from ..client import Client
+
+
+class Viewer:
+    """Keeps the markers of a server as RViz does: by the service, then by updates in order."""
+
+    def __init__(self, client: Client) -> None:
+        self.client = client
+        self.updates: list[InteractiveMarkerUpdate] = []
+        self.updates = client.listen(InteractiveMarkerUpdate, '~/drag/update')
+        answer = self.ask()
+        self.number = answer.sequence_number
+        self.markers: dict[str, Any] = {each.name: each for each in answer.markers}
+
+    def ask(self) -> Any:
+        request = GetInteractiveMarkers.Request()
+        return self.client.request(
+            GetInteractiveMarkers, '~/drag/get_interactive_markers', request
+        )
+
+    def catch_up(self) -> dict[str, Any]:
+        self.client.physsim.settle()
+        while self.updates:
+            update = self.updates.pop(0)
+            if update.seq_num <= self.number:
+                continue
+            assert update.seq_num == self.number + 1
+            assert update.type == InteractiveMarkerUpdate.UPDATE
+            self.number = update.seq_num
+            self.markers |= {each.name: each for each in update.markers}
+            for each in update.poses:
+                self.markers[each.name].pose = each.pose
+            for name in update.erases:
+                del self.markers[name]
+        return self.markers
+
+
+def test_a_viewer_has_the_bodies_where_they_are(physsim: PhysSim, client: Client) -> None:
+    physsim.spawn(disc('ball/0', at=(0.0, 5.0)))
+    physsim.step()
+    viewer = Viewer(client)
+    physsim.spawn(box('wall/0', at=(3.0, 0.0), size=(1.0, 2.0), anchored=True))
+    physsim.step(2 * FRAMES)
+    markers = viewer.catch_up()
+    assert set(markers) == {'ball/0', 'wall/0'}
+    # Another one, who comes later, is told the same.
+    late = {each.name: each for each in viewer.ask().markers}
+    markers = viewer.catch_up()
+    assert {name: each.pose for name, each in late.items()} == {
+        name: each.pose for name, each in markers.items()
+    }
+    for name, marker in markers.items():
+        position = marker.pose.position
+        assert (position.x, position.y) == physsim.pose(name)[:2]
+        (control,) = marker.controls
+        assert control.interaction_mode == control.MOVE_PLANE
+    (drawn,) = markers['wall/0'].controls[0].markers
+    assert (drawn.type, drawn.scale.x, drawn.scale.y) == (Marker.CUBE, 1.0, 2.0)
+    physsim.spawn(delete('ball/0'))
+    physsim.step()
+    assert set(viewer.catch_up()) == {'wall/0'}
+
+
+def test_a_viewer_drags_a_body_by_its_marker(physsim: PhysSim, client: Client) -> None:
+    physsim.spawn(disc('ball/0', at=(0.0, 5.0)))
+    physsim.step()
+    viewer = Viewer(client)
+
+    def drag(kind: int, x: float, y: float) -> None:
+        marker = viewer.markers['ball/0']
+        feedback = Feedback(
+            header=Header(frame_id=marker.header.frame_id),
+            client_id='rviz',
+            marker_name='ball/0',
+            control_name=marker.controls[0].name,
+            event_type=kind,
+            mouse_point=Point(x=x, y=y),
+            mouse_point_valid=True,
+        )
+        client.publish('~/drag/feedback', feedback)
+
+    drag(Feedback.MOUSE_DOWN, 0.0, 5.0)
+    for number in range(120):
+        drag(Feedback.POSE_UPDATE, number / 60, 5.0)
+        physsim.step()
+    position = viewer.catch_up()['ball/0'].pose.position
+    assert (position.x, position.y) == pytest.approx((2.0, 5.0), abs=0.3)
+    drag(Feedback.MOUSE_UP, 2.0, 5.0)
+    physsim.step(2)
+    assert physsim.node.frame is not None
+    assert not physsim.node.frame.snapshot.grips
+
+
+def test_what_stands_is_not_told_again(physsim: PhysSim, client: Client) -> None:
+    physsim.spawn(box('wall/0', anchored=True))
+    physsim.step()
+    viewer = Viewer(client)
+    physsim.step(5 * FRAMES)
+    assert viewer.updates == []
+
+
+def test_nothing_is_sent_to_nobody_and_little_to_somebody(
+    physsim: PhysSim, client: Client, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    physsim.spawn(disc('ball/0', at=(0.0, 50.0)))
+    physsim.spawn(box('wall/0', at=(3.0, 0.0), anchored=True))
+    viewer = Viewer(client)
+    physsim.step(5 * FRAMES)
+    # What moves is not told at every frame.
+    assert len(viewer.updates) == 5
+    for subscription in list(client.node.subscriptions):
+        if subscription.topic_name.endswith('/update'):
+            client.node.destroy_subscription(subscription)
+    (publisher,) = [
+        each for each in physsim.node.publishers if each.topic_name.endswith('/drag/update')
+    ]
+    client.spin_until(lambda: not publisher.get_subscription_count())
+    encode = 'physsim_ros.ros.encoders.InteractivePosesEncoder.encode'
+    monkeypatch.setattr(encode, lambda *_: pytest.fail('it was encoded for nobody'))
+    physsim.step(2 * FRAMES)
