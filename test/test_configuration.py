@@ -12,11 +12,13 @@ import runpy
 from typing import Any
 
 from geometry_msgs.msg import PointStamped
+from nav_msgs.msg import OccupancyGrid, Odometry
 from physsim_ros.ros.parameters import check, SPECS
 from physsim_ros.testing import PhysSim
 import pytest
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy
+from sensor_msgs.msg import LaserScan
 from visualization_msgs.msg import MarkerArray
 import yaml
 
@@ -24,6 +26,10 @@ ROOT = Path(__file__).parents[1]
 CONFIG = ROOT / 'config'
 LAUNCH = ROOT / 'launch' / 'physsim.launch.py'
 PICTURES = {'/physsim/markers', '/physsim/preview'}
+# The topics of a body robot/0, and the map.
+OF_ROBOTS = {'/physsim/map', '/robot_0/ground_truth', '/robot_0/odom', '/robot_0/scan'}
+# What displays of RViz show.
+KINDS = {'LaserScan': LaserScan, 'Map': OccupancyGrid, 'Odometry': Odometry}
 
 
 def test_rviz_shows_what_is_published_and_clicks_where_it_is_heard(physsim: PhysSim) -> None:
@@ -44,15 +50,43 @@ def test_rviz_shows_what_is_published_and_clicks_where_it_is_heard(physsim: Phys
     assert heard[tool['Topic']['Value']] is PointStamped
 
 
+def test_rviz_shows_a_robot_and_drags_by_the_topics_that_there_are(physsim: PhysSim) -> None:
+    physsim.robot('turtlebot3_burger')
+    physsim.step()
+    manager = yaml.safe_load((CONFIG / 'physsim.rviz').read_text())['Visualization Manager']
+    published = {each.topic_name: each for each in physsim.node.publishers}
+    shown = {}
+    for display in manager['Displays']:
+        kind = display['Class'].rpartition('/')[2]
+        if kind in KINDS:
+            publisher = published[display['Topic']['Value']]
+            assert publisher.msg_type is KINDS[kind]
+            kept = publisher.qos_profile.durability is DurabilityPolicy.TRANSIENT_LOCAL
+            assert kept is (display['Topic']['Durability Policy'] == 'Transient Local')
+            shown[publisher.topic_name] = kind
+    assert set(shown) == OF_ROBOTS
+    (drag,) = [
+        each for each in manager['Displays'] if each['Class'].endswith('InteractiveMarkers')
+    ]
+    namespace = drag['Interactive Markers Namespace']
+    assert f'{namespace}/update' in published
+    assert f'{namespace}/feedback' in {each.topic_name for each in physsim.node.subscriptions}
+    assert any(each['Class'].endswith('Interact') for each in manager['Tools'])
+
+
 def test_foxglove_shows_what_is_published_and_clicks_where_it_is_heard(physsim: PhysSim) -> None:
     layout = json.loads((CONFIG / 'foxglove.json').read_text())
     panels = layout['configById']
+    physsim.robot('turtlebot3_burger')
+    physsim.step()
     assert set(leaves(layout['layout'])) == set(panels)
     world = panels['3D!world']
-    assert set(world['topics']) == PICTURES
+    assert set(world['topics']) == PICTURES | OF_ROBOTS
     assert world['followTf'] == SPECS['frame_id'].default
     published = {each.topic_name for each in physsim.node.publishers}
-    assert PICTURES | {panels['RawMessages!events']['topicPath']} <= published
+    assert PICTURES | OF_ROBOTS | {panels['RawMessages!events']['topicPath']} <= published
+    plotted = {each['value'].partition('.')[0] for each in panels['Plot!odometry']['paths']}
+    assert plotted == {'/robot_0/odom', '/robot_0/ground_truth'}
     heard = {each.topic_name for each in physsim.node.subscriptions}
     assert world['publish']['pointTopic'] in heard
 
