@@ -46,7 +46,8 @@ def come(chromium: Any, address: str, name: str) -> Sheet:
     sheet = Sheet(chromium, address)
     sheet.page.get_by_role('textbox', name='Your name').fill(name)
     sheet.press('Go to my world')
-    sheet.until(lambda: sheet.page.locator('#world').count() == 1, 'a world')
+    # Of the page that it is sent to: a script on the one before would end with it.
+    sheet.page.locator('#world').wait_for(state='attached')
     sheet.wait('"physsim" in window && "heavy/0" in physsim.bodies')
     return sheet
 
