@@ -123,6 +123,8 @@ class PhysSim(ObservedWorld):
         :return: whether the predicate is true
         :raises ValueError: they are below 0, not finite, or less than half a frame
         """
+        # The traceback of a failed test ends at its own line.
+        __tracebackhide__ = True
         if seconds is None and until is None:
             raise ValueError('run for how long? Name seconds, or what to run until')
         seconds = timeout if seconds is None else seconds
@@ -145,15 +147,10 @@ class PhysSim(ObservedWorld):
 
         :param timeout: simulation time [s]
         :raises TimeoutError: it is not true after that time
-        :raises ValueError: the timeout is below 0, or not finite
+        :raises ValueError: the timeout is below 0, not finite, or less than half a frame
         """
-        # The traceback of a failed test ends at its own line.
         __tracebackhide__ = True
-        for _ in range(self._frames(timeout)):
-            if predicate():
-                return
-            self.step()
-        if not predicate():
+        if not self.run(until=predicate, timeout=timeout):
             raise TimeoutError(
                 f'not true within {timeout:g} simulated seconds\n{self.describe_state()}'
             )

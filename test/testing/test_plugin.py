@@ -182,6 +182,7 @@ def test_a_failed_test_tells_where_things_are_and_keeps_its_recording(
     done.assert_outcomes(passed=1, failed=1)
     printed = done.stdout.str()
     assert 'DeprecationWarning' not in printed
+    assert 'write_footer' not in printed
     assert 'not true within 0.5 simulated seconds' in printed
     assert re.search(r'ball/0 +0\.000 +0\.0\d\d ', printed)
     # The traceback ends at the line of the test.

@@ -12,6 +12,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from contextlib import suppress
+import os
 from typing import ClassVar, TYPE_CHECKING
 
 from physsim_ros.model.snapshot import Answer, Frame
@@ -26,6 +27,10 @@ Report = Callable[[Answer], None]
 NAME = 'physsim'
 # Period of Rerun's batcher [s].
 TICK = 0.1
+# Rerun (0.41) warns of each `FileSink` that writes no footer, and `FileEndpoint` says why none
+# does. It reads this as it is imported; 'warn' is its own default. To go with a setting of the
+# sink.
+os.environ.setdefault('RUST_LOG', 'warn,re_log_encoding::rrd::file_sink=error')
 
 
 class Sink:
