@@ -202,6 +202,9 @@ def _spans(text):
 OF_DOCUMENTS = {'damper.py', 'fall.py', 'parser.py', 'test_crash.py'}
 OF_DOCUMENTS |= {'wall_follower.py', 'test_wall_follower.py'}
 OF_DOCUMENTS |= {'enable_stamped_cmd_vel', 'map_server'}
+# Parameters of Nav2.
+OF_DOCUMENTS |= {'controller_frequency', 'expected_update_rate', 'odom_frame_id'}
+OF_DOCUMENTS |= {'robot_base_frame', 'transform_tolerance', 'yaml_filename'}
 OF_DOCUMENTS |= {'values.body', 'values.yaml'}
 
 
