@@ -40,7 +40,7 @@ help:  ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-9s %s\n", $$1, $$2 }' Makefile
 	@echo "ARGS='...' is handed on, as in: make run ARGS='-p world_file:=car', make test ARGS=test/laws"
 
-run: $(STAMP)  ## start the demo world, and its page in the browser
+run: $(STAMP)  ## start the demo world, and print the address of its page
 	@echo 'The world starts. Ctrl-C ends it. Where to look:'
 	@echo '  the page  draw with pen, mouse and fingers, at the address below'
 	@echo '  Rerun     opens by itself where there is a display, else by the button Rerun of the page'

@@ -25,7 +25,6 @@ from numpy.typing import NDArray
 from physsim_ros.model.arrays import Flags, Ints
 from physsim_ros.model.errors import WorldFull
 from scipy.sparse import csr_array
-from scipy.sparse.csgraph import connected_components, maximum_bipartite_matching
 
 # Greatest number of chords that are matched in one connected tangle of chords, 0.1 s. In a larger
 # one, as in noise, those of the more numerous direction are taken, 1 % less than the most there.
@@ -117,11 +116,13 @@ def _independent(across: _Chords, along: _Chords, shape: tuple[int, int]) -> tup
     sizes = len(across.lines), len(along.lines)
     if not len(rows):
         return np.ones(sizes[0], dtype=np.bool_), np.ones(sizes[1], dtype=np.bool_)
+    from scipy.sparse import csgraph  # noqa: PLC0415 - a tenth of the imports of a node
+
     tangled, out_across, out_along = _tangles(rows, columns, sizes)
     easy = ~tangled[rows]
     rows, columns = rows[easy], columns[easy]
     graph = csr_array((np.ones(len(rows), dtype=np.int8), (rows, columns)), shape=sizes)
-    partners = maximum_bipartite_matching(graph, perm_type='column')
+    partners = csgraph.maximum_bipartite_matching(graph, perm_type='column')
     # König: along alternating paths from what has no partner.
     matched = np.full(sizes[1], -1, dtype=np.int64)
     matched[partners[partners >= 0]] = np.flatnonzero(partners >= 0)
@@ -147,9 +148,11 @@ def _tangles(rows: Ints, columns: Ints, sizes: tuple[int, int]) -> tuple[Flags, 
     :param columns: (k,) int64: numbers of these
     :param sizes: numbers of chords along rows and columns
     """
+    from scipy.sparse import csgraph  # noqa: PLC0415 - a tenth of the imports of a node
+
     ones, whole = np.ones(len(rows), dtype=np.int8), sum(sizes)
     graph = csr_array((ones, (rows, sizes[0] + columns)), shape=(whole, whole))
-    count, labels = connected_components(graph, directed=False)
+    count, labels = csgraph.connected_components(graph, directed=False)
     across, along = np.split(labels, sizes[:1])
     numbers = [np.bincount(each, minlength=count) for each in (across, along)]
     large = numbers[0] + numbers[1] > _MOST_MATCHED
