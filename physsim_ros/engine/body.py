@@ -89,11 +89,11 @@ class RigidBody:
 
     def covers(self, point: Point) -> bool:
         """Return whether a point of the world lies in the body where it is now, edge included."""
-        if math.dist(self.pm_body.position, point) > self.body.shape.form.outer + SEAM:
-            return False
-        x, y, yaw = self.pose
+        form, (x, y, yaw) = self.body.shape.form, self.pose
         local = rotated((point[0] - x, point[1] - y), -yaw)
-        return bool(contains(self.body.shape.form.pieces, np.array([local]), SEAM)[0])
+        if math.dist(local, form.centroid) > form.outer + SEAM:
+            return False
+        return bool(contains(form.pieces, np.array([local]), SEAM)[0])
 
     def lead(self, gravity: Point, dt: float) -> Twist:
         """Return how far the engine's velocity is ahead of the true one in free flight."""
