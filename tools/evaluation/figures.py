@@ -71,6 +71,14 @@ def polygon(rng: Random) -> Figure:
     return Figure(kind='polygon', way=way, closed=True, corners=len(way))
 
 
+def ramp(rng: Random) -> Figure:
+    """Return a thin right triangle, as cars and balls go up and down."""
+    height = rng.uniform(0.12, 0.4)
+    way = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, height)])
+    way = _turned(way, rng.choice([rng.normal(0.0, 0.04), rng.uniform(0.0, 7.0)]))
+    return Figure(kind='polygon', way=way, closed=True, corners=3, thin=height)
+
+
 def line(rng: Random) -> Figure:
     """Return a straight line."""
     way = np.array([(-0.5, 0.0), (0.5, 0.0)])

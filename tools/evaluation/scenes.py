@@ -198,6 +198,8 @@ KINDS: tuple[Kind, ...] = (
     Kind('pigtail, on a body', figures.pigtail, None, _under),
     Kind('x', figures.cross, None, _nothing),
     Kind('squiggle', _squiggle, None, _nothing),
+    # Behind the others, whose random numbers depend on their places.
+    Kind('ramp', figures.ramp, 'polygon', _nothing),
 )
 # All meanings of strokes, in the order of their kinds.
 MEANINGS = tuple(dict.fromkeys(kind.meaning for kind in KINDS if kind.meaning is not None))

@@ -192,6 +192,16 @@ def test_an_x_of_unequal_arms_is_no_arrow(arms: tuple[float, ...]) -> None:
     assert not any(each.primitive == 'arrow' and each.weight > 0.2 for each in others)
 
 
+@pytest.mark.parametrize('height', [0.2, 0.4, 0.6, 1.0])
+def test_a_thin_wedge_is_no_plank(height: float) -> None:
+    wedge = np.array([(0, 0), (4, 0), (4, height), (0, 0)])
+
+    best = recognise_form(resample_stroke(wedge))[0]
+
+    assert best.primitive == 'polygon'
+    assert best.weight > 0.85
+
+
 @pytest.mark.parametrize('closing', [-0.1, -0.05, 0.1, 0.17])
 @pytest.mark.parametrize('slip', [0.0, 0.1])
 def test_a_circle_with_a_gap_or_an_overlap_is_a_disc(closing: float, slip: float) -> None:
