@@ -80,6 +80,15 @@ def test_a_robot_stops_when_another_body_is_selected(sheet: Sheet) -> None:
     sheet.page.keyboard.up('w')
 
 
+def test_its_panel_tells_of_a_robot_and_not_of_what_a_robot_cannot_be(sheet: Sheet) -> None:
+    panel = sheet.page.get_by_role('complementary', name='Body')
+    panel.get_by_text('Up to 0.306 m/s and 1.9 rad/s').wait_for()
+    assert panel.get_by_text('Anchored').count() == 0
+    # Seen from above, a body has no height.
+    panel.get_by_text('Energy of motion').wait_for()
+    assert not panel.get_by_text('Energy of height').is_visible()
+
+
 def test_its_laser_is_light_around_it_while_it_is_selected(sheet: Sheet) -> None:
     lit = sheet.color_at(1.0, -0.6)
     sheet.page.keyboard.press('Escape')

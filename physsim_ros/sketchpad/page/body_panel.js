@@ -54,8 +54,8 @@ export class BodyPanel {
       ...body.robot ? this.app.driving.show(body.robot) : [],
       materialButtons(change),
       ...fields(body, change),
-      createElement('label', {}, 'Anchored', anchored),
-      ...body.robot ? [] : [createElement('label', {}, 'Gate: lets bodies through', gate)],
+      // A robot is neither.
+      ...body.robot ? [] : [createElement('label', {}, 'Anchored', anchored), createElement('label', {}, 'Gate: lets bodies through', gate)],
       inRow(
         textButton('Copy', () => this.copy()),
         textButton('Delete body', () => this.app.selection.deleteBodies(), 'danger')),

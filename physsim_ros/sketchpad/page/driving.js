@@ -43,8 +43,9 @@ export class Driving {
    * @param {Robot} robot
    * @returns {Node[]} its part of the panel
    */
-  show({kind, namespace}) {
+  show({kind, namespace, max_speed: speed, max_turn: turn}) {
     return [createElement('h3', {textContent: `Robot, ${kind} · /${namespace}`}),
+      createElement('p', {textContent: `Up to ${speed} m/s and ${turn} rad/s`}),
       createElement('div', {className: 'drive'}, this.element,
         createElement('p', {textContent: `Drag the knob; or ${kind === 'omni' ? 'W A S D, Q and E' : 'W A S D'}, after a click on the world.`}))];
   }

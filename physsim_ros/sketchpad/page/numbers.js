@@ -22,13 +22,14 @@ export class Numbers {
     this.name = '';
     this.line = createElement('p');
     this.bars = ENERGIES.map((word) => createElement('meter', {min: 0, 'aria-label': `Energy ${word}`}));
+    this.labels = ENERGIES.map((word) => createElement('span', {textContent: `Energy ${word}`}));
     this.values = ENERGIES.map(() => createElement('span'));
     this.inputs = new Map(TYPED.map(([key]) => [key, createElement('input', {type: 'number', step: 'any',
       onchange: () => this.#type(key)})]));
     const typed = createElement('details', {}, createElement('summary', {textContent: 'Type numbers'}),
       createElement('div', {}, ...TYPED.map(([key, label]) => createElement('label', {}, label, /** @type {Node} */ (this.inputs.get(key))))));
     this.element = createElement('section', {className: 'numbers', 'aria-label': 'Numbers'}, this.line, typed,
-      ...ENERGIES.flatMap((word, i) => [createElement('span', {textContent: `Energy ${word}`}), this.bars[i], this.values[i]]));
+      ...this.labels.flatMap((label, i) => [label, this.bars[i], this.values[i]]));
     app.view.overlays.push(() => this.#update());
   }
 
@@ -82,6 +83,8 @@ export class Numbers {
     this.name = name;
     this.element.classList.toggle('fixed', anchored || !velocities);
     if (!velocities || anchored) return;
+    // Seen from above, there is no height.
+    for (const {1: part} of [this.labels, this.bars, this.values]) part.hidden = !gravity[0] && !gravity[1];
     const [x, y] = world.place(row, centroid);
     const motion = {x, y, vx: velocities.x[row], vy: velocities.y[row], spin: velocities.spin[row]};
     const energies = energiesOf(body, motion, gravity);
