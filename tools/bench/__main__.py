@@ -20,6 +20,7 @@ from . import (
     recording_page,
     resting,
     rewinding,
+    robots,
     sensors,
     startup,
 )
@@ -35,6 +36,7 @@ capacity.table()
 crowd.table()
 joints.table()
 sensors.table()
+robots.table()
 rewinding.table()
 pages.table()
 classroom.table()

@@ -1,0 +1,179 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+Robots: how many times faster than real time they run, in the fixture and in the whole node.
+
+Each robot has a laser of 360 beams that is read five times a second, among walls. Beside it the
+same world in ir-sim, a simulator of robots in Python, where it is installed (`pip install ir-sim`
+in an environment of its own, whose Python the variable IRSIM_PYTHON names).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+import json
+import math
+import os
+from pathlib import Path
+import subprocess
+import sys
+import tempfile
+from test.building import spawn
+from test.outside import own_domain
+import time
+
+from physsim_ros.files import save_world, shipped_robot
+from physsim_ros.model.requests import DriveRobot, Restore
+from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.shapes import Box, Disc
+from physsim_ros.model.transform import Pose
+from physsim_ros.simulation.world import World
+from physsim_ros.testing import own_context, PhysSim
+import pytest
+
+from .outside import cpu_seconds, Remote
+from .startup import executable
+
+WALLS = 50
+# In the fixture; in the whole node.
+COUNTS, MANY = (1, 10), 50
+# They stand so far apart [m], and drive on circles of 0.1 m.
+APART, SPEED, TURN = 1.0, 0.1, 1.0
+# Simulated time of a turn [s]; turns, the fastest of which counts.
+SECONDS, TURNS = 2.0, 5
+# Frames from one scan to the next.
+EVERY = 12
+PEER = Path(__file__).with_name('irsim_world.py')
+# Subscribes to scans from another process, as serialised bytes.
+LISTENER = """
+import sys, rclpy
+from rclpy.experimental import EventsExecutor
+from sensor_msgs.msg import LaserScan
+rclpy.init(domain_id=int(sys.argv[1]))
+node = rclpy.create_node('listener')
+for topic in sys.argv[2:]:
+    node.create_subscription(LaserScan, topic, lambda _: None, 5, raw=True)
+executor = EventsExecutor()
+executor.add_node(node)
+executor.spin()
+"""
+
+
+def places(count: int) -> Iterator[tuple[float, float]]:
+    """Yield places in a square [m]."""
+    side = math.ceil(math.sqrt(count))
+    for number in range(count):
+        row, column = divmod(number, side)
+        yield APART * (column - side / 2), APART * (row - side / 2)
+
+
+def placed_walls(count: int) -> Iterator[Pose]:
+    """Yield poses of walls of 0.5 by 0.1 m, in rings around so many robots."""
+    inner = 1.0 + APART * math.ceil(math.sqrt(count)) * 0.75
+    for number in range(WALLS):
+        angle, far = 2.4 * number, inner + 0.05 * number
+        yield far * math.cos(angle), far * math.sin(angle), angle
+
+
+def scene(count: int) -> World:
+    """Return robots that drive on circles for ever, and walls."""
+    settings = WorldSettings(gravity=(0.0, 0.0), floor_friction=0.6)
+    world = World(settings=settings)
+    burger = shipped_robot('turtlebot3_burger')
+    burger['robot']['drive']['timeout'] = 0.0
+    for number, pose in enumerate(placed_walls(count)):
+        spawn(world, f'wall/{number}', Box(width=0.5, height=0.1), pose, anchored=True)
+    for number, (x, y) in enumerate(places(count)):
+        name = f'robot/{number}'
+        spawn(world, name, Disc(radius=0.105), (x, y, 0.0), mass=1.0, robot=burger['robot'])
+        world.apply(DriveRobot(name=name, velocity=(SPEED, 0.0, TURN)))
+    return world
+
+
+def in_fixture(count: int) -> float:
+    """Return how many times faster than real time robots are in the fixture, by CPU time."""
+    with (
+        pytest.MonkeyPatch.context() as patch,
+        own_context(patch) as context,
+        PhysSim(context) as sim,
+    ):
+        sim.node.simulation.perform(Restore(state=scene(count).save()))
+        sim.step()
+        robots = [sim.find_robot(f'robot/{number}') for number in range(count)]
+        frames = round(SECONDS * 60)
+
+        def play() -> float:
+            began = time.process_time()
+            for number in range(frames):
+                sim.step()
+                if number % EVERY == 0:
+                    for robot in robots:
+                        robot.scan()
+            return time.process_time() - began
+
+        play()
+        return SECONDS / min(play() for _ in range(TURNS))
+
+
+def in_node(count: int) -> tuple[float, float]:
+    """
+    Return how many times faster than real time robots are in a node that is not paced.
+
+    A process of its own, whose lasers another one reads.
+
+    :return: by the wall, and by the CPU time of the node
+    """
+    topics = [f'/robot_{number}/scan' for number in range(count)]
+    with own_domain() as domain, tempfile.TemporaryDirectory() as directory:
+        path = save_world(
+            scene(count).save(), 'scene', world_dir=Path(directory), physics_rate=240.0
+        )
+        listener = subprocess.Popen([sys.executable, '-c', LISTENER, str(domain), *topics])
+        remote = Remote(domain)
+        try:
+            with executable(domain, world_file=path, speed=0.0) as process:
+                remote.spin_until(lambda: remote.node.count_publishers(topics[-1]))
+                remote.spin_until(
+                    lambda: all(remote.node.count_subscribers(topic) for topic in topics)
+                )
+                before, began = cpu_seconds(process.pid), time.perf_counter()
+                remote.play()
+                remote.spin_until(lambda: remote.now >= SECONDS * TURNS)
+                cpu, wall = cpu_seconds(process.pid) - before, time.perf_counter() - began
+                return remote.now / wall, remote.now / cpu
+        finally:
+            # Its executor (rclpy 7, Jazzy) does not end by a signal that it handles.
+            listener.kill()
+            listener.wait()
+            remote.close()
+
+
+def in_peer(count: int, step: float) -> float:
+    """
+    Return how many times faster than real time robots are in ir-sim, by CPU time.
+
+    :param step: of the time [s], in each of which it reads all lasers
+    """
+    world = {'robots': [*places(count)], 'walls': [*placed_walls(count)], 'step': step}
+    world |= {'speed': SPEED, 'turn': TURN, 'seconds': SECONDS / 2}
+    python = os.environ['IRSIM_PYTHON']
+    done = subprocess.run(
+        [python, str(PEER)], input=json.dumps(world), capture_output=True, text=True, check=True
+    )
+    return float(done.stdout.split()[-1])
+
+
+def table() -> None:
+    """Print rows for the fixture, the whole node, and a peer."""
+    print(f'\nRobots with lasers of 360 beams at 5 Hz among {WALLS} walls, in times of real time')
+    print('robots  fixture  ir-sim at 5 Hz  ir-sim at 60 Hz')
+    for count in COUNTS:
+        cells = [f'{in_fixture(count):8.1f}']
+        if 'IRSIM_PYTHON' in os.environ:
+            cells += [f'{in_peer(count, 0.2):15.1f}', f'{in_peer(count, 1 / 60):16.1f}']
+        else:
+            cells += ['  skipped: IRSIM_PYTHON names no Python that has ir-sim']
+        print(f'{count:6} {" ".join(cells)}', flush=True)
+    wall, cpu = in_node(MANY)
+    print(f'{MANY:6} in the whole node: {wall:.1f} by the wall, {cpu:.1f} by its CPU', flush=True)
