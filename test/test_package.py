@@ -327,8 +327,8 @@ def test_the_manifest_names_every_ros_package_that_is_imported():
     }
 
     others = {name for name in declared if name.startswith('python3-')}
-    # Only for parameter publish_tf.
-    optional = {'tf2_msgs'}
+    # For transforms of robots, and for the services of simulators.
+    optional = {'tf2_msgs', 'simulation_interfaces'}
     assert of_ros - optional == declared - others
 
 

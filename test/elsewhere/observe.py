@@ -98,7 +98,10 @@ def main() -> None:
         publishers={
             topic: endpoints(visitor.node.get_publishers_info_by_topic(topic))
             for topic in (
-                *(f'/physsim/{name}' for name in (*STREAMS, 'map', 'preview', 'timeline')),
+                *(
+                    f'/physsim/{name}'
+                    for name in (*STREAMS, 'map', 'preview', 'timeline', 'drag/update')
+                ),
                 '/clock',
                 '/diagnostics',
             )

@@ -15,7 +15,6 @@ from physsim_ros.files import (
     load_mapping,
     PARAMETERS,
     SETTINGS,
-    shipped_worlds,
 )
 from physsim_ros.model.errors import BadWorldFile, Malformed, WorldFull
 from physsim_ros.ros.parameters import SPECS
@@ -277,15 +276,17 @@ def test_a_file_that_is_not_there_is_refused(folder: Path) -> None:
             find_world(name, world_dir=folder, confined=False)
 
 
-def test_where_a_world_is_not_there_those_that_are_are_named(folder: Path) -> None:
+def test_where_a_world_is_not_there_the_nearest_is_named_be_it_shipped_or_ones_own(
+    folder: Path,
+) -> None:
     write(folder, 'format: 1', 'mine.yaml')
     write(folder, 'format: 1', '.hidden.yaml')
-    with pytest.raises(BadWorldFile) as refused:
-        find_world('nothere', world_dir=folder, confined=True)
-    for path in shipped_worlds().glob('*.yaml'):
-        assert path.stem in str(refused.value)
-    assert 'mine' in str(refused.value)
-    assert 'hidden' not in str(refused.value)
+    for name, nearest in (('mines', "'mine'"), ('brigde', "'bridge'"), ('hidden', '')):
+        with pytest.raises(BadWorldFile, match='physsim --help') as refused:
+            find_world(name, world_dir=folder, confined=True)
+        _, is_near, told = str(refused.value).partition('nearest is ')
+        assert bool(is_near) == bool(nearest)
+        assert told.startswith(nearest)
 
 
 def test_a_directory_is_no_world(folder: Path) -> None:
