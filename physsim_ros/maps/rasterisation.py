@@ -15,9 +15,9 @@ import math
 
 import numpy as np
 from physsim_ros.maps.occupancy_grid import check_cells, OccupancyGrid
-from physsim_ros.model.shapes import Capsule, Circle, contains, Convex, Piece
+from physsim_ros.model.shapes import contains, piece_box
 from physsim_ros.model.snapshot import Snapshot
-from physsim_ros.model.transform import Point, Pose, rotated, rotated_each
+from physsim_ros.model.transform import rotated_each
 
 # Number of cells that are compared with a piece at once, 100 bytes each.
 _MOST_AT_ONCE = 2**20
@@ -35,7 +35,7 @@ def anchored_grid(snapshot: Snapshot, resolution: float) -> OccupancyGrid:
     """
     check_cells(resolution, 1, 1)
     placed = [
-        (piece, pose, _box(piece, pose))
+        (piece, pose, piece_box(piece, pose))
         for body, pose in zip(
             snapshot.scene.bodies, map(tuple, snapshot.poses.tolist()), strict=True
         )
@@ -73,19 +73,3 @@ def _bands(first: int, last: int, width: int) -> Iterator[slice]:
     height = max(_MOST_AT_ONCE // max(width, 1), 1)
     for row in range(first, last, height):
         yield slice(row, min(row + height, last))
-
-
-def _box(piece: Piece, pose: Pose) -> tuple[float, float, float, float]:
-    """Return xmin, ymin, xmax, ymax of a piece in the world [m]."""
-    points: tuple[Point, ...]
-    match piece:
-        case Circle(center, radius):
-            points, margin = (center,), radius
-        case Capsule(start, end, radius):
-            points, margin = (start, end), radius
-        case Convex(vertices):
-            points, margin = vertices, 0.0
-    corners = [rotated(point, pose[2]) for point in points]
-    x = [pose[0] + point[0] for point in corners]
-    y = [pose[1] + point[1] for point in corners]
-    return min(x) - margin, min(y) - margin, max(x) + margin, max(y) + margin

@@ -172,13 +172,13 @@ class OutOfHistory(Refusal):
 
 
 class InPast(Refusal):
-    """What the past does not take while it is shown: a robot's command, an undo of one person."""
+    """The past is shown, which takes no command of a robot and no undo of one person."""
 
     code = 'in_past'
 
 
 class NotAlone(Refusal):
-    """What is to be taken back is used by what was done since."""
+    """A later request needs the gesture that a person wants to undo."""
 
     code = 'not_alone'
 

@@ -183,7 +183,6 @@ class PhysSimNode(NodeWithoutQosEvents):
                 values=self._values,
                 current_snapshot=self._current_snapshot,
                 actions=self._time_control.actions,
-                reset=simulation.reset,
                 load_world=partial(self._perform_on, services['load_world']),
                 note_change=self._note_change,
                 world_dir=self.world_files.directory,

@@ -33,7 +33,7 @@ def lesson_list(world_dir: Path) -> list[dict[str, Any]]:
 
 
 def _version(path: Path) -> tuple[int, int]:
-    """Return what changes when a file does: time [ns] and size [bytes]; zeros where it is gone."""
+    """Return time of change [ns] and size [bytes] of a file; zeros where it is gone."""
     try:
         status = path.stat()
     except OSError:

@@ -23,7 +23,6 @@ from physsim_ros.model.requests import (
     Unjoin,
 )
 from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon
-from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.testing import (
     box,
     chain,
@@ -42,7 +41,7 @@ from visualization_msgs.msg import Marker
 
 from .journey import clock_of
 from ..client import Client
-from ..simulation.histories import history_of, play, Player, SETTINGS
+from ..simulation.histories import history_of_node, NodePlayer, play, SETTINGS
 
 SEEDS = range(700, 708)
 TOPICS = {Anchor: '~/anchor', Release: '~/release', Pin: '~/pin', Axle: '~/axle'}
@@ -95,29 +94,21 @@ def message_of(request: Request) -> tuple[str, Any] | None:
     return None
 
 
-class TopicsPlayer(Player):
+class TopicsPlayer(NodePlayer):
     """A player that asks the world of a node over its topics and services, where it can."""
 
     def __init__(self, physsim: PhysSim, client: Client) -> None:
-        super().__init__()
+        super().__init__(physsim.node.simulation)
         self.physsim = physsim
         self.client = client
-        self.sent = 0
 
-    def _new_simulation(self, physics: float, publish: float) -> Simulation:
-        simulation = self.physsim.node.simulation
-        simulation.speed = 0.0
-        assert (simulation.physics_rate, simulation.frame_steps) == (physics, physics / publish)
-        return simulation
-
-    def _submit(self, request: Request) -> None:
+    def send(self, request: Request) -> bool:
         message = message_of(request)
         if message is None:
-            super()._submit(request)
-            return
-        self.sent += 1
+            return False
         self.client.publish(*message)
         self.physsim.settle()
+        return True
 
     def _perform(self, action: str) -> None:
         response = self.client.call(f'~/{action}')
@@ -127,18 +118,12 @@ class TopicsPlayer(Player):
     def _seek(self, stamp: int) -> None:
         self.client.ask('~/seek', clock_of(stamp))
 
-    def _was_asked(self, _: Request) -> bool:
-        # A message has another rounding: a quaternion, the colour in 32 bits.
-        return True
-
 
 @pytest.mark.slow
 @pytest.mark.parametrize('seed', SEEDS)
 def test_a_history_over_topics_shows_what_its_requests_show_when_they_are_played_from_nothing(
     seed: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    (begin, *_, contacts), *operations = history_of(seed)
-    operations = [(begin, 240.0, 60.0, 3.0, contacts), *operations]
     assert SETTINGS.bounds is not None
     with (
         own_context(monkeypatch) as context,
@@ -146,5 +131,5 @@ def test_a_history_over_topics_shows_what_its_requests_show_when_they_are_played
     ):
         monkeypatch.setattr('physsim_ros.ros.node.MOST_TICK_NS', math.inf)
         player = TopicsPlayer(physsim, Client(physsim))
-        play(operations, player)
+        play(history_of_node(seed), player)
     assert player.sent

@@ -124,7 +124,7 @@ def test_nothing_is_sent_to_nobody_and_little_to_somebody(
     physsim.spawn(box('wall/0', at=(3.0, 0.0), anchored=True))
     viewer = Viewer(client)
     physsim.step(5 * FRAMES)
-    # What moves is not told at every frame.
+    # Updates come at a lower rate than frames.
     assert len(viewer.updates) == 5
     for subscription in list(client.node.subscriptions):
         if subscription.topic_name.endswith('/update'):

@@ -19,6 +19,7 @@ A history that differs is shrunk, and printed as a program.
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 import hashlib
@@ -662,6 +663,47 @@ class Player:
     def _check(self, holds: bool, message: str) -> None:
         if not holds:
             raise Difference(message)
+
+
+class NodePlayer(Player, ABC):
+    """
+    A player of the simulation of a node, which is asked by messages where there are some.
+
+    :param simulation: of the node
+
+    :ivar sent: number of messages
+    """
+
+    def __init__(self, simulation: Simulation) -> None:
+        super().__init__()
+        self.sent = 0
+        self._simulation = simulation
+
+    @abstractmethod
+    def send(self, request: Request) -> bool:
+        """Send the message of a request; return whether it has one."""
+
+    def _new_simulation(self, physics: float, publish: float) -> Simulation:
+        simulation = self._simulation
+        simulation.speed = 0.0
+        assert (simulation.physics_rate, simulation.frame_steps) == (physics, physics / publish)
+        return simulation
+
+    def _submit(self, request: Request) -> None:
+        if self.send(request):
+            self.sent += 1
+        else:
+            super()._submit(request)
+
+    def _was_asked(self, _: Request) -> bool:
+        # A message has another rounding, and may ask by another request.
+        return True
+
+
+def history_of_node(seed: int) -> list[Operation]:
+    """Return the operations of a seed at the rates that a node has by default."""
+    (begin, *_, contacts), *operations = history_of(seed)
+    return [(begin, 240.0, 60.0, 3.0, contacts), *operations]
 
 
 # Playing and shrinking

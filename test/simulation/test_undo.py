@@ -235,3 +235,18 @@ def test_older_steps_than_are_kept_are_dropped() -> None:
     driven.assert_same(frames[-1])
     with pytest.raises(OutOfHistory):
         driven.simulation.undo()
+
+
+def test_redo_does_not_pass_over_an_undone_line_that_is_no_longer_kept() -> None:
+    simulation = Simulation()
+    simulation.perform(spawning('a/0', BOX))
+    simulation.reset()
+    simulation.history = 1.0
+    simulation.undo()
+    simulation.undo()
+    # The step of the spawn is dropped, and the line with it; only the reset could be redone.
+    for _ in range(240):
+        simulation.advance_frame()
+    assert simulation.status.redo == ''
+    with pytest.raises(OutOfHistory):
+        simulation.redo()

@@ -154,6 +154,14 @@ def test_each_undoes_what_is_its_own_and_a_teacher_clears_what_one_drew(browser:
     assert boss.ask('take_back')['code'] == 'out_of_history'
 
 
+def test_an_undo_of_what_another_person_has_used_since_is_refused(browser: Browser) -> None:
+    anna, ben = browser.open_page(), browser.open_page()
+    assert spawn(anna, 'a/0', 0.0)['ok']
+    assert ben.ask('change', name='a/0', properties={'friction': 0.1})['ok']
+    assert anna.ask('take_back')['code'] == 'not_alone'
+    assert browser.physsim.names == ('a/0',)
+
+
 def test_cursors_go_to_all_pages_without_the_world(browser: Browser) -> None:
     anna, ben = browser.open_page(), browser.open_page()
     for x in range(5):

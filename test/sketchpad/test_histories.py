@@ -19,12 +19,12 @@ from physsim_ros.model.requests import (
     Spawn,
     Unjoin,
 )
-from physsim_ros.simulation.simulation import Frame, Simulation
+from physsim_ros.model.snapshot import Frame
 from physsim_ros.testing import own_context, PhysSim
 import pytest
 
 from .browser import Browser
-from ..simulation.histories import history_of, play, Player, SETTINGS
+from ..simulation.histories import history_of_node, NodePlayer, play, SETTINGS
 
 SEEDS = range(800, 808)
 
@@ -56,15 +56,13 @@ def message_of(request: Request) -> tuple[str, dict[str, Any]] | None:
     return None
 
 
-class PagePlayer(Player):
+class PagePlayer(NodePlayer):
     """A player that asks the world of a node on its page, where it can."""
 
     def __init__(self, browser: Browser) -> None:
-        super().__init__()
-        self.browser = browser
+        super().__init__(browser.physsim.node.simulation)
         self.page = browser.open_page()
         self.page.until(lambda: self.page.of_type('scene'))
-        self.sent = 0
         # A page has the world show what it has asked: frames that were not looked at yet.
         self.pending: list[Frame] = []
 
@@ -73,19 +71,12 @@ class PagePlayer(Player):
         for each in (*pending, frame):
             super().look(each)
 
-    def _new_simulation(self, physics: float, publish: float) -> Simulation:
-        simulation = self.browser.physsim.node.simulation
-        simulation.speed = 0.0
-        assert (simulation.physics_rate, simulation.frame_steps) == (physics, physics / publish)
-        return simulation
-
-    def _submit(self, request: Request) -> None:
+    def send(self, request: Request) -> bool:
         message = message_of(request)
         if message is None:
-            super()._submit(request)
-            return
-        self.sent += 1
+            return False
         self.page.ask(message[0], **message[1])
+        return True
 
     def _seek(self, stamp: int) -> None:
         self.page.ask('seek', time=stamp / 1e9)
@@ -93,18 +84,12 @@ class PagePlayer(Player):
     def _return_to_course(self, number: int) -> None:
         assert self.page.ask('course', course=number)['ok']
 
-    def _was_asked(self, _: Request) -> bool:
-        # A message has another rounding, and deletes by another request.
-        return True
-
 
 @pytest.mark.slow
 @pytest.mark.parametrize('seed', SEEDS)
 def test_a_history_on_a_page_shows_what_its_requests_show_when_they_are_played_from_nothing(
     seed: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    (begin, *_, contacts), *operations = history_of(seed)
-    operations = [(begin, 240.0, 60.0, 3.0, contacts), *operations]
     monkeypatch.setenv('XDG_STATE_HOME', str(tmp_path))
     assert SETTINGS.bounds is not None
     with ExitStack() as closing:
@@ -122,5 +107,5 @@ def test_a_history_on_a_page_shows_what_its_requests_show_when_they_are_played_f
             publish(frame)
 
         monkeypatch.setattr(physsim.node, 'publish_frame', publish_frame)
-        play(operations, player)
+        play(history_of_node(seed), player)
     assert player.sent

@@ -153,7 +153,7 @@ def test_a_stroboscope_shows_where_a_body_was_with_v_and_a(sheet: Sheet) -> None
     x, y = sheet.place(-7.5 + 2.0 * time, 8.0 - G * time**2 / 2)
     for color in ('--faint', '--accent', '--weight'):
         sheet.until(lambda color=color: sheet.page.evaluate(HAS_COLOR, [x, y, 30, color]), color)
-    # Where it would have been after 1.1 s it was not yet.
+    # The ball is not yet at its place of 1.25 s.
     x, y = sheet.place(-7.5 + 2.0 * 1.25, 8.0 - G * 1.25**2 / 2)
     assert not sheet.page.evaluate(HAS_COLOR, [x, y, 10, '--weight'])
 

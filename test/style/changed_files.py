@@ -9,7 +9,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
 CHECKED = ('physsim_ros', 'test', 'tools', 'setup.py')
-# What begins the names of the checkers; another version of one looks at all files again.
+# Prefixes of the names of the checkers; another version of one looks at all files again.
 CHECKERS = ('ament', 'flake8', 'pep8', 'pycodestyle', 'pydocstyle', 'pyflakes', 'ros-jazzy-ament')
 
 

@@ -24,13 +24,13 @@ pytestmark = [
 
 
 def _targets():
-    """Return what `make` can be asked for."""
+    """Return the targets of the Makefile."""
     text = (ROOT / 'Makefile').read_text(encoding='utf-8')
     return {*re.findall(r'^([a-z-]+):', text, re.MULTILINE), '.venv/.made-of-wheels'}
 
 
 def _asked(text):
-    """Return what commands ask `make` for."""
+    """Return the targets of `make` that commands name."""
     return set(re.findall(r'\bmake ([\w./-]+)', text))
 
 

@@ -16,7 +16,15 @@ from physsim_ros.model.shapes.chain import Chain
 from physsim_ros.model.shapes.compound import Compound
 from physsim_ros.model.shapes.containment import contains
 from physsim_ros.model.shapes.disc import Disc
-from physsim_ros.model.shapes.form import Capsule, Circle, Convex, extent_of, Form, Piece
+from physsim_ros.model.shapes.form import (
+    Capsule,
+    Circle,
+    Convex,
+    extent_of,
+    Form,
+    Piece,
+    piece_box,
+)
 from physsim_ros.model.shapes.lever import lever_of
 from physsim_ros.model.shapes.polygon import Polygon
 from physsim_ros.model.shapes.polygon_geometry import crosses_itself, is_convex, signed_area
@@ -49,5 +57,6 @@ __all__ = [
     'extent_of',
     'is_convex',
     'lever_of',
+    'piece_box',
     'signed_area',
 ]

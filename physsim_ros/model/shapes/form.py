@@ -23,7 +23,7 @@ from typing import Any, cast, TypeVar
 from weakref import WeakValueDictionary
 
 import numpy as np
-from physsim_ros.model.transform import cross, next_vertices, Point
+from physsim_ros.model.transform import cross, next_vertices, Point, Pose, rotated
 
 # A centroid closer to the origin than this share of the extent lies at the origin: a symmetric
 # shape is balanced to the bit, however its sums round.
@@ -135,13 +135,16 @@ def form_of(pieces: tuple[Piece, ...], whole: tuple[Piece, ...] = ()) -> Form:
 
 def extent_of(form: Form) -> tuple[Point, Point]:
     """Return the lower left and the upper right corner of the box around a form [m]."""
-    boxes = [_extent(piece) for piece in form.pieces]
-    left, bottom, right, top = zip(*boxes, strict=True)
+    left, bottom, right, top = zip(*(piece_box(piece) for piece in form.pieces), strict=True)
     return (min(left), min(bottom)), (max(right), max(top))
 
 
-def _extent(piece: Piece) -> tuple[float, float, float, float]:
-    """Return left, bottom, right and top of a piece [m]."""
+def piece_box(piece: Piece, pose: Pose = (0.0, 0.0, 0.0)) -> tuple[float, float, float, float]:
+    """
+    Return left, bottom, right and top of the box around a piece [m].
+
+    :param pose: of the frame of the piece
+    """
     points: tuple[Point, ...]
     match piece:
         case Circle(center, radius):
@@ -150,8 +153,10 @@ def _extent(piece: Piece) -> tuple[float, float, float, float]:
             points, margin = (start, end), radius
         case Convex(vertices):
             points, margin = vertices, 0.0
-    xs, ys = zip(*points, strict=True)
-    return min(xs) - margin, min(ys) - margin, max(xs) + margin, max(ys) + margin
+    corners = [rotated(point, pose[2]) for point in points]
+    x = [pose[0] + point[0] for point in corners]
+    y = [pose[1] + point[1] for point in corners]
+    return min(x) - margin, min(y) - margin, max(x) + margin, max(y) + margin
 
 
 def half_width(piece: Piece) -> float:

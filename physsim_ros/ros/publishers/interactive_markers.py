@@ -138,7 +138,7 @@ class InteractiveMarkers:
 
 
 def _control(body: Body) -> InteractiveMarkerControl:
-    """Return what is clicked: the shape of a body."""
+    """Return the control of a marker: the shape of the body, which is dragged."""
     kind, scale, points = geometry_of(body.shape)
     red, green, blue, alpha = body.color
     drawn = Marker(type=kind, color=ColorRGBA(r=red, g=green, b=blue, a=alpha))

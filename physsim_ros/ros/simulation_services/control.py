@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""What the services of `simulation_interfaces` do to a node."""
+"""The actions of a node that the services of `simulation_interfaces` use."""
 
 from __future__ import annotations
 
@@ -17,13 +17,12 @@ from physsim_ros.simulation.simulation import Simulation
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SimulationControl:
     """
-    What the services of `simulation_interfaces` do to a node; a returned text is a message.
+    The actions of a node that the services of `simulation_interfaces` use; they return messages.
 
     :param simulation: the world and its time
     :param values: of the parameters of the node, by name, always up to date
     :param current_snapshot: applies the waiting requests; returns the snapshot that is shown
     :param actions: of the services for time, by name; each raises a Refusal
-    :param reset: goes to the state that was loaded last, at time 0
     :param load_world: loads the world of a name; raises a PhysSimError
     :param note_change: has parameters and pages follow what was changed
     :param world_dir: directory of the user's worlds
@@ -33,7 +32,6 @@ class SimulationControl:
     values: Mapping[str, Any]
     current_snapshot: Callable[[], Snapshot]
     actions: Mapping[str, Callable[[], str]]
-    reset: Callable[[], str]
     load_world: Callable[[str], str]
     note_change: Callable[[], None]
     world_dir: Path

@@ -16,7 +16,8 @@ from physsim_ros.files import shipped_lessons, shipped_worlds, worlds_in
 from physsim_ros.model.errors import BadWorldFile
 from physsim_ros.model.requests import DeleteBodies, Restore
 from physsim_ros.ros.simulation_services.control import SimulationControl
-from physsim_ros.ros.simulation_services.entities import passes_tags, unknown_sources
+from physsim_ros.ros.simulation_services.entities import unknown_sources
+from physsim_ros.ros.simulation_services.entity_filters import passes_tags
 from physsim_ros.ros.simulation_services.results import Failed, failed
 from simulation_interfaces.msg import Result, SimulationState, SimulatorFeatures, WorldResource
 from simulation_interfaces.srv import LoadWorld, ResetSimulation, SetSimulationState
@@ -106,7 +107,7 @@ class TimeAndWorlds:
         if target == _PLAYING:
             return self._control.actions['play']()
         message = self._control.actions['pause']()
-        return self._control.reset() if target == _STOPPED else message
+        return self._control.simulation.reset() if target == _STOPPED else message
 
     def step(self, request: Any, _: Any) -> str:
         """Advance a paused world by frames."""
@@ -139,7 +140,7 @@ class TimeAndWorlds:
         """Go to the beginning, or restore some of it at the time that is shown."""
         scope = request.scope
         if scope in _ALL:
-            return self._control.reset()
+            return self._control.simulation.reset()
         simulation = self._control.simulation
         loaded = simulation.loaded
         if scope == _STATE | _SPAWNED:
@@ -184,7 +185,7 @@ class TimeAndWorlds:
             result = codes.RESOURCE_PARSE_ERROR if refusal.cause else Result.RESULT_NOT_FOUND
             raise Failed(refusal, result) from refusal
         self._control.actions['pause']()
-        self._control.reset()
+        self._control.simulation.reset()
         response.world = self._current()
         return message
 

@@ -108,8 +108,15 @@ class Lines:
             self.drop(line)
 
     def drop_where(self, is_lost: Callable[[Line], bool]) -> None:
-        """Drop the lines for which a function is true."""
-        for line in [line for line in self if is_lost(line)]:
+        """
+        Drop the lines for which a function is true.
+
+        Redo returns to one undone line after another: those behind a lost one go with it.
+        """
+        lost = [line for line in self if is_lost(line)]
+        places = [place for place, line in enumerate(self.undone) if line in lost]
+        behind = self.undone[: max(places, default=0)]
+        for line in [*lost, *(line for line in behind if line not in lost)]:
             self.drop(line)
 
     def drop_oldest_ghost(self) -> bool:
