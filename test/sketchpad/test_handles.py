@@ -114,6 +114,27 @@ def test_a_body_is_where_numbers_say(sheet: Sheet) -> None:
     panel.get_by_text('62.50 J').wait_for()
 
 
+def test_numbers_that_are_typed_before_a_frame_comes_are_kept(sheet: Sheet) -> None:
+    sheet.page.evaluate(
+        """(numbers) => {
+        for (const [label, text] of numbers) {
+            const named = [...document.querySelectorAll('#panel label')].find((each) => each.textContent === label);
+            named.control.value = text;
+            named.control.dispatchEvent(new Event('change'));
+        }
+    }""",
+        [
+            ['x [m]', '2'],
+            ['y [m]', '3.5'],
+            ['Angle [°]', '30'],
+            ['vx [m/s]', '3'],
+            ['vy [m/s]', '-4'],
+        ],
+    )
+    panel = sheet.page.get_by_role('complementary', name='Body')
+    panel.get_by_text('1 kg · at 2.00, 3.50 m · 30° · 5.00 m/s').wait_for()
+
+
 def test_what_is_drawn_and_placed_snaps_to_the_grid_while_a_key_is_held(sheet: Sheet) -> None:
     # Its fine lines are 0.4 m apart in this window.
     before = sheet.names()

@@ -11,6 +11,11 @@ const DEGREE = Math.PI / 180; // rad
 const TYPED = [['mass', 'Mass [kg]'], ['x', 'x [m]'], ['y', 'y [m]'], ['angle', 'Angle [°]'],
   ['vx', 'vx [m/s]'], ['vy', 'vy [m/s]'], ['spin', 'Spin [rad/s]']];
 const AT_REST = 4; // number of those that an anchored body has
+/**
+ * The mass of a body [kg], and the place, angle and velocity of its centre of mass [m, °, m/s, rad/s].
+ * @typedef {{mass: number, x: number, y: number, angle: number, vx: number, vy: number, spin: number}} Motion
+ */
+/** @typedef {{name: string, motion: Motion, answered: boolean}} Typed */
 /** Words of the energies. */
 const ENERGIES = ['of motion', 'of height'];
 
@@ -20,6 +25,8 @@ export class Numbers {
     this.app = app;
     this.most = 0; // greatest energy that was shown of this body [J]
     this.name = '';
+    /** Numbers that were typed and that no frame shows yet. @type {?Typed} */
+    this.ahead = null;
     this.line = createElement('p');
     this.bars = ENERGIES.map((word) => createElement('meter', {min: 0, 'aria-label': `Energy ${word}`}));
     this.labels = ENERGIES.map((word) => createElement('span', {textContent: `Energy ${word}`}));
@@ -31,6 +38,11 @@ export class Numbers {
     this.element = createElement('section', {className: 'numbers', 'aria-label': 'Numbers'}, this.line, typed,
       ...this.labels.flatMap((label, i) => [label, this.bars[i], this.values[i]]));
     app.view.overlays.push(() => this.#update());
+    app.connection.on('open', () => { this.ahead = null; });
+    // A change is in each frame that comes after its answer.
+    app.connection.on('frame', () => {
+      if (this.ahead?.answered) this.ahead = null;
+    });
   }
 
   #update() {
@@ -46,11 +58,11 @@ export class Numbers {
    * @param {Body} body
    * @param {number} row
    */
-  #showTyped({mass, centroid, anchored}, row) {
-    const {world: {frame}, world} = this.app, {velocities} = frame, [x, y] = world.place(row, centroid);
-    const values = [mass, x, y, frame.yaw[row] / DEGREE, velocities?.x[row], velocities?.y[row], velocities?.spin[row]];
+  #showTyped({anchored}, row) {
+    /** @type {Record<string, number>} */
+    const values = motionOf(this.app.world, row);
     TYPED.forEach(([key], i) => {
-      const input = this.inputs.get(key), value = values[i] ?? 0, text = String(Number(value.toPrecision(5)));
+      const input = this.inputs.get(key), text = String(Number(values[key].toPrecision(5)));
       if (!input || input === document.activeElement) return;
       input.disabled = anchored && i >= AT_REST;
       if (input.value !== text) input.value = text;
@@ -58,19 +70,22 @@ export class Numbers {
   }
 
   /** @param {string} key of what was typed */
-  #type(key) {
+  async #type(key) {
     const {world, panel: {name}, connection} = this.app, row = world.row(name);
-    const input = this.inputs.get(key), value = Number(input?.value);
+    const input = this.inputs.get(key);
     if (row < 0 || !input?.value) return;
-    const {frame} = world, {centroid} = world.scene.bodies[row], [x, y] = world.place(row, centroid);
-    const {velocities} = frame, vx = velocities?.x[row] ?? 0, vy = velocities?.y[row] ?? 0;
-    const at = (/** @type {number} */ atX, /** @type {number} */ atY, yaw = frame.yaw[row]) =>
-      ({at: [...originOf(centroid, [atX, atY], yaw), yaw]});
-    /** @type {Record<string, object>} */
-    const changes = {mass: {mass: value}, x: at(value, y), y: at(x, value), angle: at(x, y, value * DEGREE),
-      vx: {velocity: [value, vy]}, vy: {velocity: [vx, value]}, spin: {spin: value}};
-    connection.send('change', {name, properties: changes[key]});
     input.blur();
+    const motion = {...this.ahead?.name === name ? this.ahead.motion : motionOf(world, row), [key]: Number(input.value)};
+    /** @type {Typed} */
+    const typed = {name, motion, answered: false};
+    this.ahead = typed;
+    const {mass, x, y, angle, vx, vy, spin} = motion, yaw = angle * DEGREE;
+    const place = {at: [...originOf(world.scene.bodies[row].centroid, [x, y], yaw), yaw]}, velocity = {velocity: [vx, vy]};
+    /** @type {Record<string, object>} */
+    const changes = {mass: {mass}, x: place, y: place, angle: place, vx: velocity, vy: velocity, spin: {spin}};
+    const {ok} = await connection.ask('change', {name, properties: changes[key]});
+    typed.answered = true;
+    if (!ok && this.ahead === typed) this.ahead = null;
   }
 
   /**
@@ -78,16 +93,14 @@ export class Numbers {
    * @param {number} row
    */
   #showEnergies(body, row) {
-    const {world} = this.app, {frame: {velocities}, scene: {gravity}} = world, {name, centroid, anchored} = body;
+    const {world} = this.app, {frame: {velocities}, scene: {gravity}} = world, {name, anchored} = body;
     if (name !== this.name) this.most = 0;
     this.name = name;
     this.element.classList.toggle('fixed', anchored || !velocities);
     if (!velocities || anchored) return;
     // Seen from above, there is no height.
     for (const {1: part} of [this.labels, this.bars, this.values]) part.hidden = !gravity[0] && !gravity[1];
-    const [x, y] = world.place(row, centroid);
-    const motion = {x, y, vx: velocities.x[row], vy: velocities.y[row], spin: velocities.spin[row]};
-    const energies = energiesOf(body, motion, gravity);
+    const energies = energiesOf(body, motionOf(world, row), gravity);
     this.most = Math.max(this.most, ...energies);
     energies.forEach((energy, i) => {
       this.bars[i].max = this.most || 1;
@@ -95,6 +108,17 @@ export class Numbers {
       this.values[i].textContent = `${number(energy)} J`;
     });
   }
+}
+
+/**
+ * @param {WorldState} world
+ * @param {number} row
+ * @returns {Motion} of a body; its velocity is 0 where it is not known
+ */
+function motionOf(world, row) {
+  const {frame: {yaw, velocities}, scene} = world, {mass, centroid} = scene.bodies[row], [x, y] = world.place(row, centroid);
+  return {mass, x, y, angle: yaw[row] / DEGREE,
+    vx: velocities?.x[row] ?? 0, vy: velocities?.y[row] ?? 0, spin: velocities?.spin[row] ?? 0};
 }
 
 /**
