@@ -20,7 +20,7 @@ from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import split_name
 from physsim_ros.model.scene import Body, Joint
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import contains
+from physsim_ros.model.shapes import contains, Piece
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.texts import nearest_name
 from physsim_ros.model.transform import Point, Pose, rotated, rotated_each, Twist
@@ -94,7 +94,7 @@ class SceneQuery:
         return tuple(
             self.names[row]
             for row in np.flatnonzero(near)[::-1]
-            if self._covers(row, np.array([point]), slack).any()
+            if self._covers(row, point, slack)
         )
 
     def covers(self, name: str, points: Floats) -> Flags:
@@ -103,7 +103,10 @@ class SceneQuery:
 
         :param points: (k, 2) float64: in the world [m]
         """
-        return self._covers(self._rows[name], points, 0.0)
+        row = self._rows[name]
+        x, y, yaw = self.snapshot.poses[row].tolist()
+        local = rotated_each(points - (x, y), -yaw)
+        return contains(self._pieces(row), local[:, 0], local[:, 1])
 
     def local(self, name: str, point: Point) -> Point:
         """Return a point of the world in the frame of a body [m]."""
@@ -165,10 +168,13 @@ class SceneQuery:
         """(n,) float64: outer radius of each body about its centre of mass [m]."""
         return np.array([body.shape.form.outer for body in self.snapshot.scene.bodies])
 
-    def _covers(self, row: int, points: Floats, slack: float) -> Flags:
-        x, y, yaw = self.snapshot.poses[row]
-        local = rotated_each(points - (x, y), -yaw)
-        return contains(self.snapshot.scene.bodies[row].shape.form.pieces, local, slack)
+    def _pieces(self, row: int) -> tuple[Piece, ...]:
+        return self.snapshot.scene.bodies[row].shape.form.pieces
+
+    def _covers(self, row: int, point: Point, slack: float) -> bool:
+        x, y, yaw = self.snapshot.poses[row].tolist()
+        local = rotated((point[0] - x, point[1] - y), -yaw)
+        return contains(self._pieces(row), *local, slack)
 
 
 def _next_number(names: Iterable[str]) -> int:

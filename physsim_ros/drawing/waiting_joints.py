@@ -12,7 +12,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-import numpy as np
 from physsim_ros.drawing.scene_query import DRAWN, SceneQuery
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import split_name, WORLD
@@ -40,7 +39,7 @@ def _joins_of(body: Spawn, scene: SceneQuery) -> Iterator[Join]:
         end = joint.seat.bx, joint.seat.by
         x, y, yaw = body.pose
         local = rotated((end[0] - x, end[1] - y), -yaw)
-        if contains(body.shape.form.pieces, np.array([local])).any():
+        if contains(body.shape.form.pieces, *local):
             yield Join(
                 name=joint.name,
                 kind=joint.kind,

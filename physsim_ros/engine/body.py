@@ -17,7 +17,6 @@ from dataclasses import dataclass, field, replace
 import math
 import operator
 
-import numpy as np
 from physsim_ros.engine.memory import place_of
 from physsim_ros.model.checkpoint import BodyState, Motion
 from physsim_ros.model.scene import Body
@@ -93,7 +92,7 @@ class RigidBody:
         local = rotated((point[0] - x, point[1] - y), -yaw)
         if math.dist(local, form.centroid) > form.outer + SEAM:
             return False
-        return bool(contains(form.pieces, np.array([local]), SEAM)[0])
+        return contains(form.pieces, *local, SEAM)
 
     def lead(self, gravity: Point, dt: float) -> Twist:
         """Return how far the engine's velocity is ahead of the true one in free flight."""

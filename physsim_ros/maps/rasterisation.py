@@ -62,8 +62,8 @@ def anchored_grid(snapshot: Snapshot, resolution: float) -> OccupancyGrid:
         first, last = np.searchsorted(y, box[1::2]).tolist()
         for rows in _bands(first, last, columns.stop - columns.start):
             centers = np.stack(np.meshgrid(x[columns], y[rows]), axis=-1) - pose[:2]
-            local = rotated_each(centers, -pose[2]).reshape(-1, 2)
-            occupied[rows, columns] |= contains((piece,), local).reshape(centers.shape[:2])
+            local = rotated_each(centers, -pose[2])
+            occupied[rows, columns] |= contains((piece,), local[..., 0], local[..., 1])
     origin = (left * resolution, bottom * resolution, 0.0)
     return OccupancyGrid(occupied=occupied, resolution=resolution, origin=origin)
 

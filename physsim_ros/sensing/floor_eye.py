@@ -66,7 +66,7 @@ class FloorMarks:
         for row in self.rows[near].tolist():
             body, pose = self.snapshot.scene.bodies[row], self.snapshot.poses[row]
             local = rotated_each(points - pose[:2], -pose[2])
-            inside = contains(body.shape.form.pieces, local)
+            inside = contains(body.shape.form.pieces, *local.T)
             alpha = body.color[3]
             colors[inside] = (1.0 - alpha) * colors[inside] + alpha * np.array(body.color[:3])
         return colors

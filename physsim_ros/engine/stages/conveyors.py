@@ -44,7 +44,7 @@ def floor_velocities(context: StepContext) -> Floats | None:
         # The engine's origin of a body is its centre of mass; of an anchored one, its own.
         around = centers - context.poses[row, :2]
         local = rotated_each(around, -yaw) + table.columns.offsets[row]
-        on = contains(body.shape.form.pieces, local)
+        on = contains(body.shape.form.pieces, *local.T)
         on[row] = False
         vx, vy, spin = context.twists[row].tolist()
         sx, sy = body.surface_velocity
