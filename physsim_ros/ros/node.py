@@ -345,7 +345,6 @@ class PhysSimNode(NodeWithoutQosEvents):
 
     def _handle_pages(self) -> None:
         """Carry out the messages of pages."""
-        # Before them: a page that begins to show contacts seeks next.
         self._update_contact_recording()
         if self.outputs.sketchpad is not None:
             self.outputs.sketchpad.handle_messages()

@@ -7,7 +7,7 @@ Playback: the moment that is shown, forward and back.
 Laws: a rewind or a seek shows a cached frame while the world is at another step. The world goes to
 the step that is shown before a request is applied, a step is made or the world is read, and while
 playback is paused. After a jump to another course the state of the world is shown, not a cached
-frame.
+frame. Where contacts are reported, the frame of a paused world has those of its last steps.
 """
 
 from __future__ import annotations
@@ -42,6 +42,8 @@ class Playback:
         self.changed = True
         self.frames_due = 0
         self._past = past
+        # Whether the steps of the frame that is shown were made before contacts were reported.
+        self._lacks_contacts = False
         # The cached frame that is shown, while the world is at another step; else None.
         self._shown: CachedFrame | None = None
 
@@ -56,6 +58,17 @@ class Playback:
         if speed:
             self.frames_due = 0
         self.clock.speed = speed
+        self._complete_frame()
+
+    def note_reporting(self, reports_contacts: bool) -> None:  # noqa: FBT001 - a state
+        """Note that contacts are reported from the next step on, or no longer."""
+        self._lacks_contacts = reports_contacts
+        self._complete_frame()
+
+    def _complete_frame(self) -> None:
+        """Make the frame that a paused world shows again, with contacts, if it lacks them."""
+        if self._lacks_contacts and self.speed == 0 and not self.frames_due:
+            self._seek_step(self.step)
 
     # The moment that is shown
 
@@ -141,15 +154,16 @@ class Playback:
 
         :raises OutOfHistory: the time is no longer kept, or in the future
         """
-        self._show_requests()
         self.frames_due = 0
-        past = self._past
-        step = past.steps_in(stamp * 1e-9)
-        frame = past.frame_cache.cached_frame(step)
+        self._seek_step(self._past.steps_in(stamp * 1e-9))
+
+    def _seek_step(self, step: int) -> None:
+        self._show_requests()
+        frame = self._past.frame_cache.cached_frame(step)
         if frame is None:
-            past.timeline.seek(step)
+            self._past.timeline.seek(step)
         self.note_jump()
-        self._shown = frame
+        self._shown, self._lacks_contacts = frame, False
 
     def _show_requests(self) -> None:
         """Note requests since the last frame as shown at this step."""
@@ -206,6 +220,7 @@ class Playback:
         :param is_overdue: whether to end at the next multiple of the publish period
         """
         self.seek_shown()
+        self._lacks_contacts = False
         timeline = self._past.timeline
         while steps > 0:
             some = min(steps, self.steps_to_period)
@@ -230,6 +245,6 @@ class Playback:
             # The time of this replay is not made up for.
             self.clock.restart()
             return False
-        self._shown = shown
+        self._shown, self._lacks_contacts = shown, False
         cache.replay_ahead(step, steps, is_overdue, fine=not self.speed.is_integer())
         return True

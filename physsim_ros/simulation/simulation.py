@@ -148,7 +148,9 @@ class Simulation:
 
     @reports_contacts.setter
     def reports_contacts(self, reports_contacts: bool) -> None:
-        self.past.reports_contacts = reports_contacts
+        if reports_contacts != self.past.reports_contacts:
+            self.past.reports_contacts = reports_contacts
+            self.playback.note_reporting(reports_contacts)
 
     # Requests
 

@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""The past shows the contacts that were shown, where a request came between step and frame."""
+"""The past shows the contacts that were shown, and a paused world those of its last steps."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import numpy as np
 from physsim_ros.model.requests import Command, Configure, Spawn
 from physsim_ros.model.shapes import Box, Disc
 from physsim_ros.simulation.simulation import Simulation
+import pytest
 
 PERIOD_NS = round(1e9 / 60)
 
@@ -49,3 +50,27 @@ def test_contacts_of_the_past_are_those_shown_where_a_request_woke_bodies():
     simulation.past.frame_cache.drop_from(0)
     simulation.speed = -1.0
     run(200)
+
+
+@pytest.mark.parametrize(
+    ('first', 'second'), [('speed', 'reports_contacts'), ('reports_contacts', 'speed')]
+)
+def test_a_paused_world_has_the_contacts_of_its_last_steps_once_they_are_reported(first, second):
+    simulation = Simulation()
+    simulation.perform(Configure(changes={'bounds': (-5.0, 0.0, 5.0, 12.0)}))
+    simulation.perform(Spawn(name='box/0', shape=Box(width=1.0, height=1.0), pose=(0.0, 0.5, 0.0)))
+    for _ in range(60):
+        assert simulation.advance_frame().contacts is None
+    step, digest = simulation.step, simulation.world.digest()
+
+    for name in (first, second):
+        setattr(simulation, name, {'speed': 0.0, 'reports_contacts': True}[name])
+        frame = simulation.apply_requests()
+
+    assert frame is not None
+    assert frame.contacts.steps == simulation.frame_steps
+    assert len(frame.contacts.pairs) == 1
+    assert not frame.moved
+    assert (simulation.step, simulation.world.digest()) == (step, digest)
+    simulation.reports_contacts = False
+    assert simulation.apply_requests() is None

@@ -118,7 +118,8 @@ def test_numbers_that_are_typed_before_a_frame_comes_are_kept(sheet: Sheet) -> N
     sheet.page.evaluate(
         """(numbers) => {
         for (const [label, text] of numbers) {
-            const named = [...document.querySelectorAll('#panel label')].find((each) => each.textContent === label);
+            const labels = [...document.querySelectorAll('#panel label')];
+            const named = labels.find((each) => each.textContent === label);
             named.control.value = text;
             named.control.dispatchEvent(new Event('change'));
         }

@@ -63,6 +63,24 @@ def test_a_page_gets_the_poses_of_the_world(browser: Browser) -> None:
     assert picture.poses[0, 1] < 5.0
 
 
+def test_a_page_that_only_shows_gets_the_contacts_of_a_paused_world(browser: Browser) -> None:
+    physsim, drawing = browser.physsim, browser.open_page()
+    physsim.node.outputs.records_contacts = False
+    for name, anchored in (('a/0', True), ('b/0', False)):
+        body = {'name': name, 'box': {'width': 1, 'height': 1}, 'at': [0, 0.9 * (not anchored)]}
+        assert drawing.ask('spawn', body=body | {'anchored': anchored})['ok']
+    physsim.run(0.1)
+    physsim.node.simulation.speed = 0.0
+    page = browser.open_page(cookie=browser.login_cookie(browser.view_login))
+    page.until(lambda: page.frames)
+    page.send('show', contacts=True)
+    page.until(lambda: physsim.node.outputs.wants_contacts)
+    physsim.node.apply_requests()
+    page.until(lambda: page.frames[-1].flags & Show.CONTACTS)
+    contacts, steps = page.frames[-1].columns[6:8].view('<u4')
+    assert (contacts, steps) == (1, 4)
+
+
 def test_each_answer_goes_to_the_page_that_asked_and_is_told_to_the_others(
     browser: Browser,
 ) -> None:

@@ -41,9 +41,6 @@ export class TopBar {
       button.setAttribute('aria-pressed', String(shown));
       if (shown) app.notes.showMessage(title);
       app.askForParts();
-      // The frame that is shown has no contacts, since no page asked for them: a seek makes it again.
-      const {paused, frame} = app.world;
-      if (part === 'forces' && shown && paused && !app.viewOnly) app.connection.send('seek', {time: frame.time});
     }, title);
     button.setAttribute('aria-pressed', 'false');
     return button;
