@@ -87,7 +87,9 @@ def client(physsim: PhysSim) -> Client:
 @pytest.fixture(scope='module')
 def outside(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Outside]:
     """Give a module processes of its own, on a domain of their own."""
-    from .outside import Outside, own_domain  # noqa: PLC0415 - see above
+    from physsim_ros.testing.domain import own_domain  # noqa: PLC0415 - see above
+
+    from .outside import Outside  # noqa: PLC0415 - see above
 
     with own_domain() as domain, ExitStack() as closing:
         yield Outside(tmp_path_factory.mktemp('outside'), domain, closing)

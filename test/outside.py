@@ -5,10 +5,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager, ExitStack
-import fcntl
-import itertools
+from contextlib import ExitStack
 import json
 import os
 from pathlib import Path
@@ -17,7 +14,6 @@ import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import threading
 import time
 from typing import Any, Self
@@ -28,28 +24,6 @@ import pytest
 # Ten times what a start and discovery take, where that loses its first message [s].
 PATIENCE = 40.0
 ROOT = Path(__file__).resolve().parents[1]
-# Domains whose ports lie below the ephemeral range of Linux.
-DOMAINS = range(1, 102)
-# Each process begins at another domain, so that it seldom has to try a second; and each test, so
-# that remains of one do not reach the next.
-BEGINNINGS = itertools.count(os.getpid())
-
-
-@contextmanager
-def own_domain() -> Iterator[int]:
-    """Give a ROS domain id that no other test on this machine is given at the same time."""
-    directory = Path(tempfile.gettempdir()) / f'physsim_ros_domains_{os.getuid()}'
-    directory.mkdir(exist_ok=True)
-    begin = next(BEGINNINGS) % len(DOMAINS)
-    for domain in (*DOMAINS[begin:], *DOMAINS[:begin]):
-        with (directory / str(domain)).open('w') as file:
-            try:
-                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            except BlockingIOError:
-                continue
-            yield domain
-            return
-    pytest.fail('all ROS domains of this machine are taken by tests')
 
 
 def write_profiles(path: Path, partition: str) -> None:

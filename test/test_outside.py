@@ -10,9 +10,10 @@ from pathlib import Path
 import subprocess
 import sys
 
+from physsim_ros.testing.domain import DOMAINS, own_domain
 import pytest
 
-from .outside import DOMAINS, installed_program, Outside, own_domain, ROOT
+from .outside import installed_program, Outside, ROOT
 
 
 def test_programs_are_those_that_colcon_installed_before_those_of_pip(
@@ -35,7 +36,9 @@ def test_domains_are_given_to_one_at_a_time() -> None:
         assert {one, other} <= set(DOMAINS)
     # In another process too.
     with own_domain() as mine:
-        program = 'from test.outside import own_domain\nwith own_domain() as it: print(it)'
+        program = (
+            'from physsim_ros.testing.domain import own_domain\nwith own_domain() as it: print(it)'
+        )
         command = [sys.executable, '-c', program]
         other = int(subprocess.check_output(command, text=True, cwd=ROOT))
         assert other != mine

@@ -12,7 +12,7 @@ too; from a source tree alone, `pytest -p physsim_ros.testing.plugin` does. The 
 Laws: ROS is not imported before a test uses `PhysSim` or requests the fixture; simulation time
 does not depend on the wall clock, which only bounds the wait for an answer; messages that other
 nodes send in reaction to a frame have arrived before the next frame, so that every run gives the
-same bits; no node of another process hears the world or is heard by it.
+same bits; no node of another process hears the world of the fixture or is heard by it.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from physsim_ros.testing.plugin import physsim
 from physsim_ros.testing.values import Contact, Pose, Refused, Twist, UnknownName
 
 if TYPE_CHECKING:
-    from physsim_ros.testing.context import own_context
+    from physsim_ros.testing.context import own_context, shared_context
     from physsim_ros.testing.messages import (
         box,
         chain,
@@ -53,9 +53,8 @@ else:
         'point',
         'polygon',
     )
-    _WITH_ROS = {'PhysSim': 'world', 'own_context': 'context'} | dict.fromkeys(
-        _BUILDERS, 'messages'
-    )
+    _WITH_ROS = {'PhysSim': 'world'} | dict.fromkeys(_BUILDERS, 'messages')
+    _WITH_ROS |= dict.fromkeys(('own_context', 'shared_context'), 'context')
 
     def __getattr__(name: str) -> Any:
         """Import a name when it is first used (PEP 562)."""
@@ -88,6 +87,7 @@ __all__ = [
     'physsim',
     'point',
     'polygon',
+    'shared_context',
 ]
 # `pytest -p physsim_ros.testing` loads the plugin, too.
 pytest_plugins = ['physsim_ros.testing.plugin']

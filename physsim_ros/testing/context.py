@@ -1,25 +1,18 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""A context of ROS for one test, which no other process can discover."""
+"""A context of ROS for one test, hidden from other processes, or shared with those it starts."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-import itertools
-import os
 
+from physsim_ros.testing.domain import own_domain
 import pytest
 import rclpy
 from rclpy.context import Context
 
-# Domains whose ports lie below the ephemeral range of Linux:
-# https://docs.ros.org/en/jazzy/Concepts/Intermediate/About-Domain-ID.html
-_DOMAINS = range(1, 102)
-# Each process begins at another domain: every participant takes ports of its domain, of which
-# discovery on one machine tries the first 32 only.
-_BEGINNINGS = itertools.count(os.getpid())
 # Environment variables that name peers in spite of the discovery range.
 _PEERS = ('ROS_DISCOVERY_SERVER', 'ROS_STATIC_PEERS')
 
@@ -28,15 +21,34 @@ _PEERS = ('ROS_DISCOVERY_SERVER', 'ROS_STATIC_PEERS')
 def own_context(monkeypatch: pytest.MonkeyPatch) -> Iterator[Context]:
     """Yield a context whose nodes discover each other and no others, whatever their domain is."""
     # Endpoints of one participant are matched without discovery.
-    monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'OFF')
+    with _context(monkeypatch, 'OFF') as context:
+        yield context
+
+
+@contextmanager
+def shared_context(monkeypatch: pytest.MonkeyPatch) -> Iterator[Context]:
+    """
+    Yield a context on a domain of its own; processes that the test starts are on it, too.
+
+    They inherit `ROS_DOMAIN_ID`. No other test of this machine has that domain meanwhile.
+    """
+    with _context(monkeypatch, 'LOCALHOST') as context:
+        monkeypatch.setenv('ROS_DOMAIN_ID', str(context.get_domain_id()))
+        yield context
+
+
+@contextmanager
+def _context(monkeypatch: pytest.MonkeyPatch, discovery: str) -> Iterator[Context]:
+    """Yield a context on a domain of its own, with a discovery range."""
+    monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', discovery)
     for name in _PEERS:
         monkeypatch.delenv(name, raising=False)
     # Shared memory remains after a killed process, with the locks that it owned.
     monkeypatch.setenv('FASTDDS_BUILTIN_TRANSPORTS', 'UDPv4')
-    context = Context()
-    domain = _DOMAINS[next(_BEGINNINGS) % len(_DOMAINS)]
-    rclpy.init(context=context, domain_id=domain, args=[])
-    try:
-        yield context
-    finally:
-        context.try_shutdown()
+    with own_domain() as domain:
+        context = Context()
+        rclpy.init(context=context, domain_id=domain, args=[])
+        try:
+            yield context
+        finally:
+            context.try_shutdown()

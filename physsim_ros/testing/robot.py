@@ -106,6 +106,13 @@ class Robot:
         bumpers = [each for each in self._sensors if isinstance(each, Bumper)] or [_ALL_ROUND]
         return any(read_bumper(view.snapshot, view.contacts, row, each) for each in bumpers)
 
+    @property
+    def has_controller(self) -> bool:
+        """Whether another node publishes its commands and subscribes to one of its topics."""
+        self._view()
+        topics = self._node.fleet.robots[self.name]
+        return topics.commands.is_heard and topics.has_subscribers
+
     def _view(self) -> View:
         frame = self._node.frame
         if frame is None or self.name not in self._node.fleet.robots:

@@ -155,6 +155,22 @@ class PhysSim(ObservedWorld):
                 f'not true within {timeout:g} simulated seconds\n{self.describe_state()}'
             )
 
+    def wait_until(self, predicate: Callable[[], object], *, timeout: float = 10.0) -> None:
+        """
+        Spin until a predicate is true, with time paused: for nodes of other processes.
+
+        :param timeout: wall time [s]
+        :raises TimeoutError: it is not true after that time
+        """
+        __tracebackhide__ = True
+
+        def is_true() -> object:
+            self.node.fleet.match_publishers()
+            return predicate()
+
+        self._executor.spin_until(is_true, f'not true within {timeout:g} s', timeout)
+        self.settle()
+
     def _frames(self, seconds: float) -> int:
         frames = seconds / self.node.frame_period
         if not 0.0 <= frames < math.inf:

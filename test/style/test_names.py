@@ -201,6 +201,8 @@ def _spans(text):
 # Files that the reader makes, one of another project, fields of messages, names of Nav2.
 OF_DOCUMENTS = {'damper.py', 'fall.py', 'parser.py', 'test_crash.py'}
 OF_DOCUMENTS |= {'wall_follower.py', 'test_wall_follower.py'}
+OF_DOCUMENTS |= {'conftest.py', 'stopper.py', 'test_stopper.py', 'tracker.py', 'test_tracker.py'}
+OF_DOCUMENTS |= {'ament_add_pytest_test'}
 OF_DOCUMENTS |= {'enable_stamped_cmd_vel', 'map_server'}
 # Parameters of Nav2.
 OF_DOCUMENTS |= {'controller_frequency', 'expected_update_rate', 'odom_frame_id'}

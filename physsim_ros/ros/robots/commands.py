@@ -69,6 +69,11 @@ class Commands:
         stamped = self._heard is not None and self._heard[0] is TwistStamped
         return stamped and not self._unstamped and self.awaited is not None
 
+    @property
+    def is_heard(self) -> bool:
+        """Whether a publisher of commands is matched."""
+        return self._subscription is not None and self._subscription.get_publisher_count() > 0
+
     def match_publishers(self) -> bool:
         """
         Subscribe as publishers publish; called now and then, as they come and go.

@@ -122,6 +122,11 @@ class RobotTopics:
         self._publishers.append(publisher)
         return publisher
 
+    @property
+    def has_subscribers(self) -> bool:
+        """Whether one of its topics has subscribers."""
+        return any(map(_is_heard, self._publishers))
+
     def wants_contacts(self) -> bool:
         """Return whether a bumper has subscribers."""
         return any(
