@@ -36,7 +36,7 @@ from physsim_ros.ros.simulation_services import create_simulation_services
 from physsim_ros.ros.simulation_services.control import SimulationControl
 from physsim_ros.ros.time_control import TimeControl
 from physsim_ros.ros.world_files import WorldFiles
-from physsim_ros.simulation.deferred_calls import DeferredCalls, Wait
+from physsim_ros.simulation.request_handler import DeferredCalls, Wait
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.sketchpad import WorldControl
 from rclpy.context import Context

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 from physsim_ros.drawing import DrawingSettings
 from physsim_ros.model.snapshot import Answer, Snapshot
-from physsim_ros.simulation.deferred_calls import Wait
+from physsim_ros.simulation.request_handler import Wait
 from physsim_ros.simulation.simulation import Simulation
 
 

@@ -16,8 +16,7 @@ from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer, Contacts, Frame, Snapshot
 from physsim_ros.ros import encoders
-from physsim_ros.ros.publishers.publishers import Publishers
-from physsim_ros.ros.publishers.stream import LATCH_PERIOD
+from physsim_ros.ros.publishers.publishers import LATCH_PERIOD, Publishers
 import pytest
 import rclpy
 from rclpy.context import Context

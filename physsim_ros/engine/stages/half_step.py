@@ -25,6 +25,7 @@ from physsim_ros.engine.body_table import BodyTable
 from physsim_ros.engine.stages.support_graph import find_unsupported
 from physsim_ros.engine.step_context import StepContext
 from physsim_ros.model.arrays import Flags, Floats
+from physsim_ros.model.transform import rotated_each
 import pymunk
 
 # Difference of a sum in another order, as a share of the velocity.
@@ -124,3 +125,19 @@ class HalfStep:
         flown = context.twists * kept + 2.0 * table.leads
         same = np.abs(flown - after) <= ROUNDING * (1.0 + table.sizes[:, 3:])
         table.free = table.can_fly & same[:, 0] & same[:, 1] & same[:, 2]
+
+
+def observe_bodies(table: BodyTable, start: StartState) -> tuple[Floats, Floats]:
+    """
+    Return poses of the bodies' origins and true twists of their centres of mass.
+
+    :param start: the state that the next step begins with
+    :return: (n, 3) float64 each: x, y [m], yaw [rad]; velocity [m/s], spin [rad/s]
+    """
+    poses, twists = start.state[:, :3].copy(), start.state[:, 3:].copy()
+    offsets = table.columns.offsets
+    if np.count_nonzero(offsets):
+        poses[:, :2] -= rotated_each(offsets, poses[:, 2])
+    if np.count_nonzero(start.free):
+        twists -= np.where(start.free[:, None], table.leads, 0.0)
+    return poses, twists

@@ -22,7 +22,7 @@ from physsim_ros.model.requests.bodies import (
     Release,
     Spawn,
 )
-from physsim_ros.model.requests.command import Command
+from physsim_ros.model.requests.command import Command, DriveRobot
 from physsim_ros.model.requests.hands import (
     Grab,
     GrabToPlace,
@@ -40,7 +40,6 @@ from physsim_ros.model.requests.joints import (
     Unjoin,
     UnjoinAll,
 )
-from physsim_ros.model.requests.robots import DriveRobot
 from physsim_ros.model.requests.world import Configure, Restore
 
 HandRequest = Grab | GrabToPlace | MoveHand | PlaceHand | KeepHand | LetGo

@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""The request that sets poses, twists or wrenches of bodies."""
+"""Commands of bodies: poses, twists and wrenches; the velocity at which a robot drives."""
 
 from __future__ import annotations
 
@@ -10,8 +10,9 @@ from typing import Any
 
 import numpy as np
 from physsim_ros.model.arrays import Floats, greatest
-from physsim_ros.model.checks import FARTHEST, FASTEST, HEAVIEST
+from physsim_ros.model.checks import check_finite, FARTHEST, FASTEST, HEAVIEST
 from physsim_ros.model.errors import BadProperty, Malformed
+from physsim_ros.model.transform import Twist
 
 # Shared by all commands without such an array.
 _NO_ROWS: Floats = np.empty((0, 3))
@@ -107,3 +108,28 @@ def _checked_rows(values: Any, count: int, name: str) -> Floats:
         raise Malformed(f'{name} is not finite', field=name)
     rows.flags.writeable = False
     return rows
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DriveRobot:
+    """
+    Drive at a velocity, until the next command or the timeout of the drive.
+
+    The drive does what it can of it: a velocity beyond its limits is cut off.
+
+    :param name: of the body of the robot
+    :param velocity: vx forward, vy to the left [m/s], turn counter-clockwise [rad/s]
+    :raises Malformed: a number is not finite, or there are not three
+    :raises BadProperty: it is faster than anything may be
+    """
+
+    name: str
+    velocity: Twist
+
+    def __post_init__(self) -> None:
+        check_finite(self.velocity, 3, 'velocity')
+        object.__setattr__(self, 'velocity', tuple(map(float, self.velocity)))
+        if max(map(abs, self.velocity)) > FASTEST:
+            raise BadProperty(
+                f'velocity is faster than {FASTEST:g} m/s or rad/s', field='velocity'
+            )

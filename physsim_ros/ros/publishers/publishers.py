@@ -1,7 +1,15 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""The publishers of the world: topics, types and QoS, and the frames at which each publishes."""
+"""
+The publishers of the world: topics, types and QoS, and the frames at which each publishes.
+
+Law: a stream without subscribers is not encoded, and a late subscriber receives the last frame.
+
+The exception is a latched stream: DDS keeps its last message for late subscribers (transient
+local). It is published without subscribers too, when the scene has changed and every
+`LATCH_PERIOD` frames.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +25,6 @@ from physsim_ros.ros import encoders
 from physsim_ros.ros.encoders import Encoder
 from physsim_ros.ros.publishers.event_publisher import EventPublisher, EVENTS_DEPTH
 from physsim_ros.ros.publishers.interactive_markers import InteractiveMarkers
-from physsim_ros.ros.publishers.stream import LatchedStream, Stream
 from physsim_ros.ros.publishers.timeline_publisher import TimelinePublisher
 from rclpy.node import Node
 from rclpy.publisher import Publisher
@@ -25,6 +32,9 @@ from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import MultiDOFJointState
 from visualization_msgs.msg import MarkerArray
+
+# Frames between messages on `~/markers` without subscribers: one second of them at 60 Hz.
+LATCH_PERIOD = 60
 
 
 class Publishers:
@@ -130,3 +140,71 @@ def _tf_message() -> Any:
 
 def _reliable(depth: int, durability: DurabilityPolicy = DurabilityPolicy.VOLATILE) -> QoSProfile:
     return QoSProfile(depth=depth, reliability=ReliabilityPolicy.RELIABLE, durability=durability)
+
+
+class Stream:
+    """
+    Publishes frames on a topic while it has subscribers.
+
+    :param publisher: of the topic
+    :param encoder: of frames
+
+    :ivar open: whether frames are published at all
+    """
+
+    def __init__(self, publisher: Publisher, encoder: Encoder) -> None:
+        self.open = True
+        self._publisher = publisher
+        self._encoder = encoder
+        # Number of subscriptions at the last frame.
+        self._served = 0
+
+    @property
+    def subscriptions(self) -> int:
+        """Return the number of subscriptions; 0 while closed."""
+        return self._publisher.get_subscription_count() if self.open else 0
+
+    def publish(self, frame: Frame) -> None:
+        """Publish a new frame."""
+        self._served = self.subscriptions
+        if self._served:
+            self._send(frame)
+
+    def publish_to_late_subscribers(self, frame: Frame) -> None:
+        """Publish the last frame again if there are more subscriptions since."""
+        served, self._served = self._served, self.subscriptions
+        if self._served > served:
+            self._send(frame)
+
+    def _send(self, frame: Frame) -> None:
+        message = self._encoder.encode(frame)
+        if message is not None:
+            self._publisher.publish(message)
+
+
+class LatchedStream(Stream):
+    """A stream whose last message DDS keeps for late subscribers."""
+
+    def __init__(self, publisher: Publisher, encoder: Encoder) -> None:
+        super().__init__(publisher, encoder)
+        self._latched: Frame | None = None
+        self._age = 0
+
+    def publish(self, frame: Frame) -> None:
+        """Publish a new frame; without subscribers only if the latched one is outdated."""
+        super().publish(frame)
+        self._age += 1
+        changed = self._latched is None or self._latched.snapshot.scene is not frame.snapshot.scene
+        if changed or self._age >= LATCH_PERIOD:
+            self._send(frame)
+
+    def publish_to_late_subscribers(self, frame: Frame) -> None:
+        """Publish the last frame again if it is not the latched one, or for new subscriptions."""
+        super().publish_to_late_subscribers(frame)
+        # The world is paused: the latched message becomes that of the last frame.
+        if self._latched is not frame:
+            self._send(frame)
+
+    def _send(self, frame: Frame) -> None:
+        super()._send(frame)
+        self._latched, self._age = frame, 0

@@ -18,7 +18,7 @@ from physsim_ros.model.errors import Busy, Refusal
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.ros.requests.message_queue import MessageQueue
 from physsim_ros.ros.requests.reply_pacer import ReplyPacer, SERVICE_QOS
-from physsim_ros.simulation.deferred_calls import DeferredCalls, Wait
+from physsim_ros.simulation.request_handler import DeferredCalls, Wait
 from rclpy.node import Node
 import rclpy.service
 from rclpy.task import Future

@@ -17,7 +17,7 @@ from physsim_ros.ros.simulation_services.control import SimulationControl
 from physsim_ros.ros.simulation_services.entities import Entities
 from physsim_ros.ros.simulation_services.results import Failed, result_of
 from physsim_ros.ros.simulation_services.time_and_worlds import TimeAndWorlds
-from physsim_ros.simulation.deferred_calls import Wait
+from physsim_ros.simulation.request_handler import Wait
 from rclpy.action import ActionServer
 from rclpy.node import Node
 from rclpy.task import Future

@@ -5,8 +5,8 @@
 A world: requests go in, steps are made, snapshots come out; it knows only the present.
 
 Not here: the time of a request, and the past (`past`). Start with the table of
-handlers in `world`; they are in `body_requests`, `joint_requests`, `hand_requests` and
-`world_requests`. Other folders import the names below.
+handlers in `world`; those for bodies, robots, joints and hands are in files of their own. Other
+folders import the names below.
 """
 
 from physsim_ros.simulation.world.live_space import steps_in

@@ -11,15 +11,16 @@ at the same steps give the same bits, in another process too.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 import hashlib
 from typing import Any
 
 import numpy as np
 from physsim_ros.engine.checkpoint import saved_state
-from physsim_ros.engine.observation import digest_parts, observe_bodies
+from physsim_ros.engine.stages.half_step import observe_bodies
 from physsim_ros.model import requests
 from physsim_ros.model.checkpoint import WorldState
-from physsim_ros.model.requests import Request
+from physsim_ros.model.requests import Configure, Request, Restore
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Contacts, Grip, Snapshot
@@ -28,10 +29,42 @@ from physsim_ros.simulation.world import (
     hand_requests,
     joint_requests,
     robot_requests,
-    world_requests,
 )
 from physsim_ros.simulation.world.live_space import LiveSpace
 from physsim_ros.simulation.world.lookup import Done
+
+
+def configure(live: LiveSpace, request: Configure) -> Done:
+    """
+    Change settings.
+
+    :raises Refusal: a value is out of range; nothing is changed
+    """
+    space, old = live.space, live.settings
+    new = replace(old, **request.changes)
+    space.configure(new)
+    until = live.step_after(new.command_timeout)
+    if until is not None and new.command_timeout != old.command_timeout:
+        # No wrench acts longer than from now on to the new timeout.
+        for rigid in space.pipeline.wrenches.acting():
+            if rigid.wrench_until is None or rigid.wrench_until > until:
+                space.set_wrench(rigid, rigid.wrench, until)
+    return Done('', f'set {", ".join(request.changes)}')
+
+
+def restore(live: LiveSpace, request: Restore) -> Done:
+    """
+    Replace bodies, joints and settings by those of a saved state, in a space of its own.
+
+    :raises WorldFull: the state is too large; nothing is changed
+    :raises BadProperty: springs are too stiff for the steps; nothing is changed
+    """
+    state = request.state
+    live.capacity.check_state(state)
+    live.begin(state)
+    joints = f' and {len(state.joints)} joints' if state.joints else ''
+    return Done('', f'loaded {len(state.bodies)} bodies{joints}')
+
 
 # The handler of each type of request. It checks everything, then changes the space.
 HANDLERS: Mapping[type, Callable[[LiveSpace, Any], Done]] = {
@@ -56,8 +89,8 @@ HANDLERS: Mapping[type, Callable[[LiveSpace, Any], Done]] = {
     requests.KeepHand: hand_requests.keep_hand,
     requests.LetGo: hand_requests.let_go,
     requests.DriveRobot: robot_requests.drive,
-    requests.Configure: world_requests.configure,
-    requests.Restore: world_requests.restore,
+    requests.Configure: configure,
+    requests.Restore: restore,
 }
 
 
@@ -134,9 +167,12 @@ class World(LiveSpace):
         """Return a hash of time, scene, poses, velocities, wrenches, grips and robots."""
         digest = hashlib.blake2b(digest_size=16)
         digest.update(f'{self.step_count} {self.physics_rate!r}'.encode())
-        acting = self.space.pipeline.wrenches.acting()
-        for part in digest_parts(self.space.table, self.space.start_state, acting):
-            digest.update(part)
+        start = self.space.start_state
+        digest.update(self.space.table.scene.key)
+        digest.update(start.state.tobytes())
+        digest.update(start.free.tobytes())
+        for rigid in self.space.pipeline.wrenches.acting():
+            digest.update(f'{rigid.body.name} {rigid.wrench!r} {rigid.wrench_until}'.encode())
         for grip in self.grips:
             digest.update(repr(grip).encode())
         for column in self.space.robot_states:

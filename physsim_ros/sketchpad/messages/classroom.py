@@ -10,7 +10,7 @@ from functools import partial
 from physsim_ros.model.checks import flag
 from physsim_ros.model.errors import BadProperty, NothingThere
 from physsim_ros.model.requests import DeleteBodies, Unjoin
-from physsim_ros.simulation.deferred_calls import Wait
+from physsim_ros.simulation.request_handler import Wait
 from physsim_ros.sketchpad.message import message, Origin
 from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.page_session import PageSession

@@ -13,7 +13,7 @@ from physsim_ros.model.checks import flag, LONGEST, number, shown, Whole, Within
 from physsim_ros.model.errors import BadProperty, BadWorldFile, WorldFull
 from physsim_ros.model.requests import DeleteAll
 from physsim_ros.model.snapshot import Answer
-from physsim_ros.simulation.deferred_calls import Wait
+from physsim_ros.simulation.request_handler import Wait
 from physsim_ros.sketchpad.message import message, Optional, Origin
 from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.page_session import PageSession
