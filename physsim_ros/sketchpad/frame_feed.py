@@ -57,9 +57,13 @@ class FrameFeed:
         self._ghost_frame = b''
         self._scene_due = 0.0
 
-    def add_page(self, socket: WebSocketHandler) -> OpenPage:
-        """Begin to send frames to the page of a socket."""
-        page = self.pages.add(socket, self.update_page)
+    def add_page(self, socket: WebSocketHandler, address: str) -> OpenPage:
+        """
+        Begin to send frames to the page of a socket.
+
+        :param address: of the machine that it is open on
+        """
+        page = self.pages.add(socket, address, self.update_page)
         self.send_frame()
         self.update_page(page)
         return page

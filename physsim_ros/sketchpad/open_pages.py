@@ -5,7 +5,9 @@
 The open pages on the server's thread, and the messages to one page or to all.
 
 Laws: a page that does not read is skipped, never waited for; a page gets every answer to its own
-messages, and of those to others the first ones of each frame.
+messages, and of those to others the first ones of each frame. Addresses share the number of pages
+fairly (max-min fairness): where it is spent, an address gets one more page as long as it has fewer
+than another address is left with.
 """
 
 from __future__ import annotations
@@ -16,7 +18,7 @@ from collections.abc import Callable, Iterator, Sequence
 
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.sketchpad.frame_codec import Show
-from physsim_ros.sketchpad.guarded import TOO_BIG
+from physsim_ros.sketchpad.guarded import POLICY_VIOLATION, TOO_BIG
 from physsim_ros.sketchpad.message import answer_content, asker_of
 from physsim_ros.sketchpad.scene_codec import compact
 from tornado.websocket import WebSocketClosedError, WebSocketHandler
@@ -36,6 +38,7 @@ class OpenPage:
 
     :param socket: of the page
     :param number: of the page, never used again
+    :param address: of the machine that it is open on
     :param on_read: called with the page when it has read all that it was sent
 
     :ivar show: the parts of a frame that it gets
@@ -46,9 +49,14 @@ class OpenPage:
     """
 
     def __init__(
-        self, socket: WebSocketHandler, number: int, on_read: Callable[[OpenPage], None]
+        self,
+        socket: WebSocketHandler,
+        number: int,
+        address: str,
+        on_read: Callable[[OpenPage], None],
     ) -> None:
         self.number = number
+        self.address = address
         self.show = Show.POSES
         self.robot = ''
         self.epoch = self.ghost_epoch = self.frame = 0
@@ -117,10 +125,31 @@ class OpenPages:
         # A page that does not read is closed, and removed, while it is sent something.
         return iter(list(self._pages.values()))
 
-    def add(self, socket: WebSocketHandler, on_read: Callable[[OpenPage], None]) -> OpenPage:
-        """Add the page of a socket."""
+    def has_room(self, address: str) -> bool:
+        """Return whether an address may have one more page, if need be in place of another."""
+        return len(self) < MOST_PAGES or self._surplus(address) is not None
+
+    def _surplus(self, address: str) -> OpenPage | None:
+        """Return the newest page of the address with the most, if it has two more than this."""
+        counts = Counter(page.address for page in self)
+        crowded, count = counts.most_common(1)[0]
+        if count < counts[address] + 2:
+            return None
+        return [page for page in self if page.address == crowded][-1]
+
+    def add(
+        self, socket: WebSocketHandler, address: str, on_read: Callable[[OpenPage], None]
+    ) -> OpenPage:
+        """
+        Add the page of a socket, if need be in place of another.
+
+        :param address: for which there is room
+        """
+        if len(self) >= MOST_PAGES and (surplus := self._surplus(address)) is not None:
+            surplus.close(POLICY_VIOLATION, 'too many pages of one address')
+            self.remove(surplus)
         self._last_number += 1
-        page = OpenPage(socket, self._last_number, on_read)
+        page = OpenPage(socket, self._last_number, address, on_read)
         self._pages[page.number] = page
         return page
 

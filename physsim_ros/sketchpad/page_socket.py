@@ -21,7 +21,7 @@ from physsim_ros.sketchpad.guarded import GuardedSocket
 from physsim_ros.sketchpad.inbox import Closed, Inbox, Opened
 from physsim_ros.sketchpad.message import answer_content, message, Optional
 from physsim_ros.sketchpad.messages import fields, read_message
-from physsim_ros.sketchpad.open_pages import MOST_PAGES, OpenPage
+from physsim_ros.sketchpad.open_pages import OpenPage
 from physsim_ros.sketchpad.scene_codec import compact
 
 # Types of the messages that a page may send which only shows the world.
@@ -48,15 +48,20 @@ class PageSocket(GuardedSocket):
     @property
     def too_many(self) -> str:
         """Return why one more page is refused; '' where there is room for it."""
-        room = len(self._feed.pages) < MOST_PAGES
+        room = self._feed.pages.has_room(self.address)
         return '' if room else 'there are as many pages open as there may be'
+
+    @property
+    def address(self) -> str:
+        """Return the address of the machine that the page is open on."""
+        return str(self.request.remote_ip)
 
     def open(self) -> None:  # noqa: A003 - tornado's name
         """Begin to send frames to the page, and tell the world's thread."""
         self.set_nodelay(True)
         if self.role is None or 'view' in self.request.arguments:
             self.role = Role.VIEW
-        self._page = self._feed.add_page(self)
+        self._page = self._feed.add_page(self, self.address)
         self._inbox.put(self._page.number, Opened(role=self.role))
 
     def on_message(self, message: str | bytes) -> None:

@@ -8,10 +8,11 @@ from contextlib import ExitStack, suppress
 import json
 import socket
 
-from physsim_ros.sketchpad import listening
+from physsim_ros.sketchpad import listening, open_pages
 from physsim_ros.sketchpad.access import Access, Role
 from physsim_ros.sketchpad.inbox import CAPACITY
 from physsim_ros.sketchpad.open_pages import MOST_PAGES
+from physsim_ros.sketchpad.page_socket import PageSocket
 from physsim_ros.sketchpad.server import MOST_BYTES
 import pytest
 from tornado.httpclient import HTTPClientError
@@ -319,6 +320,21 @@ def test_one_page_too_many_is_refused(browser: Browser) -> None:
     pages[0].close()
     pages[0] = browser.open_page()
     assert pages[0].ask('drop')['ok']
+
+
+def test_an_address_that_takes_all_pages_leaves_others_their_share(
+    browser: Browser, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(open_pages, 'MOST_PAGES', 4)
+    greedy = [browser.open_page() for _ in range(4)]
+    assert all(page.ask('drop')['ok'] for page in greedy)
+    monkeypatch.setattr(PageSocket, 'address', '192.0.2.1')
+    others = [browser.open_page(), browser.open_page()]
+    browser.until(lambda: greedy[2].closed and greedy[3].closed)
+    assert greedy[2].socket.close_code == 1008
+    # Both have two now.
+    assert status_of_socket(browser) == 503
+    assert all(page.ask('drop')['ok'] for page in (*greedy[:2], *others))
 
 
 def test_one_connection_too_many_is_told_so(
