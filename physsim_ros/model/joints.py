@@ -187,14 +187,15 @@ class JointProperties(Checked):
                 field='lower',
             )
 
-    def check_kind(self, kind: JointKind) -> None:
+    def check_kind(self, kind: JointKind, unset: tuple[str, ...] = ()) -> None:
         """
         Refuse a property that a kind of joint does not have.
 
+        :param unset: names of further properties
         :raises UnknownProperty: there is one
         """
         known = kind.schema.properties
-        for name in self.explicit():
+        for name in (*self.explicit(), *unset):
             if name not in known:
                 raise UnknownProperty(
                     f'a {kind} has no {name}; it has {", ".join(known)}', field=name

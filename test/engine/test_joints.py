@@ -9,12 +9,13 @@ import math
 from typing import Any
 
 import numpy as np
-from physsim_ros.model.errors import Refusal
+from physsim_ros.model.errors import Refusal, UnknownProperty
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.requests import (
     Axle,
     Command,
     Configure,
+    join_from,
     Pin,
     Unjoin,
 )
@@ -142,6 +143,19 @@ def test_a_slider_may_have_limits_that_leave_no_way(
     world.step(240)
     x, *_ = np.subtract(pose(world, 'a/0'), before)
     assert least < x < most
+
+
+def test_a_property_that_is_null_has_its_default_again() -> None:
+    world = World()
+    spawn(world, 'a/0', BOX, (0.0, 0.0, 0.0))
+    drawn: dict[str, Any] = {'name': 'axle/0', 'points': ((0.0, 0.0),)}
+    terms = {'kind': 'axle', 'a': 'a/0', 'break_force': 9.0}
+    world.apply(join_from(terms | {'upper': 1.0, 'lower': -1.0}, **drawn))
+    world.apply(join_from({'kind': 'axle', 'a': 'a/0', 'upper': None, 'lower': -2.0}, **drawn))
+    (joint,) = world.scene.joints
+    assert joint.properties.explicit() == {'lower': -2.0, 'break_force': 9.0}
+    with pytest.raises(UnknownProperty, match='stiffness'):
+        join_from(terms | {'stiffness': None}, **drawn)
 
 
 def test_a_joint_gives_no_more_than_its_greatest_force() -> None:

@@ -39,6 +39,7 @@ from physsim_ros.model.requests.joints import (
     Pin,
     Unjoin,
     UnjoinAll,
+    unset_in,
 )
 from physsim_ros.model.requests.world import Configure, Restore
 
@@ -93,4 +94,5 @@ __all__ = [
     'UnjoinAll',
     'join_from',
     'joined_from',
+    'unset_in',
 ]

@@ -17,6 +17,7 @@ from physsim_ros.model.joints import (
     JointKind,
     JointProperties,
     kind_from,
+    PROPERTIES,
 )
 from physsim_ros.model.names import check_name, WORLD
 from physsim_ros.model.requests.bodies import AtPoint
@@ -28,8 +29,8 @@ class Join:
     """
     Join two bodies, or a body and the background; or change the joint of that name in place.
 
-    A change replaces the bodies, the points and the properties that are set. The other properties
-    are kept if the kind is the same.
+    A change replaces the bodies, the points and the properties that are set or unset. The other
+    properties are kept if the kind is the same.
 
     :param name: of the joint
     :param kind: of joint
@@ -39,6 +40,7 @@ class Join:
     :param b: name of a body, or 'world' for the background; '' is the next body at the point, or
         the topmost one at the second point, or the background if there is none
     :param properties: of the kind
+    :param unset: names of the properties that get their defaults again
     :raises Malformed: a number is not finite, the name has no id, or the number of points is wrong
     :raises BadProperty: a body would be joined to itself, or a point is too far away
     :raises BadSize: the points are closer than the kind allows
@@ -52,6 +54,7 @@ class Join:
     a: str = ''
     b: str = ''
     properties: JointProperties = field(default_factory=JointProperties)
+    unset: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         check_name(self.name)
@@ -67,7 +70,7 @@ class Join:
             raise BadProperty('a is a body; the background can only be b', field='a')
         if self.a and self.a == self.b:
             raise BadProperty(f'{self.a} cannot be joined to itself', field='b')
-        self.properties.check_kind(self.kind)
+        self.properties.check_kind(self.kind, self.unset)
         least = self.kind.schema.least_distance
         if least and math.dist(*self.points) < least:
             raise BadSize(f'the points of a {self.kind} must be {least:g} m apart', field='points')
@@ -108,15 +111,32 @@ def join_from(
     Return the request for a joint of a YAML mapping: `kind`, `a`, `b` and properties.
 
     Without `b`, a mapping with `a` means the background; without both it means the bodies at the
-    points.
+    points. A property that is null is unset.
 
     :param name: of the joint
     :param points: in the frame [m]
     :param frame: '' for the world, or a body's name
     :raises Refusal: a key is unknown, or a value is out of range
     """
-    kind, a, b, properties = joined_from(mapping)
-    return Join(name=name, kind=kind, points=points, frame=frame, a=a, b=b, properties=properties)
+    unset = unset_in(mapping)
+    kind, a, b, properties = joined_from(
+        {key: mapping[key] for key in mapping if key not in unset}
+    )
+    return Join(
+        name=name,
+        kind=kind,
+        points=points,
+        frame=frame,
+        a=a,
+        b=b,
+        properties=properties,
+        unset=unset,
+    )
+
+
+def unset_in(mapping: Mapping[Any, Any]) -> tuple[str, ...]:
+    """Return the properties that are null in a YAML mapping."""
+    return tuple(name for name in PROPERTIES if mapping.get(name, name) is None)
 
 
 def joined_from(mapping: Mapping[Any, Any]) -> tuple[JointKind, str, str, JointProperties]:

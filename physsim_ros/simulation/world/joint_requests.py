@@ -45,10 +45,11 @@ def join(live: LiveSpace, request: Join) -> Done:
     kept = old.joint if old is not None and old.joint.kind is request.kind else None
     properties = request.properties
     if kept is not None:
-        properties = replace(kept.properties, **properties.explicit())
+        changes = dict.fromkeys(request.unset) | properties.explicit()
+        properties = replace(kept.properties, **changes)
     if kept is not None and (kept.a, kept.b) == (a, b) and _is_at(space, kept, points):
         seat = kept.seat
-        if request.properties.phase is not None or request.properties.ratio is not None:
+        if not {'phase', 'ratio'}.isdisjoint((*request.properties.explicit(), *request.unset)):
             seat = seat._replace(phase=_phase(space, a, b, properties))
     else:
         phase = _phase(space, a, b, properties)

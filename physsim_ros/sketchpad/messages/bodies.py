@@ -21,6 +21,7 @@ from physsim_ros.model.requests import (
     MoveBodies,
     Spawn,
     Unjoin,
+    unset_in,
 )
 from physsim_ros.model.transform import Point
 from physsim_ros.simulation.world.joint_requests import drawn_points
@@ -46,8 +47,12 @@ def _changes(value: object, name: str) -> dict[str, Any]:
     return changes | {'properties': Properties.from_mapping(with_shipped_robot(given, ['robot']))}
 
 
-def _joint_properties(value: object, name: str) -> JointProperties:
-    return JointProperties.from_mapping(fields.mapping(value, name))
+def _joint_changes(value: object, name: str) -> dict[str, Any]:
+    """Return changed properties of a joint as the fields of `Join`."""
+    given = fields.mapping(value, name)
+    unset = unset_in(given)
+    changed = {key: given[key] for key in given if key not in unset}
+    return {'properties': JointProperties.from_mapping(changed), 'unset': unset}
 
 
 def _followed(value: object, name: str) -> frozenset[str]:
@@ -112,10 +117,8 @@ def follow(page: PageSession, origin: Origin, names: frozenset[str]) -> None:
 # Joints
 
 
-@message('change_joint', '~/join', name=fields.text, properties=_joint_properties)
-def change_joint(
-    page: PageSession, origin: Origin, name: str, properties: JointProperties
-) -> None:
+@message('change_joint', '~/join', name=fields.text, properties=_joint_changes)
+def change_joint(page: PageSession, origin: Origin, name: str, properties: dict[str, Any]) -> None:
     """Change the properties of a joint that are given, where the joint is."""
     snapshot = page.world.current_snapshot()
     scene = snapshot.scene
@@ -130,7 +133,7 @@ def change_joint(
         points=drawn_points(joint, poses),
         a=joint.a,
         b=joint.b,
-        properties=properties,
+        **properties,
     )
     page.submit(origin, (request,))
 

@@ -20,8 +20,6 @@ const CONSTANTS = {
   gear: [['ratio', 'Ratio', 5, 0.1, 1]],
 };
 const MEASURED = ['spring', 'rod', 'rope'], LIMITED = ['axle', 'slider'];
-/** Limits that nothing reaches: the greatest values that there are. */
-const NEVER = {lower: -1e5, upper: 1e5, break_force: 1e12};
 
 export class JointPanel {
   /** @param {App} app */
@@ -45,10 +43,10 @@ export class JointPanel {
     const joint = this.app.world.scene.joints[this.#number];
     if (!joint) return;
     this.shown = JSON.stringify(joint);
-    const change = (/** @type {Record<string, number>} */ properties) =>
+    const change = (/** @type {Record<string, ?number>} */ properties) =>
       this.app.connection.send('change_joint', {name, properties});
     const unit = joint.kind === 'slider' ? 'm' : 'rad';
-    /** @type {[keyof typeof NEVER, string][]} */
+    /** @type {['lower' | 'upper' | 'break_force', string][]} */
     const limits = [['break_force', 'Breaks at [N]']];
     if (LIMITED.includes(joint.kind)) limits.unshift(['lower', `Least [${unit}]`], ['upper', `Greatest [${unit}]`]);
     this.app.panel.show(capital(joint.kind), [
@@ -57,9 +55,8 @@ export class JointPanel {
         return range(label, key === 'rate' || key === 'ratio' ? -most : 0, most, step, value, (now) => change({[key]: now}));
       }),
       ...limits.map(([key, label]) => {
-        const set = joint[key] !== undefined && joint[key] !== NEVER[key];
-        const input = createElement('input', {type: 'number', step: 'any', placeholder: 'none', value: set ? joint[key] : '',
-          onchange: () => change({[key]: input.value === '' ? NEVER[key] : Number(input.value)})});
+        const input = createElement('input', {type: 'number', step: 'any', placeholder: 'none', value: joint[key] ?? '',
+          onchange: () => change({[key]: input.value === '' ? null : Number(input.value)})});
         return createElement('label', {}, label, input);
       }),
       this.force,
