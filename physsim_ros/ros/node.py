@@ -221,21 +221,21 @@ class PhysSimNode(NodeWithoutQosEvents):
         :raises PhysSimError: it is refused
         """
         before = self._values['world_file']
-        self.set_parameters([Parameter('world_file', value=world)])
+        parameters.set_value(self, 'world_file', world)
         try:
             return service.perform()
         except PhysSimError:
-            self.set_parameters([Parameter('world_file', value=before)])
+            parameters.set_value(self, 'world_file', before)
             raise
 
     def _set_frozen(self, frozen: bool) -> str:  # noqa: FBT001 - the value of a parameter
         """Set whether pages of pupils change nothing; return a message about it."""
-        self.set_parameters([Parameter('sketchpad_frozen', value=frozen)])
+        parameters.set_value(self, 'sketchpad_frozen', frozen)
         return 'the pages are frozen' if frozen else 'the pages are free again'
 
     def _set_locked(self, names: tuple[str, ...]) -> str:
         """Set the bodies that pages of pupils do not change; return a message about it."""
-        self.set_parameters([Parameter('sketchpad_locked', value=','.join(names))])
+        parameters.set_value(self, 'sketchpad_locked', ','.join(names))
         return f'locked {", ".join(names)}' if names else 'no body is locked'
 
     def start(self) -> None:

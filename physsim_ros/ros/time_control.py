@@ -14,7 +14,6 @@ from physsim_ros.ros import parameters
 from physsim_ros.ros.requests.subscriptions import RequestSubscriptions
 from physsim_ros.simulation.simulation import Simulation
 from rclpy.node import Node
-from rclpy.parameter import Parameter
 from rosgraph_msgs.msg import Clock
 from std_msgs.msg import Float64
 
@@ -97,11 +96,9 @@ class TimeControl:
         :raises Refusal: it is out of range
         """
         # + 0.0 removes the sign of a negative zero.
-        parameter = Parameter('speed', value=float(speed) + 0.0)
-        # Checked here as well: a refusal by rclpy has no code.
-        parameters.check(parameter)
-        self._node.set_parameters([parameter])
-        return f'speed {parameter.value:g}'
+        speed = float(speed) + 0.0
+        parameters.set_value(self._node, 'speed', speed)
+        return f'speed {speed:g}'
 
     def seek(self, stamp: int) -> str:
         """

@@ -79,7 +79,9 @@ def test_each_undoes_what_is_its_own_while_time_goes_on(pages: tuple[Sheet, Shee
     teacher.drag(*circle(3.0, 4.0, 0.8))
     second = teacher.wait_for_new({first})
     time = pupil.page.evaluate('physsim.time')
-    pupil.press('Undo')
+    undo = pupil.page.get_by_role('button', name='Undo', exact=True)
+    assert undo.get_attribute('title') == 'Undo what you did last'
+    undo.click()
     pupil.wait('name => !(name in physsim.bodies)', first)
     assert pupil.names() == {second}
     assert pupil.page.evaluate('physsim.time') >= time

@@ -9,6 +9,7 @@ from typing import Any
 
 from physsim_ros.sketchpad import Role
 import pytest
+from rcl_interfaces.msg import SetParametersResult
 from rclpy.parameter import Parameter
 
 from .browser import Browser, Page
@@ -75,6 +76,14 @@ def test_freezing_and_locking_are_parameters_that_scripts_have_too(browser: Brow
     browser.physsim.node.set_parameters(parameters)
     assert spawn(pupil, 'a/7', 0.0)['code'] == 'frozen'
     assert spawn(pupil, 'b/1', 0.0)['ok']
+    # A script may forbid what a teacher asks for.
+    refusal = SetParametersResult(successful=False, reason='not now')
+    browser.physsim.node.add_on_set_parameters_callback(lambda _: refusal)
+    boss = teacher(browser)
+    for kind, fields in (('freeze', {'frozen': True}), ('lock', {'names': ['*']})):
+        answer = boss.ask(kind, **fields)
+        assert (answer['code'], answer['message']) == ('bad_property', 'not now')
+    assert boss.ask('service', name='save_world', world='a')['code'] == 'bad_property'
 
 
 def test_locked_bodies_are_changed_by_a_teacher_alone(browser: Browser) -> None:

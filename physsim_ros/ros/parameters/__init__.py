@@ -9,7 +9,7 @@ is a setting of the world or of drawing has its default and range from there (`m
 `drawing.settings`), and only its meaning here. Start with `table`.
 """
 
-from physsim_ros.ros.parameters.declaration import check, check_names, declare
+from physsim_ros.ros.parameters.declaration import check, check_names, declare, set_value
 from physsim_ros.ros.parameters.settings import (
     drawing_settings,
     is_world_setting,
@@ -29,6 +29,7 @@ __all__ = [
     'drawing_settings',
     'is_world_setting',
     'listed_names',
+    'set_value',
     'world_changes',
     'world_parameters',
     'world_settings',

@@ -89,6 +89,20 @@ def check(parameter: Parameter) -> None:
         raise BadProperty(f'{name} must be one of {", ".join(spec.choices)}', field=name)
 
 
+def set_value(node: Node, name: str, value: str | float) -> None:
+    """
+    Set a parameter of a node.
+
+    :raises Refusal: the value is refused; nothing has changed
+    """
+    parameter = Parameter(name, value=value)
+    # Here as well: a refusal by rclpy has no code.
+    check(parameter)
+    (result,) = node.set_parameters([parameter])
+    if not result.successful:
+        raise BadProperty(result.reason, field=name)
+
+
 def _all_converted(parameters: Iterable[Parameter]) -> list[Parameter]:
     return [_converted(parameter) for parameter in parameters]
 

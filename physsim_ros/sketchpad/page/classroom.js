@@ -68,6 +68,7 @@ export class Classroom {
     this.state = state;
     for (const page of this.cursors.keys()) if (!pages.has(page)) this.cursors.delete(page);
     this.button.hidden = !this.isShared && !this.teacher;
+    app.time.showTimeline();
     const frozen = state.frozen && !this.teacher && !app.viewOnly;
     document.body.classList.toggle('frozen', frozen);
     if (frozen && !this.frozen) this.thaw = app.notes.pin(() => null, ['Your teacher has frozen this world.'], {kind: 'docked', shown: 0});
@@ -97,7 +98,7 @@ export class Classroom {
   #powers() {
     const {app: {connection, selection}, state: {frozen, locked}} = this, chosen = [...selection.names];
     const freeze = textButton(frozen ? 'Let them draw again' : 'Freeze all pupils', () => connection.send('freeze', {frozen: !frozen}));
-    const lock = chosen.length ? textButton(`Lock what is selected (${chosen.length})`, () => connection.send('lock', {names: [...locked, ...chosen]})) :
+    const lock = chosen.length ? textButton(`Lock what is selected (${chosen.length})`, () => connection.send('lock', {names: [...new Set([...locked, ...chosen])]})) :
       textButton('Lock all bodies', () => connection.send('lock', {names: ['*']}));
     return [createElement('h3', {textContent: 'Teacher'}), inRow(freeze, lock,
       ...locked.length ? [textButton('Unlock all', () => connection.send('lock', {names: []}))] : []),

@@ -49,7 +49,7 @@ export class TimeBar {
     this.slider.addEventListener('pointerdown', () => { this.held = true; });
     this.slider.addEventListener('change', () => { this.held = false; });
     this.speed.addEventListener('click', () => this.#changeSpeed());
-    app.connection.on('timeline', () => this.#showTimeline());
+    app.connection.on('timeline', () => this.showTimeline());
     app.connection.on('frame', ({ghost}) => ghost || this.#measurePace());
     app.connection.on('open', () => { this.busy = false; });
     app.view.overlays.push(() => this.#showTime());
@@ -146,9 +146,10 @@ export class TimeBar {
     }
   }
 
-  #showTimeline() {
+  showTimeline() {
     const {undo, redo, oldest, newest, state, courses = []} = this.app.world.timeline;
-    for (const [service, words] of [['undo', undo], ['redo', redo]]) {
+    // What is undone is one's own, and that is not known here.
+    for (const [service, words] of [['undo', this.app.classroom.isShared ? 'undo what you did last' : undo], ['redo', redo]]) {
       const button = this.buttons.get(service);
       button?.classList.toggle('idle', !words);
       if (button) button.title = words ? capital(this.app.words.phrase(words)) : `Nothing to ${service}`;
