@@ -13,6 +13,7 @@ from __future__ import annotations
 from contextlib import ExitStack
 from functools import partial
 from pathlib import Path
+import sys
 import time
 
 from physsim_ros.drawing import DrawingSession, Tool
@@ -96,7 +97,7 @@ class PhysSimNode(NodeWithoutQosEvents):
         self.message_delay = 0.0
         self._values = parameters.declare(self)
         # rclpy 7.1 has no public name for the values that it was started with.
-        parameters.check_names(self._parameter_overrides, self)
+        parameters.check_names(self._parameter_overrides, self, sys.argv)
         self.simulation = Simulation(
             physics_rate=self._values['physics_rate'],
             publish_rate=self._values['publish_rate'],

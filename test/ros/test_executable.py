@@ -271,6 +271,26 @@ def test_it_starts_with_the_parameter_file_that_comes_with_it(outside: Outside) 
         assert world.interrupt() == 0
 
 
+@pytest.mark.parametrize(
+    ('nodes', 'starts'), [('/**', True), ('/physsim', False), ('physsim', False)]
+)
+def test_a_file_for_all_nodes_may_have_parameters_of_others(
+    outside: Outside, nodes: str, *, starts: bool
+) -> None:
+    path = outside.directory / 'shared.yaml'
+    text = '{use_sim_time: false, speed: 0.0, gravty: [0.0, 0.0], plan: {rate: 2}}'
+    path.write_text(f'{nodes}:\n  ros__parameters: {text}\n')
+    with outside.start_world('--params-file', str(path)) as world:
+        if starts:
+            world.wait_for("no parameter 'gravty'; nearest is 'gravity'")
+            world.wait_for("ignored parameters for all nodes: 'plan.rate'")
+            world.wait_for('ready')
+            assert world.interrupt() == 0
+        else:
+            assert world.finish() == 1
+            assert "physsim: there is no parameter 'gravty'" in ''.join(world.lines)
+
+
 def test_it_can_be_started_in_a_namespace_under_another_name(outside: Outside) -> None:
     with outside.start_world('-r', '__ns:=/lab', '-r', '__node:=world') as world:
         assert '[lab.world]' in world.wait_for('ready')

@@ -9,12 +9,16 @@ Law: a value outside its range is refused with a reason and changes nothing.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
+from itertools import pairwise
 import math
+from pathlib import Path
 from typing import Any
 
+from physsim_ros.files import load_mapping
 from physsim_ros.model.checks import shown
-from physsim_ros.model.errors import BadProperty, Malformed, UnknownProperty
+from physsim_ros.model.errors import BadProperty, Malformed, PhysSimError, UnknownProperty
 from physsim_ros.model.texts import nearest_name
 from physsim_ros.ros.parameters.settings import drawing_settings, world_settings
 from physsim_ros.ros.parameters.table import Spec, SPECS, Type
@@ -49,17 +53,45 @@ def declare(node: Node) -> dict[str, Any]:
     return values
 
 
-def check_names(given: Iterable[str], node: Node) -> None:
+def check_names(given: Iterable[str], node: Node, arguments: Sequence[str]) -> None:
     """
     Refuse values for parameters that a node has not declared, which rclpy ignores.
 
+    Those that a file sets for all nodes may be another node's: the log has them.
+
     :param given: names of the parameters that the command line, a file or the constructor sets
+    :param arguments: of the command line
     :raises UnknownProperty: one is not declared; the most similar parameter is named
     """
-    for name in given:
-        if not node.has_parameter(name):
-            nearest = nearest_name(name, SPECS)
-            raise UnknownProperty(f'there is no parameter {shown(name)}{nearest}', field=name)
+    unknown = {name: nearest_name(name, SPECS) for name in given if not node.has_parameter(name)}
+    for_all = set(_names_for_all_nodes(arguments)) if unknown else set()
+    for name, nearest in unknown.items():
+        message = f'there is no parameter {shown(name)}{nearest}'
+        if name not in for_all:
+            raise UnknownProperty(message, field=name)
+        if nearest:
+            node.get_logger().warning(f'{message} (in a file, for all nodes)')
+    if others := [shown(name) for name, nearest in unknown.items() if not nearest]:
+        node.get_logger().info(f'ignored parameters for all nodes: {", ".join(others)}')
+
+
+def _names_for_all_nodes(arguments: Sequence[str]) -> Iterator[str]:
+    """Yield the names of the parameters that files of the command line set for all nodes."""
+    for option, path in pairwise(arguments):
+        if option == '--params-file':
+            # rcl has read the file already, and takes other YAML than `load_mapping` does.
+            with suppress(OSError, PhysSimError):
+                entries = load_mapping(Path(path).read_text(encoding='utf-8'), field=path)
+                yield from _flattened(entries.get('/**', {}).get('ros__parameters', {}))
+
+
+def _flattened(entries: Mapping[str, Any], before: str = '') -> Iterator[str]:
+    """Yield the names of nested parameters, joined by dots as ROS does."""
+    for name, value in entries.items():
+        if isinstance(value, Mapping):
+            yield from _flattened(value, f'{before}{name}.')
+        else:
+            yield f'{before}{name}'
 
 
 def check(parameter: Parameter) -> None:
