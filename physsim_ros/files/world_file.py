@@ -105,10 +105,10 @@ def find_world(name: str, *, world_dir: Path | None = None, confined: bool = Fal
         if confined
         else {path.parent for path in paths}
     )
-    looked = ' and '.join(sorted(str(each) for each in directories))
+    looked = ', '.join(sorted(str(each) for each in directories))
     raise BadWorldFile(
-        f'there is no world {name!r} in {looked}'
-        f'{nearest_name(Path(name).stem, known)}; physsim --help lists the shipped ones',
+        f'there is no world {name!r}{nearest_name(Path(name).stem, known)}; physsim --help lists '
+        f'the shipped ones; searched in {looked}',
         field='world_file',
     )
 

@@ -1,11 +1,11 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Everyday words for properties of bodies and joints, with the property that each means."""
+"""Everyday words for kinds of joints, and for properties of bodies and joints."""
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 
 # The words for each property. Bodies and joints share words, as speed: of a body it is its
 # velocity, of a motor its rate.
@@ -14,7 +14,7 @@ _WORDS: dict[str, tuple[str, ...]] = {
     'density': ('specific_weight', 'rho'),
     'friction': ('rough', 'roughness', 'grip', 'slippery', 'slip', 'mu'),
     'elasticity': ('bouncy', 'bounce', 'bounciness', 'restitution', 'rebound'),
-    'velocity': ('speed', 'v', 'linear_velocity', 'twist'),
+    'velocity': ('speed', 'v', 'vel', 'linear_velocity', 'twist'),
     'spin': ('angular_velocity', 'omega', 'rotation', 'turn'),
     'anchored': ('fixed', 'static', 'immovable', 'frozen', 'locked', 'pinned'),
     'kinematic': ('scripted', 'animated', 'platform'),
@@ -37,6 +37,18 @@ _WORDS: dict[str, tuple[str, ...]] = {
     'collide': ('collision', 'collisions', 'collide_connected'),
 }
 
+# The words for each kind of joint; those of Box2D, Pymunk and URDF among them.
+_KINDS: dict[str, tuple[str, ...]] = {
+    'pin': ('weld', 'fixed', 'glue', 'nail'),
+    'axle': ('hinge', 'revolute', 'continuous', 'pivot', 'bolt'),
+    'motor': ('engine', 'actuator'),
+    'spring': ('elastic', 'damped_spring', 'shock'),
+    'rod': ('distance', 'bar', 'link', 'stick'),
+    'rope': ('string', 'cord', 'cable', 'chain', 'slide'),
+    'slider': ('prismatic', 'groove', 'rail', 'piston'),
+    'gear': ('cog', 'gears'),
+}
+
 
 def property_meant(word: str, known: Collection[str]) -> str:
     """
@@ -44,5 +56,14 @@ def property_meant(word: str, known: Collection[str]) -> str:
 
     :param known: the properties that there are
     """
+    return _meant(word, {name: _WORDS[name] for name in _WORDS if name in known})
+
+
+def kind_meant(word: str) -> str:
+    """Return the kind of joint that people mean by a word, or ''."""
+    return _meant(word, _KINDS)
+
+
+def _meant(word: str, table: Mapping[str, Collection[str]]) -> str:
     word = word.lower().replace(' ', '_').replace('-', '_')
-    return next((name for name, words in _WORDS.items() if word in words and name in known), '')
+    return next((name for name, words in table.items() if word in words), '')

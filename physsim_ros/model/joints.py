@@ -16,7 +16,9 @@ from typing import ClassVar
 
 from physsim_ros.model.checks import Checked, Checks, FASTEST, flag, HEAVIEST, shown, Within
 from physsim_ros.model.errors import BadProperty, UnknownProperty
+from physsim_ros.model.everyday_words import kind_meant
 from physsim_ros.model.shapes import LARGEST, SMALLEST
+from physsim_ros.model.texts import nearest_name
 
 # Greatest ratio of a gear, and the inverse of the least: between the fastest and the slowest wheel
 # of a clock it is 1e6.
@@ -137,7 +139,11 @@ def kind_from(value: object) -> JointKind:
     kinds = ', '.join(JointKind)
     if value is None:
         raise BadProperty(f'a joint needs a kind: {kinds}', field='kind')
-    raise BadProperty(f'there is no kind of joint {shown(value)}; there are {kinds}', field='kind')
+    meant = kind_meant(str(value))
+    hint = f'; use {meant!r}' if meant else nearest_name(str(value).lower(), JointKind)
+    raise BadProperty(
+        f'there is no kind of joint {shown(value)}{hint}; there are {kinds}', field='kind'
+    )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -52,6 +52,13 @@ def message_text(text: str) -> str:
     return abbreviated(text, LONGEST_MESSAGE)
 
 
+def counted(number: int, noun: str) -> str:
+    """Return a number and its noun: 1 body, 2 bodies."""
+    if number != 1:
+        noun = f'{noun[:-1]}ies' if noun.endswith('y') else f'{noun}s'
+    return f'{number} {noun}'
+
+
 def nearest_name(name: str, known: Iterable[str]) -> str:
     """
     Return the end of a sentence that names the most similar of the known names, or ''.
@@ -61,4 +68,4 @@ def nearest_name(name: str, known: Iterable[str]) -> str:
     """
     # Similarity below difflib's default cutoff (0.6) suggests another word, not a misspelling.
     near = difflib.get_close_matches(abbreviated(name), islice(known, _MOST_COMPARED), n=1)
-    return f'; nearest is {near[0]!r}' if near else ''
+    return f'; nearest is {str(near[0])!r}' if near else ''

@@ -20,6 +20,7 @@ from physsim_ros.drawing import DrawingSession, Tool
 from physsim_ros.model.errors import PhysSimError, Refusal
 from physsim_ros.model.requests import DeleteAll
 from physsim_ros.model.snapshot import Answer, Frame, Snapshot
+from physsim_ros.model.texts import counted
 from physsim_ros.ros import parameters
 from physsim_ros.ros.diagnostics_publisher import DiagnosticsPublisher
 from physsim_ros.ros.frame_outputs import FrameOutputs
@@ -247,7 +248,7 @@ class PhysSimNode(NodeWithoutQosEvents):
         self._open_viewer()
         if self._values['record_file']:
             self.outputs.viewer.record(Path(self._values['record_file']))
-        self.get_logger().info(f'ready: {len(self.simulation.world)} bodies')
+        self.get_logger().info(f'ready: {counted(len(self.simulation.world), "body")}')
 
     def _open_viewer(self) -> None:
         """Open the viewer of parameter `viewer`, once the node has started."""

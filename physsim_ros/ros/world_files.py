@@ -13,6 +13,7 @@ from typing import Any
 from physsim_ros.files import find_world, hides_shipped, load_world, save_world, user_worlds
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import BadWorldFile
+from physsim_ros.model.texts import counted
 from physsim_ros.simulation.simulation import Simulation
 
 # Time between two reports of progress [s].
@@ -79,7 +80,7 @@ class WorldFiles:
             world_dir=self._directory,
             physics_rate=self._simulation.physics_rate,
         )
-        message = f'saved {len(state.bodies)} bodies to {path.name}'
+        message = f'saved {counted(len(state.bodies), "body")} to {path.name}'
         if hides_shipped(path, world_dir=self._directory):
             message += '; from now on it comes before the shipped world of that name'
         return message

@@ -25,6 +25,7 @@ from geometry_msgs.msg import (
     Vector3,
     Wrench,
 )
+from physsim_ros.model.colors import color_from
 from sensor_msgs.msg import MultiDOFJointState
 from std_msgs.msg import ColorRGBA, Header
 from visualization_msgs.msg import Marker
@@ -55,14 +56,14 @@ class MarkerOptions(BodyProperties, total=False):
 
     :ivar at: x, y [m] and, where there are three, yaw [rad]
     :ivar frame: name of a body, in whose frame `at` is; '' is the world
-    :ivar color: red, green, blue, alpha, 0 .. 1; alpha 0 is the world's choice
+    :ivar color: '#rrggbb', or red, green, blue, alpha, 0 .. 1; alpha 0 is the world's choice
     :ivar lifetime: simulation time after which the body is removed [s]; 0 is for ever
     :ivar text: properties as a YAML mapping, if they are not given by keyword
     """
 
     at: Numbers
     frame: str
-    color: Numbers
+    color: Numbers | str
     lifetime: float
     text: str
 
@@ -110,7 +111,7 @@ def marker(
     points: Sequence[Numbers] = (),
     text: str = '',
     frame: str = '',
-    color: Numbers = (0.0, 0.0, 0.0, 0.0),
+    color: Numbers | str = (0.0, 0.0, 0.0, 0.0),
     lifetime: float = 0.0,
     action: int = Marker.ADD,
     **properties: Unpack[BodyProperties],
@@ -130,6 +131,7 @@ def marker(
         raise ValueError(f'a name is a namespace, / and a number, as box/0; got {name!r}')
     x, y, yaw = (*at, 0.0)[:3]
     seconds, fraction = divmod(lifetime, 1.0)
+    channels = color_from(color) if isinstance(color, str) else color
     return Marker(
         header=Header(frame_id=frame),
         ns=namespace,
@@ -138,7 +140,7 @@ def marker(
         action=action,
         pose=Pose(position=Point(x=float(x), y=float(y)), orientation=rotation(yaw)),
         scale=Vector3(**dict(zip('xyz', map(float, scale), strict=False))),
-        color=ColorRGBA(**dict(zip('rgba', map(float, color), strict=True))),
+        color=ColorRGBA(**dict(zip('rgba', map(float, channels), strict=True))),
         lifetime=Duration(sec=int(seconds), nanosec=round(fraction * 1e9)),
         points=[Point(x=float(x), y=float(y)) for x, y in points],
         text=json.dumps(properties) if properties else text,

@@ -74,8 +74,8 @@ class PhysSim(ObservedWorld):
                 self.node.world_files.load(confined=False)
         except Refused as refused:
             if path is None:
-                looked = ' and '.join(str(each) for each in paths)
-                refused.add_note(f'There is neither {looked}, nor a shipped world of that name.')
+                looked = ', '.join(dict.fromkeys(map(str, paths)))
+                refused.add_note(f'A test also looks for {looked}.')
             raise
         self._let_go()
         self.node.apply_requests()

@@ -10,8 +10,8 @@ from typing import Any
 
 from physsim_ros.model import everyday_words
 from physsim_ros.model.body_properties import Properties
-from physsim_ros.model.errors import UnknownProperty
-from physsim_ros.model.joints import JointProperties
+from physsim_ros.model.errors import BadProperty, UnknownProperty
+from physsim_ros.model.joints import JointKind, JointProperties, kind_from
 import pytest
 
 PROPERTIES = {each.name for kind in (Properties, JointProperties) for each in fields(kind)}
@@ -43,8 +43,19 @@ def test_an_everyday_word_for_a_property_of_a_joint_is_told_its_name(word: str, 
         JointProperties.from_mapping({word: 1})
 
 
+@pytest.mark.parametrize(
+    ('word', 'hint'),
+    [('weld', "use 'pin'"), ('Hinge', "use 'axle'"), ('prismatic', "use 'slider'"),
+     ('sprng', "nearest is 'spring'"), ('Motr', "nearest is 'motor'"), ('xyz', 'there are pin')],
+)  # fmt: skip
+def test_a_word_for_a_kind_of_joint_is_told_its_name(word: str, hint: str) -> None:
+    with pytest.raises(BadProperty, match=f"^there is no kind of joint '{word}'; {hint}"):
+        kind_from(word)
+
+
 def test_every_property_has_everyday_words_and_none_of_them_is_a_property() -> None:
     table: dict[str, Any] = everyday_words._WORDS  # noqa: SLF001 - a table that is complete
 
     assert set(table) == PROPERTIES
     assert not PROPERTIES.intersection(*[set().union(*table.values())])
+    assert [*everyday_words._KINDS] == [*JointKind]  # noqa: SLF001 - a table that is complete

@@ -57,7 +57,7 @@ def test_it_needs_no_locale(outside: Outside) -> None:
     file = outside.directory / 'über.yaml'
     file.write_text('format: 1\nbodies:\n  - {name: ü/0, circle: {radius: 1.0}, at: [0, 0]}\n')
     with start_through_shell(outside, 'LC_ALL=C exec "$@"', world_file=file) as world:
-        assert '1 bodies' in world.wait_for('ready')
+        assert '1 body' in world.wait_for('ready')
         assert world.interrupt() == 0
 
 

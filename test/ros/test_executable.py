@@ -208,7 +208,7 @@ def test_a_thousand_bodies_without_a_viewer_fit_into_memory(outside: Outside) ->
         ({'speed': 'fast'}, ['speed', 'double']),
         ({'speed': '.nan'}, ['speed', 'finite']),
         ({'iterations': '0'}, ['iterations', '1000']),
-        ({'viewer': 'window'}, ['viewer', 'connect']),
+        ({'viewer': 'spwan'}, ['viewer', 'connect', "nearest is 'spawn'"]),
         ({'publish_rate': '7'}, ['publish_rate', 'divide']),
         ({'gravity': '[1.0]'}, ['gravity', 'two']),
         ({'gravity': '[0, -9.81]'}, ['gravity', 'same type']),

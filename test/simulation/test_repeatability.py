@@ -384,7 +384,7 @@ def test_restoring_replaces_everything_but_the_time() -> None:
 
     answer = world.apply(Restore(state=state))
 
-    assert answer == ('', 'loaded 1 bodies')
+    assert answer == ('', 'loaded 1 body')
     assert names(world) == ('a/0',)
     assert world.settings == WorldSettings(max_bodies=7)
     assert world.step_count == 10

@@ -118,7 +118,10 @@ def check(parameter: Parameter) -> None:
             f'{name} is {value:g}; it must lie between {spec.low:g} and {spec.high:g}', field=name
         )
     if spec.choices and value not in spec.choices:
-        raise BadProperty(f'{name} must be one of {", ".join(spec.choices)}', field=name)
+        choices = ', '.join(spec.choices)
+        raise BadProperty(
+            f'{name} must be one of {choices}{nearest_name(value, spec.choices)}', field=name
+        )
 
 
 def set_value(node: Node, name: str, value: str | float) -> None:

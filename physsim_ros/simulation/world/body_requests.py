@@ -34,6 +34,7 @@ from physsim_ros.model.requests import (
     Spawn,
 )
 from physsim_ros.model.scene import Body
+from physsim_ros.model.texts import counted
 from physsim_ros.model.transform import ORIGIN, Point, Pose, REST
 from physsim_ros.simulation.world import joint_requests
 from physsim_ros.simulation.world.body_description import (
@@ -201,7 +202,7 @@ def _tuples(rows: Floats) -> Iterator[tuple[float, float, float]]:
 def _done(verb: str, names: tuple[str, ...]) -> Done:
     if len(names) == 1:
         return Done(names[0], f'{verb} {names[0]}')
-    return Done('', f'{verb} {len(names)} bodies')
+    return Done('', f'{verb} {counted(len(names), "body")}')
 
 
 def _set_poses(live: LiveSpace, rigids: list[RigidBody], poses: list[Pose]) -> None:

@@ -140,7 +140,7 @@ def _members(
     """
     for field, name in (('a', request.a), ('b', request.b)):
         if name and name != WORLD:
-            body_of_name(space, name, field)
+            body_of_name(space, name, field, others=(WORLD,))
     a, b = request.a, request.b
     first = [name for name in space.bodies.at(points[0]) if name != b]
     last = space.bodies.at(points[-1])

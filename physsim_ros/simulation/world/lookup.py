@@ -28,15 +28,18 @@ class Done(NamedTuple):
     message: str
 
 
-def body_of_name(space: Space, name: str, field: str = 'name') -> RigidBody:
+def body_of_name(
+    space: Space, name: str, field: str = 'name', *, others: tuple[str, ...] = ()
+) -> RigidBody:
     """
     Return the body of a name.
 
     :param field: of the request, for the refusal
+    :param others: names that the request takes beside those of bodies
     :raises UnknownBody: there is none
     """
     if name not in space.bodies.by_name:
-        nearest = nearest_name(name, space.bodies.by_name)
+        nearest = nearest_name(name, (*others, *space.bodies.by_name))
         raise UnknownBody(f'there is no body {name!r}{nearest}', field=field)
     return space.bodies.by_name[name]
 

@@ -24,6 +24,7 @@ from physsim_ros.model.requests import Configure, Request, Restore
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Contacts, Grip, Snapshot
+from physsim_ros.model.texts import counted
 from physsim_ros.simulation.world import (
     body_requests,
     hand_requests,
@@ -62,8 +63,8 @@ def restore(live: LiveSpace, request: Restore) -> Done:
     state = request.state
     live.capacity.check_state(state)
     live.begin(state)
-    joints = f' and {len(state.joints)} joints' if state.joints else ''
-    return Done('', f'loaded {len(state.bodies)} bodies{joints}')
+    joints = f' and {counted(len(state.joints), "joint")}' if state.joints else ''
+    return Done('', f'loaded {counted(len(state.bodies), "body")}{joints}')
 
 
 # The handler of each type of request. It checks everything, then changes the space.

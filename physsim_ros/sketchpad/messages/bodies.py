@@ -23,6 +23,7 @@ from physsim_ros.model.requests import (
     Unjoin,
     unset_in,
 )
+from physsim_ros.model.texts import counted
 from physsim_ros.model.transform import Point
 from physsim_ros.simulation.world.joint_requests import drawn_points
 from physsim_ros.sketchpad.message import message, Origin
@@ -111,7 +112,7 @@ def watch(page: PageSession, origin: Origin, name: str) -> None:
 def follow(page: PageSession, origin: Origin, names: frozenset[str]) -> None:
     """Tell the page from now on when other bodies begin to touch these; none is no body."""
     page.followed = names
-    page.answer_page(origin, f'following {len(names)} bodies')
+    page.answer_page(origin, f'following {counted(len(names), "body")}')
 
 
 # Joints
