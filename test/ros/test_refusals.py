@@ -13,7 +13,7 @@ from physsim_ros.testing import box, command, delete, disc, marker, PhysSim, poi
 import pytest
 from rclpy.parameter import Parameter
 from std_msgs.msg import Float64
-from visualization_msgs.msg import Marker, MarkerArray
+from visualization_msgs.msg import Marker
 
 from ..client import Client, Event
 
@@ -162,21 +162,6 @@ def test_a_bad_request_is_refused_once_by_its_code_and_changes_nothing(
     assert inhabited.digest() == before
 
 
-@pytest.mark.parametrize(
-    ('message', 'code', 'field'),
-    SPAWNS,
-    ids=[f'{number}-{each[1]}' for number, each in enumerate(SPAWNS)],
-)
-def test_a_marker_of_an_array_is_refused_as_if_it_came_alone(
-    inhabited: PhysSim, client: Client, message: Marker, code: str, field: str
-) -> None:
-    before = inhabited.digest()
-    (event,) = client.ask('~/spawn_array', MarkerArray(markers=[message]))
-    name = f'{message.ns}/{message.id}'
-    assert event == Event(2, '~/spawn_array', name, event.message, code, field)
-    assert inhabited.digest() == before
-
-
 def test_a_refused_request_is_forgotten_when_the_world_goes_on(physsim: PhysSim) -> None:
     # The same world, with and without refusals, goes on to the same bits.
     def digests(client: Client | None) -> list[str]:
@@ -197,11 +182,6 @@ def test_a_refused_request_is_forgotten_when_the_world_goes_on(physsim: PhysSim)
     assert digests(Client(physsim)) == first
 
 
-def test_the_nearest_known_property_is_named(physsim: PhysSim, client: Client) -> None:
-    (event,) = client.ask('~/spawn', box(text='{elastisity: 1}'))
-    assert 'elasticity' in event.message
-
-
 def test_a_spawn_past_the_most_bodies_is_refused(physsim: PhysSim, client: Client) -> None:
     physsim.node.set_parameters([Parameter('max_bodies', value=2)])
     physsim.spawn(box('a/0'))
@@ -216,23 +196,6 @@ def test_a_spawn_past_the_most_bodies_is_refused(physsim: PhysSim, client: Clien
     physsim.spawn(delete('a/0'))
     physsim.spawn(box('a/2', at=(6.0, 0.0)))
     assert physsim.names == ('a/1', 'a/2')
-
-
-def test_a_pose_that_lands_too_far_away_is_refused(physsim: PhysSim, client: Client) -> None:
-    physsim.spawn(box('a/0', at=(9e6, 0.0)))
-    before = physsim.digest()
-    (event,) = client.ask('~/spawn', box('a/1', at=(9e6, 0.0), frame='a/0'))
-    assert (event.code, event.hardware_id) == ('bad_property', 'a/1')
-    (event,) = client.ask('~/command', command('a/0', poses=[(9e6, 0, 0)], frame='a/0'))
-    assert (event.code, event.hardware_id) == ('bad_property', 'a/0')
-    assert physsim.digest() == before
-
-
-def test_a_body_too_light_or_too_heavy_is_refused(physsim: PhysSim, client: Client) -> None:
-    for size, density in (((0.001, 0.001), 1e-9), ((1e5, 1e5), 1e12)):
-        (event,) = client.ask('~/spawn', box('a/0', size=size, text=f'{{density: {density}}}'))
-        assert (event.code, event.field) == ('bad_property', 'density')
-    assert physsim.names == ()
 
 
 def test_refusals_are_answered_in_turn_with_all_else(physsim: PhysSim, client: Client) -> None:

@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 import math
-import random
 from typing import Any
 
 from physsim_ros.testing import disc
@@ -19,32 +18,12 @@ from .journey import (
     parameter,
     PERIOD,
     SECOND,
-    seconds,
     STEP,
     succeeded,
 )
-from ..client import Event, set_parameter
+from ..client import set_parameter
 
 # Seek
-
-
-def test_any_time_is_sought_and_played_on_from(journey: Journey) -> None:
-    journey.live(200)
-    chance = random.Random(3)
-
-    for _ in range(15):
-        stamp = chance.randrange(journey.end)
-        journey.shown()
-        answer = journey.seek(stamp)
-        assert answer == Event(0, '~/seek', '', answer.message, 'ok', '')
-        ((there, bits),) = journey.shown()
-        assert abs(there - stamp) <= STEP / 2 + 1
-        # As it was shown the first time, and in each frame after that.
-        journey.compare([(there, bits)], 0)
-        # To a millisecond.
-        assert float(answer.message.split()[1]) == pytest.approx(seconds(there), abs=1e-3)
-        journey.physsim.step(min(4, round((journey.end - stamp) / PERIOD)))
-        journey.compare(journey.shown(), 0)
 
 
 def test_a_seek_while_time_runs_lets_it_run_on(journey: Journey) -> None:
@@ -104,26 +83,6 @@ def test_what_was_asked_before_is_answered_before(
 # Something else in the past
 
 
-def test_a_request_in_the_past_begins_a_branch(journey: Journey) -> None:
-    journey.live(120)
-    succeeded(journey.client.call('~/rewind'))
-    journey.tick(60)
-    succeeded(journey.client.call('~/pause'))
-    now = journey.physsim.node.simulation.step * STEP
-
-    events = journey.client.ask('~/spawn', disc('new/0', at=(0.0, 9.0)))
-
-    told = [(each.name, each.level) for each in events]
-    assert told[-2:] == [('~/spawn', 0), ('branch', 0)]
-    assert 'new/0' in journey.physsim.names
-    assert journey.seek(now + PERIOD).code == 'out_of_history'
-    # The past is as it was.
-    journey.shown()
-    for stamp in sorted(journey.first)[:50:7]:
-        journey.seek(stamp)
-    journey.compare(journey.shown(), 8)
-
-
 def test_a_parameter_set_in_the_past_begins_a_branch(journey: Journey) -> None:
     journey.live(60)
     journey.seek(0.5 * SECOND)
@@ -172,16 +131,3 @@ def test_history_is_how_far_back_it_goes(journey: Journey) -> None:
     assert round(frames[-1][0] / STEP) == last - 240
     assert journey.client.events[-1].name == 'history'
     assert parameter(journey.physsim, 'speed') == 0.0
-
-
-def test_no_history_is_a_world_without_a_past(journey: Journey) -> None:
-    set_parameter(journey.physsim, 'history', 0.0)
-    journey.live(100)
-
-    succeeded(journey.client.call('~/rewind'))
-    journey.tick(5)
-
-    assert {stamp for stamp, _ in journey.shown()} <= {journey.end}
-    assert parameter(journey.physsim, 'speed') == 0.0
-    journey.physsim.step(10)
-    assert seconds(journey.end) + 10 / 60 == pytest.approx(journey.physsim.time)

@@ -8,7 +8,7 @@ from __future__ import annotations
 from itertools import pairwise
 from typing import Any
 
-from physsim_ros.testing import command, disc, PhysSim, Refused
+from physsim_ros.testing import disc, PhysSim, Refused
 import pytest
 from rclpy.node import Node
 from std_msgs.msg import Float64
@@ -30,7 +30,7 @@ from ..outside import Outside
 
 @pytest.mark.parametrize(
     ('ask', 'speed', 'known'),
-    [('~/rewind', -1.0, 90), ('~/fast_rewind', -4.0, 90), (-0.5, -0.5, 40)],
+    [('~/fast_rewind', -4.0, 90), (-0.5, -0.5, 40)],
 )
 def test_what_is_shown_going_back_is_what_was_shown_first(
     journey: Journey, ask: str | float, speed: float, known: int
@@ -55,21 +55,6 @@ def test_what_is_shown_going_back_is_what_was_shown_first(
     journey.compare(frames, round(0.5 * known / max(1.0, -speed)) - 2)
 
 
-def test_time_stops_at_the_oldest_step_with_an_event(journey: Journey) -> None:
-    journey.live(100)
-    journey.client.ask('~/speed', Float64(data=-8.0))
-    journey.client.events.clear()
-
-    frames = journey.tick(30)
-
-    assert frames[-1][0] == 0
-    journey.compare(frames, 10)
-    assert [(event.level, event.name) for event in journey.client.events] == [(0, 'history')]
-    assert parameter(journey.physsim, 'speed') == 0.0
-    assert journey.tick(5) == []
-    assert all(each.clock.sec or each.clock.nanosec for each in journey.clocks)
-
-
 def test_fast_forward_has_the_speed_that_is_set_and_the_same_bits(journey: Journey) -> None:
     journey.live(120)
     journey.seek(0.0)
@@ -83,23 +68,6 @@ def test_fast_forward_has_the_speed_that_is_set_and_the_same_bits(journey: Journ
     on = [after - before for (before, _), (after, _) in pairwise(frames)]
     assert on == pytest.approx([3 * PERIOD] * len(on), abs=2.0)
     journey.compare(frames, 29)
-
-
-# Step
-
-
-def test_a_step_is_exact_in_the_past_too(journey: Journey) -> None:
-    journey.live(100)
-    for stamp in (0.0, 0.41, 1.0):
-        journey.seek(stamp * SECOND)
-        journey.shown()
-        for _ in range(5):
-            succeeded(journey.client.call('~/step'))
-        frames = journey.shown()
-        # From between two frames, a step leads onto the next.
-        on = [after - before for (before, _), (after, _) in pairwise(frames)]
-        assert on == pytest.approx([PERIOD] * 4, abs=2.0)
-        journey.compare(frames, 5)
 
 
 # Parameters follow the time
@@ -204,20 +172,6 @@ def test_after_a_seek_other_nodes_have_the_time_and_the_parameters_of_then(
     physsim.run(1.0)
     assert seconds(robot.get_clock().now().nanoseconds) == pytest.approx(1.5)
     assert parameter(physsim, 'gravity') == [0.0, 0.0]
-
-
-def test_a_test_tries_one_moment_in_two_ways(physsim: PhysSim) -> None:
-    physsim.spawn(disc(at=(0.0, 5.0)))
-    physsim.run(0.5)
-
-    heights = []
-    for speed in (3.0, -3.0, 3.0):
-        physsim.seek(0.5)
-        physsim.command(command('body/0', twists=[(0.0, speed, 0.0)]))
-        physsim.run(0.5)
-        heights.append(physsim.pose('body/0').y)
-
-    assert heights[0] == heights[2] > heights[1]
 
 
 # From a process that knows nothing of the package

@@ -17,7 +17,7 @@ from physsim_ros.model.requests import (
     Release,
 )
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Box, Disc, Shape, Triangles
+from physsim_ros.model.shapes import Box, Disc, Shape
 from physsim_ros.simulation.world import World
 import pytest
 
@@ -155,69 +155,6 @@ def test_a_body_can_be_anchored_and_freed_by_a_change(world: World) -> None:
 
 
 # Anchoring and releasing by a point
-
-EDGES = [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)]
-
-
-@pytest.mark.parametrize('yaw', [0.0, 0.7, -2.0, math.pi])
-@pytest.mark.parametrize('anchored', [False, True])
-@pytest.mark.parametrize('edge', EDGES)
-def test_a_point_is_in_a_turned_box_up_to_each_edge(
-    yaw: float, anchored: bool, edge: tuple[float, float], world: World
-) -> None:
-    spawn(world, 'a/0', Box(width=2.0, height=1.0), (10.0, -3.0, yaw), anchored=anchored)
-    half = 1.0 if edge[0] else 0.5
-    cos, sin = math.cos(yaw), math.sin(yaw)
-
-    def at(distance: float) -> tuple[float, float]:
-        x, y = edge[0] * distance, edge[1] * distance
-        return 10.0 + cos * x - sin * y, -3.0 + sin * x + cos * y
-
-    assert body_at(world, at(half - 1e-6)) == 'a/0'
-    assert body_at(world, at(half + 1e-6)) is None
-
-
-@pytest.mark.parametrize('angle', [0.0, 0.7, 2.0, 4.0])
-def test_a_point_is_in_a_disc_up_to_its_rim(angle: float, world: World) -> None:
-    spawn(world, 'a/0', DISC, (1.0, 1.0, 0.0))
-    x, y = math.cos(angle), math.sin(angle)
-
-    assert body_at(world, (1.0 + 0.499999 * x, 1.0 + 0.499999 * y)) == 'a/0'
-    assert body_at(world, (1.0 + 0.500001 * x, 1.0 + 0.500001 * y)) is None
-
-
-@pytest.mark.parametrize('yaw', [0.0, 0.7])
-def test_a_point_in_the_notch_of_an_ell_is_outside_it(yaw: float, world: World) -> None:
-    spawn(world, 'a/0', ELL, (0.0, 0.0, yaw))
-    cos, sin = math.cos(yaw), math.sin(yaw)
-    for x, y, inside in (
-        (0.5, 1.5, True),
-        (1.5, 0.5, True),
-        (0.5, 0.5, True),
-        (1.5, 1.5, False),
-        (1.01, 1.01, False),
-        (0.99, 0.99, True),
-        (-0.01, 0.5, False),
-    ):
-        found = body_at(world, (cos * x - sin * y, sin * x + cos * y))
-        assert (found == 'a/0') is inside
-
-
-def test_a_point_on_the_seam_of_two_pieces_is_inside(world: World) -> None:
-    # Two triangles make a square; its middle lies on the side that they share.
-    square = Triangles(
-        vertices=((-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, -1.0), (1.0, 1.0), (-1.0, 1.0))
-    )
-    spawn(world, 'a/0', square)
-    spawn(world, 'a/1', ELL, (10.0, 0.0, 0.0))
-
-    assert body_at(world, (0.0, 0.0)) == 'a/0'
-    assert body_at(world, (0.5, 0.5)) == 'a/0'
-    for share in np.linspace(0.01, 0.99, 21).tolist():
-        # Any way from the inner corner of the ell to its outer ones is inside it.
-        for x, y in ((0.0, 0.0), (2.0, 0.0), (0.0, 2.0), (1.0, 0.0), (0.0, 1.0)):
-            point = (10.0 + 1.0 + share * (x - 1.0), 1.0 + share * (y - 1.0))
-            assert body_at(world, point) == 'a/1'
 
 
 def test_the_topmost_is_the_one_that_spawned_last(world: World) -> None:
